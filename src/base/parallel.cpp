@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/parallel.hpp"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace talus {
+
+namespace {
+
+// A thread that runs out of tasks looks this many times before it sleeps: about 20 microseconds, longer than the gaps
+// between the loops of a step, and little on a machine whose cores are shared.
+constexpr int looks_before_sleep = 1000;
+
+void relax() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+}  // namespace
+
+struct ThreadTeam::Shared {
+  std::atomic<unsigned> generation{0};
+  std::atomic<std::size_t> next{0};
+  std::atomic<int> working{0};
+  std::atomic<bool> stop{false};
+  std::size_t tasks = 0;
+  Call call = nullptr;
+  void* context = nullptr;
+  std::mutex error_mutex;
+  std::size_t error_task = 0;
+  std::exception_ptr error;
+  std::vector<std::thread> threads;
+
+  void work() {
+    for (std::size_t task; (task = next.fetch_add(1, std::memory_order_relaxed)) < tasks;) {
+      try {
+        call(context, task);
+      } catch (...) {
+        const std::lock_guard lock(error_mutex);
+        if (!error || task < error_task) error = std::current_exception(), error_task = task;
+      }
+    }
+  }
+
+  void serve() {
+    unsigned seen = 0;
+    while (true) {
+      for (int look = 0; look < looks_before_sleep && generation.load(std::memory_order_acquire) == seen; ++look)
+        relax();
+      generation.wait(seen, std::memory_order_acquire);
+      seen = generation.load(std::memory_order_acquire);
+      if (stop.load(std::memory_order_relaxed)) return;
+      work();
+      working.fetch_sub(1, std::memory_order_acq_rel);
+      working.notify_one();
+    }
+  }
+};
+
+ThreadTeam::ThreadTeam(int threads) : shared_(std::make_unique<Shared>()) {
+  for (int i = 1; i < threads; ++i) shared_->threads.emplace_back([shared = shared_.get()] { shared->serve(); });
+}
+
+ThreadTeam::~ThreadTeam() {
+  shared_->stop.store(true, std::memory_order_relaxed);
+  shared_->generation.fetch_add(1, std::memory_order_release);
+  shared_->generation.notify_all();
+  for (std::thread& thread : shared_->threads) thread.join();
+}
+
+int ThreadTeam::size() const {
+  return static_cast<int>(shared_->threads.size()) + 1;
+}
+
+void ThreadTeam::run_tasks(std::size_t tasks, Call call, void* context) {
+  Shared& shared = *shared_;
+  shared.tasks = tasks;
+  shared.call = call;
+  shared.context = context;
+  shared.next.store(0, std::memory_order_relaxed);
+  shared.error = nullptr;
+  if (tasks > 1 && !shared.threads.empty()) {
+    shared.working.store(static_cast<int>(shared.threads.size()), std::memory_order_relaxed);
+    shared.generation.fetch_add(1, std::memory_order_release);
+    shared.generation.notify_all();
+  }
+  shared.work();
+  for (int look = 0; look < looks_before_sleep && shared.working.load(std::memory_order_acquire) > 0; ++look) relax();
+  for (int working; (working = shared.working.load(std::memory_order_acquire)) > 0;)
+    shared.working.wait(working, std::memory_order_acquire);
+  if (shared.error) std::rethrow_exception(shared.error);
+}
+
+}  // namespace talus

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The parallel loop: the only place that knows the threads. Each index writes only what is its own, so the result does
+/// not depend on the number of threads; a reduction sums chunks of fixed size in a fixed order, for the same reason.
+/// Why not OpenMP or oneTBB: docs/decisions/0001-parallel-loop.md.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+namespace talus {
+
+/// A team of threads that waits passively between loops. One loop runs at a time; a loop is not started inside a loop.
+class ThreadTeam {
+ public:
+  /// \param threads at least 1; the calling thread is one of them
+  explicit ThreadTeam(int threads = 1);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  int size() const;
+
+  /// Calls body(task) once for each task in [0, tasks), in any order, on any thread; returns when all are done.
+  /// An exception leaves the loop after all tasks have ended; of several, that of the lowest task.
+  template <class Body>
+  void run(std::size_t tasks, Body&& body) {
+    run_tasks(
+        tasks, [](void* context, std::size_t task) { (*static_cast<std::remove_reference_t<Body>*>(context))(task); },
+        const_cast<void*>(static_cast<const void*>(std::addressof(body))));
+  }
+
+ private:
+  using Call = void (*)(void* context, std::size_t task);
+  void run_tasks(std::size_t tasks, Call call, void* context);
+
+  struct Shared;
+  std::unique_ptr<Shared> shared_;
+};
+
+/// Elements handed to a thread at once. Part of the definition of `reduce`: changing it changes the bits of sums.
+inline constexpr std::size_t chunk_size = 256;
+
+/// Calls body(i) once for each i in [0, count). body(i) writes only what belongs to i.
+template <class Body>
+void for_each(ThreadTeam& team, std::size_t count, Body&& body) {
+  const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+  team.run(chunks, [&](std::size_t chunk) {
+    const std::size_t end = (chunk + 1) * chunk_size < count ? (chunk + 1) * chunk_size : count;
+    for (std::size_t i = chunk * chunk_size; i < end; ++i) body(i);
+  });
+}
+
+/// Combines value(i) over all i: within chunks of `chunk_size` in order, then the chunks in order.
+/// \param combine (T, T) -> T, e.g. sum or maximum
+template <class T, class Value, class Combine>
+T reduce(ThreadTeam& team, std::size_t count, T initial, Value&& value, Combine&& combine) {
+  const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+  std::vector<T> partial(chunks, initial);
+  team.run(chunks, [&](std::size_t chunk) {
+    const std::size_t end = (chunk + 1) * chunk_size < count ? (chunk + 1) * chunk_size : count;
+    T sum = initial;
+    for (std::size_t i = chunk * chunk_size; i < end; ++i) sum = combine(sum, value(i));
+    partial[chunk] = sum;
+  });
+  T total = initial;
+  for (const T& part : partial) total = combine(total, part);
+  return total;
+}
+
+}  // namespace talus

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How a column of the state is described, once. A model lists its columns and counters in a function template
+///
+///     template <class Visit> void for_each_field(Visit&& visit, State& s) {
+///       visit(Field{"position", "m", FieldRole::kept}, s.position);
+///       ...
+///     }
+///
+/// and snapshots and checkpoints follow from that one list. A member is a column (std::vector of double, Vector3 or
+/// std::int64_t, one entry a particle) or a number of the whole state (double or std::uint64_t).
+#pragma once
+
+#include <string_view>
+
+namespace talus {
+
+enum class FieldRole {
+  kept,    ///< belongs to the state: checkpointed
+  derived  ///< follows from kept fields: written to snapshots only
+};
+
+struct Field {
+  std::string_view name;
+  std::string_view unit;  ///< SI; "1" for numbers
+  FieldRole role = FieldRole::kept;
+  bool in_snapshots = true;
+};
+
+}  // namespace talus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A read-only view of particles at one time: what observers, files and analysis see of a model.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/vector.hpp"
+
+namespace talus {
+
+/// One column: one entry a particle.
+struct ColumnView {
+  std::string_view name;
+  std::string_view unit;
+  std::variant<std::span<const double>, std::span<const Vector3>, std::span<const std::int64_t>> values;
+};
+
+/// The particles at one time. Valid as long as the state it was made from is unchanged. The column "position" is always
+/// there.
+struct Snapshot {
+  double time = 0;  ///< s
+  std::uint64_t step = 0;
+  std::vector<ColumnView> columns;
+
+  /// Number of particles.
+  std::size_t size() const;
+  /// \throws std::out_of_range naming the column and those that are there
+  std::span<const double> scalars(std::string_view name) const;
+  std::span<const Vector3> vectors(std::string_view name) const;
+  std::span<const std::int64_t> integers(std::string_view name) const;
+  std::span<const Vector3> positions() const { return vectors("position"); }
+  bool has(std::string_view name) const;
+};
+
+/// Particles that own their columns: what is read from a file.
+struct PointSet {
+  struct Column {
+    std::string name;
+    std::string unit;
+    std::variant<std::vector<double>, std::vector<Vector3>, std::vector<std::int64_t>> values;
+  };
+  double time = 0;
+  std::uint64_t step = 0;
+  std::vector<Column> columns;
+
+  Snapshot view() const;
+};
+
+}  // namespace talus
