@@ -57,15 +57,18 @@ void for_each(ThreadTeam& team, std::size_t count, Body&& body) {
 template <class T, class Value, class Combine>
 T reduce(ThreadTeam& team, std::size_t count, T initial, Value&& value, Combine&& combine) {
   const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
-  std::vector<T> partial(chunks, initial);
+  struct Slot {  // so that flags are not packed into bits that threads would share
+    T value;
+  };
+  std::vector<Slot> partial(chunks, Slot{initial});
   team.run(chunks, [&](std::size_t chunk) {
     const std::size_t end = (chunk + 1) * chunk_size < count ? (chunk + 1) * chunk_size : count;
     T sum = initial;
     for (std::size_t i = chunk * chunk_size; i < end; ++i) sum = combine(sum, value(i));
-    partial[chunk] = sum;
+    partial[chunk].value = sum;
   });
   T total = initial;
-  for (const T& part : partial) total = combine(total, part);
+  for (const Slot& part : partial) total = combine(total, part.value);
   return total;
 }
 

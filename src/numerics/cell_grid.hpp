@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Points sorted into the cells of a uniform grid. Only occupied cells are stored, so one point far away costs nothing:
+/// memory and time are O(N log N) whatever the extent.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.hpp"
+
+namespace talus {
+
+class CellGrid {
+ public:
+  /// \param points positions, finite, in m; not kept
+  /// \param cell_size edge of a cell, > 0, in m; at least the largest extent over 2^20
+  /// \throws std::invalid_argument if a position is not finite or the grid is too fine for its extent
+  CellGrid(std::span<const Vector3> points, double cell_size);
+
+  /// Calls visit(j) for each point j in the cell of x and the 26 around it: all points within `cell_size` of x, and
+  /// some beyond. The order is fixed by the points alone.
+  template <class Visit>
+  void for_each_candidate(const Vector3& x, Visit&& visit) const {
+    const Cell centre = cell_of(x);
+    for (std::int64_t k = centre.k - 1; k <= centre.k + 1; ++k)
+      for (std::int64_t j = centre.j - 1; j <= centre.j + 1; ++j) {
+        const Range row = points_in_row({centre.i - 1, j, k}, {centre.i + 1, j, k});
+        for (std::size_t n = row.begin; n < row.end; ++n) visit(order_[n]);
+      }
+  }
+
+  /// The points in the order of their cells, x fastest.
+  std::span<const std::uint32_t> order() const { return order_; }
+
+ private:
+  struct Cell {
+    std::int64_t i, j, k;
+  };
+  struct Range {
+    std::size_t begin, end;
+  };
+  Cell cell_of(const Vector3& x) const;
+  Range points_in_row(Cell first, Cell last) const;
+
+  Vector3 origin_;
+  double cell_size_;
+  std::vector<std::uint64_t> keys_;   // of each point, sorted
+  std::vector<std::uint32_t> order_;  // the point with that key
+};
+
+/// A permutation that keeps points near in space near in memory (Morton order of cells of edge `cell_size`).
+/// \throws std::invalid_argument as CellGrid
+std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell_size);
+
+}  // namespace talus

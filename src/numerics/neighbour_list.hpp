@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Verlet list of the pairs that may touch: all j with |x_i - x_j| <= a_i + a_j + skin at the reference positions.
+/// The list holds as long as no particle has moved farther than half the skin. Each particle's neighbours are sorted by
+/// their number, so a sum over them does not depend on when the list was built.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/vector.hpp"
+
+namespace talus {
+
+class NeighbourList {
+ public:
+  /// Builds a full list (each pair stands twice).
+  /// \param position, radius in m, one entry a particle; \param skin >= 0, in m
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
+
+  /// True if every particle is within half the skin of where the list was built, so that no touching pair is missing.
+  /// False for a position that is not finite.
+  bool holds(ThreadTeam& team, std::span<const Vector3> position) const;
+
+  std::span<const std::uint32_t> of(std::size_t i) const {
+    return std::span(neighbours_).subspan(first_[i], first_[i + 1] - first_[i]);
+  }
+
+ private:
+  double skin_ = -1;
+  std::vector<Vector3> reference_;
+  std::vector<std::uint32_t> neighbours_;
+  std::vector<std::size_t> first_ = {0};
+};
+
+}  // namespace talus
