@@ -38,12 +38,17 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
 }
 
 bool NeighbourList::holds(ThreadTeam& team, std::span<const Vector3> position) const {
-  if (skin_ < 0 || reference_.size() != position.size()) return false;
+  if (skin_ < 0 || reference_.size() != position.size() || position.empty()) return false;
+  // Distances between points do not change when all move together: only what exceeds the mean motion counts.
+  const Vector3 mean = (1.0 / static_cast<double>(position.size())) *
+                       reduce(
+                           team, position.size(), Vector3{}, [&](std::size_t i) { return position[i] - reference_[i]; },
+                           [](const Vector3& a, const Vector3& b) { return a + b; });
   const double limit = 0.25 * skin_ * skin_;
   return reduce(
       team, position.size(), true,
       [&](std::size_t i) {
-        const Vector3 d = position[i] - reference_[i];
+        const Vector3 d = position[i] - reference_[i] - mean;
         return dot(d, d) <= limit;
       },
       [](bool a, bool b) { return a && b; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Verlet list of the pairs that may touch: all j with |x_i - x_j| <= a_i + a_j + skin at the reference positions.
-/// The list holds as long as no particle has moved farther than half the skin. Each particle's neighbours are sorted by
-/// their number, so a sum over them does not depend on when the list was built.
+/// The list holds as long as no particle has moved farther than half the skin against the mean of all. Each particle's
+/// neighbours are sorted by their number, so a sum over them does not depend on when the list was built.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,8 @@ class NeighbourList {
   /// \param position, radius in m, one entry a particle; \param skin >= 0, in m
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
 
-  /// True if every particle is within half the skin of where the list was built, so that no touching pair is missing.
+  /// True if every particle, less the mean displacement of all, is within half the skin of where the list was built,
+  /// so that no touching pair is missing.
   /// False for a position that is not finite.
   bool holds(ThreadTeam& team, std::span<const Vector3> position) const;
 

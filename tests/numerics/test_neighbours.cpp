@@ -43,7 +43,7 @@ TEST(NeighbourList, FindsExactlyThePairsThatAllPairsFind) {
   }
 }
 
-TEST(NeighbourList, HoldsUntilAParticleHasMovedHalfTheSkin) {
+TEST(NeighbourList, HoldsUntilTwoParticlesCouldHaveClosedTheSkin) {
   ThreadTeam team(1);
   std::vector<Vector3> points = {{0, 0, 0}, {3, 0, 0}};
   const std::vector<double> radius = {1, 1};
@@ -51,9 +51,11 @@ TEST(NeighbourList, HoldsUntilAParticleHasMovedHalfTheSkin) {
   EXPECT_FALSE(list.holds(team, points));
   list.build(team, points, radius, 0.5);
   EXPECT_TRUE(list.holds(team, points));
-  points[1].x += 0.249;
+  points[1].x -= 0.498;  // each 0.249 from the mean
   EXPECT_TRUE(list.holds(team, points));
-  points[1].x += 0.002;
+  for (Vector3& p : points) p.y += 100;  // together
+  EXPECT_TRUE(list.holds(team, points));
+  points[1].x -= 0.004;
   EXPECT_FALSE(list.holds(team, points));
   points[1].x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(list.holds(team, points));

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/cloud/initial.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "base/random.hpp"
+
+namespace talus::cloud {
+
+namespace {
+
+constexpr int most_trials = 1'000'000;
+
+std::vector<double> draw_radii(const Parameters::Particles& p, Random& random) {
+  std::vector<double> radius(p.count, p.radius);
+  if (p.radius_spread == 0) return radius;
+  for (double& a : radius) {
+    double deviation;
+    if (p.radius_distribution == RadiusDistribution::uniform) {
+      deviation = random.uniform(-1, 1);
+    } else {
+      // Cut at three standard deviations, or where the radius would vanish.
+      do deviation = random.normal();
+      while (std::abs(deviation) > 3 || 1 + p.radius_spread * deviation < 0.05);
+    }
+    a = p.radius * (1 + p.radius_spread * deviation);
+  }
+  return radius;
+}
+
+/// A point of the box around the shape, and whether it lies inside, with a margin inwards.
+struct ShapeSampler {
+  const Parameters& parameters;
+  bool on_slope;
+
+  Vector3 draw(Random& random) const {
+    const Parameters::Particles& p = parameters.particles;
+    const double u = random.uniform(), v = random.uniform();
+    switch (p.shape) {
+      case Shape::circle:
+        return in_plane(p.size * (2 * u - 1), p.size * (2 * v - 1));
+      case Shape::rectangle:
+        return in_plane(p.length * (u - 0.5), p.width * (on_slope ? v : v - 0.5));
+      case Shape::triangle:
+        return in_plane(p.size * (2 * u - 1), p.size * v);
+      case Shape::ball:
+        return {p.size * (2 * u - 1), p.size * (2 * v - 1), p.size * (2 * random.uniform() - 1) + lift()};
+      case Shape::dome:
+        return {p.size * (2 * u - 1), p.size * (2 * v - 1), p.size * random.uniform()};
+      case Shape::file:
+        break;
+    }
+    return {};
+  }
+
+  bool contains(const Vector3& x, double margin) const {
+    const Parameters::Particles& p = parameters.particles;
+    const double across = parameters.motion == Motion::xz ? x.z : x.y;
+    switch (p.shape) {
+      case Shape::circle:
+        return std::hypot(x.x, across - (on_slope ? p.size : 0)) <= p.size - margin;
+      case Shape::rectangle:
+        return std::abs(x.x) <= 0.5 * p.length - margin &&
+               std::abs(across - (on_slope ? 0.5 * p.width : 0)) <= 0.5 * p.width - margin;
+      // Right-angled at the apex: the flanks fall at 45 degrees.
+      case Shape::triangle:
+        return across >= margin && std::abs(x.x) + across <= p.size - std::sqrt(2.0) * margin;
+      case Shape::ball:
+        return norm(x - Vector3{0, 0, lift()}) <= p.size - margin;
+      case Shape::dome:
+        return x.z >= margin && norm(x) <= p.size - margin;
+      case Shape::file:
+        break;
+    }
+    return false;
+  }
+
+ private:
+  double lift() const { return on_slope ? parameters.particles.size : 0.0; }
+  Vector3 in_plane(double x, double across) const {
+    if (parameters.motion == Motion::xy) return {x, across, 0};
+    // A circle above the slope rests on it.
+    return {x, 0, across + (on_slope && parameters.particles.shape == Shape::circle ? parameters.particles.size : 0.0)};
+  }
+};
+
+/// Grains placed so far, in cells of two largest radii: a new grain can touch only those of the 27 cells around it.
+class Placed {
+ public:
+  Placed(double largest_radius, const std::vector<double>& radius) : cell_(2 * largest_radius), radius_(radius) {}
+
+  bool is_free(const Vector3& x, double a) const {
+    const Key centre = key(x);
+    for (std::int64_t k = -1; k <= 1; ++k)
+      for (std::int64_t j = -1; j <= 1; ++j)
+        for (std::int64_t i = -1; i <= 1; ++i) {
+          const auto found = cells_.find(pack({centre.i + i, centre.j + j, centre.k + k}));
+          if (found == cells_.end()) continue;
+          for (const std::uint32_t n : found->second)
+            if (norm(x - position_[n]) < a + radius_[n]) return false;
+        }
+    return true;
+  }
+
+  void place(const Vector3& x) {
+    cells_[pack(key(x))].push_back(static_cast<std::uint32_t>(position_.size()));
+    position_.push_back(x);
+  }
+
+  std::vector<Vector3> take() { return std::move(position_); }
+
+ private:
+  struct Key {
+    std::int64_t i, j, k;
+  };
+  Key key(const Vector3& x) const {
+    return {std::int64_t(std::floor(x.x / cell_)), std::int64_t(std::floor(x.y / cell_)),
+            std::int64_t(std::floor(x.z / cell_))};
+  }
+  static std::uint64_t pack(const Key& c) {
+    constexpr std::int64_t offset = 1 << 20;
+    return std::uint64_t(c.i + offset) << 42 | std::uint64_t(c.j + offset) << 21 | std::uint64_t(c.k + offset);
+  }
+
+  double cell_;
+  const std::vector<double>& radius_;
+  std::vector<Vector3> position_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace
+
+Grains pack(const Parameters& parameters) {
+  Random random(static_cast<std::uint64_t>(parameters.seed));
+  Grains grains;
+  grains.radius = draw_radii(parameters.particles, random);
+  const bool on_slope = parameters.slope.enabled && parameters.motion != Motion::xy;
+  const ShapeSampler shape{parameters, on_slope};
+  Placed placed(*std::max_element(grains.radius.begin(), grains.radius.end()), grains.radius);
+  for (std::size_t n = 0; n < grains.radius.size(); ++n) {
+    const double a = grains.radius[n];
+    const double margin = parameters.particles.boundary == Boundary::whole ? a : 0.0;
+    int trial = 0;
+    Vector3 x;
+    do {
+      if (++trial > most_trials)
+        throw NumericalError({.what = fmt::format("no place for a grain after {} trials", most_trials),
+                              .term = "random packing of the start",
+                              .place = fmt::format("grain {} of {}", n + 1, grains.radius.size()),
+                              .advice = "a larger shape or fewer grains"});
+      x = shape.draw(random);
+    } while (!shape.contains(x, margin) || (on_slope && x.z < a) || !placed.is_free(x, a));
+    placed.place(x);
+  }
+  grains.position = placed.take();
+  return grains;
+}
+
+std::vector<Problem> check_grains(const Parameters& parameters, const Grains& grains) {
+  std::vector<Problem> problems;
+  auto add = [&](const std::string& what, const std::string& allowed) {
+    problems.push_back({.key = "particles.file", .what = what, .allowed = allowed});
+  };
+  if (grains.position.empty()) add("holds no points", "at least one");
+  std::size_t bad_radius = 0, not_finite = 0, out_of_plane = 0;
+  for (const double a : grains.radius) bad_radius += !(std::isfinite(a) && a > 0);
+  for (const Vector3& x : grains.position) {
+    not_finite += !std::isfinite(norm(x));
+    out_of_plane += (parameters.motion == Motion::xy && x.z != 0) || (parameters.motion == Motion::xz && x.y != 0);
+  }
+  if (bad_radius) add(fmt::format("{} radii are not positive numbers", bad_radius), "radii above 0");
+  if (not_finite) add(fmt::format("{} places are not finite", not_finite), "finite coordinates");
+  if (out_of_plane)
+    add(fmt::format("{} points lie outside the plane of motion \"{}\"", out_of_plane, choice_name(parameters.motion)),
+        "points in that plane, or motion = \"xyz\"");
+  return problems;
+}
+
+}  // namespace talus::cloud

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/cloud/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace talus::cloud {
+
+namespace {
+
+double largest_speed(const State& state) {
+  double speed = 0;
+  for (const Vector3& v : state.velocity) speed = std::max(speed, norm(v));
+  return speed;
+}
+
+double largest_overlap(const State& state) {
+  return state.overlap.empty() ? 0 : *std::max_element(state.overlap.begin(), state.overlap.end());
+}
+
+}  // namespace
+
+Cloud::Cloud(const Parameters& parameters, Grains grains) : parameters_(parameters) {
+  state_.position = std::move(grains.position);
+  state_.radius = std::move(grains.radius);
+}
+
+void Cloud::begin(ThreadTeam& team) {
+  workspace_.emplace(parameters_, state_);
+  cloud::begin(team, parameters_, state_, *workspace_);
+}
+
+void Cloud::resume(ThreadTeam& team) {
+  workspace_.emplace(parameters_, state_);
+  derive(team, state_, *workspace_);
+}
+
+void Cloud::advance(ThreadTeam& team) {
+  cloud::advance(team, parameters_, state_, *workspace_);
+}
+
+std::vector<Scalar> Cloud::totals() const {
+  double centre = 0;
+  for (const Vector3& x : state_.position) centre += x.x;
+  centre /= static_cast<double>(state_.position.size());
+  return {{"step_size", "s", state_.last_step},
+          {"stages", "1", static_cast<double>(state_.stages)},
+          {"evaluations", "1", static_cast<double>(state_.evaluations)},
+          {"spectral_radius", "1/s", state_.spectral_radius},
+          {"overlap_max", "m", largest_overlap(state_)},
+          {"speed_max", "m/s", largest_speed(state_)},
+          {"centre_x", "m", centre}};
+}
+
+std::vector<RegimeLine> Cloud::regime() const {
+  const Scales s = scales(parameters_);
+  const double a = parameters_.particles.radius;
+  const double per_speed = parameters_.fluid.density * a / parameters_.fluid.viscosity;
+  const double stokes = s.stokes_speed * per_speed;
+  const double fastest = largest_speed(state_) * per_speed;
+  // Time in which a free grain reaches its Stokes speed over the time in which it passes its own radius.
+  const double relaxation = 2.0 / 9.0 * parameters_.particles.density * a * a / parameters_.fluid.viscosity;
+  const double overlap = largest_overlap(state_) / a;
+  return {
+      {"Reynolds number of a single grain", fmt::format("{:.3g}", stokes),
+       "a v_s rho_f/mu; the Stokes drag and the tensor hold for less than about 0.1", stokes > 0.1},
+      {"Reynolds number of the fastest grain", fmt::format("{:.3g}", fastest), "the same at the largest speed",
+       fastest > 0.1},
+      {"inertia of a grain", fmt::format("{:.3g}", relaxation / s.stokes_time),
+       "relaxation time over a_p/v_s; the model leaves inertia out, which holds for less than about 0.1",
+       relaxation / s.stokes_time > 0.1},
+      {"largest overlap", fmt::format("{:.3g} a_p", overlap), "hard grains: a few hundredths at most", overlap > 0.1},
+      {"contact over weight (gamma, Eq. 9)", fmt::format("{:.3g}", s.contact_ratio),
+       "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart", s.contact_ratio < 1},
+  };
+}
+
+}  // namespace talus::cloud

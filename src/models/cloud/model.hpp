@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The cloud model: grains that drag each other through a viscous fluid (Niiya, Awazu & Nishimori 2020).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "models/cloud/initial.hpp"
+#include "models/cloud/parameters.hpp"
+#include "models/cloud/state.hpp"
+#include "models/cloud/step.hpp"
+#include "models/model.hpp"
+
+namespace talus::cloud {
+
+class Cloud {
+ public:
+  using Parameters = cloud::Parameters;
+  using State = cloud::State;
+
+  /// \param grains places and radii at the start; a resumed run replaces them
+  Cloud(const Parameters& parameters, Grains grains);
+
+  const State& state() const { return state_; }
+  State& mutable_state() { return state_; }
+  void begin(ThreadTeam& team);
+  void resume(ThreadTeam& team);
+  void advance(ThreadTeam& team);
+
+  /// Of the last step: step_size, stages, evaluations, spectral_radius, overlap_max (m), speed_max, centre_x.
+  std::vector<Scalar> totals() const;
+
+  /// How far the run is from what the model assumes: Reynolds and Stokes numbers, overlaps, contact over weight.
+  std::vector<RegimeLine> regime() const;
+
+ private:
+  Parameters parameters_;
+  State state_;
+  std::optional<Workspace> workspace_;  // made by begin or resume, when the number of grains is known
+};
+
+static_assert(Model<Cloud>);
+
+}  // namespace talus::cloud

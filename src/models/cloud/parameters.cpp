@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/cloud/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "physics/hydrodynamics/buoyant_weight.hpp"
+
+namespace talus::cloud {
+
+namespace {
+
+using std::numbers::pi;
+
+double component_in_plane(const Vector3& v, Motion motion) {
+  switch (motion) {
+    case Motion::xy:
+      return std::hypot(v.x, v.y);
+    case Motion::xz:
+      return std::hypot(v.x, v.z);
+    case Motion::xyz:
+      return norm(v);
+  }
+  return 0;
+}
+
+/// Area of a plane shape, or volume.
+double extent_of_shape(const Parameters::Particles& p) {
+  switch (p.shape) {
+    case Shape::circle:
+      return pi * p.size * p.size;
+    case Shape::rectangle:
+      return p.length * p.width;
+    case Shape::triangle:
+      return p.size * p.size;
+    case Shape::ball:
+      return 4.0 / 3.0 * pi * p.size * p.size * p.size;
+    case Shape::dome:
+      return 2.0 / 3.0 * pi * p.size * p.size * p.size;
+    case Shape::file:
+      return 0;
+  }
+  return 0;
+}
+
+bool is_plane(Shape shape) {
+  return shape == Shape::circle || shape == Shape::rectangle || shape == Shape::triangle;
+}
+
+/// Mean square or cube of the radii over that of the mean radius; the cut of the normal distribution is neglected.
+double moment(const Parameters::Particles& p, int power) {
+  const double variance = p.radius_distribution == RadiusDistribution::uniform ? p.radius_spread * p.radius_spread / 3
+                                                                               : p.radius_spread * p.radius_spread;
+  return power == 2 ? 1 + variance : 1 + 3 * variance;
+}
+
+// Random sequential addition of equal discs jams at 0.547, of spheres at 0.384 (Feder 1980; Cooper 1988).
+constexpr double jamming_plane = 0.54;
+constexpr double jamming_space = 0.37;
+
+}  // namespace
+
+std::vector<Problem> check(const Parameters& p) {
+  std::vector<Problem> problems;
+  auto add = [&](std::string key, std::string what, std::string allowed) {
+    problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
+  };
+  const Parameters::Particles& grains = p.particles;
+  const std::string shape(choice_name(grains.shape));
+
+  if (grains.shape == Shape::file) {
+    if (grains.file.empty()) add("particles.file", "missing: particles.shape is \"file\"", "a CSV file's name");
+  } else if (!grains.file.empty()) {
+    add("particles.file", "given, but particles.shape is \"" + shape + "\"", "particles.shape = \"file\"");
+  }
+  if (grains.shape == Shape::rectangle) {
+    if (!(grains.length > 0)) add("particles.length", "missing: a rectangle needs it", "a length above 0");
+    if (!(grains.width > 0)) add("particles.width", "missing: a rectangle needs it", "a length above 0");
+    if (grains.size > 0)
+      add("particles.size", "has no meaning for a rectangle", "particles.length and particles.width");
+  } else {
+    if (grains.shape != Shape::file && !(grains.size > 0))
+      add("particles.size", "missing: the shape \"" + shape + "\" needs it", "a length above 0");
+    if (grains.shape == Shape::file && grains.size > 0) add("particles.size", "has no meaning for a file", "nothing");
+    if (grains.length > 0) add("particles.length", "has no meaning for the shape \"" + shape + "\"", "nothing");
+    if (grains.width > 0) add("particles.width", "has no meaning for the shape \"" + shape + "\"", "nothing");
+  }
+  if (is_plane(grains.shape) && p.motion == Motion::xyz)
+    add("motion", "\"xyz\" with the plane shape \"" + shape + "\"", "\"xy\" or \"xz\"; or shape ball, dome or file");
+  if (!is_plane(grains.shape) && grains.shape != Shape::file && p.motion != Motion::xyz)
+    add("motion", "a plane with the shape \"" + shape + "\"", "\"xyz\"; or a plane shape");
+  if (grains.shape == Shape::triangle && p.motion == Motion::xy)
+    add("motion", "\"xy\": a triangle stands on the slope", "\"xz\"");
+  if (grains.shape == Shape::dome && !p.slope.enabled)
+    add("slope.enabled", "false, but a dome stands on the slope", "true, or shape \"ball\"");
+
+  if (const double extent = extent_of_shape(grains); extent > 0) {
+    const double fraction = scales(p).volume_fraction;
+    const double jamming = is_plane(grains.shape) ? jamming_plane : jamming_space;
+    if (fraction > jamming)
+      add("particles.count", fmt::format("the grains would fill {:.3g} of the shape", fraction),
+          fmt::format("at most {}: random packing without overlap jams", jamming));
+  }
+  if (grains.density == p.fluid.density)
+    add("particles.density", "equals fluid.density: nothing would move", "any other density");
+  if (p.gravity.direction) {
+    const auto& d = *p.gravity.direction;
+    if (!(std::hypot(d[0], d[1], d[2]) > 0)) add("gravity.direction", "has no length", "three numbers, not all 0");
+  }
+  if (!(p.gravity.acceleration > 0))
+    add("gravity.acceleration", "is 0: nothing would move", "above 0");
+  else if (problems.empty() && !(scales(p).driving > 1e-12))
+    add(p.slope.enabled && !p.gravity.direction ? "slope.angle" : "gravity.direction",
+        "gravity has no part along the motion: nothing would flow", "a direction with a part in the plane of motion");
+  return problems;
+}
+
+Scales scales(const Parameters& p) {
+  const double a = p.particles.radius;
+  Scales s{};
+  if (p.gravity.direction) {
+    const auto& d = *p.gravity.direction;
+    const Vector3 v{d[0], d[1], d[2]};
+    s.gravity = (1 / norm(v)) * v;
+  } else {
+    s.gravity = hydrodynamics::downhill(p.slope.angle);
+  }
+  s.driving =
+      p.slope.enabled && !p.gravity.direction ? std::sin(p.slope.angle) : component_in_plane(s.gravity, p.motion);
+  s.mean_weight = hydrodynamics::buoyant_weight(a, p.particles.density, p.fluid.density, p.gravity.acceleration);
+  s.stokes_speed = std::abs(s.mean_weight) * s.driving / (6 * pi * p.fluid.viscosity * a);
+  s.stokes_time = a / s.stokes_speed;
+  s.contact_ratio = p.contact.stiffness * 0.01 * a / std::abs(s.mean_weight);
+  if (const double extent = extent_of_shape(p.particles); extent > 0) {
+    const double n = static_cast<double>(p.particles.count);
+    s.volume_fraction = is_plane(p.particles.shape) ? n * pi * a * a * moment(p.particles, 2) / extent
+                                                    : n * 4.0 / 3.0 * pi * a * a * a * moment(p.particles, 3) / extent;
+  }
+  return s;
+}
+
+}  // namespace talus::cloud

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a case of the cloud model says: grains that drag each other through a viscous fluid on an incline or in free
+/// space (Niiya, Awazu & Nishimori 2020). SI, angles in radians; the initial values are the defaults.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/instruction_set.hpp"
+#include "base/parameter.hpp"
+#include "models/cloud/pair_sum.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
+
+namespace talus::cloud {
+
+enum class Shape { circle, rectangle, triangle, ball, dome, file };
+enum class RadiusDistribution { uniform, normal };
+enum class Boundary { centres, whole };
+enum class Method { chebyshev, euler };
+
+struct Parameters {
+  std::int64_t seed = 1;
+  struct Particles {
+    Shape shape = Shape::circle;
+    std::int64_t count = 2000;
+    double size = 0;
+    double length = 0;
+    double width = 0;
+    std::string file;
+    double radius = 0;
+    double radius_spread = 0.05;
+    RadiusDistribution radius_distribution = RadiusDistribution::uniform;
+    Boundary boundary = Boundary::centres;
+    double density = 0;
+  } particles;
+  struct Fluid {
+    double density = 1.2;
+    double viscosity = 1.82e-5;
+    hydrodynamics::Mobility mobility = hydrodynamics::Mobility::rotne_prager_1969;
+    Precision precision = Precision::double_precision;
+  } fluid;
+  struct Contact {
+    bool enabled = true;
+    double stiffness = 10;
+  } contact;
+  struct Slope {
+    bool enabled = true;
+    double angle = 0;
+  } slope;
+  struct Gravity {
+    double acceleration = 9.81;
+    std::optional<std::array<double, 3>> direction;
+  } gravity;
+  Motion motion = Motion::xy;
+  struct Integration {
+    Method method = Method::chebyshev;
+    double largest_step = 0.1;
+    double tolerance = 0.02;
+    double overlap_growth = 0.05;
+    double largest_overlap = 0.5;
+    InstructionSet instruction_set = InstructionSet::automatic;
+  } integration;
+};
+
+/// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"seed", dimension::none, between(0, 9e15), "seed of the radii and positions"}, p.seed);
+
+  visit(Parameter{"particles.shape",
+                  {},
+                  {},
+                  "where the grains are at the start: circle, rectangle and triangle in the "
+                  "plane of motion, ball and dome (half a ball on the slope) in space, or a file of points",
+                  true},
+        p.particles.shape);
+  visit(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains; with a file, its points"},
+        p.particles.count);
+  visit(Parameter{"particles.size", dimension::length, at_least(0),
+                  "radius of the circle, ball or dome; height of the "
+                  "triangle, whose base on the slope is twice as long"},
+        p.particles.size);
+  visit(Parameter{"particles.length", dimension::length, at_least(0), "rectangle: extent along x"}, p.particles.length);
+  visit(Parameter{"particles.width", dimension::length, at_least(0), "rectangle: extent across (y or z)"},
+        p.particles.width);
+  visit(Parameter{"particles.file", {}, {}, "CSV file with columns x, y, z and radius, relative to the case"},
+        p.particles.file);
+  visit(Parameter{"particles.radius", dimension::length, above(0), "mean radius a_p; the unit of length of the results",
+                  true},
+        p.particles.radius);
+  visit(Parameter{"particles.radius_spread", dimension::none, between(0, 0.9),
+                  "half the width of the radii's uniform "
+                  "distribution, or the standard deviation of the normal one (cut at 3), over the mean radius"},
+        p.particles.radius_spread);
+  visit(Parameter{"particles.radius_distribution", {}, {}, "distribution of the radii"},
+        p.particles.radius_distribution);
+  visit(Parameter{"particles.boundary", {}, {}, "whether the grains' centres or the whole grains lie inside the shape"},
+        p.particles.boundary);
+  visit(Parameter{"particles.density", dimension::density, above(0), "true density of the grains", true},
+        p.particles.density);
+
+  visit(Parameter{"fluid.density", dimension::density, at_least(0), "density of the fluid"}, p.fluid.density);
+  visit(Parameter{"fluid.viscosity", dimension::viscosity, above(0), "dynamic viscosity of the fluid"},
+        p.fluid.viscosity);
+  visit(Parameter{"fluid.mobility",
+                  {},
+                  {},
+                  "how grains drag each other: the printed tensor, its symmetric form for "
+                  "unequal and overlapping spheres, or not at all"},
+        p.fluid.mobility);
+  visit(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
+        p.fluid.precision);
+
+  visit(Parameter{"contact.enabled", {}, {}, "whether grains that overlap repel each other and the slope"},
+        p.contact.enabled);
+  visit(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
+        p.contact.stiffness);
+
+  visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 carries the grains (a wall for contacts only)"},
+        p.slope.enabled);
+  visit(Parameter{"slope.angle", dimension::angle, between(0, 1.5707963267948966), "incline; x points down the slope"},
+        p.slope.angle);
+
+  visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity"},
+        p.gravity.acceleration);
+  visit(Parameter{"gravity.direction",
+                  {},
+                  {},
+                  "direction of gravity, of any length; left out: down the incline of "
+                  "slope.angle, [sin, 0, -cos]"},
+        p.gravity.direction);
+
+  visit(Parameter{"motion", {}, {}, "the plane in which the grains move, or all space"}, p.motion);
+
+  visit(Parameter{"integration.method",
+                  {},
+                  {},
+                  "damped Runge-Kutta-Chebyshev of first order, or explicit Euler at its "
+                  "stability limit (a reference for tests)"},
+        p.integration.method);
+  visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
+        p.integration.largest_step);
+  visit(Parameter{"integration.tolerance", dimension::none, above(0),
+                  "allowed root mean square of the local error of a "
+                  "step, in a_p"},
+        p.integration.tolerance);
+  visit(Parameter{"integration.overlap_growth", dimension::none, above(0),
+                  "a step that makes the largest overlap grow "
+                  "by more than this, in a_p, is repeated at half its length"},
+        p.integration.overlap_growth);
+  visit(Parameter{"integration.largest_overlap", dimension::none, above(0),
+                  "a run whose largest overlap passes this, in "
+                  "a_p, is stopped"},
+        p.integration.largest_overlap);
+  visit(
+      Parameter{"integration.instruction_set", {}, {}, "instruction set of the sum over pairs; the bits depend on it"},
+      p.integration.instruction_set);
+}
+
+/// Contradictions between keys that are each valid by themselves; empty if there are none.
+std::vector<Problem> check(const Parameters& parameters);
+
+/// Quantities that follow from the parameters alone.
+struct Scales {
+  Vector3 gravity;  ///< unit vector
+  double driving;   ///< share of gravity that drives the flow: sin(slope.angle) on a slope, else its part in the plane
+  double mean_weight;      ///< N, less buoyancy, of a grain of the mean radius
+  double stokes_speed;     ///< v_s, m/s, Eq. 5b
+  double stokes_time;      ///< a_p/v_s, s
+  double contact_ratio;    ///< gamma of Eq. 9 with an overlap of 0.01 a_p
+  double volume_fraction;  ///< grains over the shape: area in a plane, volume in space; 0 for a file
+};
+Scales scales(const Parameters& parameters);
+
+}  // namespace talus::cloud
+
+namespace talus {
+template <>
+inline constexpr auto choices<cloud::Shape> = std::to_array<std::string_view>({"circle", "rectangle", "triangle",
+                                                                               "ball", "dome", "file"});
+template <>
+inline constexpr auto choices<cloud::RadiusDistribution> = std::to_array<std::string_view>({"uniform", "normal"});
+template <>
+inline constexpr auto choices<cloud::Boundary> = std::to_array<std::string_view>({"centres", "whole"});
+template <>
+inline constexpr auto choices<cloud::Method> = std::to_array<std::string_view>({"chebyshev", "euler"});
+}  // namespace talus

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The state of a cloud: its columns and counters, each named once.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "numerics/field.hpp"
+
+namespace talus::cloud {
+
+struct State {
+  double time = 0;         ///< s
+  std::uint64_t step = 0;  ///< steps taken
+
+  std::vector<Vector3> position;  ///< m
+  std::vector<double> radius;     ///< m
+
+  // Derived from position and radius at the end of every step.
+  std::vector<Vector3> velocity;       ///< m/s, Eq. 4a
+  std::vector<Vector3> contact_force;  ///< N, on the grain, from grains and slope
+  std::vector<double> overlap;         ///< m, the grain's largest, with a grain or the slope; 0 if it touches none
+
+  // Warm starts and memory of the step control: kept, so that a resumed run takes the same steps.
+  std::vector<Vector3> increment;           ///< m, the last step's displacement
+  std::vector<Vector3> stiff_mode;          ///< unit vector of the stiffest motion found so far
+  std::vector<std::int64_t> packing_order;  ///< order in which the pair sum packs the grains
+  double last_step = 0;                     ///< s, length of the last step; 0 before the first
+  double next_step = 0;                     ///< s, proposed by the error control
+  double spectral_radius = 0;               ///< 1/s, estimate of the stiffest rate
+  std::uint64_t stages = 0;                 ///< stages of the last step
+  std::uint64_t evaluations = 0;            ///< of all velocities, since the start
+  std::uint64_t rejected_steps = 0;         ///< since the start
+};
+
+template <class Visit, class S>
+void for_each_field(Visit&& visit, S& s) {
+  visit(Field{"time", "s"}, s.time);
+  visit(Field{"step", "1"}, s.step);
+  visit(Field{"position", "m"}, s.position);
+  visit(Field{"radius", "m"}, s.radius);
+  visit(Field{"velocity", "m/s", FieldRole::derived}, s.velocity);
+  visit(Field{"contact_force", "N", FieldRole::derived}, s.contact_force);
+  visit(Field{"overlap", "m", FieldRole::derived}, s.overlap);
+  visit(Field{"increment", "m", FieldRole::kept, false}, s.increment);
+  visit(Field{"stiff_mode", "1", FieldRole::kept, false}, s.stiff_mode);
+  visit(Field{"packing_order", "1", FieldRole::kept, false}, s.packing_order);
+  visit(Field{"last_step", "s"}, s.last_step);
+  visit(Field{"next_step", "s"}, s.next_step);
+  visit(Field{"spectral_radius", "1/s"}, s.spectral_radius);
+  visit(Field{"stages", "1"}, s.stages);
+  visit(Field{"evaluations", "1"}, s.evaluations);
+  visit(Field{"rejected_steps", "1"}, s.rejected_steps);
+}
+
+}  // namespace talus::cloud

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A step in order: (1) now and then the stiffest rate is measured and the grains are re-sorted; (2) as many Chebyshev
+/// stages are taken as that rate and the step's length ask for; (3) the velocities at the new places are evaluated:
+/// they open the next step and tell whether this one may stand; (4) if not, it is repeated at half its length. On entry
+/// and exit: velocity, contact_force and overlap belong to position.
+#include "models/cloud/step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/cloud/stiffness.hpp"
+#include "numerics/cell_grid.hpp"
+#include "numerics/chebyshev.hpp"
+
+namespace talus::cloud {
+
+namespace {
+
+constexpr double damping = 0.1;           // of the stability polynomial: stiff modes shrink by 10 % a step at least
+constexpr double stiffness_margin = 1.1;  // on the measured rate, which is a lower bound
+constexpr int steps_between_estimates = 5;
+constexpr int steps_between_sorts = 16;
+constexpr int most_stages = 250;
+constexpr double least_step_over_largest = 1e-6;
+
+double root_mean_square_error(ThreadTeam& team, const State& state, const Workspace& work, double step,
+                              double second_order) {
+  if (state.last_step == 0) return 0;
+  // A first-order step errs by |1/2 - c_2| h^2 x''; the change of the displacement from one step to the next shows
+  // h (h + h_last)/2 x'', and unlike differences of velocities it does not see the stiff modes that the stages have
+  // damped.
+  const double ratio = step / state.last_step;
+  const double factor = std::abs(0.5 - second_order) * 2 * step / (step + state.last_step);
+  const double sum = reduce(
+      team, state.position.size(), 0.0,
+      [&](std::size_t i) {
+        const Vector3 change = work.latest[i] - state.position[i] - ratio * state.increment[i];
+        return dot(change, change);
+      },
+      [](double a, double b) { return a + b; });
+  return factor * std::sqrt(sum / static_cast<double>(state.position.size()));
+}
+
+bool all_finite(ThreadTeam& team, std::span<const Vector3> v) {
+  return reduce(
+      team, v.size(), true, [&](std::size_t i) { return std::isfinite(v[i].x + v[i].y + v[i].z); },
+      [](bool a, bool b) { return a && b; });
+}
+
+/// Takes the stages of a step; the result is in work.latest. \returns false as soon as a velocity is not finite
+bool take_stages(ThreadTeam& team, State& state, Workspace& work, const ChebyshevStages& scheme, double step) {
+  const std::size_t count = state.position.size();
+  for_each(team, count, [&](std::size_t i) {
+    work.before[i] = state.position[i];
+    work.latest[i] = state.position[i] + (scheme.stages[0].rate * step) * state.velocity[i];
+  });
+  for (std::size_t j = 1; j < scheme.stages.size(); ++j) {
+    const ChebyshevStages::Stage stage = scheme.stages[j];
+    work.velocities(team, work.latest, work.trial_velocity);
+    ++state.evaluations;
+    if (!all_finite(team, work.trial_velocity)) return false;
+    for_each(team, count, [&](std::size_t i) {
+      const Vector3 next = stage.previous * work.latest[i] + stage.before_previous * work.before[i] +
+                           (stage.rate * step) * work.trial_velocity[i];
+      work.before[i] = work.latest[i];
+      work.latest[i] = next;
+    });
+  }
+  return true;
+}
+
+void keep_derived(State& state, Workspace& work) {
+  state.velocity.swap(work.trial_velocity);
+  state.contact_force.assign(work.velocities.contact_force().begin(), work.velocities.contact_force().end());
+  state.overlap.assign(work.velocities.overlap().begin(), work.velocities.overlap().end());
+}
+
+void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
+  const auto order = spatial_order(state.position, 4 * p.particles.radius);
+  state.packing_order.assign(order.begin(), order.end());
+  work.velocities.reorder(state.packing_order);
+}
+
+[[noreturn]] void give_up(const Parameters& p, const State& state, const Workspace& work, bool finite,
+                          double largest_overlap) {
+  NumericalError::Report report{
+      .what = {}, .term = {}, .place = {}, .step = state.step, .time = state.time, .advice = {}};
+  std::size_t worst = 0;
+  if (finite) {
+    const auto overlap = work.velocities.overlap();
+    worst = static_cast<std::size_t>(std::max_element(overlap.begin(), overlap.end()) - overlap.begin());
+    report.what = fmt::format("the largest overlap is {:.3g} radii", largest_overlap / p.particles.radius);
+    report.term = "contact force, Eq. 2";
+    report.advice =
+        "a larger contact.stiffness (overlaps grow like the square root of the number of grains), or a larger "
+        "integration.largest_overlap";
+  } else {
+    for (std::size_t i = 0; i < work.trial_velocity.size(); ++i) {
+      const Vector3& v = work.trial_velocity[i];
+      if (!std::isfinite(v.x + v.y + v.z)) {
+        worst = i;
+        break;
+      }
+    }
+    const Vector3& f = work.velocities.contact_force()[worst];
+    const bool contact = !std::isfinite(f.x + f.y + f.z);
+    report.what = "the velocity is not finite";
+    report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
+    report.advice = "no two grains at one place at the start, a smaller integration.largest_step";
+  }
+  const Vector3& x = state.position[worst];
+  report.place = fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m", worst, x.x, x.y, x.z);
+  throw NumericalError(report);
+}
+
+}  // namespace
+
+Workspace::Workspace(const Parameters& parameters, const State& state)
+    : velocities(parameters, state.radius),
+      scales(cloud::scales(parameters)),
+      latest(state.position.size()),
+      before(state.position.size()),
+      trial_velocity(state.position.size()) {}
+
+void derive(ThreadTeam& team, State& state, Workspace& work) {
+  state.velocity.resize(state.position.size());
+  work.velocities.reorder(state.packing_order);
+  work.velocities(team, state.position, work.trial_velocity);
+  keep_derived(state, work);
+}
+
+void begin(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
+  sort_for_packing(p, state, work);
+  derive(team, state, work);
+  ++state.evaluations;
+  work.trial_velocity = state.velocity;
+  if (!all_finite(team, state.velocity)) give_up(p, state, work, false, 0);
+  state.increment.assign(state.position.size(), Vector3{});
+  state.next_step = 0.1 * p.integration.largest_step * work.scales.stokes_time;
+  estimate_stiffness(team, p, state, work, 20);
+}
+
+void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
+  const double a = p.particles.radius;
+  const double largest_step = p.integration.largest_step * work.scales.stokes_time;
+  const double overlap_before = *std::max_element(state.overlap.begin(), state.overlap.end());
+
+  if (state.step % steps_between_sorts == 0 && state.step > 0) {
+    sort_for_packing(p, state, work);
+    derive(team, state, work);
+    ++state.evaluations;
+  }
+  if (state.step % steps_between_estimates == 0 && p.contact.enabled) estimate_stiffness(team, p, state, work, 3);
+
+  double step = std::min(state.next_step, largest_step);
+  while (true) {
+    const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
+    const bool euler = p.integration.method == Method::euler;
+    const double stable = chebyshev_stages(euler ? 1 : most_stages, damping).stability / rate;
+    if (rate > 0) step = std::min(step, stable);
+    const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, damping), damping);
+
+    bool finite = take_stages(team, state, work, scheme, step);
+    double error = 0, overlap = 0;
+    if (finite) {
+      work.velocities(team, work.latest, work.trial_velocity);
+      ++state.evaluations;
+      finite = all_finite(team, work.trial_velocity);
+      overlap = work.velocities.largest_overlap();
+      error = root_mean_square_error(team, state, work, step, scheme.second_order) / (p.integration.tolerance * a);
+    }
+    const bool at_least = step < least_step_over_largest * largest_step;
+    const bool overlapped = overlap > p.integration.largest_overlap * a;
+    if ((!finite || overlapped) && at_least) give_up(p, state, work, finite, overlap);
+    const bool grew = overlap > overlap_before + p.integration.overlap_growth * a;
+    if (finite && !overlapped && ((error <= 1 && !grew) || at_least)) {
+      for_each(team, state.position.size(), [&](std::size_t i) {
+        state.increment[i] = work.latest[i] - state.position[i];
+        state.position[i] = work.latest[i];
+      });
+      keep_derived(state, work);
+      state.time += step;
+      state.last_step = step;
+      state.stages = scheme.stages.size();
+      ++state.step;
+      state.next_step = std::min(largest_step, step * std::clamp(0.8 / std::sqrt(std::max(error, 1e-4)), 0.5, 1.5));
+      return;
+    }
+    ++state.rejected_steps;
+    step *= 0.5;
+    estimate_stiffness(team, p, state, work, 3);
+  }
+}
+
+}  // namespace talus::cloud

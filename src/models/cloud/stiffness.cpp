@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/cloud/stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "physics/hydrodynamics/stokes.hpp"
+
+namespace talus::cloud {
+
+namespace {
+
+double length(ThreadTeam& team, const std::vector<Vector3>& v) {
+  return std::sqrt(reduce(
+      team, v.size(), 0.0, [&](std::size_t i) { return dot(v[i], v[i]); }, [](double a, double b) { return a + b; }));
+}
+
+}  // namespace
+
+double contact_rate(const Parameters& p) {
+  if (!p.contact.enabled) return 0;
+  const double lattice = p.fluid.mobility == hydrodynamics::Mobility::none ? 6.0 : 1.5;
+  return lattice * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
+}
+
+void estimate_stiffness(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, int sweeps) {
+  const std::size_t count = state.position.size();
+  // Root mean square displacement of the trial: far below an overlap, far above the rounding of the velocities.
+  const double amplitude =
+      (p.fluid.precision == Precision::single_precision ? 1e-5 : 1e-6) * p.particles.radius * std::sqrt(double(count));
+  if (state.spectral_radius < contact_rate(p) || state.stiff_mode.size() != count) {
+    Random random(1);
+    state.stiff_mode.resize(count);
+    for (Vector3& v : state.stiff_mode)
+      v = in_plane({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, p.motion);
+    const double scale = length(team, state.stiff_mode);
+    for (Vector3& v : state.stiff_mode) v = (1 / scale) * v;
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for_each(team, count, [&](std::size_t i) { work.latest[i] = state.position[i] + amplitude * state.stiff_mode[i]; });
+    work.velocities(team, work.latest, work.trial_velocity);
+    ++state.evaluations;
+    for_each(team, count, [&](std::size_t i) { work.before[i] = work.trial_velocity[i] - state.velocity[i]; });
+    const double size = length(team, work.before);
+    if (!(size > 0) || !std::isfinite(size)) return;
+    for_each(team, count, [&](std::size_t i) { state.stiff_mode[i] = (1 / size) * work.before[i]; });
+    const double previous = state.spectral_radius;
+    state.spectral_radius = size / amplitude;
+    if (std::abs(state.spectral_radius - previous) < 0.02 * state.spectral_radius) return;
+  }
+}
+
+}  // namespace talus::cloud

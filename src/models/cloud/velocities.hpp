@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The velocities of all grains at given places, Eq. 4a: each grain's own Stokes drag against weight and contacts, and
+/// the fluid's motion that all others make. This is the right-hand side that the integrators evaluate.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/vector.hpp"
+#include "models/cloud/pair_sum.hpp"
+#include "models/cloud/parameters.hpp"
+#include "numerics/neighbour_list.hpp"
+
+namespace talus::cloud {
+
+class Velocities {
+ public:
+  /// \param radius m, one a grain; copied
+  Velocities(const Parameters& parameters, std::span<const double> radius);
+
+  /// Sets the order in which the pair sum packs the grains (part of the definition of the sum's bits).
+  void reorder(std::span<const std::int64_t> order);
+
+  /// Evaluates Eq. 4a. \param position m; \param velocity m/s, overwritten
+  void operator()(ThreadTeam& team, std::span<const Vector3> position, std::span<Vector3> velocity);
+
+  /// Of the last evaluation.
+  std::span<const Vector3> contact_force() const { return contact_force_; }
+  std::span<const double> overlap() const { return overlap_; }
+  double largest_overlap() const { return largest_overlap_; }
+
+ private:
+  void find_contacts(ThreadTeam& team, std::span<const Vector3> position);
+
+  Parameters parameters_;
+  bool touches_slope_;
+  std::vector<double> radius_;
+  std::vector<Vector3> weight_;  // less buoyancy, its part in the plane of motion
+  NeighbourList neighbours_;
+  PairSum pair_sum_;
+  std::vector<Vector3> force_, contact_force_;
+  std::vector<double> overlap_;
+  double largest_overlap_ = 0;
+};
+
+/// The part of a vector along the motion.
+Vector3 in_plane(const Vector3& v, Motion motion);
+
+}  // namespace talus::cloud

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers of a whole system: what a series has a column for, and what a summary lists.
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+struct Scalar {
+  std::string name;  ///< snake_case, unique within a series or summary
+  std::string unit;  ///< SI ("m/s"), "deg" for angles, "1" for numbers
+  double value;
+};
+
+/// A remark on whether a run stays within what its laws assume.
+struct RegimeLine {
+  std::string quantity;
+  std::string value;
+  std::string meaning;
+  bool warning = false;
+};
+
+}  // namespace talus
