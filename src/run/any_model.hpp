@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The one place where a model's type is forgotten: `run` drives any model through these few virtual calls a step.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "io/checkpoint.hpp"
+#include "numerics/scalar.hpp"
+#include "numerics/snapshot.hpp"
+#include "numerics/snapshot_of.hpp"
+
+namespace talus::run {
+
+class AnyModel {
+ public:
+  virtual ~AnyModel() = default;
+  virtual double time() const = 0;
+  virtual std::uint64_t step() const = 0;
+  virtual void begin(ThreadTeam& team) = 0;
+  virtual void advance(ThreadTeam& team) = 0;
+  virtual Snapshot snapshot() const = 0;  ///< valid until the next step
+  virtual std::vector<Scalar> totals() const = 0;
+  virtual std::vector<RegimeLine> regime() const = 0;
+  virtual void save(CheckpointWriter& checkpoint) const = 0;
+  virtual void resume(ThreadTeam& team, const CheckpointReader& checkpoint) = 0;
+};
+
+/// Joins a model (see models/model.hpp for what that is) to AnyModel.
+template <class M>
+class ModelAdapter final : public AnyModel {
+ public:
+  explicit ModelAdapter(M model) : model_(std::move(model)) {}
+
+  double time() const override { return model_.state().time; }
+  std::uint64_t step() const override { return model_.state().step; }
+  void begin(ThreadTeam& team) override { model_.begin(team); }
+  void advance(ThreadTeam& team) override { model_.advance(team); }
+  Snapshot snapshot() const override { return snapshot_of(model_.state()); }
+  std::vector<Scalar> totals() const override { return model_.totals(); }
+  std::vector<RegimeLine> regime() const override { return model_.regime(); }
+  void save(CheckpointWriter& checkpoint) const override { for_each_field(checkpoint, model_.state()); }
+  void resume(ThreadTeam& team, const CheckpointReader& checkpoint) override {
+    for_each_field(checkpoint, model_.mutable_state());
+    model_.resume(team);
+  }
+
+ private:
+  M model_;
+};
+
+template <class M>
+std::unique_ptr<AnyModel> any_model(M model) {
+  return std::make_unique<ModelAdapter<M>>(std::move(model));
+}
+
+}  // namespace talus::run

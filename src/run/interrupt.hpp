@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The ways in which a run is asked to leave early: SIGINT, SIGTERM, a file `stop` in its folder, the wall-time limit.
+/// All end alike: a checkpoint is written and the exit status is 130.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace talus::run {
+
+/// Makes SIGINT and SIGTERM ask instead of kill; a second one kills. For the whole process; call once.
+void catch_signals();
+
+/// True once SIGINT or SIGTERM has come.
+bool signal_has_come();
+
+class Interrupt {
+ public:
+  /// \param stop_file looked for every half second; \param walltime from now, none: no limit
+  Interrupt(std::filesystem::path stop_file, std::optional<std::chrono::duration<double>> walltime);
+
+  /// Why the run should leave now; nothing if it may go on. Cheap enough for every step.
+  std::optional<std::string> reason();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path stop_file_;
+  std::optional<Clock::time_point> deadline_;
+  Clock::time_point next_look_;
+};
+
+}  // namespace talus::run

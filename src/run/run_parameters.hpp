@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a case says about the run itself, whatever the model.
+#pragma once
+
+#include <string>
+
+#include "base/parameter.hpp"
+
+namespace talus::run {
+
+struct RunParameters {
+  std::string model;
+  std::string title;
+  double end = 0;
+  double snapshots = 0;
+  bool pictures = true;
+  double checkpoint_interval = 30;
+};
+
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"model", {}, {}, "which model: cloud", true}, p.model);
+  visit(Parameter{"title", {}, {}, "one line for pictures and reports"}, p.title);
+  visit(Parameter{"run.end", dimension::time, above(0), "simulated time at which the run ends", true}, p.end);
+  visit(Parameter{"output.snapshots", dimension::time, at_least(0),
+                  "simulated time between snapshots: each is taken at the end of the first step past its time; 0: a "
+                  "twentieth of run.end"},
+        p.snapshots);
+  visit(Parameter{"output.pictures", {}, {}, "whether pictures are drawn at the end"}, p.pictures);
+  visit(Parameter{"output.checkpoint_interval", dimension::time, above(0), "wall time between checkpoints"},
+        p.checkpoint_interval);
+}
+
+}  // namespace talus::run

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/cloud/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cases.hpp"
+#include "models/cloud/stiffness.hpp"
+#include "physics/hydrodynamics/stokes.hpp"
+
+namespace talus::cloud {
+namespace {
+
+Grains two_grains(const Parameters& p, double distance_over_radius) {
+  const double a = p.particles.radius;
+  return {{{0, 0, 0}, {0, distance_over_radius * a, 0}}, {a, a}};
+}
+
+TEST(Velocities, AloneAGrainFallsWithTheStokesSpeed) {
+  Parameters p = disc(1);
+  ThreadTeam team(1);
+  Cloud cloud(p, {{{0, 0, 0}}, {p.particles.radius}});
+  cloud.begin(team);
+  // Eq. 5b.
+  const double v_s = 2.0 / 9.0 * 9.81 * (20 - 1.2) * std::sin(p.slope.angle) / 1.82e-5 * 25e-6;
+  EXPECT_NEAR(scales(p).stokes_speed, v_s, 1e-12 * v_s);
+  EXPECT_NEAR(cloud.state().velocity[0].x, v_s, 1e-12 * v_s);
+  EXPECT_EQ(cloud.state().velocity[0].y, 0);
+}
+
+TEST(Scales, ReproduceThePapersContactRatios) {
+  // Eq. 9: 130, 20 and 5 for 1, 2.5 and 5 mm.
+  for (const auto& [radius, printed] : {std::pair{1e-3, 129.4}, {2.5e-3, 20.7}, {5e-3, 5.18}}) {
+    Parameters p = disc(10);
+    p.particles.radius = radius;
+    EXPECT_NEAR(scales(p).contact_ratio, printed, 0.005 * printed);
+  }
+}
+
+TEST(Velocities, RepulsionPushesApart) {
+  for (const auto mobility :
+       {hydrodynamics::Mobility::rotne_prager_1969, hydrodynamics::Mobility::zuk_2014, hydrodynamics::Mobility::none}) {
+    Parameters p = disc(2);
+    p.fluid.mobility = mobility;
+    ThreadTeam team(1);
+    Cloud cloud(p, two_grains(p, 1.9));
+    cloud.begin(team);
+    const State& s = cloud.state();
+    EXPECT_LT(s.velocity[0].y, 0);
+    EXPECT_GT(s.velocity[1].y, 0);
+    EXPECT_NEAR(s.overlap[0], 0.1 * p.particles.radius, 1e-15);
+    EXPECT_NEAR(s.contact_force[1].y, 10 * 0.1 * p.particles.radius, 1e-14);
+  }
+}
+
+TEST(Advance, WithoutDragThePatternIsKept) {
+  Parameters p = disc(200);
+  p.fluid.mobility = hydrodynamics::Mobility::none;
+  p.particles.radius_spread = 0;
+  ThreadTeam team(1);
+  Cloud cloud = started(p, team);
+  const auto start = cloud.state().position;
+  run_until(cloud, team, 5 * scales(p).stokes_time);
+  const double expected = scales(p).stokes_speed * cloud.state().time;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    EXPECT_NEAR(cloud.state().position[i].x - start[i].x, expected, 1e-9 * expected);
+    EXPECT_NEAR(cloud.state().position[i].y, start[i].y, 1e-12);
+  }
+}
+
+TEST(Advance, ARestingGrainSinksIntoTheSlopeByItsWeightOverTheStiffness) {
+  Parameters p = polystyrene(Shape::file, 1);
+  p.motion = Motion::xz;
+  ThreadTeam team(1);
+  Cloud cloud(p, {{{0, 0, 0.9 * p.particles.radius}}, {p.particles.radius}});
+  cloud.begin(team);
+  run_until(cloud, team, 30 * scales(p).stokes_time);
+  const double depth = scales(p).mean_weight * std::cos(p.slope.angle) / p.contact.stiffness;
+  EXPECT_NEAR(p.particles.radius - cloud.state().position[0].z, depth, 1e-6 * depth);
+}
+
+TEST(Stiffness, PowerIterationFindsTheRateOfTwoTouchingGrains) {
+  Parameters p = disc(2);
+  p.fluid.mobility = hydrodynamics::Mobility::none;
+  ThreadTeam team(1);
+  Cloud cloud(p, two_grains(p, 1.9));
+  cloud.begin(team);
+  Workspace work(p, cloud.state());
+  work.velocities.reorder(cloud.state().packing_order);
+  estimate_stiffness(team, p, cloud.mutable_state(), work, 30);
+  const double exact = 2 * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
+  EXPECT_NEAR(cloud.state().spectral_radius, exact, 0.01 * exact);
+}
+
+TEST(Advance, ChebyshevAndEulerConvergeToTheSameMotion) {
+  Parameters p = disc(60);
+  ThreadTeam team(1);
+  auto after = [&](Method method, double largest_step) {
+    p.integration.method = method;
+    p.integration.largest_step = largest_step;
+    p.integration.tolerance = 1e3;
+    p.integration.overlap_growth = 1e3;
+    Cloud cloud = started(p, team);
+    const double end = 1.0 * scales(p).stokes_time;
+    while (cloud.state().time < end) cloud.advance(team);
+    // Back to exactly `end` along the last step.
+    std::vector<Vector3> x = cloud.state().position;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] -= ((cloud.state().time - end) / cloud.state().last_step) * cloud.state().increment[i];
+    return x;
+  };
+  auto distance = [&](const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i] - b[i], a[i] - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size())) / p.particles.radius;
+  };
+  const auto reference = after(Method::euler, 1e-4);
+  const double coarse = distance(after(Method::chebyshev, 0.02), reference);
+  const double fine = distance(after(Method::chebyshev, 0.005), reference);
+  EXPECT_LT(coarse, 0.02);
+  EXPECT_LT(fine, 0.45 * coarse);
+}
+
+TEST(Advance, SameBitsForAnyNumberOfThreads) {
+  Parameters p = disc(500);
+  for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+    p.fluid.precision = precision;
+    ThreadTeam one(1), three(3);
+    Cloud a = started(p, one), b = started(p, three);
+    for (int n = 0; n < 20; ++n) a.advance(one), b.advance(three);
+    EXPECT_EQ(a.state().position, b.state().position);
+    EXPECT_EQ(a.state().time, b.state().time);
+    EXPECT_EQ(a.state().spectral_radius, b.state().spectral_radius);
+  }
+}
+
+/// What a checkpoint leaves of a state: derived columns are gone.
+struct ForgetDerived {
+  void operator()(const Field& field, auto& member) const {
+    if (field.role == FieldRole::derived) member = {};
+  }
+};
+
+TEST(Advance, AResumedRunTakesTheSameSteps) {
+  const Parameters p = disc(400);
+  ThreadTeam team(2);
+  // Stops at steps that are and are not multiples of the sorting and estimating intervals.
+  for (const int stop : {1, 16, 21, 30}) {
+    Cloud whole = started(p, team);
+    for (int n = 0; n < stop; ++n) whole.advance(team);
+    Cloud resumed(p, {});
+    resumed.mutable_state() = whole.state();
+    for_each_field(ForgetDerived{}, resumed.mutable_state());
+    resumed.resume(team);
+    EXPECT_EQ(resumed.state().velocity, whole.state().velocity);
+    for (int n = 0; n < 25; ++n) whole.advance(team), resumed.advance(team);
+    EXPECT_EQ(whole.state().position, resumed.state().position);
+    EXPECT_EQ(whole.state().time, resumed.state().time);
+    EXPECT_EQ(whole.state().evaluations, resumed.state().evaluations);
+  }
+}
+
+TEST(Advance, OverlapsStaySmallAndTheCloudGathersSpeed) {
+  const Parameters p = disc(500);
+  ThreadTeam team(2);
+  Cloud cloud = started(p, team);
+  double overlap = 0;
+  while (cloud.state().time < 3 * scales(p).stokes_time) {
+    cloud.advance(team);
+    overlap = std::max(overlap, *std::max_element(cloud.state().overlap.begin(), cloud.state().overlap.end()));
+  }
+  EXPECT_LT(overlap, 0.1 * p.particles.radius);
+  EXPECT_GT(overlap, 0);
+  EXPECT_GT(cloud.totals()[6].value, 3 * 8 * p.particles.radius);  // centre_x: far faster than alone
+}
+
+TEST(Begin, GrainsAtOnePlaceAreANumericalErrorThatNamesThem) {
+  Parameters p = disc(2);
+  ThreadTeam team(1);
+  Cloud cloud(p, two_grains(p, 0));
+  try {
+    cloud.begin(team);
+    FAIL() << "no error";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("not finite"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("grain 0"), std::string::npos);
+  }
+}
+
+TEST(Advance, StopsWhenAGrainSinksIntoTheSlope) {
+  Parameters p = polystyrene(Shape::file, 1);
+  p.motion = Motion::xz;
+  p.contact.stiffness = 1e-3;  // its weight would press it 7 radii deep
+  ThreadTeam team(1);
+  Cloud cloud(p, {{{0, 0, p.particles.radius}}, {p.particles.radius}});
+  cloud.begin(team);
+  try {
+    run_until(cloud, team, 10 * scales(p).stokes_time);
+    FAIL() << "no error";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("contact.stiffness"), std::string::npos);
+    EXPECT_LE(cloud.state().overlap[0], p.integration.largest_overlap * p.particles.radius);
+    EXPECT_GT(cloud.state().overlap[0], 0.9 * p.integration.largest_overlap * p.particles.radius);
+  }
+}
+
+}  // namespace
+}  // namespace talus::cloud
