@@ -8,7 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
-#include "numerics/scalar.hpp"
+#include "numerics/named_value.hpp"
 #include "numerics/snapshot.hpp"
 #include "numerics/snapshot_of.hpp"
 
@@ -22,7 +22,7 @@ class AnyModel {
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
   virtual Snapshot snapshot() const = 0;  ///< valid until the next step
-  virtual std::vector<Scalar> totals() const = 0;
+  virtual std::vector<NamedValue> totals() const = 0;
   virtual std::vector<RegimeLine> regime() const = 0;
   virtual void save(CheckpointWriter& checkpoint) const = 0;
   virtual void resume(ThreadTeam& team, const CheckpointReader& checkpoint) = 0;
@@ -39,7 +39,7 @@ class ModelAdapter final : public AnyModel {
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }
   Snapshot snapshot() const override { return snapshot_of(model_.state()); }
-  std::vector<Scalar> totals() const override { return model_.totals(); }
+  std::vector<NamedValue> totals() const override { return model_.totals(); }
   std::vector<RegimeLine> regime() const override { return model_.regime(); }
   void save(CheckpointWriter& checkpoint) const override { for_each_field(checkpoint, model_.state()); }
   void resume(ThreadTeam& team, const CheckpointReader& checkpoint) override {

@@ -41,7 +41,7 @@ void Cloud::advance(ThreadTeam& team) {
   cloud::advance(team, parameters_, state_, *workspace_);
 }
 
-std::vector<Scalar> Cloud::totals() const {
+std::vector<NamedValue> Cloud::totals() const {
   double centre = 0;
   for (const Vector3& x : state_.position) centre += x.x;
   centre /= static_cast<double>(state_.position.size());

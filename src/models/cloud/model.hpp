@@ -28,7 +28,7 @@ class Cloud {
   void advance(ThreadTeam& team);
 
   /// Of the last step: step_size, stages, evaluations, spectral_radius, overlap_max (m), speed_max, centre_x.
-  std::vector<Scalar> totals() const;
+  std::vector<NamedValue> totals() const;
 
   /// How far the run is from what the model assumes: Reynolds and Stokes numbers, overlaps, contact over weight.
   std::vector<RegimeLine> regime() const;

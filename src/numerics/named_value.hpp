@@ -6,7 +6,7 @@
 
 namespace talus {
 
-struct Scalar {
+struct NamedValue {
   std::string name;  ///< snake_case, unique within a series or summary
   std::string unit;  ///< SI ("m/s"), "deg" for angles, "1" for numbers
   double value;
