@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The loop over time of any model: steps, series, snapshots, checkpoints, and leaving early when asked.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "io/run_folder.hpp"
+#include "numerics/named_value.hpp"
+#include "numerics/snapshot.hpp"
+#include "run/any_model.hpp"
+
+namespace talus::run {
+
+/// Looks at the particles after every step; its numbers become columns of series.csv. The same names every time.
+using Observer = std::function<std::vector<NamedValue>(const Snapshot&)>;
+
+struct LoopOptions {
+  double end = 0;                   ///< simulated time, s: the run ends with the first step that reaches it
+  double snapshot_interval = 0;     ///< simulated time between snapshots, s, > 0
+  double checkpoint_interval = 30;  ///< wall time between checkpoints, s
+  std::optional<double> walltime;   ///< wall time after which the run leaves with a checkpoint, s
+  std::string fingerprint;          ///< of the case: a checkpoint of another case is refused
+  bool resume = false;
+};
+
+struct LoopResult {
+  bool interrupted = false;
+  std::string reason;           ///< why, if interrupted
+  double wall_seconds = 0;      ///< of all sessions of this run together, without the start
+  double cpu_seconds = 0;       ///< the same, of all threads
+  std::uint64_t steps = 0;      ///< since the start of the run
+};
+
+/// Runs a model to the end, or until it is interrupted. Each snapshot is taken at the end of the first step that reaches
+/// its time (no step is cut to an output time, so outputs do not change the bits); the last step's state is the last
+/// snapshot. A checkpoint is written at the start, now and then, on interruption and at the end.
+/// \throws NumericalError, FileError; checkpoints written before stay whole
+/// \throws InputError if there is nothing to resume, or the checkpoint belongs to another case
+LoopResult run_loop(AnyModel& model, ThreadTeam& team, const RunFolder& folder, const LoopOptions& options,
+                    const std::vector<Observer>& observers);
+
+}  // namespace talus::run
