@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The instruction sets for which the hot loops are compiled, and the choice among them while the program runs. The
+/// same case gives the same bits with the same set, and nearly the same numbers with another.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "base/parameter.hpp"
+
+namespace talus {
+
+enum class InstructionSet {
+  automatic,  ///< the best one that the running processor has
+  avx512,     ///< x86-64 with AVX-512 F, DQ, VL and BW: 8 doubles or 16 floats at a time
+  avx2,       ///< x86-64 with AVX2 and FMA: 4 doubles or 8 floats at a time
+  portable    ///< nothing beyond the compiler's baseline; multiplications and additions are not fused
+};
+
+template <>
+inline constexpr auto choices<InstructionSet> =
+    std::to_array<std::string_view>({"automatic", "avx512", "avx2", "portable"});
+
+/// Whether the running processor (and operating system) can execute it.
+bool is_available(InstructionSet set);
+
+/// The set that is used for a wish: itself, or the best available one for `automatic`; never `automatic`.
+/// \throws InputError if the processor does not have it
+InstructionSet resolve(InstructionSet wanted);
+
+}  // namespace talus

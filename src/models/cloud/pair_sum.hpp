@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The direct sum over all pairs of spheres that drag each other through a viscous fluid: Eqs 3b, 3c and the sum of
+/// Eq. 4a of Niiya, Awazu & Nishimori 2020.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/instruction_set.hpp"
+#include "base/parallel.hpp"
+#include "base/vector.hpp"
+#include "models/cloud/pair_sum/kernel.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
+
+namespace talus::cloud {
+
+/// The plane in which the spheres move, or all space. In a plane the third component of forces and positions is not
+/// read.
+enum class Motion { xy, xz, xyz };
+
+/// Arithmetic of the sum over pairs. `single_precision` computes the pairs in single precision, with positions relative
+/// to a near one, and adds blocks of them up in double precision.
+enum class Precision { double_precision, single_precision };
+
+/// Velocities of spheres under the forces on the others. The work is N^2/2 pairs, the memory some 1 kB a sphere.
+///
+/// The same bits for any number of threads. Instruction sets agree within 1e-14 of the largest sum over pairs of
+/// |M_ij F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from the processor's
+/// own estimate, whose bits are the maker's choice.
+class PairSum {
+ public:
+  struct Options {
+    hydrodynamics::Mobility mobility = hydrodynamics::Mobility::rotne_prager_1969;
+    Motion motion = Motion::xyz;
+    Precision precision = Precision::double_precision;
+    InstructionSet instruction_set = InstructionSet::automatic;
+    double viscosity = 0;  ///< Pa s, > 0
+  };
+
+  /// \param radius one a sphere, m, > 0
+  /// \param order as `reorder`
+  /// \throws InputError if the processor does not have the instruction set
+  PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order = {});
+
+  /// Sets the order in which the spheres are packed: a permutation, best one that keeps what is near in space near in
+  /// the order; empty: as they are. It changes the last bits, and in single precision it matters for the accuracy:
+  /// pairs lose digits in proportion to the extent of a block of 64 spheres over their distance.
+  /// \throws std::invalid_argument if the length is not the number of spheres
+  void reorder(std::span<const std::uint32_t> order);
+
+  /// velocity[i] = sum over j != i of M_ij F_j; the sphere's own Stokes drag is not in it. Overwrites; components
+  /// outside the plane of motion become 0. With the printed tensor two spheres at one place get a velocity that is not
+  /// finite; with zuk-2014 every configuration has a finite one.
+  /// \param position m; \param force N; \param velocity m/s; one a sphere, in the order of the radii
+  /// \throws std::invalid_argument if a length is not the number of spheres
+  void velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
+                  std::span<Vector3> velocity);
+
+  std::size_t size() const { return radius_.size(); }
+  InstructionSet instruction_set() const { return instruction_set_; }  ///< the one in use, never `automatic`
+
+ private:
+  struct Task {
+    std::size_t begin, end;  // rows
+    std::size_t offset;      // of its sums in sums_
+  };
+
+  void pack(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force);
+  void gather(ThreadTeam& team, std::span<Vector3> velocity) const;
+
+  Options options_;
+  InstructionSet instruction_set_;
+  int dimensions_;
+  std::array<double Vector3::*, 3> axis_;
+  SumRows sum_rows_ = nullptr;
+  double length_;       // m, unit of the packed numbers: the power of two at or below the largest radius
+  double speed_per_force_;  // 1/(8 pi mu length_)
+  std::vector<double> radius_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Task> tasks_;
+  std::vector<double> packed_;  // columns of padded_ numbers: positions, forces, radius
+  std::vector<double> sums_;    // velocities of each task, columns of its own length
+  PackedSpheres spheres_;
+};
+
+}  // namespace talus::cloud
+
+namespace talus {
+template <>
+inline constexpr auto choices<cloud::Motion> = std::to_array<std::string_view>({"xy", "xz", "xyz"});
+template <>
+inline constexpr auto choices<cloud::Precision> = std::to_array<std::string_view>({"double", "single"});
+}  // namespace talus
