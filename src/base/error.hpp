@@ -15,11 +15,11 @@ enum class ExitStatus : int { done = 0, not_met = 1, bad_input = 2, numerical = 
 
 /// One fault of the user's input.
 struct Problem {
-  std::string where;         ///< file name, or the option ("--set particles.count=x")
+  std::string where = {};    ///< file name, or the option ("--set particles.count=x")
   int line = 0;              ///< 1-based; 0: no line (a missing key, an option)
   int column = 0;            ///< 1-based; 0: not known
-  std::string key;           ///< dotted key, empty if none
-  std::string what;          ///< what is wrong
+  std::string key = {};      ///< dotted key, empty if none
+  std::string what = {};     ///< what is wrong
   std::string allowed = {};  ///< what is allowed, empty if `what` says it
   std::string nearest = {};  ///< nearest valid key or choice, empty if none is near
 };

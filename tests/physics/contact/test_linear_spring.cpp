@@ -27,7 +27,7 @@ TEST(LinearSpring, DoesNotPullAcrossAGap) {
 
 TEST(BuoyantWeight, IsEquation1) {
   // 5 mm of polystyrene in air: 4/3 pi a^3 g (20 - 1.2).
-  EXPECT_NEAR(hydrodynamics::buoyant_weight(5e-3, 20, 1.2, 9.81), 9.6565e-5, 1e-9);
+  EXPECT_NEAR(hydrodynamics::buoyant_weight(5e-3, 20, 1.2, 9.81), 9.65663e-5, 1e-10);
   EXPECT_LT(hydrodynamics::buoyant_weight(5e-3, 1, 1.2, 9.81), 0);
   const Vector3 down = hydrodynamics::downhill(0.3);
   EXPECT_DOUBLE_EQ(down.x, std::sin(0.3));
