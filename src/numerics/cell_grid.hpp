@@ -3,6 +3,7 @@
 /// memory and time are O(N log N) whatever the extent.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,10 +24,10 @@ class CellGrid {
   template <class Visit>
   void for_each_candidate(const Vector3& x, Visit&& visit) const {
     const Cell centre = cell_of(x);
-    for (std::int64_t k = centre.k - 1; k <= centre.k + 1; ++k)
-      for (std::int64_t j = centre.j - 1; j <= centre.j + 1; ++j) {
-        const Range row = points_in_row({centre.i - 1, j, k}, {centre.i + 1, j, k});
-        for (std::size_t n = row.begin; n < row.end; ++n) visit(order_[n]);
+    for (std::int64_t k = std::max(centre.k - 1, first_.k); k <= std::min(centre.k + 1, last_.k); ++k)
+      for (std::int64_t j = std::max(centre.j - 1, first_.j); j <= std::min(centre.j + 1, last_.j); ++j) {
+        const Range cells = points_in_row(centre.i - 1, centre.i + 1, j, k);
+        for (std::size_t n = cells.begin; n < cells.end; ++n) visit(order_[n]);
       }
   }
 
@@ -40,11 +41,17 @@ class CellGrid {
   struct Range {
     std::size_t begin, end;
   };
+  struct Row {
+    std::uint64_t key;  // of its cell i = 0
+    std::size_t begin;  // its first point in the order
+  };
   Cell cell_of(const Vector3& x) const;
-  Range points_in_row(Cell first, Cell last) const;
+  Range points_in_row(std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) const;
 
   Vector3 origin_;
   double cell_size_;
+  Cell first_{}, last_{};             // that hold points
+  std::vector<Row> rows_;             // that hold points, sorted; one more at the end
   std::vector<std::uint64_t> keys_;   // of each point, sorted
   std::vector<std::uint32_t> order_;  // the point with that key
 };

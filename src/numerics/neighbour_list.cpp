@@ -18,23 +18,24 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
 
   const double largest = *std::max_element(radius.begin(), radius.end());
   const CellGrid grid(position, 2 * largest + skin);
-  auto for_each_neighbour = [&](std::size_t i, auto&& visit) {
-    grid.for_each_candidate(position[i], [&](std::uint32_t j) {
-      const Vector3 d = position[i] - position[j];
-      const double reach = radius[i] + radius[j] + skin;
-      if (j != i && dot(d, d) <= reach * reach) visit(j);
-    });
-  };
-
-  for_each(team, count, [&](std::size_t i) { for_each_neighbour(i, [&](std::uint32_t) { ++first_[i + 1]; }); });
-  for (std::size_t i = 0; i < count; ++i) first_[i + 1] += first_[i];
-  neighbours_.resize(first_[count]);
-  for_each(team, count, [&](std::size_t i) {
-    std::size_t n = first_[i];
-    for_each_neighbour(i, [&](std::uint32_t j) { neighbours_[n++] = j; });
-    std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(first_[i]),
-              neighbours_.begin() + static_cast<std::ptrdiff_t>(first_[i + 1]));
+  const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
+  std::vector<std::vector<std::uint32_t>> found(chunks);
+  team.run(chunks, [&](std::size_t chunk) {
+    std::vector<std::uint32_t>& list = found[chunk];
+    for (std::size_t i = chunk * chunk_size; i < std::min(count, (chunk + 1) * chunk_size); ++i) {
+      const auto begin = static_cast<std::ptrdiff_t>(list.size());
+      grid.for_each_candidate(position[i], [&](std::uint32_t j) {
+        const Vector3 d = position[i] - position[j];
+        const double reach = radius[i] + radius[j] + skin;
+        if (dot(d, d) <= reach * reach && j != i) list.push_back(j);
+      });
+      std::sort(list.begin() + begin, list.end());
+      first_[i + 1] = list.size() - static_cast<std::size_t>(begin);
+    }
   });
+  for (std::size_t i = 0; i < count; ++i) first_[i + 1] += first_[i];
+  neighbours_.reserve(first_[count]);
+  for (const auto& list : found) neighbours_.insert(neighbours_.end(), list.begin(), list.end());
 }
 
 bool NeighbourList::holds(ThreadTeam& team, std::span<const Vector3> position) const {
