@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Whole files: written so that a reader, a kill or a full disk meets the old file or the new one, never a part.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace talus {
+
+/// Ending of the temporary name, in the same folder, under which a file is written. One that is left by a kill is
+/// replaced by the next write of the same file, and removed by --overwrite.
+inline constexpr std::string_view temporary_suffix = ".part";
+
+/// Writes `content` under a temporary name, flushes it to the disk, renames it to `path` and flushes the folder. The
+/// folder must exist and have room for the new file beside the old one.
+/// \throws FileError with the system's reason; the temporary is gone then and an older file at `path` is as it was
+///         (only where flushing the folder fails, after the renaming, is it already the new one)
+void write_atomically(const std::filesystem::path& path, std::string_view content);
+
+/// \throws FileError with the system's reason
+std::string read_whole_file(const std::filesystem::path& path);
+
+/// The text of an error number of the system: "No space left on device".
+std::string system_reason(int error_number);
+
+}  // namespace talus

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// series.csv: one header line with units, "time [s],step_size [s],...", then one row a step, each handed to the system
+/// as it is made. Numbers stand in the shortest form that reads back to the same bits.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/descriptor.hpp"
+#include "numerics/series.hpp"
+
+namespace talus {
+
+/// Name and unit of a column of a series.
+struct SeriesColumn {
+  std::string name;
+  std::string unit;
+};
+
+/// Writes a series. Every member throws FileError with the system's reason; what fails to be written whole is taken
+/// back, so that the rows before stay as they are.
+class SeriesWriter {
+ public:
+  /// Starts a new file; one that is there is replaced.
+  SeriesWriter(std::filesystem::path path, const std::vector<SeriesColumn>& columns);
+
+  /// Goes on after the first `rows` rows of a file; what stands behind them, a half-written line too, is cut off.
+  /// \throws FileError also if the file has other columns, or fewer whole rows
+  static SeriesWriter resume(std::filesystem::path path, const std::vector<SeriesColumn>& columns, std::uint64_t rows);
+
+  /// \param values one a column, in the columns' order; not finite ones are written as nan and inf
+  /// \throws std::invalid_argument for another number of values
+  void append(std::span<const double> values);
+
+  /// Rows in the file: what a checkpoint remembers and `resume` is given.
+  std::uint64_t position() const { return rows_; }
+
+  /// Takes all rows to the disk. To be called before a checkpoint that remembers `position()` is saved.
+  void sync() { file_.sync(); }
+
+ private:
+  SeriesWriter() = default;
+
+  Descriptor file_;
+  std::string line_;
+  std::size_t columns_ = 0;
+  std::size_t bytes_ = 0;
+  std::uint64_t rows_ = 0;
+};
+
+/// Reads a series; a last line without its end (a run in progress, or killed) is left out.
+/// \throws FileError if the file cannot be read or a row is not what the header says, with its line
+Series read_series(const std::filesystem::path& path);
+
+}  // namespace talus

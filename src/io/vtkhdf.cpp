@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/vtkhdf.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/hdf5.hpp"
+
+namespace talus {
+
+namespace {
+
+constexpr std::uint8_t vtk_vertex = 1;  // vtkCellType.h
+
+const std::string root = "VTKHDF";
+
+}  // namespace
+
+void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
+  const std::size_t count = snapshot.size();
+  hdf5::Writer file(path);
+  file.group(root);
+  file.attribute(root, "Type", "UnstructuredGrid");
+  file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
+
+  const std::vector<std::int64_t> one{static_cast<std::int64_t>(count)};
+  file.write(root + "/NumberOfPoints", one);
+  file.write(root + "/NumberOfCells", one);
+  file.write(root + "/NumberOfConnectivityIds", one);
+  std::vector<std::int64_t> numbers(count + 1);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  file.write(root + "/Offsets", numbers);
+  file.write(root + "/Connectivity", std::span<const std::int64_t>(numbers).first(count));
+  file.write(root + "/Types", std::vector<std::uint8_t>(count, vtk_vertex));
+
+  file.group(root + "/PointData");
+  for (const ColumnView& column : snapshot.columns) {
+    const std::string name = column.name == "position" ? "Points" : fmt::format("PointData/{}", column.name);
+    std::visit(
+        [&](const auto& values) {
+          if (values.size() != count)
+            throw std::invalid_argument(fmt::format("snapshot: column '{}' has {} entries for {} particles",
+                                                    column.name, values.size(), count));
+          file.write(root + "/" + name, values, column.unit);
+        },
+        column.values);
+  }
+
+  file.write(root + "/FieldData/time", std::vector<double>{snapshot.time}, "s");
+  file.write(root + "/FieldData/TimeValue", std::vector<double>{snapshot.time}, "s");
+  file.write(root + "/FieldData/step", std::vector<std::int64_t>{static_cast<std::int64_t>(snapshot.step)}, "1");
+  write_atomically(path, file.image());
+}
+
+namespace {
+
+using Kind = hdf5::Description::Kind;
+
+template <class T>
+std::vector<T> component(const std::vector<T>& values, std::size_t k, std::size_t components) {
+  std::vector<T> column(values.size() / components);
+  for (std::size_t i = 0; i < column.size(); ++i) column[i] = values[components * i + k];
+  return column;
+}
+
+/// Collects what is wrong with one file.
+class PointsReader {
+ public:
+  explicit PointsReader(const std::filesystem::path& path) : file_(path) {}
+
+  PointSet read() {
+    check_kind();
+    stop_at_problems();
+    read_positions();
+    if (file_.has(data_))
+      for (const std::string& name : file_.names(data_)) read_column(name);
+    read_time();
+    stop_at_problems();
+    return std::move(points_);
+  }
+
+ private:
+  void problem(const std::string& what, const std::string& allowed = {}) {
+    problems_.push_back({.where = file_.path().string(), .key = {}, .what = what, .allowed = allowed});
+  }
+  void stop_at_problems() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+
+  void check_kind() {
+    if (!file_.has(root)) return problem("no VTKHDF file: the group 'VTKHDF' is missing");
+    const std::string type = file_.text_attribute(root, "Type");
+    if (type != "UnstructuredGrid" && type != "PolyData")
+      problem("holds '" + type + "', not points", "UnstructuredGrid, PolyData");
+    const std::vector<std::int64_t> version = file_.integer_attribute(root, "Version");
+    if (version.empty() || version[0] < 1 || version[0] > 2)
+      problem(version.empty() ? "has no Version" : fmt::format("has VTKHDF version {}", version[0]), "1 and 2");
+    if (file_.has(root + "/Steps")) problem("holds several times in one file", "one file a time");
+    if (!file_.has(root + "/Points")) problem("has no 'VTKHDF/Points'");
+  }
+
+  void read_positions() {
+    const std::string name = root + "/Points";
+    const hdf5::Description description = file_.describe(name);
+    if (description.kind != Kind::real || description.shape.size() != 2 || description.shape[1] != 3)
+      return problem("'VTKHDF/Points' is not n x 3 reals");
+    count_ = description.shape[0];
+    points_.columns.push_back({"position", unit(name, "m"), file_.vectors(name)});
+  }
+
+  void read_column(const std::string& column) {
+    const std::string name = data_ + "/" + column;
+    const hdf5::Description description = file_.describe(name);
+    if (description.kind != Kind::real && description.kind != Kind::integer)
+      return problem("column '" + column + "' holds neither reals nor integers");
+    if (description.shape.empty() || description.shape.size() > 2 || description.entries() != count_)
+      return problem(fmt::format("column '{}' has {} entries for {} points", column, description.entries(), count_));
+    if (description.kind == Kind::real) {
+      if (description.components() == 3)
+        points_.columns.push_back({column, unit(name, "1"), file_.vectors(name)});
+      else
+        add_components(column, unit(name, "1"), file_.doubles(name), description.components());
+    } else if (!description.is_signed && description.element_bytes > 4 && exceeds_64_bits(name)) {
+      problem("column '" + column + "' holds integers beyond 2^63");
+    } else {
+      add_components(column, unit(name, "1"), file_.integers(name), description.components());
+    }
+  }
+
+  template <class T>
+  void add_components(const std::string& column, const std::string& unit, const std::vector<T>& values,
+                      std::size_t components) {
+    if (components == 1) return points_.columns.push_back({column, unit, values});
+    for (std::size_t k = 0; k < components; ++k)
+      points_.columns.push_back({fmt::format("{}_{}", column, k), unit, component(values, k, components)});
+  }
+
+  void read_time() {
+    const std::string fields = root + "/FieldData/";
+    for (const char* name : {"time", "TimeValue"})
+      if (file_.has(fields + name)) {
+        const std::vector<double> time = file_.doubles(fields + name);
+        if (time.size() != 1) return problem(fmt::format("field data '{}' is not one number", name));
+        points_.time = time[0];
+        break;
+      }
+    if (!file_.has(fields + "step")) return;
+    const std::vector<std::int64_t> step = file_.integers(fields + "step");
+    if (step.size() != 1 || step[0] < 0) return problem("field data 'step' is not one number >= 0");
+    points_.step = static_cast<std::uint64_t>(step[0]);
+  }
+
+  /// The library would turn an integer beyond the range into the nearest one; as a real it shows.
+  bool exceeds_64_bits(const std::string& name) const {
+    for (const double value : file_.doubles(name))
+      if (value >= 0x1.0p63) return true;
+    return false;
+  }
+
+  std::string unit(const std::string& name, const char* missing) const {
+    const std::string unit = file_.text_attribute(name, "units");
+    return unit.empty() ? missing : unit;
+  }
+
+  hdf5::Reader file_;
+  std::string data_ = root + "/PointData";
+  std::size_t count_ = 0;
+  std::vector<Problem> problems_;
+  PointSet points_;
+};
+
+}  // namespace
+
+PointSet read_points(const std::filesystem::path& path) {
+  return PointsReader(path).read();
+}
+
+}  // namespace talus

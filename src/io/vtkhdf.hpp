@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Particles as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
+///
+///     /VTKHDF               Type "UnstructuredGrid", Version [1, 0]; every particle is a point and a vertex cell
+///       Points  n x 3       the column "position"
+///       PointData/NAME      every other column: n or n x 3 doubles, or n 64-bit integers
+///       FieldData/time, step, TimeValue
+///
+/// Every data set with a unit carries it in the attribute "units".
+/// Source: VTK File Formats, "VTKHDF file format", https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/
+#pragma once
+
+#include <filesystem>
+
+#include "numerics/snapshot.hpp"
+
+namespace talus {
+
+/// Writes a snapshot, whole or not at all. The same snapshot gives the same bytes.
+/// \throws FileError with the system's reason
+/// \throws std::invalid_argument if columns differ in length (a fault of the model)
+void write_points(const std::filesystem::path& path, const Snapshot& snapshot);
+
+/// Reads an unstructured grid or poly data of one time, ours or another program's: points and data of points; cells are
+/// passed over. Reals of any width become doubles, integers 64 bits; columns of k components other than 3 become
+/// k columns NAME_0 ... A missing unit is "1"; positions are taken as metres. Time and step are 0 where not given.
+/// \throws FileError if the file cannot be read or is damaged
+/// \throws InputError if it is no such file: all that is wrong with it
+PointSet read_points(const std::filesystem::path& path);
+
+}  // namespace talus

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Snapshots as other programs read them: VTK 9.1's own reader, whose code ParaView 5.11 shares, and h5py.
+
+Usage: test_vtkhdf.py WRITER, where WRITER FOLDER writes two frames (write_sample_vtkhdf.cpp).
+"""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import VTK_VERTEX
+from vtkmodules.vtkIOHDF import vtkHDFReader
+
+WRITER = sys.argv.pop()
+COUNT = 100
+
+
+def expected(frame):
+    """Columns and their units, from the formulas of write_sample_vtkhdf.cpp."""
+    i = np.arange(COUNT)
+    return {
+        "position": (np.stack([i / 7.0, -i / 3.0, frame + i / 9.0], axis=1), "m"),
+        "velocity": (np.stack([1.0 / (i + 1), np.zeros(COUNT), -2.0 * i], axis=1), "m/s"),
+        "radius": (0.005 * (i + 1), "m"),
+        "packing_order": (2**53 + 1 - i, "1"),
+    }
+
+
+class Snapshots(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        subprocess.run([WRITER, cls.folder.name], check=True)
+        cls.files = [Path(cls.folder.name) / f"particles_000{frame}.vtkhdf" for frame in (0, 1)]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def read_with_vtk(self, file):
+        reader = vtkHDFReader()
+        self.assertTrue(reader.CanReadFile(str(file)))
+        reader.SetFileName(str(file))
+        reader.Update()
+        self.assertEqual(reader.GetErrorCode(), 0)
+        return reader.GetOutput()
+
+    def test_vtk_sees_points_cells_and_columns(self):
+        for frame, file in enumerate(self.files):
+            grid = self.read_with_vtk(file)
+            self.assertEqual(grid.GetClassName(), "vtkUnstructuredGrid")
+            self.assertEqual(grid.GetNumberOfPoints(), COUNT)
+            self.assertEqual(grid.GetNumberOfCells(), COUNT)
+            for i in range(COUNT):
+                self.assertEqual(grid.GetCellType(i), VTK_VERTEX)
+                self.assertEqual(grid.GetCell(i).GetNumberOfPoints(), 1)
+                self.assertEqual(grid.GetCell(i).GetPointId(0), i)
+            columns = expected(frame)
+            points = vtk_to_numpy(grid.GetPoints().GetData())
+            self.assertEqual(points.dtype, np.float64)
+            np.testing.assert_array_equal(points, columns.pop("position")[0])
+            data = grid.GetPointData()
+            self.assertEqual({data.GetArrayName(k) for k in range(data.GetNumberOfArrays())}, set(columns))
+            for name, (values, _) in columns.items():
+                found = vtk_to_numpy(data.GetArray(name))
+                self.assertEqual(found.dtype, values.dtype, name)
+                np.testing.assert_array_equal(found, values, name)
+
+    def test_vtk_sees_the_time(self):
+        for frame, file in enumerate(self.files):
+            fields = self.read_with_vtk(file).GetFieldData()
+            self.assertEqual({fields.GetArrayName(k) for k in range(fields.GetNumberOfArrays())},
+                             {"time", "step", "TimeValue"})
+            for name, value in (("time", 0.25 * frame), ("TimeValue", 0.25 * frame), ("step", 1000 * frame)):
+                self.assertEqual(fields.GetArray(name).GetNumberOfTuples(), 1)
+                self.assertEqual(fields.GetArray(name).GetTuple1(0), value)
+
+    def test_h5py_sees_values_and_units(self):
+        for frame, file in enumerate(self.files):
+            with h5py.File(file, "r") as opened:
+                root = opened["VTKHDF"]
+                self.assertEqual(root.attrs["Type"], b"UnstructuredGrid")
+                np.testing.assert_array_equal(root.attrs["Version"], [1, 0])
+                columns = expected(frame)
+                self.assertEqual(set(root["PointData"]), set(columns) - {"position"})
+                for name, (values, unit) in columns.items():
+                    data = root["Points"] if name == "position" else root["PointData"][name]
+                    self.assertEqual(data.attrs["units"].decode(), unit, name)
+                    self.assertEqual(data.dtype, values.dtype, name)
+                    np.testing.assert_array_equal(data[()], values, name)
+                self.assertEqual(root["FieldData/time"][0], 0.25 * frame)
+                self.assertEqual(root["FieldData/time"].attrs["units"], b"s")
+                self.assertEqual(root["FieldData/step"][0], 1000 * frame)
+
+
+if __name__ == "__main__":
+    unittest.main()

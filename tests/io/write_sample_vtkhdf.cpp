@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Writes the snapshots that test_vtkhdf.py reads with VTK and h5py; the numbers are given by formulas that stand there
+/// too. Usage: write_sample_vtkhdf FOLDER
+#include "io/vtkhdf.hpp"
+
+int main(int, char** arguments) {
+  for (int frame = 0; frame < 2; ++frame) {
+    std::vector<talus::Vector3> position, velocity;
+    std::vector<double> radius;
+    std::vector<std::int64_t> order;
+    for (int i = 0; i < 100; ++i) {
+      position.push_back({i / 7.0, -i / 3.0, frame + i / 9.0});
+      velocity.push_back({1.0 / (i + 1), 0.0, -2.0 * i});
+      radius.push_back(0.005 * (i + 1));
+      order.push_back((std::int64_t{1} << 53) + 1 - i);
+    }
+    const talus::PointSet points{.time = 0.25 * frame,
+                                 .step = 1000u * static_cast<unsigned>(frame),
+                                 .columns = {{"position", "m", position},
+                                             {"velocity", "m/s", velocity},
+                                             {"radius", "m", radius},
+                                             {"packing_order", "1", order}}};
+    talus::write_points(std::string(arguments[1]) + "/particles_000" + std::to_string(frame) + ".vtkhdf",
+                        points.view());
+  }
+}
