@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "io/run_folder.hpp"
 #include "numerics/named_value.hpp"
 #include "numerics/snapshot.hpp"
 #include "run/any_model.hpp"
@@ -30,18 +30,19 @@ struct LoopOptions {
 
 struct LoopResult {
   bool interrupted = false;
-  std::string reason;           ///< why, if interrupted
-  double wall_seconds = 0;      ///< of all sessions of this run together, without the start
-  double cpu_seconds = 0;       ///< the same, of all threads
-  std::uint64_t steps = 0;      ///< since the start of the run
+  std::string reason;       ///< why, if interrupted
+  double wall_seconds = 0;  ///< of all sessions of this run together, without the start
+  double cpu_seconds = 0;   ///< the same, of all threads
+  std::uint64_t steps = 0;  ///< since the start of the run
 };
 
-/// Runs a model to the end, or until it is interrupted. Each snapshot is taken at the end of the first step that reaches
-/// its time (no step is cut to an output time, so outputs do not change the bits); the last step's state is the last
-/// snapshot. A checkpoint is written at the start, now and then, on interruption and at the end.
-/// \throws NumericalError, FileError; checkpoints written before stay whole
-/// \throws InputError if there is nothing to resume, or the checkpoint belongs to another case
-LoopResult run_loop(AnyModel& model, ThreadTeam& team, const RunFolder& folder, const LoopOptions& options,
+/// Runs a model to the end, or until it is interrupted. Each snapshot is taken at the end of the first step that
+/// reaches its time (no step is cut to an output time, so outputs do not change the bits); the last step's state is the
+/// last snapshot. A checkpoint is written at the start, now and then, on interruption and at the end. With `resume` it
+/// goes on from the newest whole checkpoint, or begins where there is none; rows and snapshots written after that
+/// checkpoint are replaced. \param folder of the run, with a folder `snapshots` \throws NumericalError, FileError;
+/// checkpoints written before stay whole \throws InputError if the checkpoint belongs to another case
+LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
                     const std::vector<Observer>& observers);
 
 }  // namespace talus::run

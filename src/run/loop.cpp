@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/loop.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "base/error.hpp"
+#include "io/checkpoint.hpp"
+#include "io/series.hpp"
+#include "io/vtkhdf.hpp"
+#include "run/interrupt.hpp"
+#include "run/progress.hpp"
+
+namespace talus::run {
+
+namespace {
+
+/// Wall and processor time of this session on top of those of earlier ones.
+class Clock {
+ public:
+  void add(double wall, double cpu) { wall_ += wall, cpu_ += cpu; }
+  double wall() const { return wall_ + std::chrono::duration<double>(Wall::now() - start_).count(); }
+  double cpu() const { return cpu_ + processor_seconds() - cpu_start_; }
+
+ private:
+  using Wall = std::chrono::steady_clock;
+  static double processor_seconds() {
+    timespec t{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+  Wall::time_point start_ = Wall::now();
+  double cpu_start_ = processor_seconds();
+  double wall_ = 0, cpu_ = 0;
+};
+
+std::vector<NamedValue> row_of(const AnyModel& model, const std::vector<Observer>& observers) {
+  std::vector<NamedValue> row = {{"time", "s", model.time()}, {"step", "1", static_cast<double>(model.step())}};
+  for (NamedValue& value : model.totals()) row.push_back(std::move(value));
+  const Snapshot snapshot = model.snapshot();
+  for (const Observer& observe : observers)
+    for (NamedValue& value : observe(snapshot)) row.push_back(std::move(value));
+  return row;
+}
+
+std::vector<SeriesColumn> columns_of(const std::vector<NamedValue>& row) {
+  std::vector<SeriesColumn> columns;
+  for (const NamedValue& value : row) columns.push_back({value.name, value.unit});
+  return columns;
+}
+
+void append(SeriesWriter& series, const std::vector<NamedValue>& row) {
+  std::vector<double> values;
+  for (const NamedValue& value : row) values.push_back(value.value);
+  series.append(values);
+}
+
+}  // namespace
+
+LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
+                    const std::vector<Observer>& observers) {
+  Clock clock;
+  CheckpointFiles checkpoints(folder);
+  std::uint64_t next_snapshot = 0;
+
+  auto take_snapshot = [&] {
+    write_points(folder / "snapshots" / fmt::format("particles_{:04}.vtkhdf", next_snapshot), model.snapshot());
+    ++next_snapshot;
+  };
+  auto snapshot_is_due = [&] { return model.time() >= static_cast<double>(next_snapshot) * options.snapshot_interval; };
+
+  // Where a run stands: begun now, or as the newest whole checkpoint left it.
+  std::optional<CheckpointReader> checkpoint;
+  if (options.resume) checkpoint = checkpoints.load();
+  std::optional<SeriesWriter> series;
+  if (checkpoint) {
+    if (checkpoint->fingerprint() != options.fingerprint)
+      throw InputError({{.where = checkpoint->path().string(),
+                         .what = "this run was made with another case",
+                         .allowed = "the same case to resume (only run.end may be later), or --overwrite"}});
+    model.resume(team, *checkpoint);
+    std::uint64_t rows = 0;
+    double wall = 0, cpu = 0;
+    checkpoint->get("run/rows", rows);
+    checkpoint->get("run/snapshots", snapshots);
+    checkpoint->get("run/snapshot_step", snapshot_step);
+    checkpoint->get("run/next_snapshot_time", next_snapshot_time);
+    checkpoint->get("run/wall_seconds", wall);
+    checkpoint->get("run/cpu_seconds", cpu);
+    clock.add(wall, cpu);
+    series = SeriesWriter::resume(folder / "series.csv", columns_of(row_of(model, observers)), rows);
+  } else {
+    model.begin(team);
+    const std::vector<NamedValue> row = row_of(model, observers);
+    series.emplace(folder / "series.csv", columns_of(row));
+    append(*series, row);
+    take_snapshot();
+  }
+
+  auto save = [&] {
+    series->sync();
+    CheckpointWriter writer(options.fingerprint);
+    model.save(writer);
+    writer.put("run/rows", series->position());
+    writer.put("run/snapshots", snapshots);
+    writer.put("run/snapshot_step", snapshot_step);
+    writer.put("run/next_snapshot_time", next_snapshot_time, "s");
+    writer.put("run/wall_seconds", clock.wall());
+    writer.put("run/cpu_seconds", clock.cpu());
+    checkpoints.save(writer);
+  };
+  if (!checkpoint) save();
+
+  Interrupt interrupt(folder / "stop", options.walltime
+                                           ? std::optional(std::chrono::duration<double>(*options.walltime))
+                                           : std::nullopt);
+  Progress progress(stderr, model.time(), options.end);
+  double last_checkpoint = clock.wall();
+  LoopResult result;
+  while (model.time() < options.end) {
+    if (const auto reason = interrupt.reason()) {
+      result.interrupted = true;
+      result.reason = *reason;
+      break;
+    }
+    model.advance(team);
+    append(*series, row_of(model, observers));
+    if (model.time() >= next_snapshot_time) take_snapshot();
+    if (clock.wall() - last_checkpoint > options.checkpoint_interval) {
+      save();
+      last_checkpoint = clock.wall();
+    }
+    progress.update(model.time(), [&] {
+      return fmt::format("t = {:.4g} s of {:.4g} s  step {}  {:.3g} steps/s", model.time(), options.end, model.step(),
+                         static_cast<double>(model.step()) / clock.wall());
+    });
+  }
+  progress.finish();
+  save();
+  // Where the end falls between two snapshots its state is written all the same, but not counted: a later end takes the
+  // number.
+  if (!result.interrupted && snapshot_step != model.step()) write_snapshot(snapshots);
+  result.wall_seconds = clock.wall();
+  result.cpu_seconds = clock.cpu();
+  result.steps = model.step();
+  return result;
+}
+
+}  // namespace talus::run
