@@ -119,16 +119,18 @@ TEST(Heads, AWeakHeadTakesItsOwnLargestNumberForItsRim) {
 }
 
 TEST(Heads, ARimBelongsToTheNearestHeadOnly) {
-  // A weak head beside a strong one: what is thinner than the strong head's rim allows does not fall to the weak one.
+  // A strong head and a weak one, joined by a band that is too thin for the first (n' = 20² < 44² / 4) but not for the
+  // second (> 28² / 4): its half of the band falls to the weak head, the other half to none.
   Points points = test::block({0, 0, 0}, 20, 20, 1);
-  test::append(points, test::block({0, 22, 0}, 16, 16, 1.3));
-  const NeighbourNumbers numbers = neighbour_numbers(Links(points, 4));
-  const auto heads = find_heads(points, 1, {.least = 20});
-  for (const GrainSet& head : heads)
-    for (const std::uint32_t i : head)
-      if (i < 400) {
-        EXPECT_GT(numbers.indirect[i], 484u);
-      }
+  test::append(points, test::block({0, 60, 0}, 16, 16, 1.3));
+  test::append(points, test::block({0, 20.5, 0}, 12, 25, 1.6));
+  const auto heads = find_heads(points, 1);
+  ASSERT_EQ(heads.size(), 2u);
+  double rearmost = 1e9;
+  for (const std::uint32_t i : heads[1]) rearmost = std::min(rearmost, points[i].y);
+  EXPECT_GT(rearmost, 37) << "a link is at most 4 long, so the band is parted near its middle at 40";
+  EXPECT_LT(rearmost, 43);
+  for (const std::uint32_t i : heads[0]) EXPECT_LT(points[i].y, 27);
 }
 
 TEST(Heads, ByDirectNeighboursTheHeadReachesFartherBack) {

@@ -30,6 +30,20 @@ TEST(VelocityGradient, IsExactForAnAffineField) {
   }
 }
 
+TEST(VelocityGradient, OfAFieldThatIsNotAffineIsThatOfTheNearestOne) {
+  // The corners of a square, one of which moves: from all four, the grain itself among them, half along each side.
+  const Points points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const std::vector<Vector3> velocity = {{}, {}, {}, {1, 0, 0}};
+  const Links links(points, 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto gradient = velocity_gradient(points, velocity, links, i);
+    ASSERT_TRUE(gradient);
+    EXPECT_NEAR(gradient->xx, 0.5, 1e-15);
+    EXPECT_NEAR(gradient->xy, 0.5, 1e-15);
+    EXPECT_NEAR(gradient->yx, 0, 1e-15);
+  }
+}
+
 TEST(VelocityGradient, NeedsThreeGrainsOffOneLine) {
   const Points points = {{0, 0, 0}, {0.1, 0.3, 0}, {0.2, 0.6, 0}, {50, 0, 0}, {51, 0, 0}, {51, 1, 0}};
   const std::vector<Vector3> velocity(6);
@@ -117,6 +131,13 @@ TEST(HeadTail, TheHeadReachesFromTheFrontOverTheCrest) {
   EXPECT_EQ(profile.crest, 2u);
   EXPECT_EQ(profile.head_columns, 4u);
   EXPECT_DOUBLE_EQ(profile.rear_thickness(), 3.5);  // of 5, 12, 2, 2
+}
+
+TEST(HeadTail, OfAnOddNumberOfColumnsTheMiddleOneBelongsToTheFront) {
+  const Points points = {{0, 0, 1}, {-4, 0, 11}, {-8, 0, 2}};
+  const ThicknessProfile profile = thickness_profile(points, std::vector<double>(3, 1.0), 1, {.stragglers = 0});
+  EXPECT_EQ(profile.crest, 1u);
+  EXPECT_DOUBLE_EQ(profile.rear_thickness(), 3);
 }
 
 TEST(HeadTail, OfOneGrainAndOfNone) {

@@ -73,7 +73,7 @@ TEST(GaussianFit, NeedsThreeOccupiedBins) {
 }
 
 TEST(AndersonDarling, StatisticIsTheDefiningIntegral) {
-  // n times the integral of (F_n - F)² / (F (1 - F)) dF, by the midpoint rule between the order statistics: independent
+  // n times the integral of (F_n - F)² / (F (1 - F)) dF, by the midpoint rule between the order statistics; independent
   // of the sum that the code uses.
   std::vector<double> sample = {148, 154, 158, 160, 161, 162, 166, 170, 182, 195, 236};
   const double centre = mean(sample), deviation = standard_deviation(sample), count = 11;
