@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// "Did you mean ...?": the nearest of several words.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace talus {
+
+/// Insertions, deletions, substitutions and swaps of neighbours (optimal string alignment) that turn one word into the
+/// other; large and small letters are the same, as are '-', '_' and ' '.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate that `word` is most likely a slip of; of equals, the first; empty if none is near. Near is: a quarter
+/// of the letters and one more, or the beginning of the candidate (three letters at least).
+std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
+
+}  // namespace talus
