@@ -119,16 +119,15 @@ std::string to_string(Decimal decimal) {
   if (digits == "0") decimal.exponent = 0;
   const int size = static_cast<int>(digits.size());
   const int point = size + decimal.exponent;  // the decimal point stands after so many digits
-  std::string text(decimal.negative ? 1 : 0, '-');
+  const std::string_view sign = decimal.negative ? "-" : "";
   if (point > 16 || point < -3) {
-    text += digits.substr(0, 1);
-    if (size > 1) text += "." + digits.substr(1);
-    return text + fmt::format("e{:+03d}", point - 1);
+    if (size > 1) digits.insert(1, 1, '.');
+    return fmt::format("{}{}e{:+03d}", sign, digits, point - 1);
   }
-  if (point <= 0) return text + "0." + std::string(static_cast<std::size_t>(-point), '0') + digits;
-  if (point >= size) return text + digits + std::string(static_cast<std::size_t>(point - size), '0');
-  return text + digits.substr(0, static_cast<std::size_t>(point)) + "." +
-         digits.substr(static_cast<std::size_t>(point));
+  if (point > size) digits.append(static_cast<std::size_t>(point - size), '0');
+  if (point <= 0) digits.insert(0, static_cast<std::size_t>(1 - point), '0');
+  if (point < size) digits.insert(static_cast<std::size_t>(std::max(point, 1)), 1, '.');
+  return fmt::format("{}{}", sign, digits);
 }
 
 }  // namespace talus
