@@ -34,15 +34,19 @@ std::size_t edit_distance(std::string_view first, std::string_view second) {
   return row[b.size()];
 }
 
+std::optional<std::size_t> slips(std::string_view word, std::string_view candidate) {
+  const std::size_t distance = edit_distance(word, candidate);
+  const bool begins = word.size() >= 3 && folded(candidate).starts_with(folded(word));
+  if (begins) return std::min<std::size_t>(distance, 1);
+  return distance <= 1 + word.size() / 4 ? std::optional(distance) : std::nullopt;
+}
+
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {
-  const std::string start = folded(word);
   std::string_view best;
-  std::size_t least = 2 + word.size() / 4;
-  for (const std::string_view candidate : candidates) {
-    std::size_t distance = edit_distance(word, candidate);
-    if (start.size() >= 3 && folded(candidate).starts_with(start)) distance = std::min<std::size_t>(distance, 1);
-    if (distance < least) best = candidate, least = distance;
-  }
+  std::optional<std::size_t> least;
+  for (const std::string_view candidate : candidates)
+    if (const auto count = slips(word, candidate); count && (!least || *count < *least))
+      best = candidate, least = count;
   return best;
 }
 
