@@ -24,6 +24,7 @@ struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   bool roomy = false;      ///< something reaches beyond its values, as a point does
   bool from_zero = false;  ///< bars stand on zero
+  bool symbols = false;    ///< a symbol at zero shall not stand on the other axis
 
   bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0); }
   void add(double value) {
@@ -46,7 +47,7 @@ void add_series(const Series& series, Extent& x, Extent& y) {
   std::visit(Overloaded{[&](const Line& s) { add_points(s.x, s.y, {}, s.spread, x, y); },
                         [&](const Points& s) {
                           add_points(s.x, s.y, s.x_error, s.y_error, x, y);
-                          x.roomy = true;
+                          x.roomy = x.symbols = true;
                         },
                         [&](const Band& s) {
                           add_points(s.x, s.low, {}, {}, x, y);
@@ -82,7 +83,8 @@ void choose(const Axis& axis, Extent extent, Scale& scale) {
     }
     const bool on_zero = low >= 0 && (extent.from_zero || low <= 0.25 * high);
     const double range = high - (on_zero ? 0 : low);
-    low = on_zero ? 0 : low - room * range;
+    const bool stands_on_axis = extent.symbols && low <= 0.02 * range;
+    low = !on_zero ? low - room * range : stands_on_axis ? -0.03 * range : 0;
     high += room * range;
   }
   scale.logarithmic = axis.logarithmic;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "io/figure/particle_layers.hpp"
@@ -84,6 +85,29 @@ void draw_plane(cairo_t* context, const ParticlePicture& picture, const Ground& 
   cairo_fill(context);
 }
 
+/// A patch for a label, on that side of the middle or of an end of a line where it covers the least.
+Rectangle place_beside(const Obstacle& from, const Obstacle& to, const TextExtent& label,
+                       const std::vector<Obstacle>& obstacles) {
+  const double width = label.width + 3, height = label.ascent + label.descent + 3, gap = 4;
+  const bool steep = std::abs(to.y - from.y) > std::abs(to.x - from.x);
+  Rectangle best;
+  auto fewest = std::numeric_limits<std::ptrdiff_t>::max();
+  for (const double t : {0.5, 0.85, 0.15}) {
+    const double x = from.x + t * (to.x - from.x), y = from.y + t * (to.y - from.y);
+    for (const double side : {1.0, -1.0}) {
+      const Rectangle patch{x + (steep ? side * (gap + 0.5 * width) : 0) - 0.5 * width,
+                            y + (steep ? 0 : -side * (gap + 0.5 * height)) - 0.5 * height, width, height};
+      const auto covered = std::count_if(obstacles.begin(), obstacles.end(),
+                                         [&](const Obstacle& point) { return patch.contains(point.x, point.y); });
+      if (covered < fewest) {
+        fewest = covered;
+        best = patch;
+      }
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void draw_slope(cairo_t* context, const ParticlePicture& picture, const Projection& p) {
@@ -113,15 +137,11 @@ void draw_segments(cairo_t* context, const ParticlePicture& picture, const Proje
       obstacles.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
     }
     if (segment.label.empty()) continue;
-    // Beside the middle, on a patch of white: to the right of steep lines, above flat ones.
     const TextExtent extent = text_extent(context, segment.label, label_style);
-    const bool steep = std::abs(to.y - from.y) > std::abs(to.x - from.x);
-    const double height = extent.ascent + extent.descent;
-    const double x = 0.5 * (from.x + to.x) + (steep ? 5 : -0.5 * extent.width);
-    const double y = 0.5 * (from.y + to.y) + (steep ? 0.5 * height : -5) - (steep ? extent.descent : extent.descent);
-    const Rectangle patch{x - 1.5, y - extent.ascent - 1.5, extent.width + 3, height + 3};
+    const Rectangle patch = place_beside(from, to, extent, obstacles);
     fill_rectangle(context, patch, with_alpha(white, 0.8));
-    draw_text(context, segment.label, x, y, {label_style.size, segment.colour});
+    draw_text(context, segment.label, patch.x + 1.5, patch.bottom() - 1.5 - extent.descent,
+              {label_style.size, segment.colour});
     block(patch, obstacles);
   }
 }

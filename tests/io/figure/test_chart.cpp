@@ -79,6 +79,9 @@ TEST(Axes, BeginAtZeroUnderBarsAndDataThatComeNearIt) {
   EXPECT_EQ(frame_of({.series = {Line{.x = {0, 40}, .y = {1, 50}}}}, plot).y.low, 0);
   EXPECT_EQ(frame_of({.series = {Line{.x = {0, 40}, .y = {1, 50}}}}, plot).x.high, 40);
   EXPECT_GT(frame_of({.series = {Line{.x = {0, 1}, .y = {49, 50}}}}, plot).y.low, 48);
+  const Frame points = frame_of({.series = {Points{.x = {0, 40}, .y = {1, 50}}}}, plot);
+  EXPECT_LT(points.x.low, 0) << "a symbol does not stand on the other axis";
+  EXPECT_EQ(points.y.low, 0);
   const Frame flat = frame_of({.series = {Line{.x = {1, 1}, .y = {-3, -3}}}}, plot);
   EXPECT_LT(flat.x.low, 1);
   EXPECT_GT(flat.x.high, 1);

@@ -203,6 +203,37 @@ TEST(ParticlePicture, ArrowsPointAlongTheirVectors) {
   EXPECT_EQ(picture.at(40, 50), white);
 }
 
+TEST(ParticlePicture, SegmentsRunFromEndToEnd) {
+  Scene scene({}, {});
+  scene.picture.segments = {{.from = {0.2, 0.9, 0}, .to = {1.8, 0.9, 0}, .colour = vermillion}};
+  const Picture picture = scene.drawn();
+  int run = 0;
+  for (int x = 0; x < 200; ++x)
+    run += difference(picture.at(x, 9), white) > 0.2 || difference(picture.at(x, 10), white) > 0.2;
+  EXPECT_NEAR(run, 160, 1);
+}
+
+TEST(ParticlePicture, LabelsOfSegmentsCoverAsLittleAsTheyCan) {
+  // A wall of discs right of an upright line: the label goes to its left.
+  std::vector<Vector3> positions;
+  for (int i = 0; i < 60; ++i) {
+    for (int j = 0; j < 60; ++j) positions.push_back({1.02 + 0.02 * (i % 30), 1.0 / 60 * j, 0});
+  }
+  Scene scene(positions, std::vector<double>(positions.size(), 0.01));
+  scene.picture.colouring = Plain{blue};
+  scene.picture.segments = {{.from = {1, 0.1, 0}, .to = {1, 0.9, 0}, .label = "HHH", .colour = vermillion}};
+  const Picture picture = scene.drawn();
+  int left = 0, right = 0;
+  for (int y = 5; y < 95; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      const bool label = difference(picture.at(x, y), vermillion) < 0.25;
+      left += label && x < 97, right += label && x > 103;
+    }
+  }
+  EXPECT_GT(left, 20);
+  EXPECT_EQ(right, 0);
+}
+
 TEST(ParticlePicture, ScaleBarIsAsLongAsItSays) {
   Scene scene({}, {});  // 2 m wide: the largest round length up to 0.28 of that is 0.5 m, 50 pixels
   const Picture picture = scene.drawn();
