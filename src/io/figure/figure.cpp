@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "io/whole_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace talus::figure {
 
@@ -109,7 +109,7 @@ std::string png(const Figure& figure) {
 }
 
 void write_png(const Figure& figure, const std::filesystem::path& path) {
-  write_whole_file(path, png(figure));
+  write_atomically(path, png(figure));
 }
 
 }  // namespace talus::figure

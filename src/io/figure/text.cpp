@@ -157,3 +157,10 @@ void draw_text(cairo_t* context, std::string_view text, double x, double y, cons
 }
 
 }  // namespace talus::figure
+
+#ifdef __SANITIZE_ADDRESS__
+/// Fontconfig keeps its fonts until the process ends, which the leak check would report.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libfontconfig";
+}
+#endif

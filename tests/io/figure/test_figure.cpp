@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/figure/figure.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 #include "base/error.hpp"
 #include "io/figure/picture.hpp"
+#include "io/scratch_folder.hpp"
 
 namespace talus::figure {
 namespace {
 
-namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 Chart with_line(const Colour& colour) {
   return {.title = "*ṽ*_{f}", .x = {"*t̃*"}, .series = {Line{.x = {0, 1}, .y = {0, 1}, .colour = colour, .width = 3}}};
@@ -88,34 +89,34 @@ TEST(Figure, RefusesWhatCannotBeDrawn) {
 }
 
 TEST(WritePng, WritesTheFileWhole) {
-  const fs::path folder = fs::path(testing::TempDir()) / "talus_figure_whole";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const ScratchFolder folder;
   const Figure figure{.panels = {with_line(blue)}};
-  std::ofstream(folder / "curve.png") << "an older file";
+  put_content(folder / "curve.png", "an older file");
   write_png(figure, folder / "curve.png");
-  std::ifstream file(folder / "curve.png", std::ios::binary);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), png(figure));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
-  fs::remove_all(folder);
+  EXPECT_EQ(content_of(folder / "curve.png"), png(figure));
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("curve.png"));
 }
 
 TEST(WritePng, FailsWithTheNameAndLeavesNothing) {
-  const fs::path folder = fs::path(testing::TempDir()) / "talus_figure_fails";
-  fs::remove_all(folder);
-  fs::create_directories(folder / "taken.png");  // a folder stands where the file should
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "taken.png");  // a folder stands where the file should
   const Figure figure{.panels = {with_line(blue)}};
-  for (const fs::path& path : {folder / "taken.png", folder / "missing" / "curve.png"}) {
-    try {
-      write_png(figure, path);
-      FAIL() << path;
-    } catch (const FileError& error) {
-      EXPECT_EQ(error.path(), path.string());
-    }
+  for (const auto& path : {folder / "taken.png", folder / "missing/curve.png"}) {
+    EXPECT_THAT(message_of<FileError>([&] { write_png(figure, path); }), HasSubstr(path.string()));
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
-  EXPECT_TRUE(fs::is_directory(folder / "taken.png"));
-  fs::remove_all(folder);
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("taken.png"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "taken.png"));
+}
+
+TEST(WritePng, KeepsTheOlderPictureWhenTheDiskIsFull) {
+  const SmallDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "needs the right to mount a small disk";
+  put_content(disk / "filling", std::string(1'036'000, 'x'));
+  put_content(disk / "curve.png", "old");
+  EXPECT_THAT(message_of<FileError>([&] { write_png({.panels = {with_line(blue)}}, disk / "curve.png"); }),
+              HasSubstr("No space left"));
+  EXPECT_EQ(content_of(disk / "curve.png"), "old");
+  EXPECT_THAT(names_in(disk.path()), ElementsAre("curve.png", "filling"));
 }
 
 }  // namespace
