@@ -128,8 +128,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
   prepared.forecast = [p, run, grains] { return forecast(p, run, grains()); };
-  const CloudFrame frame{p.particles.radius, cloud::scales(p).stokes_speed, p.motion,
-                         p.slope.enabled ? p.slope.angle : 0, p.slope.enabled};
+  const CloudFrame frame{{p.particles.radius, cloud::scales(p).stokes_speed}, p.motion, p.slope.enabled};
   prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
   prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {
     return draw_cloud(folder, frame, title);
