@@ -9,13 +9,13 @@
 
 namespace talus {
 
-struct Quantity {
+struct QuantityDefinition {
   std::string_view name;
   std::string_view unit;  ///< SI; "deg" for angles, "1" for numbers
   std::string_view text;
 };
 
-inline constexpr auto quantities = std::to_array<Quantity>({
+inline constexpr auto quantities = std::to_array<QuantityDefinition>({
     {"front_speed_max", "1", "largest front speed over v_s, each over 0.25 a/v_s"},
     {"front_speed_min", "1", "least front speed over v_s, each over 0.25 a/v_s"},
     {"front_speed_end", "1", "front speed over v_s at the end of the run"},
@@ -62,9 +62,9 @@ inline constexpr auto quantities = std::to_array<Quantity>({
 });
 
 /// The quantity of that name; nullptr if there is none.
-constexpr const Quantity* find_quantity(std::string_view name) {
+constexpr const QuantityDefinition* find_quantity(std::string_view name) {
   const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [&](const Quantity& quantity) { return quantity.name == name; });
+                                  [&](const QuantityDefinition& quantity) { return quantity.name == name; });
   return found == quantities.end() ? nullptr : &*found;
 }
 

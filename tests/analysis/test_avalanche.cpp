@@ -249,7 +249,7 @@ TEST(Reference, EveryRowOfThePaperCanBeEvaluated) {
   const std::vector<ComparisonRow> rows = test::reference_rows();
   EXPECT_EQ(rows.size(), 56u);
   for (const ComparisonRow& row : rows) {
-    const Quantity* quantity = find_quantity(row.quantity);
+    const QuantityDefinition* quantity = find_quantity(row.quantity);
     ASSERT_NE(quantity, nullptr) << row.id;
     EXPECT_EQ(quantity->unit, row.unit) << row.id;
     if (row.from == From::parameters) continue;

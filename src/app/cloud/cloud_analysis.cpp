@@ -42,7 +42,7 @@ void write_table(const std::filesystem::path& path, const std::vector<SeriesColu
 
 std::string unit_in_table(std::string_view name) {
   if (name == "time") return "a/v_s";
-  const Quantity* quantity = find_quantity(name);
+  const QuantityDefinition* quantity = find_quantity(name);
   return quantity ? std::string(quantity->unit) : "1";
 }
 

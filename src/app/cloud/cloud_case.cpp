@@ -89,8 +89,10 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grai
 
 ParameterList cloud_parameters() {
   ParameterList list;
-  for_each_parameter(list, run::RunParameters{});
-  for_each_parameter(list, Parameters{});
+  const run::RunParameters run;
+  const Parameters parameters;
+  for_each_parameter(list, run);
+  for_each_parameter(list, parameters);
   return list;
 }
 
