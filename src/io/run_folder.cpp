@@ -93,14 +93,18 @@ bool holds_manifest(const RunFolder& folder) {
   }
 }
 
-/// Whether the folder, which is not empty, may be used. Changes nothing.
-void check(const RunFolder& folder, Existing existing) {
+/// Whether the folder holds nothing but what a run leaves that is killed before its manifest is in place.
+bool is_fresh(const RunFolder& folder) {
   const std::vector<std::string> names = names_in(folder.path());
-  // All that a run leaves that was killed before its manifest was in place.
-  const std::string unfinished = folder.manifest().filename().string() + std::string(temporary_suffix);
-  const bool is_fresh =
-      std::all_of(names.begin(), names.end(), [&](const std::string& name) { return name == unfinished; });
-  if (is_fresh) return;
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return name == folder.manifest().filename().string() + std::string(temporary_suffix) ||
+           (name == folder.snapshots().filename() && names_in(folder.snapshots()).empty());
+  });
+}
+
+/// Whether the folder may be used. Changes nothing.
+void check(const RunFolder& folder, Existing existing) {
+  if (is_fresh(folder)) return;
   const bool has_run = holds_manifest(folder);
   switch (existing) {
     case Existing::refuse:
@@ -112,7 +116,7 @@ void check(const RunFolder& folder, Existing existing) {
       return;
     case Existing::overwrite:
       if (has_run) return;
-      for (const std::string& name : names)
+      for (const std::string& name : names_in(folder.path()))
         if (is_run_file(name) || name == folder.snapshots().filename())
           refuse(folder.path(),
                  fmt::format("holds '{}', but no run of Talus (no manifest.json); nothing is overwritten", name),

@@ -37,12 +37,19 @@ TEST(RunFolder, IsMadeWithItsParents) {
     EXPECT_EQ(RunFolder::create(path, existing).path(), path);
     EXPECT_THAT(names_in(path), ElementsAre("snapshots"));
   }
-  // An empty folder, and one left by a run that was killed before its manifest was in place, are as good as none.
+}
+
+TEST(RunFolder, IsAsGoodAsNewUntilItsManifestIsInPlace) {
+  const ScratchFolder scratch;
   std::filesystem::create_directory(scratch / "empty");
   RunFolder::create(scratch / "empty", Existing::resume);
-  std::filesystem::create_directory(scratch / "killed");
-  put_content(scratch / "killed/manifest.json.part", "{");
-  RunFolder::create(scratch / "killed", Existing::refuse);
+  for (const Existing existing : {Existing::refuse, Existing::resume, Existing::overwrite}) {
+    RunFolder::create(scratch / "killed", Existing::refuse);
+    put_content(scratch / "killed/manifest.json.part", "{");
+    EXPECT_EQ(RunFolder::create(scratch / "killed", existing).path(), scratch / "killed");
+  }
+  put_content(scratch / "killed/snapshots/mine", "");
+  EXPECT_THAT(refusal(scratch / "killed", Existing::overwrite), HasSubstr("holds 'snapshots', but no run of Talus"));
 }
 
 TEST(RunFolder, NamesSnapshotsSoThatTheyAreASeries) {
