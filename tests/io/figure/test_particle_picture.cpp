@@ -304,12 +304,18 @@ TEST(ParticlePicture, FramesOfAMovieShareTheirScale) {
   EXPECT_GT(frames[0].window->right, 53.1);
 }
 
-TEST(ParticlePicture, RefusesColumnsOfDifferentLengths) {
+TEST(ParticlePicture, RefusesDescriptionsThatMakeNoSense) {
   Scene scene({{0, 0, 0}}, {0.1, 0.2});
   EXPECT_THROW(check(scene.picture), std::invalid_argument);
   Scene values({{0, 0, 0}}, {0.1});
   values.picture.colouring = ByValue{};
   EXPECT_THROW(check(values.picture), std::invalid_argument);
+  Scene colours({}, {});
+  colours.picture.colouring = ByValue{.low = 2, .high = 1};
+  EXPECT_THROW(check(colours.picture), std::invalid_argument);
+  Scene unit({}, {});
+  unit.picture.length = {0, "a"};
+  EXPECT_THROW(check(unit.picture), std::invalid_argument);
   Scene window({}, {});
   window.picture.window = Window{1, 1, 0, 1};
   EXPECT_THROW(window_of(window.picture), std::invalid_argument);
