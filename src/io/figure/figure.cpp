@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The layout: what stands around each plot is measured first, and what is left of the width is shared by the columns;
-/// the heights follow from the shapes of the plots. As the numbers on an axis depend on its length, that is done twice.
+/// the heights follow from the shapes of the plots. The numbers on an axis depend on its length, so that is repeated;
+/// after three passes nothing changes any more.
 #include "io/figure/figure.hpp"
 
 #include <fmt/format.h>
