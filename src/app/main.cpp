@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   talus::app::add_run_command(app, action);
   talus::app::add_check_command(app, action);
   talus::app::add_ensemble_command(app, action);
+  talus::app::add_compare_command(app, action);
+  talus::app::add_reproduce_command(app, action);
   talus::app::add_schema_command(app, action);
 
   auto fail = [](ExitStatus status, const std::string& message) {

@@ -85,7 +85,21 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grai
   return f;
 }
 
+CloudFrame frame_of(const Parameters& p) {
+  return {{p.particles.radius, cloud::scales(p).stokes_speed}, p.motion, p.slope.enabled};
+}
+
 }  // namespace
+
+CloudStudy study_of(const CaseFile& file) {
+  Parameters p;
+  run::RunParameters run;
+  ParameterReader reader(file);
+  run::for_each_parameter(reader, run);
+  cloud::for_each_parameter(reader, p);
+  reader.finish();
+  return {frame_of(p), cloud::scales(p).contact_ratio};
+}
 
 ParameterList cloud_parameters() {
   ParameterList list;
@@ -130,7 +144,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
   prepared.forecast = [p, run, grains] { return forecast(p, run, grains()); };
-  const CloudFrame frame{{p.particles.radius, cloud::scales(p).stokes_speed}, p.motion, p.slope.enabled};
+  const CloudFrame frame = frame_of(p);
   prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
   prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {
     return draw_cloud(folder, frame, title);
