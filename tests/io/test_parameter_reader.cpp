@@ -309,6 +309,19 @@ TEST(ParameterReader, ContradictionsGetTheirLines) {
                   "--set particles.size=3 mm: particles.size: too large; allowed: less"));
 }
 
+TEST(ParameterReader, ALackThatAMisspellingExplainsIsNoProblem) {
+  const CaseFile file = CaseFile::from_text("particles.sise = \"3 mm\"" + std::string(example::smallest_case), "c");
+  EXPECT_THAT(read(file, {{.where = {}, .key = "particles.size", .what = "missing: a circle needs it"}}).problems,
+              ElementsAre("c:1: particles.sise: unknown key; did you mean 'particles.size'?"));
+}
+
+TEST(ParameterReader, LongTextIsCutBetweenLetters) {
+  const std::string letters(59, 'x');
+  EXPECT_THAT(problem_of("numerics.scheme = \"" + letters + "µµ\""),
+              HasSubstr("\"" + letters + "...\" is not one of the choices"));
+  EXPECT_THAT(problem_of("numerics.scheme = \"" + letters + "y\""), HasSubstr("\"" + letters + "y\" is not one of"));
+}
+
 TEST(ParameterReader, OneParameterBeforeTheOthers) {
   const Parameter parameter{"shape", {}, {}, "chooses the rest", true};
   example::Shape shape = example::Shape::circle;
