@@ -146,12 +146,8 @@ std::string json_schema(const ParameterList& defaults, std::string_view title) {
 }
 
 std::string reference_page(const ParameterList& defaults) {
-  std::vector<std::string_view> tables;
-  for (const DescribedParameter& item : defaults)
-    if (std::find(tables.begin(), tables.end(), table_of(item.parameter.key)) == tables.end())
-      tables.push_back(table_of(item.parameter.key));
   std::string page;
-  for (const std::string_view table : tables) {
+  for (const std::string_view table : defaults.tables()) {
     page +=
         fmt::format("{}## {}\n\n", page.empty() ? "" : "\n", table.empty() ? "Top level" : fmt::format("[{}]", table));
     page += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";

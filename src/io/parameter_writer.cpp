@@ -39,12 +39,8 @@ bool is_excluded(std::string_view key, std::span<const std::string_view> exclude
 }  // namespace
 
 std::string resolved_case(const ParameterList& list) {
-  std::vector<std::string_view> tables = {""};  // the keys at the top come first: TOML asks for it
-  for (const DescribedParameter& item : list)
-    if (std::find(tables.begin(), tables.end(), table_of(item.parameter.key)) == tables.end())
-      tables.push_back(table_of(item.parameter.key));
   std::string text;
-  for (const std::string_view table : tables) {
+  for (const std::string_view table : list.tables()) {  // the keys at the top first: TOML asks for it
     if (!table.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
     for (const DescribedParameter& item : list) {
       if (table_of(item.parameter.key) != table) continue;
