@@ -6,17 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/unit.hpp"
 #include "io/case_file.hpp"
+#include "io/json.hpp"
 
 namespace talus {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A number, then something that can begin a unit. The look-ahead keeps "5e3" from being 5 of a unit "e3".
 constexpr std::string_view quantity_pattern =

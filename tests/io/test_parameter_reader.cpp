@@ -306,8 +306,7 @@ TEST(ParameterReader, ContradictionsGetTheirLines) {
       ElementsAre("c:1: particles.count: 0 is out of range; allowed: a whole number, from 1 to 10000000",
                   "c:2: slope.angle: too steep; allowed: less", "c:2: slope.angle: steep as well; allowed: less",
                   "c:4: particles.radius: particles.counts is another key; allowed: less",
-                   "c:4: particles.radius: as is my.particles.count; allowed: less",
-                  "c: title: missing; allowed: less",
+                  "c:4: particles.radius: as is my.particles.count; allowed: less", "c: title: missing; allowed: less",
                   "--set particles.size=3 mm: particles.size: too large; allowed: less"));
 }
 
