@@ -67,17 +67,18 @@ PairSum::PairSum(const Options& options, std::span<const double> radius, std::sp
   for (int k = 0; k < dimensions_; ++k, column += padded) spheres_.force[k] = column;
   spheres_.radius = column;
 
-  // Rows of tiles in tasks of about the same number of pairs: the first rows have the most columns.
-  const std::size_t tiles = (count + tile_rows - 1) / tile_rows;
-  const std::size_t tasks = std::min(tiles, most_tasks);
+  // Tasks of about the same number of pairs: the first rows have the most columns.
+  const std::size_t steps = (count + task_rows - 1) / task_rows;
+  const std::size_t tasks = std::min((steps + 1) / 2, most_tasks);
   std::size_t begin = 0, offset = 0;
   for (std::size_t t = 1; t <= tasks; ++t) {
     const double share = 1 - std::sqrt(1 - static_cast<double>(t) / static_cast<double>(tasks));
-    const auto end = tile_rows * static_cast<std::size_t>(std::lround(share * static_cast<double>(tiles)));
-    if (end <= begin) continue;
-    tasks_.push_back({begin, end, offset});
+    const std::size_t end =
+        t == tasks ? steps : static_cast<std::size_t>(std::lround(share * static_cast<double>(steps)));
+    if (end * task_rows <= begin) continue;
+    tasks_.push_back({begin, end * task_rows, offset});
     offset += (padded - begin) * static_cast<std::size_t>(dimensions_);
-    begin = end;
+    begin = end * task_rows;
   }
   sums_.resize(offset);
   reorder(order);
@@ -118,20 +119,26 @@ void PairSum::pack(ThreadTeam& team, std::span<const Vector3> position, std::spa
 
 void PairSum::gather(ThreadTeam& team, std::span<Vector3> velocity) const {
   const std::size_t count = spheres_.count, padded = spheres_.padded;
-  team.run((count + gather_block - 1) / gather_block, [&](std::size_t block) {
-    const std::size_t begin = block * gather_block, end = std::min(begin + gather_block, count);
-    double sum[3][gather_block] = {};
+  constexpr std::size_t width = padding;
+  // Sums of column k over the tasks, for the spheres of one width from `begin`.
+  auto add_tasks = [&](std::size_t k, std::size_t begin, double* result) {
+    double sum[width] = {};
     for (const Task& task : tasks_) {
-      if (task.begin >= end) break;
-      const std::size_t first = std::max(begin, task.begin), length = padded - task.begin;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_); ++k) {
-        const double* part = sums_.data() + task.offset + k * length;
-        for (std::size_t n = first; n < end; ++n) sum[k][n - begin] += part[n - task.begin];
-      }
+      if (task.begin > begin) break;
+      const double* part = sums_.data() + task.offset + k * (padded - task.begin) + (begin - task.begin);
+      for (std::size_t n = 0; n < width; ++n) sum[n] += part[n];
     }
-    for (std::size_t n = begin; n < end; ++n) {
-      Vector3& v = velocity[order_[n]];
-      for (std::size_t k = 0; k < 3; ++k) v.*axis_[k] = sum[k][n - begin];
+    for (std::size_t n = 0; n < width; ++n) result[n] = sum[n];
+  };
+  team.run((padded + gather_block - 1) / gather_block, [&](std::size_t block) {
+    const std::size_t end = std::min((block + 1) * gather_block, padded);
+    for (std::size_t begin = block * gather_block; begin < end; begin += width) {
+      double sum[3][width] = {};
+      for (int k = 0; k < dimensions_; ++k) add_tasks(k, begin, sum[k]);
+      for (std::size_t n = 0; n < width && begin + n < count; ++n) {
+        Vector3& v = velocity[order_[begin + n]];
+        for (std::size_t k = 0; k < 3; ++k) v.*axis_[k] = sum[k][n];
+      }
     }
   });
 }
@@ -151,7 +158,6 @@ void PairSum::velocities(ThreadTeam& team, std::span<const Vector3> position, st
     double* columns[3] = {};
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_); ++k) {
       columns[k] = sums_.data() + task.offset + k * length;
-      std::fill(columns[k], columns[k] + length, 0.0);
     }
     sum_rows_(spheres_, task.begin, task.end, columns);
   });

@@ -76,8 +76,8 @@ class PairSum {
   int dimensions_;
   std::array<double Vector3::*, 3> axis_;
   SumRows sum_rows_ = nullptr;
-  double length_;       // m, unit of the packed numbers: the power of two at or below the largest radius
-  double speed_per_force_;  // 1/(8 pi mu length_)
+  double length_ = 1;           // m, unit of the packed numbers: the power of two at or below the largest radius
+  double speed_per_force_ = 0;  // 1/(8 pi mu length_)
   std::vector<double> radius_;
   std::vector<std::uint32_t> order_;
   std::vector<Task> tasks_;
