@@ -160,8 +160,9 @@ TALUS_INLINE bool all(LanesMask<T, rows> condition) {
   return registers::all(together);
 }
 
-/// 1/sqrt(x): the processor's estimate y, and with e = 1 - x y^2 as many terms of y (1 + e/2 + 3/8 e^2 + 5/16 e^3 +
-/// ...) as the type can hold. Relative error below 3 ulp; not finite where x is 0.
+/// 1/sqrt(x): the processor's estimate y, and with e = 1 - x y^2 as many terms of y (1 + e/2 + 3/8 e^2 + 5/16 e^3 ...)
+/// as the type can hold. Measured relative error: 1.7e-16 and 9e-8, three quarters of the type's epsilon. Not finite at
+/// x = 0. With avx2 doubles start from a float: beyond its range, 1e-38 to 3e38, the result is 0 or not finite.
 template <class T, int rows>
 TALUS_INLINE Lanes<T, rows> reciprocal_sqrt(Lanes<T, rows> x) {
   using Number = Lanes<T>;
