@@ -263,6 +263,7 @@ TEST(PairSum, RefusesWhatDoesNotFit) {
   std::vector<Vector3> velocity(4);
   EXPECT_THROW(sum.velocities(team, spheres.position, spheres.force, velocity), std::invalid_argument);
   EXPECT_THROW(sum.reorder(std::vector<std::uint32_t>{0, 1}), std::invalid_argument);
+  EXPECT_THROW(sum.reorder(std::vector<std::uint32_t>{0, 1, 2, 3, 3}), std::invalid_argument);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct PackedSpheres {
   const double* position[3] = {};
   const double* force[3] = {};
   const double* radius = nullptr;
+  const double* size = nullptr;  ///< the sphere's share in the law's finite size (source_size or shared_size)
 };
 
 /// Writes to `velocity` (m/s; columns of `padded - row_begin` numbers, the first belonging to sphere row_begin) what
@@ -29,7 +30,7 @@ using SumRows = void (*)(const PackedSpheres& spheres, std::size_t row_begin, st
                          double* const* velocity);
 
 /// The loop for a law (not `none`), 2 or 3 dimensions, double or single precision.
-using ChooseSumRows = SumRows(hydrodynamics::Mobility mobility, int dimensions, bool single_precision);
+using ChooseSumRows = SumRows(hydrodynamics::Mobility mobility, std::size_t dimensions, bool single_precision);
 ChooseSumRows sum_rows_portable, sum_rows_avx2, sum_rows_avx512;
 
 }  // namespace talus::cloud

@@ -31,7 +31,7 @@ struct alignas(64) Side {
   T position[dimensions][length];
   T force[dimensions][length];
   T radius[length];
-  T size[length];  // the sphere's share in the finite size of the law
+  T size[length];
   T velocity[dimensions][length];
 
   TALUS_INLINE void fill(const PackedSpheres& spheres, std::size_t begin, std::size_t end, const double* centre) {
@@ -42,15 +42,9 @@ struct alignas(64) Side {
       for (std::size_t n = 0; n < count; ++n) force[k][n] = static_cast<T>(spheres.force[k][begin + n]);
       for (std::size_t n = 0; n < count; ++n) velocity[k][n] = 0;
     }
-    for (std::size_t n = 0; n < count; ++n) {
-      const double a = spheres.radius[begin + n];
-      if constexpr (mobility == Mobility::zuk_2014) {
-        radius[n] = static_cast<T>(a);
-        size[n] = static_cast<T>(hydrodynamics::shared_size(a));
-      } else {
-        size[n] = static_cast<T>(hydrodynamics::source_size(a));
-      }
-    }
+    for (std::size_t n = 0; n < count; ++n) size[n] = static_cast<T>(spheres.size[begin + n]);
+    if constexpr (mobility == Mobility::zuk_2014)
+      for (std::size_t n = 0; n < count; ++n) radius[n] = static_cast<T>(spheres.radius[begin + n]);
   }
 };
 
@@ -182,12 +176,12 @@ void sum_rows(const PackedSpheres& spheres, std::size_t row_begin, std::size_t r
 }
 
 template <Mobility mobility>
-TALUS_INLINE SumRows choose(int dimensions, bool single_precision) {
+TALUS_INLINE SumRows choose(std::size_t dimensions, bool single_precision) {
   if (single_precision) return dimensions == 2 ? sum_rows<mobility, float, 2> : sum_rows<mobility, float, 3>;
   return dimensions == 2 ? sum_rows<mobility, double, 2> : sum_rows<mobility, double, 3>;
 }
 
-TALUS_INLINE SumRows choose(Mobility mobility, int dimensions, bool single_precision) {
+TALUS_INLINE SumRows choose(Mobility mobility, std::size_t dimensions, bool single_precision) {
   return mobility == Mobility::zuk_2014 ? choose<Mobility::zuk_2014>(dimensions, single_precision)
                                         : choose<Mobility::rotne_prager_1969>(dimensions, single_precision);
 }
