@@ -55,7 +55,7 @@ GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, con
       continue;
     }
     if (position[way.back()].z > position[highest.back()].z) highest = way;
-    if (position[highest.back()].z >= top - step) break;
+    if (!rule.step_back || position[highest.back()].z >= top - step) break;
     way.pop_back();
   }
   return highest;

@@ -14,6 +14,7 @@ namespace talus {
 struct FrontalAngleRule {
   double cluster_reach = 4;  ///< link of the cluster whose front is taken, in mean radii; choice
   double step = 3;           ///< reach of the search for the next grain, in mean radii (section 4.3)
+  bool step_back = true;     ///< from a grain that sticks out (below); without it the walk ends there
 };
 
 /// The grains of the front's surface, from the foremost of the largest cluster upwards, none lower than the one before.

@@ -64,7 +64,7 @@ TEST(Quantities, AreNamedOnceAndStandInTheDocuments) {
   std::stringstream text;
   text << file.rdbuf();
   std::set<std::string_view> names;
-  for (const Quantity& quantity : quantities) {
+  for (const QuantityDefinition& quantity : quantities) {
     EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
     const std::string quoted = fmt::format("`{}`", quantity.name);
     EXPECT_NE(text.str().find(quoted), std::string::npos) << quantity.name;

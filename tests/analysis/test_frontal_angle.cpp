@@ -71,6 +71,7 @@ TEST(FrontalAngle, AGrainThatSticksOutIsPassed) {
   points.push_back({points[12 + 11].x + 1, 0, 1 + 3 * std::sqrt(3.0) + 0.02});
   const GrainSet walk = surface_walk(points, 1);
   EXPECT_THAT(walk, Not(Contains(bump)));
+  EXPECT_EQ(surface_walk(points, 1, {.step_back = false}).back(), bump);
   EXPECT_NEAR(angle(points), 60, 1e-10);
 }
 
