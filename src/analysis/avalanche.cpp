@@ -22,7 +22,6 @@ void look_from_above(AvalancheFrame& frame, const GrainsInMotion& grains, double
   const double a = scales.mean_radius, v_s = scales.stokes_speed;
   const std::vector<GrainSet> heads = find_heads(grains.position, a);
   frame.head_count = static_cast<double>(heads.size());
-  frame.head_count_any_size = static_cast<double>(find_heads(grains.position, a, {.least = 1}).size());
   frame.head_particles = heads.empty() ? 0 : static_cast<double>(heads[0].size());
   for (const GrainSet& head : heads)
     frame.head_widths.push_back(head_size(grains.position, grains.radius, head, a).width);
@@ -47,12 +46,8 @@ void look_from_the_side(AvalancheFrame& frame, const GrainsInMotion& grains, dou
   frame.head_upper_relative_velocity = motion.upper_head / scales.stokes_speed;
   frame.head_lower_relative_velocity = motion.lower_head / scales.stokes_speed;
   frame.tail_relative_velocity = motion.tail / scales.stokes_speed;
-  auto frontal_angle = [&](const FrontalAngleRule& rule) {
-    const auto angle = angle_of_line(grains.position, surface_walk(grains.position, scales.mean_radius, rule));
-    return angle ? *angle * 180 / std::numbers::pi : AvalancheFrame::none;
-  };
-  frame.frontal_angle = frontal_angle({});
-  frame.frontal_angle_short_walk = frontal_angle({.step_back = false});
+  if (const auto angle = angle_of_line(grains.position, surface_walk(grains.position, scales.mean_radius)))
+    frame.frontal_angle = *angle * 180 / std::numbers::pi;
 }
 
 }  // namespace

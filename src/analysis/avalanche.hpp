@@ -38,7 +38,6 @@ struct AvalancheFrame {
   double front_speed = none;  ///< v_s
   // From above, of the largest head
   double head_count = none;
-  double head_count_any_size = none;  ///< also of fewer grains than a head has to have
   double head_particles = none;
   double head_width = none;      ///< m
   double head_thickness = none;  ///< m
@@ -50,9 +49,8 @@ struct AvalancheFrame {
   // From the side
   double front_rear_thickness_ratio = none;
   double head_upper_relative_velocity = none, head_lower_relative_velocity = none,
-         tail_relative_velocity = none;    ///< v_s
-  double frontal_angle = none;             ///< deg
-  double frontal_angle_short_walk = none;  ///< deg, from a walk that ends where a grain sticks out
+         tail_relative_velocity = none;  ///< v_s
+  double frontal_angle = none;           ///< deg
 };
 
 /// The numbers of a frame by name; those that quantities.hpp lists mean what it says there.
@@ -63,7 +61,6 @@ inline constexpr struct {
     {"time", &AvalancheFrame::time},
     {"front_speed", &AvalancheFrame::front_speed},
     {"head_count", &AvalancheFrame::head_count},
-    {"head_count_any_size", &AvalancheFrame::head_count_any_size},
     {"head_particles", &AvalancheFrame::head_particles},
     {"head_width", &AvalancheFrame::head_width},
     {"head_thickness", &AvalancheFrame::head_thickness},
@@ -77,7 +74,6 @@ inline constexpr struct {
     {"head_lower_relative_velocity", &AvalancheFrame::head_lower_relative_velocity},
     {"tail_relative_velocity", &AvalancheFrame::tail_relative_velocity},
     {"frontal_angle", &AvalancheFrame::frontal_angle},
-    {"frontal_angle_short_walk", &AvalancheFrame::frontal_angle_short_walk},
 };
 
 /// \param front where the front was until the snapshot, m against s. From above it is front_position, from the side

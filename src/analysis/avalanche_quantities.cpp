@@ -133,6 +133,11 @@ std::optional<double> ensemble_quantity(const ComparisonRow& row, std::span<cons
     if (row.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
     std::vector<double> numbers;
     for (const AvalancheRun& member : members) numbers.push_back(run_quantity(row.quantity, member, row.window));
+    // A front of fewer than three grains has no angle. Such members are left out, as long as they are the fewer.
+    if (row.quantity == "frontal_angle" || row.quantity == "frontal_angle_first") {
+      std::erase_if(numbers, [](double number) { return std::isnan(number); });
+      if (2 * numbers.size() < members.size()) return AvalancheFrame::none;
+    }
     return evaluate(row.statistic, numbers);
   }
   if (row.from == From::curves) {

@@ -102,13 +102,16 @@ std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_
   std::vector<bool> candidate(position.size());
   for (std::size_t i = 0; i < position.size(); ++i) candidate[i] = number[i] > limit;
   std::vector<GrainSet> heads = links.connected_sets(candidate);
-  std::erase_if(heads, [&](const GrainSet& head) { return head.size() < rule.least; });
 
   if (rule.own_largest) {
     const std::vector<std::uint32_t> owner = share_out(position, links, heads);
     for (std::uint32_t h = 0; h < heads.size(); ++h)
-      heads[h] = grown(heads[h], h, owner, links, number, rule.share * largest_number(number, heads[h]));
+      for (const std::uint32_t i :
+           grown(heads[h], h, owner, links, number, rule.share * largest_number(number, heads[h])))
+        candidate[i] = true;
+    heads = links.connected_sets(candidate);
   }
+  std::erase_if(heads, [&](const GrainSet& head) { return head.size() < rule.least; });
   std::sort(heads.begin(), heads.end(),
             [&](const GrainSet& a, const GrainSet& b) { return is_larger(a, b, position); });
   return heads;

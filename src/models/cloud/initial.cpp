@@ -47,6 +47,8 @@ struct ShapeSampler {
         return in_plane(p.length * (u - 0.5), p.width * (on_slope ? v : v - 0.5));
       case Shape::triangle:
         return in_plane(p.size * (2 * u - 1), p.size * v);
+      case Shape::wedge:
+        return in_plane(-p.size * u / std::sin(parameters.slope.angle), p.size * v / std::cos(parameters.slope.angle));
       case Shape::ball:
         return {p.size * (2 * u - 1), p.size * (2 * v - 1), p.size * (2 * random.uniform() - 1) + lift()};
       case Shape::dome:
@@ -69,6 +71,10 @@ struct ShapeSampler {
       // Right-angled at the apex: the flanks fall at 45 degrees.
       case Shape::triangle:
         return across >= margin && std::abs(x.x) + across <= p.size - std::sqrt(2.0) * margin;
+      // The level surface lies `size` above the gate's foot, the origin: sizes along gravity.
+      case Shape::wedge:
+        return x.x <= -margin && across >= margin &&
+               across * std::cos(parameters.slope.angle) - x.x * std::sin(parameters.slope.angle) <= p.size - margin;
       case Shape::ball:
         return norm(x - Vector3{0, 0, lift()}) <= p.size - margin;
       case Shape::dome:

@@ -16,7 +16,7 @@ struct Grains {
 
 /// Packs the shape of the case by random sequential addition: each grain in turn is placed at random until it overlaps
 /// none placed before. All radii are drawn before the first place.
-/// With a slope, shapes that stand on it (triangle, dome; any shape in the plane xz) keep every grain above it.
+/// With a slope, shapes that stand on it (triangle, wedge, dome; any shape in the plane xz) keep every grain above it.
 /// \throws NumericalError if a grain finds no place after 10^6 trials (the fraction is too high)
 Grains pack(const Parameters& parameters);
 
