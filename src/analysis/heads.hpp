@@ -39,11 +39,10 @@ struct HeadRule {
 
 /// The heads, the one with the most grains first (of equal ones the one farther down), each by index.
 ///
-/// Grains whose number is above `share` of the largest of all, and the links between them, make sets. With
-/// `own_largest` every grain then falls to the set that it reaches by the fewest links (of equally many, to that of the
-/// nearest grain at the last link); those above `share` of that set's largest number that are connected to it through
-/// such grains join it; and sets that are linked then are one. Sets of at least `least` grains are heads. \param
-/// position centres, m; \param mean_radius of the case, > 0, m
+/// Parts are the connected sets of all grains, two being connected if closer than the reach. Of each part whose largest
+/// number is above `share` of the largest of all (choice: a few grains left behind are no part), the grains above
+/// `share` of its own largest number, and the links between them, make sets; those of at least `least` grains are
+/// heads. \param position centres, m; \param mean_radius of the case, > 0, m
 std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius, const HeadRule& rule = {});
 
 /// Size of a head in the plane x, y; lengths in m, from outer edge to outer edge of the grains (choice). Thickness,
