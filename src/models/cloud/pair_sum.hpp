@@ -13,7 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/vector.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
-#include "physics/hydrodynamics/mobility.hpp"
+#include "physics/hydrodynamics/mobility_names.hpp"
 
 namespace talus::cloud {
 

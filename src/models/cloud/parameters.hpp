@@ -13,7 +13,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/cloud/pair_sum.hpp"
-#include "physics/hydrodynamics/mobility.hpp"
+#include "physics/hydrodynamics/mobility_names.hpp"
 
 namespace talus::cloud {
 

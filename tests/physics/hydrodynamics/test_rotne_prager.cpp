@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "physics/hydrodynamics/mobility.hpp"
+#include "physics/hydrodynamics/mobility_names.hpp"
 #include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::hydrodynamics {
