@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> snapshot_kinds{"particles", "air"};
 constexpr std::string_view snapshot_ending = ".vtkhdf";
+constexpr std::string_view index_ending = ".hdf.series";
 
 /// Files of a run beside its snapshots. The manifest is last, so that a removal that is cut short can be repeated.
 constexpr std::array<std::string_view, 8> file_names{CheckpointFiles::names[0],
@@ -74,9 +75,11 @@ std::string_view without_suffix(std::string_view name) {
   return name.ends_with(temporary_suffix) ? name.substr(0, name.size() - temporary_suffix.size()) : name;
 }
 
-bool is_snapshot(std::string_view name) {
-  return std::any_of(snapshot_kinds.begin(), snapshot_kinds.end(),
-                     [&](std::string_view kind) { return snapshot_number(without_suffix(name), kind).has_value(); });
+bool is_snapshot_file(std::string_view name) {
+  const std::string_view whole = without_suffix(name);
+  return std::any_of(snapshot_kinds.begin(), snapshot_kinds.end(), [&](std::string_view kind) {
+    return snapshot_number(whole, kind) || (whole.starts_with(kind) && whole.substr(kind.size()) == index_ending);
+  });
 }
 
 bool is_run_file(std::string_view name) {
@@ -146,6 +149,10 @@ std::filesystem::path RunFolder::snapshot(int number, std::string_view kind) con
   return snapshots() / fmt::format("{}_{:04}{}", kind, number, snapshot_ending);
 }
 
+std::filesystem::path RunFolder::snapshot_index(std::string_view kind) const {
+  return snapshots() / fmt::format("{}{}", kind, index_ending);
+}
+
 std::vector<int> RunFolder::snapshot_numbers(std::string_view kind) const {
   std::vector<int> numbers;
   if (!at(snapshots(), "cannot read the folder", [&] { return fs::exists(snapshots()); })) return numbers;
@@ -171,7 +178,7 @@ void RunFolder::remove_run() const {
   const auto remove = [](const fs::path& path) { at(path, "cannot remove", [&] { return fs::remove(path); }); };
   if (fs::is_directory(snapshots()))
     for (const std::string& name : names_in(snapshots()))
-      if (is_snapshot(name)) remove(snapshots() / name);
+      if (is_snapshot_file(name)) remove(snapshots() / name);
   for (const std::string_view name : file_names) {
     remove(path_ / (std::string(name) + std::string(temporary_suffix)));
     remove(path_ / name);

@@ -2,7 +2,7 @@
 /// The folder of a run: where each of its files is, and who may write into it.
 ///
 ///     manifest.json  series.csv  checkpoint_a.h5  checkpoint_b.h5  summary.json  report.html  log.txt  stop
-///     snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf ...
+///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf ...
 #pragma once
 
 #include <filesystem>
@@ -47,6 +47,9 @@ class RunFolder {
 
   /// \param kind "particles" or "air"; \param number >= 0
   std::filesystem::path snapshot(int number, std::string_view kind = "particles") const;
+
+  /// What ParaView is given to open (snapshot_index.hpp).
+  std::filesystem::path snapshot_index(std::string_view kind = "particles") const;
 
   /// Numbers of the snapshots that are there, rising. \throws FileError if the folder cannot be read
   std::vector<int> snapshot_numbers(std::string_view kind = "particles") const;
