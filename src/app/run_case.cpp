@@ -29,7 +29,12 @@ double peak_memory_bytes() {
 
 /// log.txt. A log that cannot be written must not end a run: the numbers' own files say so if the disk is full.
 std::shared_ptr<spdlog::logger> open_log(const RunFolder& folder, bool append) {
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !append);
+  std::shared_ptr<spdlog::sinks::sink> sink;
+  try {
+    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !append);
+  } catch (const spdlog::spdlog_ex& error) {
+    throw FileError(folder.log().string(), error.what());
+  }
   auto log = std::make_shared<spdlog::logger>("run", sink);
   log->set_pattern("%Y-%m-%d %H:%M:%S  %v");
   log->flush_on(spdlog::level::info);
@@ -47,20 +52,19 @@ void print_regime(const std::vector<RegimeLine>& regime, spdlog::logger& log) {
   }
 }
 
-ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request, const RunFolder& folder,
-                         spdlog::logger& log) {
+Manifest manifest_of(const PreparedCase& prepared, const RunRequest& request) {
   Manifest manifest = manifest_of_this_program();
   manifest.case_text = resolved_case(prepared.parameters);
   manifest.fingerprint = case_fingerprint(prepared);
   manifest.seed = prepared.seed;
   manifest.instruction_set = prepared.instruction_set;
   manifest.threads = request.threads;
-  const bool resume = request.existing == Existing::resume;
-  if (!resume) write_manifest(folder.manifest(), manifest);
-  std::filesystem::create_directories(folder.snapshots());
-  std::error_code ignored;
-  std::filesystem::remove(folder.stop(), ignored);  // of an earlier session
+  return manifest;
+}
 
+ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request, const RunFolder& folder,
+                         const Manifest& manifest, spdlog::logger& log) {
+  const bool resume = request.existing == Existing::resume;
   std::unique_ptr<run::AnyModel> model = prepared.make_model();
   ThreadTeam team(request.threads);
   const run::LoopResult loop = run::run_loop(*model, team, folder.path(),
@@ -120,11 +124,15 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   }
   run::catch_signals();
   const RunFolder folder = RunFolder::create(request.folder, request.existing);
+  // First of all, because it marks the folder as a run's: a kill from now on leaves one that can be resumed. That of a
+  // resumed run is replaced once its checkpoint has been found to be this case's.
+  const Manifest manifest = manifest_of(prepared, request);
+  if (!std::filesystem::exists(folder.manifest())) write_manifest(folder.manifest(), manifest);
   const auto log = open_log(folder, request.existing == Existing::resume);
   log->info("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",
             request.threads, prepared.instruction_set);
   try {
-    return run_in_folder(prepared, request, folder, *log);
+    return run_in_folder(prepared, request, folder, manifest, *log);
   } catch (const NumericalError& error) {
     log->error("numerical failure: {}", error.what());
     write_summary(folder.summary(), {.status = "failed", .wall_seconds = 0, .quantities = {}});
