@@ -107,6 +107,13 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   return ExitStatus::done;
 }
 
+/// What tells how a run ended: gone while it runs, so that a kill leaves no result that is not this run's.
+void remove_results(const RunFolder& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder.summary(), ignored);
+  for (const char* made : {"analysis", "pictures"}) std::filesystem::remove_all(folder.path() / made, ignored);
+}
+
 }  // namespace
 
 std::string case_fingerprint(const PreparedCase& prepared) {
@@ -127,7 +134,13 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   // First of all, because it marks the folder as a run's: a kill from now on leaves one that can be resumed. That of a
   // resumed run is replaced once its checkpoint has been found to be this case's.
   const Manifest manifest = manifest_of(prepared, request);
-  if (!std::filesystem::exists(folder.manifest())) write_manifest(folder.manifest(), manifest);
+  if (!std::filesystem::exists(folder.manifest()))
+    write_manifest(folder.manifest(), manifest);
+  else if (read_manifest(folder.manifest()).fingerprint != manifest.fingerprint)
+    throw InputError({{.where = folder.path().string(),
+                       .what = "the run in this folder was made with another case",
+                       .allowed = "the same case to resume (only run.end may be later), or --overwrite"}});
+  remove_results(folder);
   const auto log = open_log(folder, request.existing == Existing::resume);
   log->info("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",
             request.threads, prepared.instruction_set);

@@ -77,11 +77,14 @@ EnsemblePlan plan_ensemble(const EnsembleRequest& request) {
     for (const std::string& setting : group.settings) file.set(setting);
     const std::int64_t first_seed = prepare_case(file).seed;
     for (int k = 0; k < request.members; ++k) {
-      EnsembleMember member{.seed = first_seed + k, .settings = request.settings, .folder = {}, .fingerprint = {}};
+      EnsembleMember member{
+          .seed = first_seed + k, .settings = request.settings, .folder = {}, .fingerprint = {}, .end = 0};
       member.settings.insert(member.settings.end(), group.settings.begin(), group.settings.end());
       member.settings.push_back(fmt::format("seed={}", member.seed));
       file.set(member.settings.back());
-      member.fingerprint = case_fingerprint(prepare_case(file));
+      const PreparedCase prepared = prepare_case(file);
+      member.fingerprint = case_fingerprint(prepared);
+      member.end = prepared.run.end;
       member.folder = request.folder / group.name / fmt::format("seed_{:04}", member.seed);
       group.members.push_back(std::move(member));
     }

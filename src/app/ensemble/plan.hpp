@@ -24,6 +24,7 @@ struct EnsembleMember {
   std::vector<std::string> settings;  ///< all of them, the seed's too
   std::filesystem::path folder;
   std::string fingerprint;
+  double end = 0;  ///< s; a run that ended earlier is resumed
 };
 
 struct EnsembleGroup {

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "io/manifest.hpp"
+#include "io/parameter_reader.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 #include "run/interrupt.hpp"
@@ -51,11 +52,15 @@ bool is_done(const EnsembleMember& member) {
   const RunFolder folder(member.folder);
   if (!std::filesystem::exists(folder.summary())) return false;
   if (read_summary(folder.summary()).status != "done") return false;
-  if (read_manifest(folder.manifest()).fingerprint != member.fingerprint)
+  const Manifest manifest = read_manifest(folder.manifest());
+  if (manifest.fingerprint != member.fingerprint)
     throw InputError({{.where = folder.path().string(),
                        .what = "holds a run of another case",
                        .allowed = "the same case to resume, or another --out"}});
-  return true;
+  const CaseFile file = CaseFile::from_text(manifest.case_text, folder.manifest().string());
+  double end = 0;
+  read_parameter(file, {"run.end", dimension::time, {}, "end of the run"}, end);
+  return end >= member.end;
 }
 
 ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {
