@@ -66,7 +66,7 @@ std::vector<double> widths_in_radii(std::span<const AvalancheRun> members, const
 double front_speed_spread(std::span<const AvalancheRun> members, const Window& window) {
   std::vector<Curve> curves;
   for (const AvalancheRun& member : members) curves.push_back(within(member.front_speed, window));
-  const CurveSpread result = spread(curves);
+  const CurveSpread result = spread(common_part(std::move(curves)));
   std::vector<double> ratio;
   for (std::size_t n = 0; n < result.deviation.size(); ++n) ratio.push_back(result.deviation[n] / result.mean.value[n]);
   return mean(ratio);

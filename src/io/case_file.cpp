@@ -132,8 +132,8 @@ CaseFile CaseFile::from_text(std::string_view text, std::string name) {
   return file;
 }
 
-void CaseFile::set(std::string_view assignment) {
-  std::string option = fmt::format("--set {}", assignment);
+void CaseFile::set(std::string_view assignment, std::string_view option_name) {
+  std::string option = fmt::format("{} {}", option_name, assignment);
   std::replace_if(
       option.begin(), option.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); }, ' ');
   const std::size_t equals = assignment.find('=');

@@ -28,9 +28,9 @@ class RunFolder {
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   /// The folder of a run to write: made with its parents if it is not there, and locked against other processes for as
-  /// long as a copy of the result lives. The manifest is to be written first: it marks the folder as a run's. A stop
-  /// file from before is removed.
-  /// \throws InputError, before anything is changed, if the folder is not empty and `existing` is refuse; if there is
+  /// long as a copy of the result lives. Resuming waits two seconds for a run there that has been asked to leave. The
+  /// manifest is to be written first: it marks the folder as a run's. A stop file from before is removed. \throws
+  /// InputError, before anything is changed, if the folder is not empty and `existing` is refuse; if there is
   ///         no run in it to resume; if it holds files of these names, but not from Talus, that would be overwritten;
   ///         if another process writes there; if it is a file
   /// \throws FileError with the system's reason
@@ -56,7 +56,7 @@ class RunFolder {
   std::optional<int> latest_snapshot(std::string_view kind = "particles") const;
 
  private:
-  void lock();
+  void lock(Existing existing);
   void remove_run() const;
 
   std::filesystem::path path_;

@@ -42,12 +42,14 @@ TEST(Criterion, EndsBelongToRangesAndNotToBounds) {
   EXPECT_EQ(judge({Kind::reported}, std::nullopt), Verdict::reported);
 }
 
-TEST(Criterion, HasToHoldAtEachRadius) {
+TEST(Criterion, HasToHoldAtEachRadiusThatIsThere) {
   using Values = std::vector<std::optional<double>>;
   const Criterion above{Kind::above, 1};
   EXPECT_EQ(judge(above, Values{2, 3, 4}), Verdict::met);
   EXPECT_EQ(judge(above, Values{2, 1, 4}), Verdict::not_met);
-  EXPECT_EQ(judge(above, Values{2, std::nullopt, 4}), Verdict::not_evaluated);
+  EXPECT_EQ(judge(above, Values{2, std::nullopt, 4}), Verdict::met);
+  EXPECT_EQ(judge(above, Values{std::nullopt, NAN}), Verdict::not_met);
+  EXPECT_EQ(judge(above, Values{std::nullopt, std::nullopt}), Verdict::not_evaluated);
   EXPECT_EQ(judge(above, Values{0, std::nullopt, 4}), Verdict::not_met);
   EXPECT_EQ(judge(above, Values{}), Verdict::not_evaluated);
 }

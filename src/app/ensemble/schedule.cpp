@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/run_case.hpp"
 #include "base/error.hpp"
 #include "io/manifest.hpp"
-#include "io/parameter_reader.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 #include "run/interrupt.hpp"
@@ -29,12 +29,7 @@ run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
     job.arguments.push_back("--set");
     job.arguments.push_back(setting);
   }
-  const RunFolder folder(run.member.folder);
-  // A folder without a manifest was left by a kill before the run began.
-  if (std::filesystem::exists(folder.manifest()))
-    job.arguments.push_back("--resume");
-  else if (std::filesystem::exists(folder.path()))
-    job.arguments.push_back("--overwrite");
+  if (std::filesystem::exists(run.member.folder)) job.arguments.push_back("--resume");
   return job;
 }
 
@@ -57,10 +52,12 @@ bool is_done(const EnsembleMember& member) {
     throw InputError({{.where = folder.path().string(),
                        .what = "holds a run of another case",
                        .allowed = "the same case to resume, or another --out"}});
-  const CaseFile file = CaseFile::from_text(manifest.case_text, folder.manifest().string());
-  double end = 0;
-  read_parameter(file, {"run.end", dimension::time, {}, "end of the run"}, end);
-  return end >= member.end;
+  if (end_of(manifest) > member.end)
+    throw InputError({{.where = folder.path().string(),
+                       .key = "run.end",
+                       .what = fmt::format("{} s, before the end of the run there, {} s", member.end, end_of(manifest)),
+                       .allowed = "the same end or a later one, or another --out"}});
+  return end_of(manifest) == member.end;
 }
 
 ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {

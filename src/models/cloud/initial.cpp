@@ -138,6 +138,15 @@ class Placed {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
+double extent(const std::vector<Vector3>& points) {
+  Vector3 low = points.front(), high = low;
+  for (const Vector3& x : points) {
+    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
 }  // namespace
 
 Grains pack(const Parameters& parameters) {
@@ -180,6 +189,9 @@ std::vector<Problem> check_grains(const Parameters& parameters, const Grains& gr
   }
   if (bad_radius) add(fmt::format("{} radii are not positive numbers", bad_radius), "radii above 0");
   if (not_finite) add(fmt::format("{} places are not finite", not_finite), "finite coordinates");
+  if (!grains.position.empty() && !not_finite && !(extent(grains.position) < 1e6 * parameters.particles.radius))
+    add(fmt::format("the points extend over {:.3g} m, more than a million radii", extent(grains.position)),
+        "grains near each other; see particles.radius and the units of the columns");
   if (out_of_plane)
     add(fmt::format("{} points lie outside the plane of motion \"{}\"", out_of_plane, choice_name(parameters.motion)),
         "points in that plane, or motion = \"xyz\"");

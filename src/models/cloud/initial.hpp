@@ -20,7 +20,8 @@ struct Grains {
 /// \throws NumericalError if a grain finds no place after 10^6 trials (the fraction is too high)
 Grains pack(const Parameters& parameters);
 
-/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion.
+/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion, or
+/// too far apart.
 std::vector<Problem> check_grains(const Parameters& parameters, const Grains& grains);
 
 }  // namespace talus::cloud
