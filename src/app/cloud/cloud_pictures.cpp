@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "analysis/frontal_angle.hpp"
@@ -71,6 +73,7 @@ Window front_of(std::span<const Vector3> position, const CloudFrame& frame) {
 struct Frames {
   std::vector<PointSet> points;
   std::vector<std::vector<std::int64_t>> categories;
+  std::vector<std::vector<double>> radii_of_cloud;  // of a cloud that falls: without the grains that it has left behind
 
   Frames(std::span<const std::filesystem::path> snapshots, const CloudFrame& frame) {
     const std::size_t last = snapshots.size() - 1;
@@ -123,13 +126,29 @@ std::vector<std::pair<std::string, Figure>> avalanche_figures(const Frames& fram
   return figures;
 }
 
+/// Radii of the grains that are within a distance of the median along a direction; the others are left out of a
+/// picture.
+std::vector<double> radii_of_those_near(const ParticlePicture& picture, const Vector3& direction, double distance) {
+  const double middle = quantile_along(picture.positions, direction, 0.5);
+  std::vector<double> radii(picture.radii.begin(), picture.radii.end());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    if (std::abs(dot(picture.positions[i], direction) - middle) > distance)
+      radii[i] = std::numeric_limits<double>::quiet_NaN();
+  return radii;
+}
+
 /// A falling cloud from the side, with the grains that it leaves behind, and below that as seen along gravity.
-std::vector<std::pair<std::string, Figure>> fall_figures(const Frames& frames, const CloudFrame& frame,
+std::vector<std::pair<std::string, Figure>> fall_figures(Frames& frames, const CloudFrame& frame,
                                                          const std::string& title) {
   const auto [side, along] = views_of_a_fall(frame.gravity);
   const double radius = 0.5 * (quantile_along(frames.points[0].view().positions(), side.right, 1) -
                                quantile_along(frames.points[0].view().positions(), side.right, 0));
   std::vector<ParticlePicture> pictures = frames.pictures(frame, side), from_below = frames.pictures(frame, along);
+  frames.radii_of_cloud.resize(from_below.size());
+  for (std::size_t n = 0; n < from_below.size(); ++n) {
+    frames.radii_of_cloud[n] = radii_of_those_near(from_below[n], side.up, 2 * radius);
+    from_below[n].radii = frames.radii_of_cloud[n];
+  }
   for (ParticlePicture& picture : pictures)
     picture.window = follow(picture.positions, side, 2 * radius, 2 * radius, 4 * radius);
   for (ParticlePicture& picture : from_below)
@@ -150,7 +169,7 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
 
   const std::vector<std::filesystem::path> snapshots = snapshot_paths(run_folder);
   if (!snapshots.empty()) {
-    const Frames frames(snapshots, frame);
+    Frames frames(snapshots, frame);
     for (const auto& [name, figure] :
          frame.has_slope ? avalanche_figures(frames, frame, title) : fall_figures(frames, frame, title)) {
       drawn.push_back(pictures / name);
