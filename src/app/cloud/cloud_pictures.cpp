@@ -39,7 +39,7 @@ std::vector<std::int64_t> marked(const Snapshot& snapshot, const CloudFrame& fra
 View view_of(const CloudFrame& frame) {
   if (frame.motion == cloud::Motion::xy) return view_xy;
   if (frame.motion == cloud::Motion::xz) return view_xz;
-  return view_oblique(-0.6, 0.45);
+  return view_oblique(0.6, 0.45);
 }
 
 /// Across gravity, which points down the page, and along it.
@@ -67,7 +67,10 @@ Window front_of(std::span<const Vector3> position, const CloudFrame& frame) {
   const double a = frame.scales.mean_radius, front = quantile_along(position, {1, 0, 0}, 1);
   if (frame.motion == cloud::Motion::xz) return {front - 180 * a, front + 20 * a, -8 * a, 72 * a};
   const double centre = quantile_along(position, {0, 1, 0}, 0.5);
-  return {front - 180 * a, front + 20 * a, centre - 50 * a, centre + 50 * a};
+  if (frame.motion == cloud::Motion::xy) return {front - 180 * a, front + 20 * a, centre - 50 * a, centre + 50 * a};
+  const View view = view_of(frame);
+  const double x = dot(view.right, {front, centre, 0}), y = dot(view.up, {front, centre, 0});
+  return {x - 180 * a, x + 40 * a, y - 45 * a, y + 105 * a};
 }
 
 struct Frames {
@@ -119,7 +122,6 @@ std::vector<std::pair<std::string, Figure>> avalanche_figures(const Frames& fram
   share_scale(whole);
   std::vector<std::pair<std::string, Figure>> figures;
   figures.emplace_back("frames.png", figure_of(title, std::move(whole)));
-  if (frame.motion == cloud::Motion::xyz) return figures;
   std::vector<ParticlePicture> front = frames.pictures(frame, view_of(frame));
   for (ParticlePicture& picture : front) picture.window = front_of(picture.positions, frame);
   figures.emplace_back("front.png", figure_of(title + ": the front", std::move(front)));
