@@ -94,7 +94,8 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grai
 }
 
 CloudFrame frame_of(const Parameters& p) {
-  return {{p.particles.radius, cloud::scales(p).stokes_speed}, p.motion, p.slope.enabled};
+  const cloud::Scales s = cloud::scales(p);
+  return {{p.particles.radius, s.stokes_speed}, p.motion, p.slope.enabled, s.gravity};
 }
 
 }  // namespace

@@ -10,6 +10,6 @@
 
 namespace talus {
 template <>
-inline constexpr auto choices<hydrodynamics::Mobility> =
-    std::to_array<std::string_view>({"rotne-prager-1969", "zuk-2014", "none"});
+inline constexpr auto choices<hydrodynamics::Mobility> = std::to_array<std::string_view>({"rotne-prager-1969",
+                                                                                          "zuk-2014", "none"});
 }
