@@ -39,7 +39,7 @@ TEST(Pack, FillsTheDiscWithoutOverlap) {
 
 TEST(Pack, RadiiFollowTheirDistribution) {
   Parameters p = disc(4000);
-  p.particles.size *= 3;
+  *p.particles.size *= 3;
   auto moments = [&] {
     const Grains grains = pack(p);
     double mean = 0, square = 0, low = 1, high = 0;
@@ -117,7 +117,7 @@ TEST(Pack, SameSeedSamePlacesAndAnotherSeedOthers) {
 
 TEST(Pack, GivesUpOnAShapeThatIsTooSmall) {
   Parameters p = disc(200);
-  p.particles.size *= 0.8;
+  *p.particles.size *= 0.8;
   EXPECT_THROW(pack(p), NumericalError);
 }
 
@@ -129,13 +129,13 @@ TEST(Check, FindsContradictions) {
     return found;
   };
   Parameters p = disc(100);
-  p.particles.size = 0;
+  p.particles.size.reset();
   p.motion = Motion::xyz;
   p.particles.width = 1;
   p.particles.density = 1.2;
   EXPECT_EQ(keys(p), (std::vector<std::string>{"particles.size", "particles.width", "motion", "particles.density"}));
   p = disc(100);
-  p.particles.size *= 0.85;
+  *p.particles.size *= 0.85;
   EXPECT_EQ(keys(p), std::vector<std::string>{"particles.count"});
   p = disc(100);
   p.slope.angle = 0;
