@@ -8,8 +8,7 @@
 namespace talus {
 
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                          double skin) {
-  const std::size_t count = position.size();
+                          double skin, std::size_t count) {
   reference_.assign(position.begin(), position.end());
   skin_ = skin;
   neighbours_.clear();

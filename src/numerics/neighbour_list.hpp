@@ -17,7 +17,13 @@ class NeighbourList {
  public:
   /// Builds a full list (each pair stands twice).
   /// \param position, radius in m, one entry a particle; \param skin >= 0, in m
-  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
+    build(team, position, radius, skin, position.size());
+  }
+
+  /// The same, with neighbours among all for the first `listed` particles only: those behind them are ghosts.
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin,
+             std::size_t listed);
 
   /// True if every particle, less the mean displacement of all, is within half the skin of where the list was built,
   /// so that no touching pair is missing.
