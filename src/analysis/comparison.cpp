@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/statistics.hpp"
+
+namespace talus {
+
+namespace {
+
+bool holds(const Criterion& criterion, double value) {
+  switch (criterion.kind) {
+    case Criterion::Kind::between:
+      return value >= criterion.first && value <= criterion.second;
+    case Criterion::Kind::within:
+      return std::abs(value - criterion.first) <= criterion.second;
+    case Criterion::Kind::above:
+      return value > criterion.first;
+    case Criterion::Kind::below:
+      return value < criterion.first;
+    case Criterion::Kind::positive:
+      return value > 0;
+    case Criterion::Kind::negative:
+      return value < 0;
+    case Criterion::Kind::reported:
+      break;
+  }
+  return true;
+}
+
+}  // namespace
+
+Verdict judge(const Criterion& criterion, std::optional<double> value) {
+  if (criterion.kind == Criterion::Kind::reported) return Verdict::reported;
+  if (!value) return Verdict::not_evaluated;
+  return holds(criterion, *value) ? Verdict::met : Verdict::not_met;
+}
+
+Verdict judge(const Criterion& criterion, std::span<const std::optional<double>> values) {
+  if (criterion.kind == Criterion::Kind::reported) return Verdict::reported;
+  auto any = [&](Verdict verdict) {
+    return std::any_of(values.begin(), values.end(),
+                       [&](const auto& value) { return judge(criterion, value) == verdict; });
+  };
+  if (any(Verdict::not_met)) return Verdict::not_met;
+  return values.empty() || any(Verdict::not_evaluated) ? Verdict::not_evaluated : Verdict::met;
+}
+
+std::string to_string(const Criterion& criterion) {
+  switch (criterion.kind) {
+    case Criterion::Kind::between:
+      return criterion.first == criterion.second ? fmt::format("{:g}", criterion.first)
+                                                 : fmt::format("{:g} to {:g}", criterion.first, criterion.second);
+    case Criterion::Kind::within:
+      return fmt::format("{:g} ± {:g}", criterion.first, criterion.second);
+    case Criterion::Kind::above:
+      return fmt::format("> {:g}", criterion.first);
+    case Criterion::Kind::below:
+      return fmt::format("< {:g}", criterion.first);
+    case Criterion::Kind::positive:
+      return "positive";
+    case Criterion::Kind::negative:
+      return "negative";
+    case Criterion::Kind::reported:
+      break;
+  }
+  return "reported";
+}
+
+std::string to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::met:
+      return "met";
+    case Verdict::not_met:
+      return "not met";
+    case Verdict::reported:
+      return "reported";
+    case Verdict::not_evaluated:
+      break;
+  }
+  return "not evaluated";
+}
+
+double evaluate(Statistic statistic, std::span<const double> numbers) {
+  switch (statistic) {
+    case Statistic::mean:
+      return mean(numbers);
+    case Statistic::median:
+      return median(numbers);
+    case Statistic::standard_deviation:
+      break;
+  }
+  return standard_deviation(numbers);
+}
+
+}  // namespace talus

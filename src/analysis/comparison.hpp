@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A row of a comparison with what a source prints: which quantity, where and when, and the criterion that a value
+/// meets or not. Knows names only; which numbers a name stands for is the business of a study
+/// (avalanche_quantities.hpp). The files are validation/*/reference.toml.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct Criterion {
+  enum class Kind {
+    between,   ///< first <= value <= second
+    within,    ///< |value - first| <= second
+    above,     ///< value > first
+    below,     ///< value < first
+    positive,  ///< value > 0: the source says a sign only
+    negative,  ///< value < 0
+    reported   ///< shown, counts neither way
+  };
+  Kind kind = Kind::reported;
+  double first = 0;
+  double second = 0;
+};
+
+enum class Verdict { met, not_met, reported, not_evaluated };
+
+/// \param value nothing: the runs it needs are not there (not_evaluated, unless reported); nan: it has no value (not
+/// met)
+Verdict judge(const Criterion& criterion, std::optional<double> value);
+
+/// A row that is to hold at several radii: not met if it is not met at one, else not evaluated if it is not evaluated
+/// at one, else met. A row without values is not evaluated.
+Verdict judge(const Criterion& criterion, std::span<const std::optional<double>> values);
+
+/// "30 to 70", "17.2 ± 2", "> 0.9", "positive", "reported".
+std::string to_string(const Criterion& criterion);
+/// "met", "not met", "reported", "not evaluated".
+std::string to_string(Verdict verdict);
+
+/// Times that a quantity looks at, in the time unit of the reference (a/v_s).
+struct Window {
+  static constexpr double end_of_run = std::numeric_limits<double>::infinity();
+
+  std::optional<double> at = {};  ///< the data nearest to this time, of two the earlier; or
+  double from = 0;                ///< from < t
+  double to = end_of_run;         ///< t <= to
+};
+
+/// From what a number is made.
+enum class From {
+  each,       ///< the number of each member, then a statistic over the members
+  curves,     ///< the members' series together
+  values,     ///< the values of all members in one sample
+  radii,      ///< all radii together
+  parameters  ///< the case alone ("case" in the file)
+};
+
+enum class Statistic { mean, median, standard_deviation };
+
+/// The statistic of numbers, one a member; nan as those of statistics.hpp.
+double evaluate(Statistic statistic, std::span<const double> numbers);
+
+struct ComparisonRow {
+  std::string id = {};
+  int number = 0;  ///< the group of rows it belongs to
+  std::string quantity = {};
+  std::string case_name = {};
+  std::vector<std::string> radius = {};
+  std::string estimator = {};
+  From from = From::each;
+  Statistic statistic = Statistic::mean;
+  Window window = {};
+  std::string printed = {};
+  std::string unit = {};
+  Criterion criterion = {};
+  std::string source = {};
+};
+
+}  // namespace talus

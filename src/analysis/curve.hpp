@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers that change with time: a curve, what is read off it, and the mean of many.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace talus {
+
+/// Values at increasing times, one a time. The unit of time is the caller's: s, or a/v_s for a curve of an ensemble.
+struct Curve {
+  std::vector<double> time;
+  std::vector<double> value;
+};
+
+/// The part with from < t <= to; times that differ from a bound by less than 1e-9 of it count as equal to it.
+Curve part(const Curve& curve, double from, double to);
+
+/// Value at time t, linear between the curve's points.
+/// \throws std::invalid_argument if t is outside the curve
+double value_at(const Curve& curve, double t);
+
+/// The point nearest t; of two equally near the earlier. \throws std::invalid_argument for an empty curve
+std::size_t nearest_point(std::span<const double> time, double t);
+
+/// The least value, the largest, and the time of the largest (the first of equal ones); nan if a value is nan.
+/// \throws std::invalid_argument for an empty curve
+struct Extremes {
+  double least, largest, largest_time;
+};
+Extremes extremes(const Curve& curve);
+
+/// The first time at which the curve, linear between its points, is at or below the level; nan if it never is.
+double first_time_at_or_below(const Curve& curve, double level);
+
+/// Mean and standard deviation (n - 1; nan for one curve) of several curves at each time.
+struct CurveSpread {
+  Curve mean;
+  std::vector<double> deviation;
+};
+/// \throws std::invalid_argument if the curves differ in length, or their times by more than 1e-6 of the last time
+CurveSpread spread(std::span<const Curve> curves);
+
+}  // namespace talus

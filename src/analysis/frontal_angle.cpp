@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/frontal_angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace talus {
+
+namespace {
+
+/// The grain to go to from i, or nothing.
+std::optional<std::uint32_t> next_grain(std::span<const Vector3> position, const Links& links,
+                                        const std::vector<bool>& closed, std::uint32_t i) {
+  std::optional<std::uint32_t> next;
+  std::tuple<double, double> least;
+  for (const std::uint32_t j : links.of(i)) {
+    const Vector3 d = position[j] - position[i];
+    if (closed[j] || d.z < 0) continue;
+    const std::tuple order{std::atan2(d.z, d.x), dot(d, d)};
+    if (!next || order < least) {
+      next = j;
+      least = order;
+    }
+  }
+  return next;
+}
+
+}  // namespace
+
+GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, const FrontalAngleRule& rule) {
+  const Links wide(position, rule.cluster_reach * mean_radius);
+  const GrainSet cluster = largest_set(wide.connected_sets(std::vector<bool>(position.size(), true)), position);
+  if (cluster.empty()) return {};
+  const double step = rule.step * mean_radius;
+  const Links links(position, step);
+
+  std::vector<bool> closed(position.size(), true);
+  double top = position[cluster.front()].z;
+  std::uint32_t foremost = cluster.front();
+  for (const std::uint32_t i : cluster) {
+    closed[i] = false;
+    top = std::max(top, position[i].z);
+    if (std::tuple(position[i].x, -position[i].z) > std::tuple(position[foremost].x, -position[foremost].z))
+      foremost = i;
+  }
+
+  GrainSet way = {foremost}, highest = way;
+  closed[foremost] = true;
+  while (!way.empty()) {
+    if (const auto next = next_grain(position, links, closed, way.back())) {
+      closed[*next] = true;
+      way.push_back(*next);
+      continue;
+    }
+    if (position[way.back()].z > position[highest.back()].z) highest = way;
+    if (position[highest.back()].z >= top - step) break;
+    way.pop_back();
+  }
+  return highest;
+}
+
+std::optional<double> angle_of_line(std::span<const Vector3> position, const GrainSet& grains) {
+  if (grains.size() < 3) return std::nullopt;
+  Vector3 centre;
+  for (const std::uint32_t i : grains) centre += 1.0 / static_cast<double>(grains.size()) * position[i];
+  double xx = 0, xz = 0, zz = 0;
+  for (const std::uint32_t i : grains) {
+    const Vector3 d = position[i] - centre;
+    xx += d.x * d.x;
+    xz += d.x * d.z;
+    zz += d.z * d.z;
+  }
+  if (xz == 0 && xx == zz) return std::nullopt;
+  // Direction of the largest moment, from +x, in (-pi/2, pi/2].
+  const double direction = 0.5 * std::atan2(2 * xz, xx - zz);
+  return direction > 0 ? std::numbers::pi - direction : -direction;
+}
+
+}  // namespace talus

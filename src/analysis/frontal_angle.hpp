@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Angle of an avalanche's front against the slope, from the grains on its surface (Niiya, Awazu & Nishimori 2020,
+/// section 4.3, Figure 11). x points down the slope, z away from it.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "analysis/links.hpp"
+#include "base/vector.hpp"
+
+namespace talus {
+
+struct FrontalAngleRule {
+  double cluster_reach = 4;  ///< link of the cluster whose front is taken, in mean radii; choice
+  double step = 3;           ///< reach of the search for the next grain, in mean radii (section 4.3)
+};
+
+/// The grains of the front's surface, from the foremost of the largest cluster upwards, none lower than the one before.
+///
+/// The next grain is the one, of those within a step and not lower than the last, that lies at the smallest angle from
+/// +x (section 4.3 gives the range of 0 to 180 degrees, not the order: choice; of equal ones the nearest). A grain that
+/// sticks out of the surface has no next: as long as the walk is more than a step below the top of the cluster it goes
+/// back and takes another way (choice). Of all ends the highest counts. \param position m; the foremost of equal ones
+/// is the lowest \param mean_radius of the case, > 0, m
+GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, const FrontalAngleRule& rule = {});
+
+/// Angle between the slope behind the front and the line nearest to the grains' centres, 0 to pi: below pi/2 the front
+/// leans back. Nothing for fewer than three grains, or if they prefer no direction.
+///
+/// The line has the least sum of squared distances (orthogonal regression). A line of z on x has no meaning for an
+/// upright front, one of x on z leans to the upright; this one turns with the grains and prefers no axis. Choice.
+std::optional<double> angle_of_line(std::span<const Vector3> position, const GrainSet& grains);
+
+}  // namespace talus

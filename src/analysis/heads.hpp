@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Heads of an avalanche: dense groups of grains at its front, found from the number of grains around each grain
+/// (Niiya, Awazu & Nishimori 2020, section 4.1), and their size (Figure 8c). What the paper leaves open is a member of
+/// `HeadRule`.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "analysis/links.hpp"
+#include "base/vector.hpp"
+
+namespace talus {
+
+/// Numbers of neighbours, Eq. 11.
+struct NeighbourNumbers {
+  std::vector<std::uint32_t> direct;    ///< n_i: grains closer than the reach, Eq. 11a
+  std::vector<std::uint32_t> indirect;  ///< n'_i: sum of n_j over them, Eq. 11b
+};
+
+/// \param count_self whether a grain belongs to its own neighbours, in both sums; the paper does not say
+NeighbourNumbers neighbour_numbers(const Links& links, bool count_self = false);
+
+/// How heads are found. The defaults are those of validation/niiya2020/reference.toml.
+struct HeadRule {
+  enum class Measure { indirect, direct };
+  Measure measure = Measure::indirect;  ///< n' (as the paper decides) or n (its Figure 8a)
+  double reach = 4;                     ///< of a neighbour, in mean radii (Eq. 11)
+  double share = 0.25;                  ///< of the largest number, above which a grain belongs to a head (section 4.1)
+  std::size_t least = 20;               ///< grains of a head; choice
+  bool count_self = false;              ///< as in neighbour_numbers; choice
+  /// Whether each head's rim is drawn at `share` of its own largest number ("the maximum value calculated for each
+  /// aggregated part") rather than of the largest of all. Changes no number of heads. Choice.
+  bool own_largest = true;
+};
+
+/// The heads, the one with the most grains first (of equal ones the one farther down), each by index.
+///
+/// GrainSet whose number is above `share` of the largest of all, and the links between them, make sets; those of at
+/// least `least` grains are heads. With `own_largest`, every grain then falls to the head that it reaches by the fewest
+/// links (of equally many, to that of the nearest grain at the last link), and those above `share` of that head's
+/// largest number that are connected to the head through such grains join it. \param position centres, m; \param
+/// mean_radius of the case, > 0, m
+std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius, const HeadRule& rule = {});
+
+/// Size of a head in the plane x, y; lengths in m, from outer edge to outer edge of the grains (choice). Thickness,
+/// inner edge and concavity are nan if no grain lies in the central half, which a head of a few grains may do.
+struct HeadSize {
+  double width = 0;      ///< w_h: across, y
+  double thickness = 0;  ///< l_h: foremost edge less inner edge
+  double centre = 0;     ///< y in the middle between the two outermost edges
+  double foremost = 0;   ///< x of the foremost edge
+  /// x of the most advanced point of the rear boundary in the central half. Choice: the paper's Figure 8c shows "the
+  /// forefront of the inner position".
+  double inner = 0;
+  /// How far the centre of the rear boundary is ahead of the rearmost edges left and right of the middle (their mean),
+  /// over the thickness: positive for a crescent. nan if one side has no grain.
+  double concavity = 0;
+
+  double aspect_ratio() const { return width / thickness; }
+  bool in_central_half(const Vector3& x) const { return 4 * std::abs(x.y - centre) <= width; }
+};
+
+/// The rear boundary at a grain is the rearmost edge among the head's grains whose y differs by at most half of
+/// `rear_window` from its own.
+/// \param head grains, at least one; \param rear_window in mean radii; 4, the reach of a link, is a choice
+HeadSize head_size(std::span<const Vector3> position, std::span<const double> radius, const GrainSet& head,
+                   double mean_radius, double rear_window = 4);
+
+}  // namespace talus

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/case_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <thread>
+
+namespace talus::app {
+
+void CaseOptions::add_to(CLI::App& command) {
+  command.add_option("CASE", path, "case file (TOML)")->required();
+  command
+      .add_option("--set", settings,
+                  "override or add a key: table.key=value, a quantity with its unit; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+CaseFile CaseOptions::read() const {
+  CaseFile file = CaseFile::read(path);
+  for (const std::string& setting : settings) file.set(setting);
+  return file;
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  command.add_option("--threads", threads, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+}  // namespace talus::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What every command that takes a case takes: the file, --set, --threads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/case_file.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace talus::app {
+
+struct CaseOptions {
+  std::string path;
+  std::vector<std::string> settings;
+
+  void add_to(CLI::App& command);
+  /// \throws FileError, InputError as CaseFile
+  CaseFile read() const;
+};
+
+/// Adds --threads N with the number of processors as default.
+void add_threads_option(CLI::App& command, int& threads);
+
+}  // namespace talus::app

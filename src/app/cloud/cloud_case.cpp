@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cloud/cloud_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "analysis/fronts.hpp"
+#include "app/cloud/cloud_analysis.hpp"
+#include "app/cloud/cloud_pictures.hpp"
+#include "io/parameter_reader.hpp"
+#include "io/points_csv.hpp"
+#include "models/cloud/model.hpp"
+#include "models/cloud/stiffness.hpp"
+#include "numerics/chebyshev.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using cloud::Cloud;
+using cloud::Grains;
+using cloud::Parameters;
+
+/// Reads the points of particles.file; radii that the file does not give are the mean radius.
+Grains read_grains(const CaseFile& file, const Parameters& p) {
+  std::filesystem::path path = p.particles.file;
+  if (path.is_relative()) path = std::filesystem::path(file.name()).parent_path() / path;
+  const PointSet points = read_points_csv(path);
+  const Snapshot view = points.view();
+  Grains grains;
+  grains.position.assign(view.positions().begin(), view.positions().end());
+  if (view.has("radius")) {
+    grains.radius.assign(view.scalars("radius").begin(), view.scalars("radius").end());
+  } else {
+    grains.radius.assign(grains.position.size(), p.particles.radius);
+  }
+  return grains;
+}
+
+/// The front's place after every step; a case without x as its way down still has a foremost grain.
+std::vector<NamedValue> observe_front(const Snapshot& snapshot, double layer) {
+  const double front = front_position(snapshot.positions()).value_or(std::nan(""));
+  const double on_slope = front_position_on_slope(snapshot.positions(), layer).value_or(std::nan(""));
+  return {{"front_x", "m", front}, {"front_on_slope_x", "m", on_slope}};
+}
+
+std::vector<NamedValue> groups(const Parameters& p) {
+  const cloud::Scales s = cloud::scales(p);
+  const double a = p.particles.radius;
+  const double reynolds = p.fluid.density * a * s.stokes_speed / p.fluid.viscosity;
+  return {{"stokes_speed", "m/s", s.stokes_speed}, {"stokes_time", "s", s.stokes_time},
+          {"contact_ratio", "1", s.contact_ratio}, {"volume_fraction", "1", s.volume_fraction},
+          {"reynolds_number", "1", reynolds},      {"stiffness_ratio", "1", cloud::contact_rate(p) * s.stokes_time}};
+}
+
+Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grains& grains) {
+  const cloud::Scales s = cloud::scales(p);
+  const double step = p.integration.largest_step * s.stokes_time;
+  const double rate = cloud::contact_rate(p);
+  const bool euler = p.integration.method == cloud::Method::euler;
+  const double n = static_cast<double>(grains.radius.size());
+  Forecast f;
+  f.steps = std::ceil(run.end / (euler && rate > 0 ? std::min(step, 1.9 / rate) : step));
+  // A step ends with an evaluation, and every fifth measures the stiffest rate with one or two.
+  f.evaluations = f.steps * ((euler ? 1 : stages_for(step * rate, 0.1)) + 0.3);
+
+  ThreadTeam team(1);
+  cloud::Velocities velocities(p, grains.radius);
+  std::vector<Vector3> velocity(grains.radius.size());
+  velocities(team, grains.position, velocity);
+  const auto start = std::chrono::steady_clock::now();
+  int evaluations = 0;
+  double elapsed = 0;
+  do {
+    velocities(team, grains.position, velocity);
+    ++evaluations;
+    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  } while (elapsed < 0.1);
+  f.seconds_per_evaluation = elapsed / evaluations;
+  f.memory_bytes = 20e6 + 1500 * n;  // libraries; columns, packed copies and accumulators of a grain
+  const double snapshots = run.end / run.snapshots + 1;
+  f.disk_bytes = snapshots * (104 * n + 20e3) + 2 * (88 * n + 20e3) + f.steps * 200 + 1e6;
+  return f;
+}
+
+}  // namespace
+
+ParameterList cloud_parameters() {
+  ParameterList list;
+  for_each_parameter(list, run::RunParameters{});
+  for_each_parameter(list, Parameters{});
+  return list;
+}
+
+PreparedCase prepare_cloud(const CaseFile& file) {
+  Parameters p;
+  run::RunParameters run;
+  ParameterReader reader(file);
+  run::for_each_parameter(reader, run);
+  cloud::for_each_parameter(reader, p);
+  reader.check(cloud::check(p));
+  reader.finish();
+  if (run.snapshots == 0) run.snapshots = run.end / 20;
+
+  std::optional<Grains> given;
+  if (p.particles.shape == cloud::Shape::file) {
+    given = read_grains(file, p);
+    ParameterReader points(file);
+    for_each_parameter(points, p);
+    points.check(cloud::check_grains(p, *given));
+    points.raise();
+    p.particles.count = static_cast<std::int64_t>(given->radius.size());
+  }
+
+  PreparedCase prepared;
+  prepared.model = "cloud";
+  prepared.seed = p.seed;
+  prepared.run = run;
+  prepared.defaults = cloud_parameters();
+  run::for_each_parameter(prepared.parameters, run);
+  cloud::for_each_parameter(prepared.parameters, p);
+  prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
+  prepared.groups = groups(p);
+  auto grains = [p, given] { return given ? *given : cloud::pack(p); };
+  prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
+  const double layer = 2 * p.particles.radius;
+  prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
+  prepared.forecast = [p, run, grains] { return forecast(p, run, grains()); };
+  const CloudFrame frame{p.particles.radius, cloud::scales(p).stokes_speed, p.motion,
+                         p.slope.enabled ? p.slope.angle : 0, p.slope.enabled};
+  prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
+  prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {
+    return draw_cloud(folder, frame, title);
+  };
+  return prepared;
+}
+
+}  // namespace talus::app

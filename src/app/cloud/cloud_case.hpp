@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The cloud model as the commands see it.
+#pragma once
+
+#include "app/prepared_case.hpp"
+
+namespace talus::app {
+
+/// \throws InputError with every problem of the case, of the file of points it names, and of their combination
+PreparedCase prepare_cloud(const CaseFile& file);
+
+/// All parameters of a case of this model, with their defaults.
+ParameterList cloud_parameters();
+
+}  // namespace talus::app

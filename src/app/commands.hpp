@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The commands. Each adds itself to the command line; what it does runs after parsing and gives the exit status.
+#pragma once
+
+#include <functional>
+
+#include "base/error.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace talus::app {
+
+/// Set by the command that was chosen.
+using Action = std::function<ExitStatus()>;
+
+void add_run_command(CLI::App& app, Action& action);
+void add_check_command(CLI::App& app, Action& action);
+void add_ensemble_command(CLI::App& app, Action& action);
+void add_schema_command(CLI::App& app, Action& action);
+
+}  // namespace talus::app

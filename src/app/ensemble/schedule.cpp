@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ensemble/schedule.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "io/manifest.hpp"
+#include "io/run_folder.hpp"
+#include "io/summary.hpp"
+#include "run/interrupt.hpp"
+#include "run/jobs.hpp"
+#include "run/progress.hpp"
+
+namespace talus::app {
+
+namespace {
+
+constexpr int interrupted_status = static_cast<int>(ExitStatus::interrupted);
+
+run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
+  run::Job job{.arguments = {run::own_program(), "run", run.case_path, "--out", run.member.folder.string(), "--threads",
+                             "1", "--set", "output.pictures=false"},
+               .output = output};
+  for (const std::string& setting : run.member.settings) {
+    job.arguments.push_back("--set");
+    job.arguments.push_back(setting);
+  }
+  const RunFolder folder(run.member.folder);
+  // A folder without a manifest was left by a kill before the run began.
+  if (std::filesystem::exists(folder.manifest()))
+    job.arguments.push_back("--resume");
+  else if (std::filesystem::exists(folder.path()))
+    job.arguments.push_back("--overwrite");
+  return job;
+}
+
+std::string last_line(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line, last;
+  while (std::getline(file, line))
+    if (!line.empty()) last = line;
+  return last;
+}
+
+}  // namespace
+
+bool is_done(const EnsembleMember& member) {
+  const RunFolder folder(member.folder);
+  if (!std::filesystem::exists(folder.summary())) return false;
+  if (read_summary(folder.summary()).status != "done") return false;
+  if (read_manifest(folder.manifest()).fingerprint != member.fingerprint)
+    throw InputError({{.where = folder.path().string(),
+                       .what = "holds a run of another case",
+                       .allowed = "the same case to resume, or another --out"}});
+  return true;
+}
+
+ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {
+  ScheduleResult result;
+  std::vector<const ScheduledRun*> open;
+  for (const ScheduledRun& run : runs) {
+    if (is_done(run.member))
+      ++result.found_done;
+    else
+      open.push_back(&run);
+  }
+
+  std::vector<run::Job> list;
+  for (const ScheduledRun* run : open) {
+    std::filesystem::create_directories(run->member.folder.parent_path());
+    std::filesystem::path output = run->member.folder;
+    output += ".out";
+    list.push_back(job_of(*run, output));
+  }
+
+  run::Progress progress(stderr, 0, static_cast<double>(list.size()));
+  std::size_t ended = 0;
+  const bool complete = run::run_jobs(
+      list, jobs,
+      [&](const run::JobEnd& end) {
+        ++ended;
+        if (end.status == 0) {
+          ++result.done;
+          std::error_code ignored;
+          std::filesystem::remove(list[end.job].output, ignored);
+        } else if (end.status != interrupted_status) {
+          result.failed.push_back({open[end.job]->member.folder, end.status, last_line(list[end.job].output)});
+        }
+      },
+      [&] {
+        progress.update(static_cast<double>(ended), [&] {
+          return fmt::format("{} of {} runs done{}", result.found_done + result.done, runs.size(),
+                             result.failed.empty() ? "" : fmt::format(", {} failed", result.failed.size()));
+        });
+      },
+      [] { return run::signal_has_come(); });
+  progress.finish();
+  result.interrupted = !complete || result.found_done + result.done + result.failed.size() < runs.size();
+  return result;
+}
+
+}  // namespace talus::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Runs the members of ensembles over the cores. What is done stands in the members' own folders, so a scheduler that
+/// was killed goes on where it was.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/ensemble/plan.hpp"
+
+namespace talus::app {
+
+/// A run that a scheduler is to see done.
+struct ScheduledRun {
+  std::string case_path;
+  EnsembleMember member;
+};
+
+/// A member that did not end well.
+struct FailedRun {
+  std::filesystem::path folder;
+  int status = 0;
+  std::string reason;  ///< the last line it wrote
+};
+
+struct ScheduleResult {
+  bool interrupted = false;
+  std::size_t done = 0, found_done = 0;
+  std::vector<FailedRun> failed;
+};
+
+/// True if the member's folder holds its whole run.
+bool is_done(const EnsembleMember& member);
+
+/// Runs what is not done yet, `jobs` at a time, each on one thread and without pictures; a run that was interrupted is
+/// resumed. Shows one line of progress with an ETA for the whole.
+/// \throws FileError, InputError
+ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs);
+
+}  // namespace talus::app

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/ensemble/statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/ensemble/schedule.hpp"
+#include "io/atomic_file.hpp"
+#include "io/figure/figure.hpp"
+#include "io/run_folder.hpp"
+#include "io/series.hpp"
+#include "io/summary.hpp"
+
+namespace talus::app {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> of_the_machine{"wall_seconds", "settle_wall_seconds", "cpu_seconds",
+                                                         "peak_memory", "threads"};
+
+std::vector<const EnsembleMember*> done_members(const EnsembleGroup& group) {
+  std::vector<const EnsembleMember*> done;
+  for (const EnsembleMember& member : group.members)
+    if (is_done(member)) done.push_back(&member);
+  return done;
+}
+
+bool tells_about_the_machine(const std::string& name) {
+  return std::find(of_the_machine.begin(), of_the_machine.end(), name) != of_the_machine.end();
+}
+
+std::vector<Series> read_tables(const EnsembleGroup& group, const std::filesystem::path& table) {
+  std::vector<Series> tables;
+  for (const EnsembleMember* member : done_members(group))
+    if (const auto path = member->folder / table; std::filesystem::exists(path)) tables.push_back(read_series(path));
+  return tables;
+}
+
+void write_series(const std::filesystem::path& path, const Series& series) {
+  std::string text;
+  for (std::size_t c = 0; c < series.names.size(); ++c)
+    text += fmt::format("{}{} [{}]", c ? "," : "", series.names[c], series.units[c]);
+  for (std::size_t row = 0; row < series.rows(); ++row) {
+    text += '\n';
+    for (std::size_t c = 0; c < series.columns.size(); ++c)
+      text += fmt::format("{}{}", c ? "," : "", series.columns[c][row]);
+  }
+  write_atomically(path, text + "\n");
+}
+
+figure::Figure bands_figure(const Series& bands, const std::string& title) {
+  figure::Figure figure{.title = title};
+  for (std::size_t c = 1; c + 1 < bands.names.size(); c += 2) {
+    const std::string name = bands.names[c].substr(0, bands.names[c].rfind("_mean"));
+    figure.panels.emplace_back(figure::Chart{
+        .x = {.label = "time", .unit = bands.units[0]},
+        .y = {.label = name, .unit = bands.units[c] == "1" ? "" : bands.units[c]},
+        .series = {figure::Line{.x = bands.columns[0], .y = bands.columns[c], .spread = bands.columns[c + 1]}}});
+  }
+  return figure;
+}
+
+figure::Chart histogram_chart(const std::vector<double>& values, const std::string& label, const std::string& unit) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto bins = std::max<std::size_t>(5, static_cast<std::size_t>(std::sqrt(static_cast<double>(values.size()))));
+  const double margin = 1e-9 * std::abs(*high) + 1e-300;
+  const Histogram h = histogram(values, *low, *high + margin, bins);
+  figure::Bars bars;
+  for (std::size_t b = 0; b <= bins; ++b) bars.edges.push_back(h.least + static_cast<double>(b) * h.bin_width);
+  for (std::size_t b = 0; b < bins; ++b) bars.heights.push_back(h.density(b));
+  const Gaussian fit = gaussian_of_moments(values);
+  figure::Line curve{.label = "Gaussian of the same mean and deviation", .dash = figure::Dash::dashed};
+  for (int k = -60; k <= 60; ++k) {
+    curve.x.push_back(fit.mean + 0.06 * k * fit.deviation);
+    curve.y.push_back(fit.density(curve.x.back()));
+  }
+  return {.x = {.label = label, .unit = unit}, .y = {.label = "probability density"}, .series = {bars, curve}};
+}
+
+}  // namespace
+
+std::vector<QuantitySpread> quantity_spreads(const EnsembleGroup& group) {
+  std::vector<QuantitySpread> spreads;
+  for (const EnsembleMember* member : done_members(group)) {
+    for (const NamedValue& value : read_summary(RunFolder(member->folder).summary()).quantities) {
+      if (tells_about_the_machine(value.name)) continue;
+      auto found = std::find_if(spreads.begin(), spreads.end(), [&](const auto& s) { return s.name == value.name; });
+      if (found == spreads.end()) found = spreads.insert(spreads.end(), {value.name, value.unit, {}, 0, 0});
+      if (std::isfinite(value.value)) found->values.push_back(value.value);
+    }
+  }
+  for (QuantitySpread& spread : spreads) {
+    spread.mean = mean(spread.values);
+    spread.deviation = standard_deviation(spread.values);
+  }
+  return spreads;
+}
+
+Series table_spread(const EnsembleGroup& group, const std::filesystem::path& table) {
+  const std::vector<Series> tables = read_tables(group, table);
+  Series bands;
+  if (tables.empty()) return bands;
+  const Series& first = tables.front();
+  std::size_t rows = first.rows();
+  for (const Series& t : tables) rows = std::min(rows, t.rows());
+  for (std::size_t c = 0; c < first.names.size(); ++c) {
+    std::vector<double> means(rows), deviations(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::vector<double> values;
+      for (const Series& t : tables)
+        if (const double v = t.column(first.names[c])[row]; std::isfinite(v)) values.push_back(v);
+      means[row] = mean(values);
+      deviations[row] = standard_deviation(values);
+    }
+    bands.names.push_back(c == 0 ? first.names[c] : first.names[c] + "_mean");
+    bands.units.push_back(first.units[c]);
+    bands.columns.push_back(std::move(means));
+    if (c == 0) continue;
+    bands.names.push_back(first.names[c] + "_deviation");
+    bands.units.push_back(first.units[c]);
+    bands.columns.push_back(std::move(deviations));
+  }
+  return bands;
+}
+
+std::vector<std::string> time_tables(const EnsembleGroup& group) {
+  std::vector<std::string> names;
+  const auto done = done_members(group);
+  if (done.empty() || !std::filesystem::exists(done.front()->folder / "analysis")) return names;
+  for (const auto& entry : std::filesystem::directory_iterator(done.front()->folder / "analysis"))
+    if (entry.path().extension() == ".csv" && read_series(entry.path()).names.front() == "time")
+      names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<double> pooled_column(const EnsembleGroup& group, const std::filesystem::path& table,
+                                  const std::string& column) {
+  std::vector<double> values;
+  for (const Series& t : read_tables(group, table)) {
+    const auto more = t.column(column);
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  return values;
+}
+
+std::vector<std::filesystem::path> write_group(const EnsembleGroup& group, const std::filesystem::path& folder) {
+  const std::vector<QuantitySpread> spreads = quantity_spreads(group);
+  std::string members = "seed,status";
+  for (const QuantitySpread& spread : spreads) members += fmt::format(",{} [{}]", spread.name, spread.unit);
+  for (const EnsembleMember& member : group.members) {
+    const bool done = is_done(member);
+    members += fmt::format("\n{},{}", member.seed, done ? "done" : "not done");
+    if (!done) continue;
+    const Summary summary = read_summary(RunFolder(member.folder).summary());
+    for (const QuantitySpread& spread : spreads) {
+      const auto* value = summary.find(spread.name);
+      members += value ? fmt::format(",{}", value->value) : ",nan";
+    }
+  }
+  write_atomically(folder / "members.csv", members + "\n");
+
+  std::string quantities = "quantity,unit,members,mean,standard_deviation,least,largest";
+  for (const QuantitySpread& spread : spreads) {
+    const auto [low, high] = std::minmax_element(spread.values.begin(), spread.values.end());
+    quantities += fmt::format("\n{},{},{},{},{},{},{}", spread.name, spread.unit, spread.values.size(), spread.mean,
+                              spread.deviation, spread.values.empty() ? std::nan("") : *low,
+                              spread.values.empty() ? std::nan("") : *high);
+  }
+  write_atomically(folder / "quantities.csv", quantities + "\n");
+
+  std::filesystem::create_directories(folder / "pictures");
+  std::vector<std::filesystem::path> pictures;
+  for (const std::string& table : time_tables(group)) {
+    const Series bands = table_spread(group, std::filesystem::path("analysis") / (table + ".csv"));
+    write_series(folder / ("bands_" + table + ".csv"), bands);
+    pictures.push_back(folder / "pictures" / ("bands_" + table + ".png"));
+    figure::write_png(bands_figure(bands, group.name), pictures.back());
+  }
+  figure::Figure histograms{.title = group.name};
+  for (const QuantitySpread& spread : spreads)
+    if (spread.values.size() >= 5 && spread.deviation > 0)
+      histograms.panels.emplace_back(
+          histogram_chart(spread.values, spread.name, spread.unit == "1" ? "" : spread.unit));
+  if (const auto widths = pooled_column(group, "analysis/head_widths.csv", "width"); widths.size() >= 5)
+    histograms.panels.emplace_back(histogram_chart(widths, "width of every head at the end", "m"));
+  if (!histograms.panels.empty()) {
+    pictures.push_back(folder / "pictures" / "histograms.png");
+    figure::write_png(histograms, pictures.back());
+  }
+  return pictures;
+}
+
+}  // namespace talus::app

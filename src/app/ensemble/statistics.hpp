@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What an ensemble's members have in common: mean and standard deviation of every quantity and of every table that
+/// grows with time. Everything is read from the members' folders in the order of their seeds, so the result depends
+/// neither on the order in which they ran nor on how many ran at once.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/statistics.hpp"
+#include "app/ensemble/plan.hpp"
+#include "numerics/series.hpp"
+
+namespace talus::app {
+
+/// A quantity over the members that have it.
+struct QuantitySpread {
+  std::string name, unit;
+  std::vector<double> values;  ///< finite ones, in the order of the seeds
+  double mean = 0, deviation = 0;
+};
+
+/// Quantities of a group's members that are done, in the order of the first member's summary; those that tell about the
+/// machine (times, memory, threads) are left out.
+std::vector<QuantitySpread> quantity_spreads(const EnsembleGroup& group);
+
+/// Mean and standard deviation, row by row, of one table of the members that are done: columns "time", then NAME_mean
+/// and NAME_deviation. Rows that not all members have are left out; values that are not finite do not count.
+/// \param table path within a member's folder: "analysis/front_speed.csv"
+Series table_spread(const EnsembleGroup& group, const std::filesystem::path& table);
+
+/// Names of the tables, with time as first column, that the first done member has under analysis/.
+std::vector<std::string> time_tables(const EnsembleGroup& group);
+
+/// All values of one column over the members: widths of heads.
+std::vector<double> pooled_column(const EnsembleGroup& group, const std::filesystem::path& table,
+                                  const std::string& column);
+
+/// Writes, in the group's folder: members.csv, quantities.csv, bands_TABLE.csv and pictures/*.png (bands, histograms).
+/// \returns the pictures
+/// \throws FileError
+std::vector<std::filesystem::path> write_group(const EnsembleGroup& group, const std::filesystem::path& folder);
+
+}  // namespace talus::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/// talus ensemble: many members of a case, over seeds and varied keys.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "app/case_options.hpp"
+#include "app/commands.hpp"
+#include "app/ensemble/plan.hpp"
+#include "app/ensemble/schedule.hpp"
+#include "app/ensemble/statistics.hpp"
+#include "run/interrupt.hpp"
+
+namespace talus::app {
+
+namespace {
+
+void refuse_foreign_folder(const EnsembleRequest& request) {
+  std::error_code none;
+  if (!request.resume && std::filesystem::exists(request.folder) && !std::filesystem::is_empty(request.folder, none))
+    throw InputError({{.where = request.folder.string(),
+                       .what = "the folder is there and not empty",
+                       .allowed = "--resume to go on with the ensemble in it, or another --out"}});
+}
+
+ExitStatus ensemble(const EnsembleRequest& request) {
+  run::catch_signals();
+  const EnsemblePlan plan = plan_ensemble(request);
+  refuse_foreign_folder(request);
+  std::vector<ScheduledRun> runs;
+  for (const EnsembleGroup& group : plan.groups)
+    for (const EnsembleMember& member : group.members) runs.push_back({request.case_path, member});
+
+  const ScheduleResult result = run_members(runs, request.jobs);
+  std::vector<std::filesystem::path> pictures;
+  for (const EnsembleGroup& group : plan.groups) {
+    const auto drawn = write_group(group, request.folder / group.name);
+    pictures.insert(pictures.end(), drawn.begin(), drawn.end());
+    fmt::print("{}:\n", group.name);
+    for (const QuantitySpread& spread : quantity_spreads(group))
+      if (!spread.values.empty())
+        fmt::print("  {:28} {:>12.6g} ± {:<10.4g} {} ({} members)\n", spread.name, spread.mean, spread.deviation,
+                   spread.unit == "1" ? "" : spread.unit, spread.values.size());
+  }
+  for (const FailedRun& failed : result.failed)
+    fmt::print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+  fmt::print("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(),
+             request.folder.string());
+  if (!pictures.empty()) fmt::print("Picture: {}\n", pictures.front().string());
+  if (result.interrupted) return ExitStatus::interrupted;
+  return result.failed.empty() ? ExitStatus::done : ExitStatus::numerical;
+}
+
+}  // namespace
+
+void add_ensemble_command(CLI::App& app, Action& action) {
+  struct Options {
+    CaseOptions case_options;
+    EnsembleRequest request;
+    std::string out;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("ensemble", "run many members of a case: seeds and varied keys");
+  options->case_options.add_to(*command);
+  command->add_option("--members", options->request.members, "members of each group; member k has the case's seed + k")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--vary", options->request.vary, "one group for each value; several --vary: all combinations")
+      ->type_name("KEY=V1,V2,...")
+      ->allow_extra_args(false);
+  options->request.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  command
+      ->add_option("--jobs", options->request.jobs,
+                   "runs at a time, each on one thread; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "folder of the results; results/NAME-ensemble if not given");
+  command->add_flag("--resume", options->request.resume, "go on with the ensemble in the folder");
+  command->footer(
+      "Each member is an ordinary run's folder, FOLDER/GROUP/seed_0001. Beside them: members.csv, quantities.csv "
+      "(mean\n"
+      "and standard deviation), bands_*.csv and pictures. A killed ensemble goes on with --resume. Exit status 3 if a\n"
+      "member failed; those that did are listed.");
+  command->callback([options, &action] {
+    action = [options] {
+      EnsembleRequest request = options->request;
+      request.case_path = options->case_options.path;
+      request.settings = options->case_options.settings;
+      const std::string name = std::filesystem::path(request.case_path).stem().string() + "-ensemble";
+      request.folder =
+          options->out.empty() ? std::filesystem::path("results") / name : std::filesystem::path(options->out);
+      return ensemble(request);
+    };
+  });
+}
+
+}  // namespace talus::app

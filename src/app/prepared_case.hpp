@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A case that was read and found valid, joined to its model: what the commands work with.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/case_file.hpp"
+#include "io/parameter_value.hpp"
+#include "numerics/named_value.hpp"
+#include "run/any_model.hpp"
+#include "run/loop.hpp"
+#include "run/run_parameters.hpp"
+
+namespace talus::app {
+
+/// What a run will take, estimated before it begins.
+struct Forecast {
+  double steps = 0;
+  double evaluations = 0;             ///< of the costliest stage
+  double seconds_per_evaluation = 0;  ///< measured now, on one thread
+  double memory_bytes = 0;
+  double disk_bytes = 0;
+};
+
+struct PreparedCase {
+  std::string model;
+  std::int64_t seed = 0;
+  run::RunParameters run;
+  ParameterList parameters;  ///< of the model and of the run, with the values they have
+  ParameterList defaults;    ///< the same with the values they have where nothing is given
+  std::string instruction_set;
+
+  /// The initial state, ready for begin() or resume().
+  std::function<std::unique_ptr<run::AnyModel>()> make_model;
+  std::vector<run::Observer> observers;
+  /// Dimensionless groups and scales, for `check` and the log.
+  std::vector<NamedValue> groups;
+  std::function<Forecast()> forecast;
+  /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
+  std::function<std::vector<NamedValue>(const std::filesystem::path& folder)> analyze;
+  /// Draws a run's pictures and returns their paths, the one to look at first first.
+  std::function<std::vector<std::filesystem::path>(const std::filesystem::path& folder)> draw;
+};
+
+/// Reads a case: the model it names, then all parameters of model and run.
+/// \throws InputError with every problem
+PreparedCase prepare_case(const CaseFile& file);
+
+/// The parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
+ParameterList parameters_of(const std::string& model);
+
+/// The models there are.
+inline constexpr std::array<std::string_view, 1> model_names{"cloud"};
+
+}  // namespace talus::app

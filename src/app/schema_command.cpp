@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// talus schema: what a case may say, as JSON Schema for editors or as a page for people.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "app/commands.hpp"
+#include "app/prepared_case.hpp"
+#include "io/parameter_schema.hpp"
+
+namespace talus::app {
+
+void add_schema_command(CLI::App& app, Action& action) {
+  struct Options {
+    std::string model = "cloud";
+    bool page = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("schema", "print the JSON Schema of a model's cases");
+  command->add_option("MODEL", options->model, "model")
+      ->check(CLI::IsMember(std::vector<std::string>(model_names.begin(), model_names.end())))
+      ->capture_default_str();
+  command->add_flag("--markdown", options->page, "print the reference page instead");
+  command->callback([options, &action] {
+    action = [options] {
+      const ParameterList list = parameters_of(options->model);
+      fmt::print(
+          "{}", options->page ? reference_page(list) : json_schema(list, "Talus case, model " + options->model) + "\n");
+      return ExitStatus::done;
+    };
+  });
+}
+
+}  // namespace talus::app

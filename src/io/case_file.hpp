@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A case as it was written: the values of a TOML file by their dotted keys, each with the line or the option that gave
+/// it. What the values mean is ParameterReader's matter.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace talus {
+
+/// A table; its keys are entries of their own.
+struct CaseTable {};
+
+/// A date or time, which no parameter takes.
+struct CaseDate {
+  std::string text;
+};
+
+struct CaseValue {
+  std::variant<bool, std::int64_t, double, std::string, std::vector<CaseValue>, CaseTable, CaseDate> value;
+};
+
+struct CaseEntry {
+  std::string key;  ///< dotted: "particles.radius"; parts that are no bare keys stand in quotes
+  CaseValue value;
+  std::string where;       ///< file name, or the option
+  int line = 0;            ///< 1-based; 0 for an option
+  bool is_option = false;  ///< given by set()
+  std::string raw = {};    ///< an option's value as it was written
+};
+
+class CaseFile {
+ public:
+  /// Throws FileError if the file cannot be read, InputError (one problem, with line and column) if it is not TOML.
+  static CaseFile read(const std::string& path);
+
+  /// \param name stands for the file's name in messages
+  static CaseFile from_text(std::string_view text, std::string name);
+
+  /// Overrides or adds a value: "particles.count=500", "particles.radius=2 mm". The value is read as TOML if it is
+  /// TOML, else it is text. Of several, the last holds. What cannot be read at all is kept in problems(), so that it is
+  /// reported together with the rest.
+  void set(std::string_view assignment);
+
+  const std::string& name() const { return name_; }
+
+  /// In the order of the lines, a table before its keys; options last. No key stands twice.
+  const std::vector<CaseEntry>& entries() const { return entries_; }
+
+  /// Null if the key is not there.
+  const CaseEntry* find(std::string_view key) const;
+  bool contains(std::string_view key) const { return find(key) != nullptr; }
+
+  /// Faults of options that name no key or no value.
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::string name_;
+  std::vector<CaseEntry> entries_;
+  std::vector<Problem> problems_;
+};
+
+/// Whether `key` lies in `table` or deeper: "a.b" and "a.b.c" lie in "a"; everything lies in "".
+bool lies_in(std::string_view key, std::string_view table);
+
+/// "particles" of "particles.radius"; "" of "seed".
+std::string_view table_of(std::string_view key);
+
+/// "radius" of "particles.radius".
+std::string_view last_part(std::string_view key);
+
+}  // namespace talus

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure/axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace talus::figure {
+
+namespace {
+
+constexpr double tick_length = 3.5, tick_gap = 2.5, title_gap = 5.0, axis_width = 0.8;
+constexpr double bar_distance = 8, bar_width = 9;
+constexpr Colour grid_colour = rgb(0xe7eaee);
+
+double widest(cairo_t* context, const Ticks& ticks) {
+  double width = 0;
+  for (const std::string& label : ticks.labels) width = std::max(width, text_extent(context, label, tick_style).width);
+  return width;
+}
+
+Ticks x_ticks(cairo_t* context, const Scale& scale) {
+  const Ticks ticks = ticks_for(scale, 50);
+  return ticks_for(scale, std::max(40.0, widest(context, ticks) + 14));
+}
+
+}  // namespace
+
+double Scale::operator()(double value) const {
+  const double t = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+  return begin + t * (end - begin);
+}
+
+double Scale::value_at(double position) const {
+  const double t = (position - begin) / (end - begin);
+  return logarithmic ? low * std::pow(high / low, t) : low + t * (high - low);
+}
+
+Ticks ticks_for(const Scale& scale, double spacing) {
+  const double low = std::min(scale.low, scale.high), high = std::max(scale.low, scale.high);
+  constexpr int many = 12;
+  int most = std::clamp(static_cast<int>(std::abs(scale.end - scale.begin) / spacing), 1, many);
+  Ticks ticks;
+  do {
+    ticks = scale.logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);
+  } while (ticks.major.size() < 2 && ++most <= many);
+  return ticks;
+}
+
+std::string axis_title(const std::string& label, const std::string& unit) {
+  if (unit.empty()) return label;
+  return label.empty() ? unit : label + " (" + unit + ")";
+}
+
+Margins frame_margins(cairo_t* context, const Frame& frame) {
+  const Ticks across = x_ticks(context, frame.x), up = ticks_for(frame.y, 32);
+  const double line = 1.25 * tick_style.size;
+  Margins margins{tick_length + tick_gap + widest(context, up), 4, 0.5 * line, tick_length + tick_gap + line};
+  if (!frame.y_title.empty()) margins.left += title_gap + 1.35 * label_style.size;
+  if (!frame.x_title.empty()) margins.bottom += title_gap + 1.2 * label_style.size;
+  if (!across.labels.empty()) {
+    const double half = 0.5 * text_extent(context, across.labels.back(), tick_style).width;
+    margins.right = std::max(margins.right, half - std::abs(frame.x.end - frame.x(across.major.back())) + 2);
+  }
+  if (!up.factor.empty()) margins.top += line;
+  if (!across.factor.empty()) margins.right += 4;
+  return margins;
+}
+
+void draw_grid(cairo_t* context, const Frame& frame) {
+  set_pen(context, grid_colour, 0.6);
+  for (const double value : x_ticks(context, frame.x).major) {
+    stroke_line(context, frame.x(value), frame.y.begin, frame.x(value), frame.y.end);
+  }
+  for (const double value : ticks_for(frame.y, 32).major) {
+    stroke_line(context, frame.x.begin, frame.y(value), frame.x.end, frame.y(value));
+  }
+}
+
+void draw_frame(cairo_t* context, const Frame& frame) {
+  const double left = frame.x.begin, bottom = frame.y.begin;
+  const Ticks across = x_ticks(context, frame.x), up = ticks_for(frame.y, 32);
+  set_pen(context, ink, axis_width);
+  cairo_move_to(context, left, frame.y.end);
+  cairo_line_to(context, left, bottom);
+  cairo_line_to(context, frame.x.end, bottom);
+  cairo_stroke(context);
+
+  auto tick = [&](double x, double y, double dx, double dy) { stroke_line(context, x, y, x + dx, y + dy); };
+  for (const double value : across.minor) tick(frame.x(value), bottom, 0, 0.55 * tick_length);
+  for (const double value : up.minor) tick(left, frame.y(value), -0.55 * tick_length, 0);
+  const double line = bottom + tick_length + tick_gap + 0.8 * tick_style.size;
+  for (std::size_t i = 0; i < across.major.size(); ++i) {
+    set_pen(context, ink, axis_width);
+    tick(frame.x(across.major[i]), bottom, 0, tick_length);
+    draw_text(context, across.labels[i], frame.x(across.major[i]), line, tick_style, Align::centre);
+  }
+  double number_width = 0;
+  for (std::size_t i = 0; i < up.major.size(); ++i) {
+    set_pen(context, ink, axis_width);
+    tick(left, frame.y(up.major[i]), -tick_length, 0);
+    draw_text(context, up.labels[i], left - tick_length - tick_gap, frame.y(up.major[i]) + 0.36 * tick_style.size,
+              tick_style, Align::right);
+    number_width = std::max(number_width, text_extent(context, up.labels[i], tick_style).width);
+  }
+  draw_text(context, up.factor, left - tick_length - tick_gap, frame.y.end - 1.0 * tick_style.size, tick_style);
+  const double title_line = line + 0.2 * tick_style.size + title_gap + label_style.size;
+  draw_text(context, across.factor, frame.x.end, title_line, tick_style, Align::right);
+  draw_text(context, frame.x_title, 0.5 * (left + frame.x.end), title_line, label_style, Align::centre);
+  draw_text(context, frame.y_title, left - tick_length - tick_gap - number_width - title_gap - 0.3 * label_style.size,
+            0.5 * (bottom + frame.y.end), label_style, Align::centre, 0.5 * std::numbers::pi);
+}
+
+double colour_bar_width(cairo_t* context, const ColourBar& bar, double height) {
+  const Ticks ticks = ticks_for({bar.low, bar.high, false, height, 0}, 28);
+  const double title = bar.title.empty() ? 0 : title_gap + 1.35 * label_style.size;
+  return bar_distance + bar_width + tick_length + tick_gap + widest(context, ticks) + title;
+}
+
+void draw_colour_bar(cairo_t* context, const ColourBar& bar, const Rectangle& plot) {
+  const double height = std::min(plot.height, 170.0);
+  const Rectangle box{plot.right() + bar_distance, plot.y + 0.5 * (plot.height - height), bar_width, height};
+  cairo_pattern_t* pattern = cairo_pattern_create_linear(0, box.bottom(), 0, box.y);
+  constexpr int stops = 64;
+  for (int i = 0; i <= stops; ++i) {
+    const double t = static_cast<double>(i) / stops;
+    const Colour colour = colour_at(bar.map, t);
+    cairo_pattern_add_color_stop_rgb(pattern, t, colour.red, colour.green, colour.blue);
+  }
+  cairo_rectangle(context, box.x, box.y, box.width, box.height);
+  cairo_set_source(context, pattern);
+  cairo_fill_preserve(context);
+  cairo_pattern_destroy(pattern);
+  set_pen(context, ink, 0.6);
+  cairo_stroke(context);
+
+  const Scale scale{bar.low, bar.high, false, box.bottom(), box.y};
+  const Ticks ticks = ticks_for(scale, 28);
+  double number_width = 0;
+  for (std::size_t i = 0; i < ticks.major.size(); ++i) {
+    const double y = scale(ticks.major[i]);
+    set_pen(context, ink, 0.6);
+    stroke_line(context, box.right(), y, box.right() + tick_length, y);
+    draw_text(context, ticks.labels[i], box.right() + tick_length + tick_gap, y + 0.36 * tick_style.size, tick_style);
+    number_width = std::max(number_width, text_extent(context, ticks.labels[i], tick_style).width);
+  }
+  draw_text(context, ticks.factor, box.x, box.y - 0.5 * tick_style.size, tick_style);
+  draw_text(context, bar.title, box.right() + tick_length + tick_gap + number_width + title_gap + label_style.size,
+            box.y + 0.5 * height, label_style, Align::centre, 0.5 * std::numbers::pi);
+}
+
+}  // namespace talus::figure

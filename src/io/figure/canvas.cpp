@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure/canvas.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace talus::figure {
+
+Canvas::Canvas(double width, double height, double scale) {
+  const double across = std::round(width * scale), down = std::round(height * scale);
+  constexpr double most = 32767;  // cairo's coordinates have 16 bits before the point
+  if (!(across >= 1 && across <= most && down >= 1 && down <= most)) {
+    throw std::invalid_argument(fmt::format("a picture of {} x {} pixels; allowed: 1 to {}", across, down, most));
+  }
+  surface_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(across), static_cast<int>(down)));
+  context_.reset(cairo_create(surface_.get()));
+  cairo_scale(context(), scale, scale);
+  cairo_set_source_rgb(context(), 1, 1, 1);
+  cairo_paint(context());
+  cairo_set_line_cap(context(), CAIRO_LINE_CAP_BUTT);
+  cairo_set_line_join(context(), CAIRO_LINE_JOIN_ROUND);
+}
+
+std::string Canvas::png() const {
+  std::string bytes;
+  auto append = [](void* to, const unsigned char* data, unsigned length) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_status_t status = cairo_status(context());
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw std::runtime_error(fmt::format("drawing a picture failed: {}", cairo_status_to_string(status)));
+  }
+  return bytes;
+}
+
+void set_colour(cairo_t* context, const Colour& colour) {
+  cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, colour.alpha);
+}
+
+void set_pen(cairo_t* context, const Colour& colour, double width, Dash dash) {
+  set_colour(context, colour);
+  cairo_set_line_width(context, width);
+  const double dashes[] = {4.0 * width, 2.2 * width}, dots[] = {1.2 * width, 1.8 * width};
+  cairo_set_dash(context, dash == Dash::dashed ? dashes : dots, dash == Dash::solid ? 0 : 2, 0);
+}
+
+void fill_rectangle(cairo_t* context, const Rectangle& r, const Colour& colour) {
+  set_colour(context, colour);
+  cairo_rectangle(context, r.x, r.y, r.width, r.height);
+  cairo_fill(context);
+}
+
+void stroke_line(cairo_t* context, double x0, double y0, double x1, double y1) {
+  cairo_move_to(context, x0, y0);
+  cairo_line_to(context, x1, y1);
+  cairo_stroke(context);
+}
+
+void stroke_arrow(cairo_t* context, double x0, double y0, double x1, double y1, double head) {
+  const double length = std::hypot(x1 - x0, y1 - y0);
+  if (!(length > 0)) return;
+  const double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+  const double back = std::min(head, 0.7 * length), half = 0.38 * back;
+  stroke_line(context, x0, y0, x1 - 0.8 * back * ux, y1 - 0.8 * back * uy);
+  cairo_move_to(context, x1, y1);
+  cairo_line_to(context, x1 - back * ux - half * uy, y1 - back * uy + half * ux);
+  cairo_line_to(context, x1 - back * ux + half * uy, y1 - back * uy - half * ux);
+  cairo_close_path(context);
+  cairo_fill(context);
+}
+
+}  // namespace talus::figure

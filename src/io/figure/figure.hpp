@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A figure: panels of curves and particle pictures in a grid, drawn to a PNG.
+///
+///     using namespace talus::figure;
+///     Chart speed{.x = {"*t̃*"}, .y = {"*ṽ*_{f}"},
+///                 .series = {Reference{.low = 30, .high = 70, .label = "printed"},
+///                            Line{.x = time, .y = mean, .spread = deviation, .label = "*a* = 5 mm"}}};
+///     write_png({.panels = {speed}}, "front_speed.png");
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/figure/chart.hpp"
+#include "io/figure/particle_picture.hpp"
+
+namespace talus::figure {
+
+using Panel = std::variant<Chart, ParticlePicture>;
+
+struct Figure {
+  std::string title = {};
+  std::vector<Panel> panels = {};  ///< row by row
+  int columns = 0;                 ///< 0: as many as panels, at most two, or three from five panels on
+  bool letters = true;             ///< (a), (b), ... before the titles, if there are several panels
+  double width = 0;                ///< units; 0: chosen by the number of columns
+  double scale = 2;                ///< pixels a unit
+};
+
+/// The figure as a PNG file's bytes; the height follows from the panels. Plots in a row have the same height, plots in
+/// a column the same width. \throws std::invalid_argument if a panel's description makes no sense, or there is none
+std::string png(const Figure& figure);
+
+/// Writes it whole or not at all. \throws FileError, and as png()
+void write_png(const Figure& figure, const std::filesystem::path& path);
+
+}  // namespace talus::figure

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "io/figure/particle_layers.hpp"
+
+namespace talus::figure {
+
+namespace {
+
+constexpr double least_radius = 0.35, outlined_from = 1.5, outline_width = 0.3;  // units
+constexpr double palest = 0.5;  // share of white in the farthest particle
+
+/// The colour of each particle.
+std::vector<Colour> colours_of(const ParticlePicture& picture) {
+  std::vector<Colour> colours(picture.positions.size(), pale);
+  if (const auto* plain = std::get_if<Plain>(&picture.colouring)) {
+    std::fill(colours.begin(), colours.end(), plain->colour);
+  } else if (const auto* by_value = std::get_if<ByValue>(&picture.colouring)) {
+    const ColourBar bar = bar_of(*by_value);
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      const double value = by_value->values[i] / by_value->unit.value;
+      if (std::isfinite(value)) colours[i] = colour_at(bar.map, (value - bar.low) / (bar.high - bar.low));
+    }
+  } else if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      const auto category = static_cast<std::size_t>(by_category->of[i]);  // those below zero become very large
+      if (category < by_category->categories.size()) colours[i] = by_category->categories[category].colour;
+    }
+  }
+  return colours;
+}
+
+/// The order in which the discs are laid on each other.
+std::vector<std::size_t> order_of(const ParticlePicture& picture) {
+  std::vector<std::size_t> order(picture.positions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (picture.depth) {
+    std::vector<double> depth(order.size());
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      depth[i] = dot(picture.view.toward, picture.positions[i]);
+      if (!std::isfinite(depth[i])) depth[i] = 0;  // not drawn; a NaN would leave no order
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+  } else if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return by_category->of[a] < by_category->of[b]; });
+  }
+  return order;
+}
+
+void fade_with_depth(const ParticlePicture& picture, std::vector<Colour>& colours) {
+  double nearest = -std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (const Vector3& position : picture.positions) {
+    const double depth = dot(picture.view.toward, position);
+    if (std::isfinite(depth)) nearest = std::max(nearest, depth), farthest = std::min(farthest, depth);
+  }
+  if (!(farthest < nearest)) return;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    const double depth = dot(picture.view.toward, picture.positions[i]);
+    if (std::isfinite(depth)) colours[i] = mix(colours[i], white, palest * (nearest - depth) / (nearest - farthest));
+  }
+}
+
+}  // namespace
+
+ColourBar bar_of(const ByValue& colouring) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : colouring.values) {
+    if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
+  }
+  if (!(low <= high)) low = 0, high = colouring.unit.value;
+  low /= colouring.unit.value, high /= colouring.unit.value;
+  if (colouring.map == ColourMap::cool_warm) high = std::max(std::abs(low), std::abs(high)), low = -high;
+  low = colouring.low.value_or(low), high = colouring.high.value_or(high);
+  if (!(low < high)) low -= 0.5, high = low + 1;
+  return {colouring.map, low, high, axis_title(colouring.label, colouring.unit.name)};
+}
+
+void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& p,
+                std::vector<Obstacle>& obstacles) {
+  std::vector<Colour> colours = colours_of(picture);
+  if (picture.depth) fade_with_depth(picture, colours);
+  cairo_set_line_width(context, outline_width);
+  for (const std::size_t i : order_of(picture)) {
+    const Obstacle centre = p(picture.positions[i]);
+    const double radius = std::max(least_radius, picture.radii[i] * p.scale);
+    if (!std::isfinite(centre.x + centre.y + picture.radii[i])) continue;
+    const Rectangle reach{p.plot.x - radius, p.plot.y - radius, p.plot.width + 2 * radius, p.plot.height + 2 * radius};
+    if (!reach.contains(centre.x, centre.y)) continue;
+    cairo_new_sub_path(context);
+    cairo_arc(context, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+    set_colour(context, colours[i]);
+    if (radius < outlined_from) {
+      cairo_fill(context);
+    } else {
+      cairo_fill_preserve(context);
+      set_colour(context, mix(colours[i], ink, 0.45));
+      cairo_stroke(context);
+    }
+    if (picture.depth && radius >= outlined_from) {  // a highlight makes a ball of it
+      cairo_arc(context, centre.x - 0.28 * radius, centre.y - 0.3 * radius, 0.42 * radius, 0, 2 * std::numbers::pi);
+      set_colour(context, with_alpha(white, 0.28));
+      cairo_fill(context);
+    }
+    obstacles.push_back(centre);
+  }
+}
+
+}  // namespace talus::figure

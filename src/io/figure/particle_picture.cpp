@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure/particle_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "io/figure/particle_layers.hpp"
+
+namespace talus::figure {
+
+namespace {
+
+/// Widens the window to the shape of the plot; on a slope that is seen level, most of the new room is above.
+Projection projection_of(const ParticlePicture& picture, const Rectangle& plot) {
+  Window w = window_of(picture);
+  const double scale = std::min(plot.width / (w.right - w.left), plot.height / (w.top - w.bottom));
+  const double across = plot.width / scale - (w.right - w.left), along = plot.height / scale - (w.top - w.bottom);
+  const double below = picture.slope && picture.view.up.z == 1 ? 0.15 : 0.5;
+  w.left -= 0.5 * across, w.right += 0.5 * across;
+  w.bottom -= below * along, w.top += (1 - below) * along;
+  return {picture.view, w, plot, scale};
+}
+
+bool has_axes(const ParticlePicture& picture) {
+  return picture.axes && axis_of(picture.view.right).name && axis_of(picture.view.up).name;
+}
+
+Frame frame_of(const ParticlePicture& picture, const Projection& p) {
+  const AxisName across = axis_of(picture.view.right), up = axis_of(picture.view.up);
+  const double unit = picture.length.value;
+  Frame frame;
+  frame.x = {across.sign * p.window.left / unit, across.sign * p.window.right / unit, false, p.plot.x, p.plot.right()};
+  frame.y = {up.sign * p.window.bottom / unit, up.sign * p.window.top / unit, false, p.plot.bottom(), p.plot.y};
+  frame.x_title = axis_title(fmt::format("*{}*", across.name), picture.length.name);
+  frame.y_title = axis_title(fmt::format("*{}*", up.name), picture.length.name);
+  return frame;
+}
+
+std::vector<LegendEntry> entries_of(const ParticlePicture& picture) {
+  std::vector<LegendEntry> entries;
+  if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
+    for (const Category& category : by_category->categories) {
+      if (category.name.empty()) continue;
+      entries.push_back({category.name, [colour = category.colour](cairo_t* context, const Rectangle& swatch) {
+                           cairo_arc(context, swatch.x + 0.5 * swatch.width, swatch.y + 0.5 * swatch.height, 3.2, 0,
+                                     2 * std::numbers::pi);
+                           set_colour(context, colour);
+                           cairo_fill(context);
+                         }});
+    }
+  }
+  return entries;
+}
+
+}  // namespace
+
+Margins margins(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot) {
+  Margins around{2, 2, 4, 2};
+  if (has_axes(picture)) around = frame_margins(context, frame_of(picture, projection_of(picture, plot)));
+  const auto* by_value = std::get_if<ByValue>(&picture.colouring);
+  if (by_value && by_value->bar) around.right += colour_bar_width(context, bar_of(*by_value), plot.height);
+  return around;
+}
+
+void draw(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot) {
+  const Projection projection = projection_of(picture, plot);
+  std::vector<Obstacle> obstacles;
+  std::optional<LegendEntry> arrow_key;
+  {
+    const Saved saved(context);
+    cairo_rectangle(context, plot.x, plot.y, plot.width, plot.height);
+    cairo_clip(context);
+    draw_slope(context, picture, projection);
+    draw_discs(context, picture, projection, obstacles);
+    if (picture.arrows) arrow_key = draw_arrows(context, picture, projection);
+    draw_segments(context, picture, projection, obstacles);
+  }
+  if (has_axes(picture)) draw_frame(context, frame_of(picture, projection));
+  std::vector<LegendEntry> entries = entries_of(picture);
+  if (arrow_key) entries.push_back(*arrow_key);
+  draw_legend(context, entries, plot, obstacles);
+  if (picture.scale_bar || !has_axes(picture)) draw_scale_bar(context, picture, projection, obstacles);
+  const auto* by_value = std::get_if<ByValue>(&picture.colouring);
+  if (by_value && by_value->bar) draw_colour_bar(context, bar_of(*by_value), plot);
+}
+
+}  // namespace talus::figure

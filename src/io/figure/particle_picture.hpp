@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Particles, described: discs with their true radii, the same scale in both directions. A picture looks at columns
+/// that belong to others; they must live until it is drawn. Particles whose position or radius is not finite are
+/// skipped.
+#pragma once
+
+#include <cairo/cairo.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "io/figure/axes.hpp"
+#include "io/figure/canvas.hpp"
+#include "io/figure/colour_map.hpp"
+#include "io/figure/view.hpp"
+
+namespace talus::figure {
+
+/// What numbers are read in: the value of one unit in SI, and its name ("m", or "*a*" for the particle radius).
+struct Unit {
+  double value = 1;
+  std::string name = {};
+};
+
+/// All particles alike.
+struct Plain {
+  Colour colour = rgb(0x7d8a99);
+};
+
+/// Coloured by a number each (SI), with a colour bar. Particles without a finite number are pale.
+struct ByValue {
+  std::span<const double> values = {};
+  std::string label = {};
+  Unit unit = {};
+  ColourMap map = ColourMap::viridis;
+  std::optional<double> low = {}, high = {};  ///< in `unit`; left out: the range of the values, for a diverging map
+                                              ///< symmetric about zero
+  bool bar = true;
+};
+
+struct Category {
+  std::string name = {};  ///< empty: not in the legend
+  Colour colour;
+};
+
+/// Coloured by the number of a category; particles of no category (e.g. -1) are pale. Later categories lie on top.
+struct ByCategory {
+  std::span<const std::int64_t> of = {};
+  std::vector<Category> categories = {};
+};
+
+/// An arrow for each particle, e.g. its velocity relative to the front.
+struct Arrows {
+  std::span<const Vector3> values = {};  ///< SI
+  Unit unit = {1, "m/s"};
+  double length = 0;   ///< units of the page for one `unit`; 0: chosen so that nearly all are 16 or shorter
+  double spacing = 6;  ///< at most one arrow in each square of this side, in units of the page; 0: all
+  Colour colour = ink;
+};
+
+/// A straight line over the particles: a width that is measured, a fit, the front.
+struct Segment {
+  Vector3 from = {}, to = {};  ///< m
+  std::string label = {};
+  Colour colour = ink;
+  Dash dash = Dash::solid;
+  bool arrow_heads = false;  ///< at both ends
+};
+
+/// What is seen, in metres along the view's directions right and up.
+struct Window {
+  double left = 0, right = 1, bottom = 0, top = 1;
+};
+
+struct ParticlePicture {
+  std::string title = {};
+  std::span<const Vector3> positions = {};  ///< m
+  std::span<const double> radii = {};       ///< m
+  View view = view_xy;
+  std::variant<Plain, ByValue, ByCategory> colouring = Plain{};
+  std::optional<Arrows> arrows = {};
+  std::vector<Segment> segments = {};
+  Unit length = {1, "m"};
+  bool axes = true;        ///< numbered, where the view's directions are those of the axes
+  bool scale_bar = false;  ///< drawn in any case where there are no axes
+  bool slope = false;      ///< the slope as a line, in views from the side; as a plane with shadows, in oblique ones
+  bool depth = false;      ///< nearer particles over farther ones, and the farther the paler
+  std::optional<Window> window = {};  ///< left out: all particles
+};
+
+/// \throws std::invalid_argument if the columns have different lengths or a given window has no extent
+void check(const ParticlePicture& picture);
+
+/// The picture's window, or one with all particles and a little room; a unit square if there are none.
+Window window_of(const ParticlePicture& picture);
+
+/// Gives all pictures the same window, which holds the particles of each.
+void share_window(std::span<ParticlePicture> pictures);
+
+/// Gives all pictures windows of the same size, each about its own particles (on its own slope, where that is drawn):
+/// frames that follow the flow.
+void share_scale(std::span<ParticlePicture> pictures);
+
+/// The part of the plane z = 0 that an oblique picture with a slope shows: a little more than what lies under the
+/// particles. Nothing in other pictures.
+struct Ground {
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;  ///< m
+  double step = 1;                        ///< m, between the lines of its grid; the sides are multiples of it
+};
+std::optional<Ground> ground_of(const ParticlePicture& picture);
+
+/// Height over width that suits the picture; the plot of a long thin cloud stays high enough to read.
+double aspect_of(const ParticlePicture& picture);
+
+/// What axes and colour bar need around the plot.
+Margins margins(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot);
+
+/// Draws into `plot`; the window is widened, not stretched, to its shape. Discs smaller than 0.35 units are drawn with
+/// that radius.
+void draw(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot);
+
+}  // namespace talus::figure

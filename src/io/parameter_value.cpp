@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/parameter_value.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "base/decimal.hpp"
+
+namespace talus {
+
+namespace {
+
+std::string with_article(std::string_view noun) {
+  return fmt::format("{} {}", std::string_view("aeiou").find(noun.front()) == std::string_view::npos ? "a" : "an",
+                     noun);
+}
+
+std::string one_type_text(const Parameter& parameter, ValueType::Kind kind) {
+  switch (kind) {
+    case ValueType::Kind::number:
+      return with_article(dimension_name(parameter.dimension));
+    case ValueType::Kind::integer:
+      return "a whole number";
+    case ValueType::Kind::flag:
+      return "true or false";
+    case ValueType::Kind::text:
+      return "text in quotes";
+    case ValueType::Kind::choice:
+      return "one of the choices";
+  }
+  return {};
+}
+
+/// In SI: the usual example if the range allows it, else a number within.
+double example_value(const Parameter& parameter) {
+  const Range& range = parameter.range;
+  const double usual = parse_quantity(unit_example(parameter.dimension))->value;
+  if (range.contains(usual)) return usual;
+  const bool least = std::isfinite(range.least), most = std::isfinite(range.most);
+  if (least && !range.least_excluded) return range.least;
+  if (most && !range.most_excluded) return range.most;
+  if (least && most) return range.least + (range.most - range.least) / 2;
+  return least ? range.least + std::abs(range.least) + 1 : range.most - std::abs(range.most) - 1;
+}
+
+std::string number_literal(double value, std::string_view unit) {
+  return unit.empty() ? number_text(value) : fmt::format("\"{}\"", format_quantity(value, unit));
+}
+
+}  // namespace
+
+std::string range_text(const Parameter& parameter) {
+  const Range& range = parameter.range;
+  const std::string unit = example_unit(parameter.dimension);
+  const bool least = std::isfinite(range.least), most = std::isfinite(range.most);
+  const std::string low = least ? format_quantity(range.least, unit) : "";
+  const std::string high = most ? format_quantity(range.most, unit) : "";
+  if (least && most && !range.least_excluded && !range.most_excluded) return fmt::format("from {} to {}", low, high);
+  std::string text;
+  if (least) text = fmt::format("{} {}", range.least_excluded ? "above" : "at least", low);
+  if (least && most) text += " and ";
+  if (most) text += fmt::format("{} {}", range.most_excluded ? "below" : "at most", high);
+  return text;
+}
+
+std::string type_text(const Parameter& parameter, const ValueType& type) {
+  if (type.shape == ValueType::Shape::three) return "an array of 3 values";
+  if (type.shape == ValueType::Shape::any) return "an array";
+  return one_type_text(parameter, type.kind);
+}
+
+std::string allowed_text(const Parameter& parameter, const ValueType& type) {
+  if (type.kind == ValueType::Kind::choice) return fmt::format("{}", fmt::join(type.choices, ", "));
+  std::string text = one_type_text(parameter, type.kind);
+  if (type.shape == ValueType::Shape::three) text = fmt::format("3 values in brackets, each {}", text);
+  if (type.shape == ValueType::Shape::any) text = fmt::format("values in brackets, each {}", text);
+  if (const std::string range = range_text(parameter); !range.empty()) text += fmt::format(", {}", range);
+  if (type.kind == ValueType::Kind::number) text += fmt::format(", such as {}", example_text(parameter, type));
+  return text;
+}
+
+std::string example_text(const Parameter& parameter, const ValueType& type) {
+  switch (type.kind) {
+    case ValueType::Kind::number: {
+      const std::string one = number_literal(example_value(parameter), example_unit(parameter.dimension));
+      if (type.shape == ValueType::Shape::three) return fmt::format("[{}, {}, {}]", one, one, one);
+      return type.shape == ValueType::Shape::any ? fmt::format("[{}]", one) : one;
+    }
+    case ValueType::Kind::integer:
+      return to_string(shortest_decimal(std::isfinite(parameter.range.least) ? std::ceil(parameter.range.least) : 1));
+    case ValueType::Kind::flag:
+      return "true";
+    case ValueType::Kind::text:
+      return "\"text\"";
+    case ValueType::Kind::choice:
+      return quoted(type.choices.front());
+  }
+  return {};
+}
+
+std::string toml_text(const Parameter& parameter, const ParameterValue& value) {
+  const std::string unit = unit_name(parameter.dimension);
+  struct Write {
+    const std::string& unit;
+    std::string operator()(std::monostate) const { return {}; }
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(std::int64_t integer) const { return fmt::format("{}", integer); }
+    std::string operator()(double number) const { return number_literal(number, unit); }
+    std::string operator()(const std::string& text) const { return quoted(text); }
+    std::string operator()(const std::vector<double>& numbers) const {
+      std::vector<std::string> texts;
+      for (const double number : numbers) texts.push_back(number_literal(number, unit));
+      return fmt::format("[{}]", fmt::join(texts, ", "));
+    }
+  };
+  return std::visit(Write{unit}, value);
+}
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result.append(1, '\\').append(1, c);
+    else if (c == '\n')
+      result += "\\n";
+    else if (c == '\t')
+      result += "\\t";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      result += fmt::format("\\u{:04X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+std::string number_text(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
+  return text;
+}
+
+}  // namespace talus

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The types that a parameter may have, said once: reader, writer, schema and reference page see a parameter as a
+/// `ValueType` and a `ParameterValue`, and this file alone knows the members they come from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "base/parameter.hpp"
+
+namespace talus {
+
+struct ValueType {
+  enum class Kind { number, integer, flag, text, choice };
+  enum class Shape { one, three, any };  ///< a value, an array of three numbers, an array of any length
+  Kind kind = Kind::number;
+  Shape shape = Shape::one;
+  bool optional = false;                        ///< may be left out and then has no value
+  std::span<const std::string_view> choices{};  ///< of a choice
+};
+
+/// Nothing (an optional left out), flag, integer, number (SI), text or choice, array of numbers (SI).
+using ParameterValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<double>>;
+
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
+template <class T>
+constexpr ValueType value_type() {
+  using Kind = ValueType::Kind;
+  if constexpr (is_optional<T>) {
+    ValueType type = value_type<typename T::value_type>();
+    type.optional = true;
+    return type;
+  } else if constexpr (std::is_enum_v<T>) {
+    static_assert(choices<T>.size() > 0, "specialise talus::choices beside the enumeration");
+    return {.kind = Kind::choice, .choices = choices<T>};
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return {.kind = Kind::flag};
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return {.kind = Kind::integer};
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return {.kind = Kind::text};
+  } else if constexpr (std::is_same_v<T, std::array<double, 3>>) {
+    return {.shape = ValueType::Shape::three};
+  } else if constexpr (std::is_same_v<T, std::vector<double>>) {
+    return {.shape = ValueType::Shape::any};
+  } else {
+    static_assert(std::is_same_v<T, double>, "a parameter of this type cannot be read");
+    return {};
+  }
+}
+
+template <class T>
+ParameterValue to_value(const T& member) {
+  if constexpr (is_optional<T>)
+    return member ? to_value(*member) : ParameterValue{};
+  else if constexpr (std::is_enum_v<T>)
+    return std::string(choice_name(member));
+  else if constexpr (std::is_same_v<T, std::array<double, 3>>)
+    return std::vector<double>(member.begin(), member.end());
+  else
+    return member;
+}
+
+/// \param value of the type value_type<T>(), a choice among its choices
+template <class T>
+void from_value(const ParameterValue& value, T& member) {
+  if constexpr (is_optional<T>) {
+    from_value(value, member.emplace());
+  } else if constexpr (std::is_enum_v<T>) {
+    for (std::size_t i = 0; i < choices<T>.size(); ++i)
+      if (choices<T>[i] == std::get<std::string>(value)) member = static_cast<T>(i);
+  } else if constexpr (std::is_same_v<T, std::array<double, 3>>) {
+    for (std::size_t i = 0; i < 3; ++i) member[i] = std::get<std::vector<double>>(value)[i];
+  } else {
+    member = std::get<T>(value);
+  }
+}
+
+/// A parameter with the value it has.
+struct DescribedParameter {
+  Parameter parameter;
+  ValueType type;
+  ParameterValue value;
+};
+
+/// Collects parameters in the order of their lists:
+///     ParameterList list;
+///     for_each_parameter(list, model_parameters);
+///     for_each_parameter(list, run_parameters);
+/// Keys and texts are not copied; they are literals.
+class ParameterList {
+ public:
+  template <class T>
+  void operator()(const Parameter& parameter, const T& member) {
+    items_.push_back({parameter, value_type<T>(), to_value(member)});
+  }
+  auto begin() const { return items_.begin(); }
+  auto end() const { return items_.end(); }
+
+ private:
+  std::vector<DescribedParameter> items_;
+};
+
+/// "above 0 mm", "from 0 deg to 90 deg"; "" if every value is allowed. In the unit of the dimension's usual example.
+std::string range_text(const Parameter& parameter);
+
+/// "a length", "a whole number", "true or false", "text in quotes", "one of the choices", "an array of 3 values".
+std::string type_text(const Parameter& parameter, const ValueType& type);
+
+/// All that is allowed, with an example: "a length, above 0 mm, such as \"5 mm\""; "circle, rectangle, triangle".
+std::string allowed_text(const Parameter& parameter, const ValueType& type);
+
+/// A valid value, as TOML: "\"5 mm\"".
+std::string example_text(const Parameter& parameter, const ValueType& type);
+
+/// A value as TOML in SI; it reads back to the same bits. Quantities stand in quotes with their unit.
+std::string toml_text(const Parameter& parameter, const ParameterValue& value);
+
+/// Text as a TOML (and JSON) string with its quotes.
+std::string quoted(std::string_view text);
+
+/// The shortest text of a number that TOML reads back to the same double, and not to an integer: "20.0", "1e-07".
+std::string number_text(double value);
+
+}  // namespace talus

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The resolved case: every parameter with the value that holds, in SI, whether it was given or is a default.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/case_file.hpp"
+#include "io/parameter_value.hpp"
+
+namespace talus {
+
+/// As a case file. It reads back to the same bits; what is optional and has no value stands in a comment.
+std::string resolved_case(const ParameterList& list);
+
+/// A line of the table that `talus check` prints.
+struct ResolvedLine {
+  std::string key;
+  std::string value;   ///< without its unit: "0.005"; text without quotes; "-" if there is none
+  std::string unit;    ///< "m", "deg"; "" for what has none
+  std::string origin;  ///< "given", "option" or "default"
+  std::string text;    ///< what the parameter is
+};
+std::vector<ResolvedLine> resolved_table(const ParameterList& list, const CaseFile& file);
+
+/// 16 hexadecimal digits (FNV-1a, 64 bits) of all keys and values, whatever their order: equal for equal cases however
+/// they were written, different for different ones.
+/// \param excluded keys, or tables with all their keys, that do not count: "run.end", "output"
+std::string fingerprint(const ParameterList& list, std::span<const std::string_view> excluded = {});
+
+}  // namespace talus

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/comparison.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "analysis/quantities.hpp"
+
+namespace talus {
+namespace {
+
+using Kind = Criterion::Kind;
+
+TEST(Criterion, EndsBelongToRangesAndNotToBounds) {
+  struct Case {
+    Criterion criterion;
+    std::vector<double> met, not_met;
+    std::string text;
+  };
+  const std::vector<Case> cases = {
+      {{Kind::between, 30, 70}, {30, 50, 70}, {29.999, 70.001, NAN}, "30 to 70"},
+      {{Kind::between, 1, 1}, {1}, {0, 1.05, 2}, "1"},
+      {{Kind::within, 17.25, 2}, {15.25, 17, 19.25}, {15.2, 19.3, NAN}, "17.25 ± 2"},
+      {{Kind::above, 0.9}, {0.91, INFINITY}, {0.9, -1, NAN}, "> 0.9"},
+      {{Kind::below, 8}, {7.9, -3}, {8, 9, NAN}, "< 8"},
+      {{Kind::positive}, {1e-9}, {0, -1, NAN}, "positive"},
+      {{Kind::negative}, {-1e-9}, {0, 1, NAN}, "negative"},
+  };
+  for (const Case& c : cases) {
+    for (const double value : c.met) EXPECT_EQ(judge(c.criterion, value), Verdict::met) << c.text << " " << value;
+    for (const double value : c.not_met)
+      EXPECT_EQ(judge(c.criterion, value), Verdict::not_met) << c.text << " " << value;
+    EXPECT_EQ(judge(c.criterion, std::nullopt), Verdict::not_evaluated);
+    EXPECT_EQ(to_string(c.criterion), c.text);
+  }
+  EXPECT_EQ(judge({Kind::reported}, 3.0), Verdict::reported);
+  EXPECT_EQ(judge({Kind::reported}, std::nullopt), Verdict::reported);
+}
+
+TEST(Criterion, HasToHoldAtEachRadius) {
+  using Values = std::vector<std::optional<double>>;
+  const Criterion above{Kind::above, 1};
+  EXPECT_EQ(judge(above, Values{2, 3, 4}), Verdict::met);
+  EXPECT_EQ(judge(above, Values{2, 1, 4}), Verdict::not_met);
+  EXPECT_EQ(judge(above, Values{2, std::nullopt, 4}), Verdict::not_evaluated);
+  EXPECT_EQ(judge(above, Values{0, std::nullopt, 4}), Verdict::not_met);
+  EXPECT_EQ(judge(above, Values{}), Verdict::not_evaluated);
+}
+
+TEST(Statistic, OverMembers) {
+  const std::vector<double> numbers = {1, 2, 6};
+  EXPECT_DOUBLE_EQ(evaluate(Statistic::mean, numbers), 3);
+  EXPECT_DOUBLE_EQ(evaluate(Statistic::median, numbers), 2);
+  EXPECT_DOUBLE_EQ(evaluate(Statistic::standard_deviation, numbers), std::sqrt(7.0));
+}
+
+TEST(Quantities, AreNamedOnceAndStandInTheDocuments) {
+  std::ifstream file(TALUS_SOURCE_DIR "/docs/quantities.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::set<std::string_view> names;
+  for (const Quantity& quantity : quantities) {
+    EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
+    const std::string quoted = fmt::format("`{}`", quantity.name);
+    EXPECT_NE(text.str().find(quoted), std::string::npos) << quantity.name;
+  }
+  ASSERT_NE(find_quantity("head_width"), nullptr);
+  EXPECT_EQ(find_quantity("head_width")->unit, "m");
+  EXPECT_EQ(find_quantity("head_widths"), nullptr);
+}
+
+}  // namespace
+}  // namespace talus

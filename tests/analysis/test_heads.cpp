@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/heads.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "analysis/lattice.hpp"
+
+namespace talus {
+namespace {
+
+using test::Points;
+using testing::ElementsAre;
+using testing::ElementsAreArray;
+
+GrainSet range(std::size_t first, std::size_t count) {
+  GrainSet set(count);
+  std::iota(set.begin(), set.end(), static_cast<std::uint32_t>(first));
+  return set;
+}
+
+TEST(NeighbourNumbers, OfAChain) {
+  const Points chain = {{0, 0, 0}, {3.9, 0, 0}, {7.8, 0, 0}, {11.7, 0, 0}, {15.6, 0, 0}};
+  const Links links(chain, 4);
+  const NeighbourNumbers numbers = neighbour_numbers(links);
+  EXPECT_THAT(numbers.direct, ElementsAre(1, 2, 2, 2, 1));
+  EXPECT_THAT(numbers.indirect, ElementsAre(2, 3, 4, 3, 2));
+  const NeighbourNumbers with_self = neighbour_numbers(links, true);
+  EXPECT_THAT(with_self.direct, ElementsAre(2, 3, 3, 3, 2));
+  EXPECT_THAT(with_self.indirect, ElementsAre(5, 8, 9, 8, 5));
+}
+
+TEST(NeighbourNumbers, AGrainAtTheReachIsNoNeighbour) {
+  const NeighbourNumbers numbers = neighbour_numbers(Links(Points{{0, 0, 0}, {4, 0, 0}}, 4));
+  EXPECT_THAT(numbers.direct, ElementsAre(0, 0));
+}
+
+TEST(NeighbourNumbers, OfASquareLattice) {
+  const Points lattice = test::block({0, 0, 0}, 9, 9, 2);
+  const NeighbourNumbers numbers = neighbour_numbers(Links(lattice, 4));
+  EXPECT_EQ(numbers.direct[40], 8u);  // the middle: the 8 around it; those at 4 are not closer than 4
+  EXPECT_EQ(numbers.indirect[40], 64u);
+  EXPECT_EQ(numbers.direct[0], 3u);  // a corner
+  EXPECT_EQ(numbers.indirect[0], 5u + 5u + 8u);
+}
+
+TEST(Links, ConnectedSetsOfTheGrainsThatTakePart) {
+  const Points points = {{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {20, 0, 0}, {22, 0, 0}, {9, 0, 0}};
+  const Links links(points, 4);
+  EXPECT_THAT(links.connected_sets(std::vector<bool>(6, true)), ElementsAre(GrainSet{0, 1, 2, 5}, GrainSet{3, 4}));
+  EXPECT_THAT(links.connected_sets({true, false, true, true, false, true}),
+              ElementsAre(GrainSet{0}, GrainSet{2, 5}, GrainSet{3}));
+  EXPECT_THAT(largest_set(links.connected_sets({true, true, false, true, true, false}), points), ElementsAre(3, 4))
+      << "of equal sets the one farther down";
+}
+
+TEST(Heads, TwoBowsAndACrumb) {
+  Points points = test::bow(100, 21);
+  test::append(points, test::bow(0, 31));
+  test::append(points, test::block({0, -100, 0}, 1, 19, 2));
+  const std::vector<GrainSet> heads = find_heads(points, 1);
+  ASSERT_EQ(heads.size(), 2u);
+  EXPECT_THAT(heads[0], ElementsAreArray(range(test::grains_of_bow(21), test::grains_of_bow(31))));
+  EXPECT_THAT(heads[1], ElementsAreArray(range(0, test::grains_of_bow(21))));
+
+  const std::vector<double> radius(points.size(), 1.0);
+  const HeadSize large = head_size(points, radius, heads[0], 1);
+  EXPECT_DOUBLE_EQ(large.width, 62);
+  EXPECT_DOUBLE_EQ(large.thickness, 8);
+  EXPECT_DOUBLE_EQ(large.centre, 0);
+  EXPECT_DOUBLE_EQ(large.foremost, 1);
+  EXPECT_DOUBLE_EQ(large.inner, -7);
+  EXPECT_DOUBLE_EQ(large.concavity, 1);
+  EXPECT_DOUBLE_EQ(large.aspect_ratio(), 7.75);
+  const HeadSize small = head_size(points, radius, heads[1], 1);
+  EXPECT_DOUBLE_EQ(small.width, 42);
+  EXPECT_DOUBLE_EQ(small.thickness, 8);
+  EXPECT_DOUBLE_EQ(small.centre, 100);
+}
+
+TEST(Heads, TheLeastNumberOfGrains) {
+  const Points twenty = test::block({0, 0, 0}, 4, 5, 2);
+  EXPECT_EQ(find_heads(twenty, 1).size(), 1u);
+  EXPECT_TRUE(find_heads(Points(twenty.begin(), twenty.end() - 1), 1).empty());
+  EXPECT_EQ(find_heads(Points(twenty.begin(), twenty.end() - 1), 1, {.least = 19}).size(), 1u);
+}
+
+TEST(Heads, AThinBridgeDoesNotMergeTwo) {
+  Points points = test::block({0, 0, 0}, 10, 10, 2);
+  test::append(points, test::block({0, 60, 0}, 10, 10, 2));
+  for (double y = 21; y < 59; y += 3) points.push_back({9, y, 0});
+  ASSERT_EQ(Links(points, 4).connected_sets(std::vector<bool>(points.size(), true)).size(), 1u);
+  EXPECT_EQ(find_heads(points, 1).size(), 2u);
+}
+
+TEST(Heads, AWeakHeadTakesItsOwnLargestNumberForItsRim) {
+  // Inside, a lattice of spacing 1 has n = 44 and n' = 44², one of spacing 1.3 n = 28 and n' = 28².
+  Points points = test::block({0, 0, 0}, 20, 20, 1);
+  test::append(points, test::block({0, 100, 0}, 16, 16, 1.3));
+  const NeighbourNumbers numbers = neighbour_numbers(Links(points, 4));
+  ASSERT_EQ(numbers.indirect[10 * 20 + 10], 44u * 44u);
+  ASSERT_EQ(numbers.indirect[400 + 8 * 16 + 8], 28u * 28u);
+  GrainSet core, with_rim;
+  for (std::uint32_t i = 400; i < points.size(); ++i) {
+    if (numbers.indirect[i] > 484) core.push_back(i);      // 44² / 4
+    if (numbers.indirect[i] > 196) with_rim.push_back(i);  // 28² / 4
+  }
+  ASSERT_GT(core.size(), 20u);
+  ASSERT_GT(with_rim.size(), core.size());
+  const auto by_all = find_heads(points, 1, {.own_largest = false});
+  const auto by_own = find_heads(points, 1);
+  ASSERT_EQ(by_all.size(), 2u);
+  ASSERT_EQ(by_own.size(), 2u);
+  EXPECT_THAT(by_all[1], ElementsAreArray(core));
+  EXPECT_THAT(by_own[1], ElementsAreArray(with_rim));
+  EXPECT_THAT(by_own[0], ElementsAreArray(by_all[0])) << "the strongest head has the largest number of all";
+}
+
+TEST(Heads, ARimBelongsToTheNearestHeadOnly) {
+  // A strong head and a weak one, joined by a band that is too thin for the first (n' = 20² < 44² / 4) but not for the
+  // second (> 28² / 4): its half of the band falls to the weak head, the other half to none.
+  Points points = test::block({0, 0, 0}, 20, 20, 1);
+  test::append(points, test::block({0, 60, 0}, 16, 16, 1.3));
+  test::append(points, test::block({0, 20.5, 0}, 12, 25, 1.6));
+  const auto heads = find_heads(points, 1);
+  ASSERT_EQ(heads.size(), 2u);
+  double rearmost = 1e9;
+  for (const std::uint32_t i : heads[1]) rearmost = std::min(rearmost, points[i].y);
+  EXPECT_GT(rearmost, 37) << "a link is at most 4 long, so the band is parted near its middle at 40";
+  EXPECT_LT(rearmost, 43);
+  for (const std::uint32_t i : heads[0]) EXPECT_LT(points[i].y, 27);
+}
+
+TEST(Heads, ByDirectNeighboursTheHeadReachesFartherBack) {
+  // A block with a tail of one row: n = 2 along the row is a quarter of 8 and not above; two rows give n = 5.
+  Points points = test::block({0, 0, 0}, 10, 10, 2);
+  test::append(points, test::block({-40, 8, 0}, 20, 2, 2));
+  const auto indirect = find_heads(points, 1);
+  const auto direct = find_heads(points, 1, {.measure = HeadRule::Measure::direct});
+  ASSERT_EQ(indirect.size(), 1u);
+  ASSERT_EQ(direct.size(), 1u);
+  EXPECT_EQ(direct[0].size(), 140u);    // also the last ones, with n = 3
+  EXPECT_EQ(indirect[0].size(), 138u);  // in the tail n' = 25; of the last two n' = 3 + 5 + 5 = 13 is below 64 / 4
+}
+
+TEST(Heads, TheOrderOfTheGrainsAndTheSideDoNotMatter) {
+  const Points points = test::random_disc(600, 60, 5);
+  std::vector<double> radius(points.size());
+  Random random(6);
+  for (double& a : radius) a = random.uniform(0.95, 1.05);
+  const HeadRule rule{.least = 5};
+  const auto heads = find_heads(points, 1, rule);
+  ASSERT_GT(heads.size(), 2u) << "the case is to have several heads";
+
+  const std::size_t count = points.size();
+  Points changed(count);
+  std::vector<double> changed_radius(count);
+  auto place = [&](std::size_t i) { return (i * 7 + 3) % count; };  // 7 and 600 have no common divisor
+  for (std::size_t i = 0; i < count; ++i) {
+    changed[place(i)] = {points[i].x, -points[i].y, 0};
+    changed_radius[place(i)] = radius[i];
+  }
+  const auto changed_heads = find_heads(changed, 1, rule);
+  ASSERT_EQ(changed_heads.size(), heads.size());
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    GrainSet expected;
+    for (const std::uint32_t i : heads[h]) expected.push_back(static_cast<std::uint32_t>(place(i)));
+    std::sort(expected.begin(), expected.end());
+    EXPECT_THAT(changed_heads[h], ElementsAreArray(expected));
+    const HeadSize a = head_size(points, radius, heads[h], 1), b = head_size(changed, changed_radius, expected, 1);
+    EXPECT_DOUBLE_EQ(a.width, b.width);
+    EXPECT_DOUBLE_EQ(a.thickness, b.thickness);
+    EXPECT_NEAR(a.centre, -b.centre, 1e-12);
+  }
+}
+
+TEST(HeadSize, CountsTheGrainsOwnRadii) {
+  const Points points = {{0, -5, 0}, {0, 5, 0}, {2, 0, 0}, {-1, 1, 0}};
+  const std::vector<double> radius = {0.5, 2, 1, 0.25};
+  const HeadSize size = head_size(points, radius, {0, 1, 2, 3}, 1);
+  EXPECT_DOUBLE_EQ(size.width, 7 + 5.5);
+  EXPECT_DOUBLE_EQ(size.centre, 0.75);
+  EXPECT_DOUBLE_EQ(size.foremost, 3);
+  EXPECT_DOUBLE_EQ(size.inner, -1.25);  // both central grains see the rearmost edge among the two of them
+  // Closer than half a window of 0.9 none sees another: the rear boundary at the foremost grain is its own.
+  EXPECT_DOUBLE_EQ(head_size(points, radius, {0, 1, 2, 3}, 1, 0.9).inner, 1);
+}
+
+TEST(HeadSize, AGapOutsideTheCentralHalfDoesNotCount) {
+  Points points = test::block({-6, -30, 0}, 4, 31, 2);
+  std::vector<double> radius(points.size(), 1.0);
+  GrainSet head;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (!(points[i].y > 17 && points[i].y < 27 && points[i].x < 0)) head.push_back(i);
+  EXPECT_DOUBLE_EQ(head_size(points, radius, head, 1).thickness, 8);
+}
+
+TEST(Heads, OfNoGrainsAndOfOne) {
+  EXPECT_TRUE(find_heads({}, 1).empty());
+  const Points one = {{3, 2, 0}};
+  EXPECT_TRUE(find_heads(one, 1, {.least = 1}).empty()) << "a grain without neighbours is above a quarter of none";
+  const std::vector<double> radius = {0.5};
+  const HeadSize size = head_size(one, radius, {0}, 1);
+  EXPECT_DOUBLE_EQ(size.width, 1);
+  EXPECT_DOUBLE_EQ(size.thickness, 1);
+  EXPECT_TRUE(std::isnan(size.concavity));
+  EXPECT_TRUE(largest_set({}, one).empty());
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure/figure.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "io/figure/picture.hpp"
+#include "io/scratch_folder.hpp"
+
+namespace talus::figure {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Chart with_line(const Colour& colour) {
+  return {.title = "*ṽ*_{f}", .x = {"*t̃*"}, .series = {Line{.x = {0, 1}, .y = {0, 1}, .colour = colour, .width = 3}}};
+}
+
+/// The columns and rows in which a colour is seen, first and last.
+Rectangle where(const Picture& picture, const Colour& colour) {
+  int left = picture.width, right = -1, top = picture.height, bottom = -1;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (difference(picture.at(x, y), colour) > 0.01) continue;
+      left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
+    }
+  }
+  return {double(left), double(top), double(right - left), double(bottom - top)};
+}
+
+TEST(Figure, HasTheSizeThatWasAskedFor) {
+  const Picture picture = decode(png({.panels = {with_line(blue)}, .width = 300, .scale = 3}));
+  EXPECT_EQ(picture.width, 900);
+  EXPECT_GT(picture.height, 500);
+  EXPECT_LT(picture.height, 900);
+}
+
+TEST(Figure, PutsPanelsInAGrid) {
+  const Picture picture =
+      decode(png({.panels = {with_line(blue), with_line(vermillion), with_line(green)}, .columns = 2, .width = 400}));
+  const Rectangle a = where(picture, blue), b = where(picture, vermillion), c = where(picture, green);
+  EXPECT_LT(a.right(), b.x);
+  EXPECT_LT(a.bottom(), c.y);
+  EXPECT_NEAR(a.width, b.width, 2);
+  EXPECT_NEAR(a.height, b.height, 2);
+  EXPECT_NEAR(a.y, b.y, 1);
+  EXPECT_NEAR(a.x, c.x, 1);
+}
+
+TEST(Figure, MixesCurvesAndParticles) {
+  const std::vector<Vector3> positions = {{0, 0, 0}, {2, 1, 0}};
+  const std::vector<double> radii = {0.5, 0.5};
+  const ParticlePicture particles{.positions = positions, .radii = radii, .colouring = Plain{purple}};
+  const Picture picture = decode(png({.panels = {with_line(blue), particles}}));
+  EXPECT_GT(picture.count(blue), 100);
+  EXPECT_GT(picture.count(purple), 1000);
+}
+
+TEST(Figure, NothingIsCutOffAtTheEdge) {
+  const Chart wide{.title = "title",
+                   .x = {"label", "unit"},
+                   .y = {"label", "unit"},
+                   .series = {Line{.x = {0, 1e6}, .y = {-1e-7, 1e-7}}}};
+  const Picture picture = decode(png({.title = "a title", .panels = {wide, wide}, .width = 500}));
+  for (int x = 0; x < picture.width; ++x) {
+    EXPECT_EQ(picture.at(x, 1), white);
+    EXPECT_EQ(picture.at(x, picture.height - 2), white);
+  }
+  for (int y = 0; y < picture.height; ++y) {
+    EXPECT_EQ(picture.at(1, y), white);
+    EXPECT_EQ(picture.at(picture.width - 2, y), white);
+  }
+}
+
+TEST(Figure, SameDescriptionSameBytes) {
+  const Figure figure{.panels = {with_line(blue), with_line(green)}};
+  EXPECT_EQ(png(figure), png(figure));
+}
+
+TEST(Figure, RefusesWhatCannotBeDrawn) {
+  EXPECT_THROW(png({}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_line(blue)}, .scale = 0}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_line(blue)}, .scale = 1e6}), std::invalid_argument);
+}
+
+TEST(WritePng, WritesTheFileWhole) {
+  const ScratchFolder folder;
+  const Figure figure{.panels = {with_line(blue)}};
+  put_content(folder / "curve.png", "an older file");
+  write_png(figure, folder / "curve.png");
+  EXPECT_EQ(content_of(folder / "curve.png"), png(figure));
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("curve.png"));
+}
+
+TEST(WritePng, FailsWithTheNameAndLeavesNothing) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder / "taken.png");  // a folder stands where the file should
+  const Figure figure{.panels = {with_line(blue)}};
+  for (const auto& path : {folder / "taken.png", folder / "missing/curve.png"}) {
+    EXPECT_THAT(message_of<FileError>([&] { write_png(figure, path); }), HasSubstr(path.string()));
+  }
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("taken.png"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "taken.png"));
+}
+
+TEST(WritePng, KeepsTheOlderPictureWhenTheDiskIsFull) {
+  const SmallDisk disk;
+  if (!disk.mounted()) GTEST_SKIP() << "needs the right to mount a small disk";
+  put_content(disk / "filling", std::string(1'036'000, 'x'));
+  put_content(disk / "curve.png", "old");
+  EXPECT_THAT(message_of<FileError>([&] { write_png({.panels = {with_line(blue)}}, disk / "curve.png"); }),
+              HasSubstr("No space left"));
+  EXPECT_EQ(content_of(disk / "curve.png"), "old");
+  EXPECT_THAT(names_in(disk.path()), ElementsAre("curve.png", "filling"));
+}
+
+}  // namespace
+}  // namespace talus::figure

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure/ticks.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/random.hpp"
+
+namespace talus::figure {
+namespace {
+
+using testing::DoubleEq;
+using testing::ElementsAre;
+
+TEST(NiceStep, IsTheSmallestOneTwoOrFiveThatSuffices) {
+  EXPECT_EQ(nice_step(10, 5), 2);
+  EXPECT_EQ(nice_step(10, 4), 5);
+  EXPECT_EQ(nice_step(10, 1), 10);
+  EXPECT_EQ(nice_step(10.1, 1), 20);
+  EXPECT_EQ(nice_step(0.3, 3), 0.1);
+  EXPECT_EQ(nice_step(6e-7, 4), 2e-7);
+  EXPECT_EQ(nice_step(4.2e9, 5), 1e9);
+}
+
+TEST(NiceLength, IsTheLargestOneTwoOrFiveNotAbove) {
+  EXPECT_EQ(nice_length(1), 1);
+  EXPECT_EQ(nice_length(1.99), 1);
+  EXPECT_EQ(nice_length(4.9), 2);
+  EXPECT_EQ(nice_length(0.05), 0.05);
+  EXPECT_EQ(nice_length(730), 500);
+}
+
+TEST(LinearTicks, CoverTheRangeInStepsOfOneTwoOrFive) {
+  Random random(1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double size = std::pow(10.0, random.uniform(-9, 9));
+    const double low = size * random.uniform(-2, 2), high = low + size * random.uniform(0.1, 3);
+    const int most = 3 + trial % 9;
+    const Ticks ticks = linear_ticks(low, high, most);
+    const double step = nice_step(high - low, most);
+    const double digit = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    EXPECT_TRUE(std::abs(digit - 1) < 1e-9 || std::abs(digit - 2) < 1e-9 || std::abs(digit - 5) < 1e-9) << step;
+    ASSERT_FALSE(ticks.major.empty());
+    EXPECT_LE(ticks.major.size(), static_cast<std::size_t>(most) + 1);
+    EXPECT_GE(ticks.major.front(), low);
+    EXPECT_LE(ticks.major.back(), high);
+    EXPECT_LT(ticks.major.front() - low, step * (1 + 1e-9));
+    EXPECT_LT(high - ticks.major.back(), step * (1 + 1e-9));
+    for (std::size_t i = 1; i < ticks.major.size(); ++i) {
+      EXPECT_NEAR(ticks.major[i] - ticks.major[i - 1], step, 1e-6 * step);
+    }
+    EXPECT_EQ(ticks.labels.size(), ticks.major.size());
+  }
+}
+
+TEST(LinearTicks, AreWrittenWithTheDigitsThatTellThemApart) {
+  const Ticks ticks = linear_ticks(-0.3, 0.3, 6);
+  EXPECT_THAT(ticks.labels, ElementsAre("−0.3", "−0.2", "−0.1", "0.0", "0.1", "0.2", "0.3"));
+  EXPECT_EQ(ticks.factor, "");
+  EXPECT_THAT(linear_ticks(0, 60000, 3).labels, ElementsAre("0", "20000", "40000", "60000"));
+}
+
+TEST(LinearTicks, ShareAFactorWhenVerySmallOrLarge) {
+  const Ticks small = linear_ticks(0, 0.005, 5);
+  EXPECT_THAT(small.labels, ElementsAre("0", "1", "2", "3", "4", "5"));
+  EXPECT_EQ(small.factor, "×10^{-3}");
+  const Ticks large = linear_ticks(-2.5e6, 2.5e6, 2);
+  EXPECT_THAT(large.labels, ElementsAre("0"));
+  EXPECT_THAT(linear_ticks(0, 2.5e6, 5).labels, ElementsAre("0.0", "0.5", "1.0", "1.5", "2.0", "2.5"));
+}
+
+TEST(LogarithmicTicks, ArePowersOfTenWithTheirMultiplesBetween) {
+  const Ticks ticks = logarithmic_ticks(1e-9, 1e-6, 6);
+  EXPECT_THAT(ticks.labels, ElementsAre("10^{-9}", "10^{-8}", "10^{-7}", "10^{-6}"));
+  EXPECT_EQ(ticks.minor.size(), 3u * 8u);
+  EXPECT_THAT(ticks.minor.front(), DoubleEq(2e-9));
+  EXPECT_THAT(logarithmic_ticks(1e-20, 1e20, 5).labels,
+              ElementsAre("10^{-16}", "10^{-8}", "10^{0}", "10^{8}", "10^{16}"));
+}
+
+TEST(LogarithmicTicks, FillTheAxisWhenItHasFewDecades) {
+  EXPECT_THAT(logarithmic_ticks(8, 60, 6).labels, ElementsAre("10", "20", "50"));
+  const Ticks within = logarithmic_ticks(2.1, 4.9, 4);
+  EXPECT_THAT(within.major, ElementsAre(3, 4));
+}
+
+TEST(Ticks, RefuseWhatIsNoAxis) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(linear_ticks(1, 1, 5), std::invalid_argument);
+  EXPECT_THROW(linear_ticks(0, infinity, 5), std::invalid_argument);
+  EXPECT_THROW(linear_ticks(0, std::nan(""), 5), std::invalid_argument);
+  EXPECT_THROW(logarithmic_ticks(0, 10, 5), std::invalid_argument);
+  EXPECT_THROW(nice_step(0, 5), std::invalid_argument);
+  EXPECT_THROW(nice_length(-1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace talus::figure
