@@ -26,7 +26,7 @@ enum class StressForm {
 };
 
 /// What a lump brings to the momentum balance: stress over density squared, times the packing fraction in the printed
-/// form (inside the divergence, so that pairs stay balanced). eturns m^5/(kg s^2)
+/// form (inside the divergence, so that pairs stay balanced). \returns m^5/(kg s^2)
 constexpr SymmetricTensor3<> specific_stress(const SymmetricTensor3<>& stress, double density, double packing,
                                              StressForm form) {
   return (form == StressForm::printed ? packing : 1.0) / (density * density) * stress;
