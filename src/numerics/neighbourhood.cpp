@@ -31,7 +31,16 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     points.push_back(image(ghost).position(position[ghost.source]));
     radii.push_back(radius[ghost.source]);
   }
-  list_.build(team, points, radii, skin, count);
+  // An image in a plate is seen from the other side only. Pairs of which neither can change sides are left out.
+  const NeighbourList::Keep may_see = [&](std::size_t i, std::uint32_t j) {
+    if (j < count) return true;
+    const int plate = image(ghosts_[j - count]).plate;
+    if (plate < 0) return true;
+    const Plate& wall = domain_.plates()[static_cast<std::size_t>(plate)];
+    const double above_i = points[i][wall.axis] - wall.position, above_j = points[j][wall.axis] - wall.position;
+    return (above_i > 0) != (above_j > 0) || std::min(std::abs(above_i), std::abs(above_j)) <= skin;
+  };
+  list_.build(team, points, radii, skin, count, domain_.plates().empty() ? nullptr : may_see);
 
   first_ghost_.resize(count);
   near_plate_.resize(count);
@@ -39,7 +48,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     const auto neighbours = list_.of(i);
     const auto first = std::lower_bound(neighbours.begin(), neighbours.end(), count);
     first_ghost_[i] = static_cast<std::uint32_t>(first - neighbours.begin());
-    near_plate_[i] = domain_.is_near_plate(position[i], reach_);
+    near_plate_[i] = domain_.is_near_plate(position[i], reach_ + skin);
   });
 }
 

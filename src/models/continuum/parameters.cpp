@@ -109,9 +109,11 @@ Domain domain_of(const Parameters& p) {
   if (p.plate.height) {
     Plate plate{.axis = 2, .position = *p.plate.height, .openings = {}};
     if (p.plate.slit_left && p.plate.slit_right) {
-      const double beyond = p.box.depth;  // the slit crosses the whole depth, images included
-      plate.openings.push_back({.low = {*p.plate.slit_left, -beyond, 0},
-                                .high = {*p.plate.slit_right, p.box.depth + beyond, 0},
+      // The rim of an opening is solid: one that ends at a face has none there, nor at front and rear.
+      const double left = *p.plate.slit_left > 0 ? *p.plate.slit_left : -p.box.width;
+      const double right = *p.plate.slit_right < p.box.width ? *p.plate.slit_right : 2 * p.box.width;
+      plate.openings.push_back({.low = {left, -p.box.depth, 0},
+                                .high = {right, 2 * p.box.depth, 0},
                                 .shut = p.gate.opens != GateOpens::from_the_start});
     }
     plates.push_back(std::move(plate));
