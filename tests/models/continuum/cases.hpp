@@ -56,6 +56,14 @@ inline double lattice_moment() {
   return moment;
 }
 
+/// A column in the order of the lumps at the start.
+template <class T>
+std::vector<T> by_identity(const State& s, const std::vector<T>& column) {
+  std::vector<T> ordered(column.size());
+  for (std::size_t i = 0; i < column.size(); ++i) ordered[static_cast<std::size_t>(s.identity[i])] = column[i];
+  return ordered;
+}
+
 inline Vector3 momentum(const State& s) {
   Vector3 sum;
   for (const Vector3& v : s.velocity) sum += v;
