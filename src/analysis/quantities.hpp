@@ -9,13 +9,13 @@
 
 namespace talus {
 
-struct Quantity {
+struct QuantityDefinition {
   std::string_view name;
   std::string_view unit;  ///< SI; "deg" for angles, "1" for numbers
   std::string_view text;
 };
 
-inline constexpr auto quantities = std::to_array<Quantity>({
+inline constexpr auto quantities = std::to_array<QuantityDefinition>({
     {"front_speed_max", "1", "largest front speed over v_s, each over 0.25 a/v_s"},
     {"front_speed_min", "1", "least front speed over v_s, each over 0.25 a/v_s"},
     {"front_speed_end", "1", "front speed over v_s at the end of the run"},
@@ -57,14 +57,19 @@ inline constexpr auto quantities = std::to_array<Quantity>({
     {"tail_relative_velocity", "1", "how much faster than the front the tail runs, over v_s"},
     {"displacement_spread", "1", "largest difference of a grain's displacement from the mean, along x, over the mean"},
     {"displacement_lateral", "1", "largest difference of a grain's displacement from the mean, along y, over a"},
+    {"fall_speed_start", "1", "mean speed along gravity of a cloud in free space at the start, over v_s"},
+    {"fall_speed_end", "1", "the same at the end, of the grains that have not leaked"},
+    {"leaked_fraction", "1", "share of the grains more than two initial radii behind the median of a falling cloud"},
+    {"axial_density", "1", "grains near the axis of a falling cloud over those of an even disc; below 1: a torus"},
+    {"flatness", "1", "lateral over vertical extent of a falling cloud, 1 for a sphere"},
     {"contact_weight_ratio", "1", "contact force at an overlap of 0.01 a over a grain's weight (gamma)"},
     {"overlap_max", "1", "largest overlap over a"},
 });
 
 /// The quantity of that name; nullptr if there is none.
-constexpr const Quantity* find_quantity(std::string_view name) {
+constexpr const QuantityDefinition* find_quantity(std::string_view name) {
   const auto found = std::find_if(quantities.begin(), quantities.end(),
-                                  [&](const Quantity& quantity) { return quantity.name == name; });
+                                  [&](const QuantityDefinition& quantity) { return quantity.name == name; });
   return found == quantities.end() ? nullptr : &*found;
 }
 

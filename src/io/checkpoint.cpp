@@ -137,7 +137,10 @@ void CheckpointReader::get(const std::string& name, std::string& text) const {
 CheckpointFiles::CheckpointFiles(std::filesystem::path folder) : folder_(std::move(folder)) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::filesystem::path path = folder_ / names[i];
-    if (!std::filesystem::exists(path)) continue;
+    std::error_code error;
+    const bool exists = std::filesystem::exists(path, error);
+    if (error) throw FileError(path.string(), "cannot look for it: " + error.message());
+    if (!exists) continue;
     std::string damage;
     sequences_[i] = verify(read_whole_file(path), damage);
     if (!damage.empty()) damages_.push_back(path.string() + ": " + damage);

@@ -9,7 +9,9 @@
 
 #include "base/error.hpp"
 #include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
 #include "io/series.hpp"
+#include "io/snapshot_index.hpp"
 #include "io/vtkhdf.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
@@ -64,13 +66,21 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
                     const std::vector<Observer>& observers) {
   Clock clock;
   CheckpointFiles checkpoints(folder);
-  std::uint64_t next_snapshot = 0;
+  std::uint64_t snapshots = 0;      // taken
+  std::uint64_t snapshot_step = 0;  // of the last one
+  double next_snapshot_time = 0;
 
-  auto take_snapshot = [&] {
-    write_points(folder / "snapshots" / fmt::format("particles_{:04}.vtkhdf", next_snapshot), model.snapshot());
-    ++next_snapshot;
+  auto write_snapshot = [&](std::uint64_t number) {
+    const auto n = static_cast<int>(number);
+    write_points(RunFolder(folder).snapshot(n), model.snapshot());
+    index_snapshots(RunFolder(folder), n);
   };
-  auto snapshot_is_due = [&] { return model.time() >= static_cast<double>(next_snapshot) * options.snapshot_interval; };
+  auto take_snapshot = [&] {
+    write_snapshot(snapshots);
+    ++snapshots;
+    snapshot_step = model.step();
+    next_snapshot_time = options.snapshot_interval * (std::floor(model.time() / options.snapshot_interval) + 1);
+  };
 
   // Where a run stands: begun now, or as the newest whole checkpoint left it.
   std::optional<CheckpointReader> checkpoint;

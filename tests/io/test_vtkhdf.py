@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Snapshots as other programs read them: VTK 9.1's own reader, whose code ParaView 5.11 shares, and h5py.
+"""Snapshots and checkpoints as other programs read them: VTK 9.1's own reader, a version of ParaView 5.11's, and h5py.
 
-Usage: test_vtkhdf.py WRITER, where WRITER FOLDER writes two frames (write_sample_vtkhdf.cpp).
+Usage: test_vtkhdf.py WRITER, where WRITER FOLDER writes two frames and their checkpoints (write_sample_files.cpp).
 """
 import subprocess
 import sys
@@ -20,7 +20,7 @@ COUNT = 100
 
 
 def expected(frame):
-    """Columns and their units, from the formulas of write_sample_vtkhdf.cpp."""
+    """Columns and their units, from the formulas of write_sample_files.cpp."""
     i = np.arange(COUNT)
     return {
         "position": (np.stack([i / 7.0, -i / 3.0, frame + i / 9.0], axis=1), "m"),
@@ -30,7 +30,7 @@ def expected(frame):
     }
 
 
-class Snapshots(unittest.TestCase):
+class Files(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -95,6 +95,15 @@ class Snapshots(unittest.TestCase):
                 self.assertEqual(root["FieldData/time"][0], 0.25 * frame)
                 self.assertEqual(root["FieldData/time"].attrs["units"], b"s")
                 self.assertEqual(root["FieldData/step"][0], 1000 * frame)
+
+    def test_h5py_sees_checkpoints(self):
+        for frame, letter in enumerate("ab"):
+            with h5py.File(self.files[0].parent / f"checkpoint_{letter}.h5", "r") as opened:
+                self.assertEqual(opened.userblock_size, 512)
+                self.assertEqual(opened["fingerprint"][()], b"f00d")
+                self.assertEqual(opened["state/step"][()], 1000 * frame)
+                np.testing.assert_array_equal(opened["state/position"][()], expected(frame)["position"][0])
+                self.assertEqual(opened["state/position"].attrs["units"], b"m")
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/cloud/cloud_pictures.hpp"
 #include "io/parameter_reader.hpp"
+#include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
 #include "models/cloud/model.hpp"
 #include "models/cloud/stiffness.hpp"
@@ -37,6 +38,13 @@ Grains read_grains(const CaseFile& file, const Parameters& p) {
     grains.radius.assign(grains.position.size(), p.particles.radius);
   }
   return grains;
+}
+
+std::string digest_of(const Grains& grains) {
+  const auto bytes = [](const auto& column) {
+    return std::string_view(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(column[0]));
+  };
+  return digest(std::string(bytes(grains.position)).append(bytes(grains.radius)));
 }
 
 /// The front's place after every step; a case without x as its way down still has a foremost grain.
@@ -85,12 +93,29 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grai
   return f;
 }
 
+CloudFrame frame_of(const Parameters& p) {
+  const cloud::Scales s = cloud::scales(p);
+  return {{p.particles.radius, s.stokes_speed}, p.motion, p.slope.enabled, s.gravity};
+}
+
 }  // namespace
+
+CloudStudy study_of(const CaseFile& file) {
+  Parameters p;
+  run::RunParameters run;
+  ParameterReader reader(file);
+  run::for_each_parameter(reader, run);
+  cloud::for_each_parameter(reader, p);
+  reader.finish();
+  return {frame_of(p), cloud::scales(p).contact_ratio};
+}
 
 ParameterList cloud_parameters() {
   ParameterList list;
-  for_each_parameter(list, run::RunParameters{});
-  for_each_parameter(list, Parameters{});
+  const run::RunParameters run;
+  const Parameters parameters;
+  for_each_parameter(list, run);
+  for_each_parameter(list, parameters);
   return list;
 }
 
@@ -100,6 +125,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   ParameterReader reader(file);
   run::for_each_parameter(reader, run);
   cloud::for_each_parameter(reader, p);
+  reader.check(check_model(run.model));
   reader.check(cloud::check(p));
   reader.finish();
   if (run.snapshots == 0) run.snapshots = run.end / 20;
@@ -115,6 +141,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   }
 
   PreparedCase prepared;
+  if (given) prepared.inputs = digest_of(*given);
   prepared.model = "cloud";
   prepared.seed = p.seed;
   prepared.run = run;
@@ -128,8 +155,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
   prepared.forecast = [p, run, grains] { return forecast(p, run, grains()); };
-  const CloudFrame frame{p.particles.radius, cloud::scales(p).stokes_speed, p.motion,
-                         p.slope.enabled ? p.slope.angle : 0, p.slope.enabled};
+  const CloudFrame frame = frame_of(p);
   prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
   prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {
     return draw_cloud(folder, frame, title);

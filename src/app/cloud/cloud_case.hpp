@@ -2,12 +2,21 @@
 /// The cloud model as the commands see it.
 #pragma once
 
+#include "app/cloud/cloud_analysis.hpp"
 #include "app/prepared_case.hpp"
 
 namespace talus::app {
 
 /// \throws InputError with every problem of the case, of the file of points it names, and of their combination
 PreparedCase prepare_cloud(const CaseFile& file);
+
+/// What a study needs to know of a run's case.
+struct CloudStudy {
+  CloudFrame frame;
+  double contact_weight_ratio = 0;  ///< gamma of Eq. 9
+};
+/// \param file a resolved case, as manifests hold it; \throws InputError
+CloudStudy study_of(const CaseFile& file);
 
 /// All parameters of a case of this model, with their defaults.
 ParameterList cloud_parameters();

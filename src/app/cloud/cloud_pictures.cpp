@@ -8,6 +8,7 @@
 #include "analysis/frontal_angle.hpp"
 #include "analysis/heads.hpp"
 #include "io/figure/figure.hpp"
+#include "io/series.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace talus::app {
@@ -21,10 +22,10 @@ std::vector<std::int64_t> marked(const Snapshot& snapshot, const CloudFrame& fra
   std::vector<std::int64_t> category(snapshot.size(), -1);
   if (!frame.has_slope) return category;
   if (frame.motion == cloud::Motion::xy) {
-    for (const GrainSet& head : find_heads(snapshot.positions(), frame.radius))
+    for (const GrainSet& head : find_heads(snapshot.positions(), frame.scales.mean_radius))
       for (const std::uint32_t i : head) category[i] = 0;
   } else if (frame.motion == cloud::Motion::xz) {
-    for (const std::uint32_t i : surface_walk(snapshot.positions(), frame.radius)) category[i] = 0;
+    for (const std::uint32_t i : surface_walk(snapshot.positions(), frame.scales.mean_radius)) category[i] = 0;
   }
   return category;
 }
@@ -57,11 +58,11 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
     std::vector<ParticlePicture> frames;
     for (std::size_t n = 0; n < points.size(); ++n) {
       const Snapshot view = points[n].view();
-      ParticlePicture picture{.title = fmt::format("*t̃* = {:.1f}", view.time / frame.stokes_time()),
+      ParticlePicture picture{.title = fmt::format("*t̃* = {:.1f}", view.time / frame.scales.time()),
                               .positions = view.positions(),
                               .radii = view.scalars("radius"),
                               .view = view_of(frame),
-                              .length = {frame.radius, "*a*"}};
+                              .length = {frame.scales.mean_radius, "*a*"}};
       picture.slope = frame.has_slope && frame.motion != cloud::Motion::xy;
       picture.depth = frame.motion == cloud::Motion::xyz;
       if (frame.has_slope && frame.motion != cloud::Motion::xyz)
@@ -77,11 +78,13 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
     write_png(figure, drawn.back());
   }
 
-  if (const Curve speed = front_speed_of_run(run_folder, frame); frame.has_slope && !speed.time.empty()) {
+  if (std::filesystem::exists(run_folder / "analysis" / "front_speed.csv")) {
+    const talus::Series speed = read_series(run_folder / "analysis" / "front_speed.csv");
+    const auto time = speed.column("time"), value = speed.column("front_speed");
     const Chart chart{.title = title,
                       .x = {.label = "*t* *v*_{s}/*a*"},
                       .y = {.label = "front speed *v*_{f}/*v*_{s}"},
-                      .series = {Line{.x = speed.time, .y = speed.value}}};
+                      .series = {Line{.x = {time.begin(), time.end()}, .y = {value.begin(), value.end()}}}};
     drawn.push_back(pictures / "front_speed.png");
     write_png({.panels = {chart}}, drawn.back());
   }

@@ -31,11 +31,6 @@ double Scale::operator()(double value) const {
   return begin + t * (end - begin);
 }
 
-double Scale::value_at(double position) const {
-  const double t = (position - begin) / (end - begin);
-  return logarithmic ? low * std::pow(high / low, t) : low + t * (high - low);
-}
-
 Ticks ticks_for(const Scale& scale, double spacing) {
   const double low = std::min(scale.low, scale.high), high = std::max(scale.low, scale.high);
   constexpr int many = 12;

@@ -21,8 +21,6 @@ struct Scale {
 
   /// Position on the page; not finite where the value is not, or has no logarithm.
   double operator()(double value) const;
-  /// The inverse, for positions in units.
-  double value_at(double position) const;
 };
 
 /// About one tick every `spacing` units, but no fewer than two where the axis has that many round numbers.

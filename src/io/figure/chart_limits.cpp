@@ -22,9 +22,8 @@ struct Overloaded : Visitors... {
 struct Extent {
   bool logarithmic = false;
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  bool roomy = false;      ///< something reaches beyond its values, as a point does
-  bool from_zero = false;  ///< bars stand on zero
-  bool symbols = false;    ///< a symbol at zero shall not stand on the other axis
+  bool roomy = false;    ///< something reaches beyond its values, as a point does
+  bool symbols = false;  ///< a symbol at zero shall not stand on the other axis
 
   bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0); }
   void add(double value) {
@@ -56,8 +55,8 @@ void add_series(const Series& series, Extent& x, Extent& y) {
                         [&](const Bars& s) {
                           for (const double edge : s.edges) x.add(edge);
                           for (const double height : s.heights) y.add(height);
-                          y.add(0);
-                          y.from_zero = x.roomy = true;
+                          y.add(0);  // bars stand on it
+                          x.roomy = true;
                         },
                         [&](const Reference& s) {
                           Extent& extent = s.on == Reference::On::x ? x : y;
@@ -81,7 +80,7 @@ void choose(const Axis& axis, Extent extent, Scale& scale) {
       const double half = low == 0 ? 1 : 0.1 * std::abs(low);
       low -= half, high += half;
     }
-    const bool on_zero = low >= 0 && (extent.from_zero || low <= 0.25 * high);
+    const bool on_zero = low >= 0 && low <= 0.25 * high;
     const double range = high - (on_zero ? 0 : low);
     const bool stands_on_axis = extent.symbols && low <= 0.02 * range;
     low = !on_zero ? low - room * range : stands_on_axis ? -0.03 * range : 0;

@@ -29,7 +29,8 @@ double usual_magnitude(std::span<const Vector3> values) {
 
 }  // namespace
 
-std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& p) {
+std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& p,
+                                       std::vector<Obstacle>& obstacles) {
   const Arrows& arrows = *picture.arrows;
   double per_unit = arrows.length;
   if (per_unit == 0) {
@@ -50,6 +51,7 @@ std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& 
       if (!taken.insert(row << 32 | column).second) continue;
     }
     stroke_arrow(context, from.x, from.y, from.x + dx, from.y + dy, arrow_head);
+    for (const double t : {0.5, 1.0}) obstacles.push_back({from.x + t * dx, from.y + t * dy});
   }
   const double key = nice_length(longest_key / per_unit);
   return LegendEntry{fmt::format("{:g} {}", key, arrows.unit.name),

@@ -35,7 +35,8 @@ void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projecti
                 std::vector<Obstacle>& obstacles);
 
 /// \returns the legend's entry: an arrow of a round value; nothing if there is no arrow of finite length
-std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& projection);
+std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
+                                       std::vector<Obstacle>& obstacles);
 
 void draw_segments(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
                    std::vector<Obstacle>& obstacles);

@@ -74,7 +74,7 @@ void draw(cairo_t* context, const ParticlePicture& picture, const Rectangle& plo
     cairo_clip(context);
     draw_slope(context, picture, projection);
     draw_discs(context, picture, projection, obstacles);
-    if (picture.arrows) arrow_key = draw_arrows(context, picture, projection);
+    if (picture.arrows) arrow_key = draw_arrows(context, picture, projection, obstacles);
     draw_segments(context, picture, projection, obstacles);
   }
   if (has_axes(picture)) draw_frame(context, frame_of(picture, projection));

@@ -93,7 +93,8 @@ struct ParticlePicture {
   std::optional<Window> window = {};  ///< left out: all particles
 };
 
-/// \throws std::invalid_argument if the columns have different lengths or a given window has no extent
+/// \throws std::invalid_argument if the columns have different lengths, a unit is not positive, or a given window or
+///         range of colours has no extent
 void check(const ParticlePicture& picture);
 
 /// The picture's window, or one with all particles and a little room; a unit square if there are none.

@@ -28,9 +28,22 @@ void check(const ParticlePicture& picture) {
     }
   };
   same("radii", picture.radii.size());
-  if (const auto* by_value = std::get_if<ByValue>(&picture.colouring)) same("values", by_value->values.size());
+  auto positive = [](const char* what, double unit) {
+    if (!(unit > 0)) throw std::invalid_argument(fmt::format("a picture with {} in units of {}", what, unit));
+  };
+  positive("lengths", picture.length.value);
+  if (const auto* by_value = std::get_if<ByValue>(&picture.colouring)) {
+    same("values", by_value->values.size());
+    positive("values", by_value->unit.value);
+    if (by_value->low && by_value->high && !(*by_value->low < *by_value->high)) {
+      throw std::invalid_argument(fmt::format("colours from {} to {}", *by_value->low, *by_value->high));
+    }
+  }
   if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) same("categories", by_category->of.size());
-  if (picture.arrows) same("arrows", picture.arrows->values.size());
+  if (picture.arrows) {
+    same("arrows", picture.arrows->values.size());
+    positive("arrows", picture.arrows->unit.value);
+  }
   if (picture.window && !has_size(*picture.window)) throw std::invalid_argument("a picture's window without extent");
 }
 

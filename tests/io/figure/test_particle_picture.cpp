@@ -63,6 +63,19 @@ TEST(ParticlePicture, AxesAreEqualInAnyPlot) {
   }
 }
 
+TEST(ParticlePicture, WindowIsWidenedOnBothSides) {
+  // A window of 2 m x 1 m in a plot of 400 x 100: 100 pixels a metre, 100 pixels more on either side.
+  Scene scene({{0, 0.5, 0}, {2, 0.5, 0}}, {0.2, 0.2});
+  scene.picture.colouring = Plain{blue};
+  const Picture picture = drawn(scene.picture, {0, 0, 400, 100}, 400, 100);
+  for (const int centre : {100, 300}) {
+    EXPECT_EQ(picture.at(centre - 18, 50), rgb(0x0072b2));
+    EXPECT_EQ(picture.at(centre + 17, 50), rgb(0x0072b2));
+    EXPECT_EQ(picture.at(centre - 23, 50), white);
+    EXPECT_EQ(picture.at(centre + 22, 50), white);
+  }
+}
+
 TEST(ParticlePicture, ViewsShowTheirPlanes) {
   const Vector3 p{1.2, 0.3, 0.8};
   struct Case {
@@ -201,6 +214,25 @@ TEST(ParticlePicture, ArrowsPointAlongTheirVectors) {
   EXPECT_LT(picture.at(80, 50).blue, 0.7);
   EXPECT_EQ(picture.at(113, 50), white);
   EXPECT_EQ(picture.at(40, 50), white);
+
+  const std::vector<Vector3> upwards = {{0, 2, 0}};
+  scene.picture.arrows->values = upwards;
+  const Picture up = scene.drawn();
+  EXPECT_LT(difference(up.at(50, 13), vermillion), 0.25) << "the head ends 40 units above";
+  EXPECT_EQ(up.at(50, 70), white);
+}
+
+TEST(ParticlePicture, ArrowsAreThinnedWhereTheyCrowd) {
+  std::vector<Vector3> positions, velocities;
+  for (int i = 0; i < 400; ++i) positions.push_back({0.8 + 0.0004 * i, 0.5, 0}), velocities.push_back({0, 1, 0});
+  Scene scene(positions, std::vector<double>(400, 0.001));
+  scene.picture.colouring = Plain{white};
+  scene.picture.arrows = Arrows{.values = velocities, .length = 30, .spacing = 8, .colour = vermillion};
+  const Picture picture = scene.drawn();  // 16 pixels wide: two or three arrows
+  int arrows = 0;
+  for (int x = 70; x < 110; ++x) arrows += picture.at(x, 40).blue < 0.95 && picture.at(x - 1, 40).blue >= 0.95;
+  EXPECT_GE(arrows, 2);
+  EXPECT_LE(arrows, 3);
 }
 
 TEST(ParticlePicture, SegmentsRunFromEndToEnd) {
@@ -260,18 +292,30 @@ TEST(ParticlePicture, FramesOfAMovieShareTheirScale) {
   EXPECT_DOUBLE_EQ(0.5 * (q.left + q.right), 51.5);
 
   frames = {a.picture, b.picture};
+  for (ParticlePicture& frame : frames) frame.slope = true;
+  const double bottom = window_of(a.picture).bottom;
+  share_scale(frames);
+  EXPECT_DOUBLE_EQ(frames[0].window->bottom, bottom) << "stays on its slope";
+
+  frames = {a.picture, b.picture};
   share_window(frames);
   EXPECT_EQ(frames[0].window->left, frames[1].window->left);
   EXPECT_LT(frames[0].window->left, -0.1);
   EXPECT_GT(frames[0].window->right, 53.1);
 }
 
-TEST(ParticlePicture, RefusesColumnsOfDifferentLengths) {
+TEST(ParticlePicture, RefusesDescriptionsThatMakeNoSense) {
   Scene scene({{0, 0, 0}}, {0.1, 0.2});
   EXPECT_THROW(check(scene.picture), std::invalid_argument);
   Scene values({{0, 0, 0}}, {0.1});
   values.picture.colouring = ByValue{};
   EXPECT_THROW(check(values.picture), std::invalid_argument);
+  Scene colours({}, {});
+  colours.picture.colouring = ByValue{.low = 2, .high = 1};
+  EXPECT_THROW(check(colours.picture), std::invalid_argument);
+  Scene unit({}, {});
+  unit.picture.length = {0, "a"};
+  EXPECT_THROW(check(unit.picture), std::invalid_argument);
   Scene window({}, {});
   window.picture.window = Window{1, 1, 0, 1};
   EXPECT_THROW(window_of(window.picture), std::invalid_argument);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Writes the snapshots that test_vtkhdf.py reads with VTK and h5py; the numbers are given by formulas that stand there
-/// too. Usage: write_sample_vtkhdf FOLDER
+/// Writes the snapshots and the checkpoint that test_vtkhdf.py reads with VTK and h5py; the numbers are given by
+/// formulas that stand there too. Usage: write_sample_files FOLDER
+#include "io/checkpoint.hpp"
 #include "io/vtkhdf.hpp"
 
 int main(int, char** arguments) {
@@ -22,5 +23,9 @@ int main(int, char** arguments) {
                                              {"packing_order", "1", order}}};
     talus::write_points(std::string(arguments[1]) + "/particles_000" + std::to_string(frame) + ".vtkhdf",
                         points.view());
+    talus::CheckpointWriter checkpoint("f00d");
+    checkpoint(talus::Field{"position", "m"}, position);
+    checkpoint(talus::Field{"step", "1"}, points.step);
+    talus::CheckpointFiles(arguments[1]).save(checkpoint);
   }
 }

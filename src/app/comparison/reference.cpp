@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/comparison/reference.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "analysis/quantities.hpp"
+#include "base/error.hpp"
+#include "base/nearest.hpp"
+#include "io/atomic_file.hpp"
+#include "io/parameter_value.hpp"
+
+namespace talus::app {
+
+namespace {
+
+/// Reads values of a table and remembers every problem.
+class Reader {
+ public:
+  explicit Reader(std::string path) : path_(std::move(path)) {}
+
+  void fault(const toml::node& node, const std::string& key, const std::string& what, const std::string& allowed = {},
+             const std::string& nearest = {}) {
+    problems_.push_back({.where = path_,
+                         .line = static_cast<int>(node.source().begin.line),
+                         .key = key,
+                         .what = what,
+                         .allowed = allowed,
+                         .nearest = nearest});
+  }
+
+  template <class T>
+  T get(const toml::table& table, const char* key, const char* allowed) {
+    const toml::node* node = table.get(key);
+    if (!node) {
+      fault(table, key, "missing", allowed);
+      return {};
+    }
+    if (const auto value = node->value<T>()) return *value;
+    fault(*node, key, "is of another type", allowed);
+    return {};
+  }
+  std::string text(const toml::table& table, const char* key) { return get<std::string>(table, key, "text"); }
+
+  void raise() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+
+ private:
+  std::string path_;
+  std::vector<Problem> problems_;
+};
+
+std::string setting_text(const toml::node& value) {
+  if (const auto text = value.value<std::string>()) return talus::quoted(*text);
+  if (const auto flag = value.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto whole = value.as_integer()) return std::to_string(whole->get());
+  return number_text(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+ReferenceCase read_case(Reader& reader, const std::string& name, const toml::table& table) {
+  ReferenceCase c{.name = name, .file = reader.text(table, "file"), .where = {}, .radii = {}};
+  if (const toml::table* where = table["where"].as_table())
+    for (const auto& [key, value] : *where) c.where.emplace_back(key.str(), value.value_or(std::string()));
+  if (const toml::table* radii = table["radius"].as_table())
+    for (const auto& [label, settings] : *radii) {
+      ReferenceCase::Radius radius{.label = std::string(label.str()), .settings = {}};
+      if (const toml::table* keys = settings.as_table())
+        for (const auto& [key, value] : *keys)
+          radius.settings.push_back(std::string(key.str()) + "=" + setting_text(value));
+      c.radii.push_back(std::move(radius));
+    }
+  return c;
+}
+
+Criterion read_criterion(Reader& reader, const toml::table& row) {
+  using Kind = Criterion::Kind;
+  const toml::table* table = row["criterion"].as_table();
+  static constexpr const char* allowed = "between, value and within, above, below, sign or reported";
+  if (!table) {
+    reader.fault(row, "criterion", "missing", allowed);
+    return {};
+  }
+  if (const toml::array* between = (*table)["between"].as_array(); between && between->size() == 2)
+    return {Kind::between, between->get(0)->value_or(0.0), between->get(1)->value_or(0.0)};
+  if (table->contains("value"))
+    return {Kind::within, reader.get<double>(*table, "value", "a number"),
+            reader.get<double>(*table, "within", "a number")};
+  if (table->contains("above")) return {Kind::above, reader.get<double>(*table, "above", "a number"), 0};
+  if (table->contains("below")) return {Kind::below, reader.get<double>(*table, "below", "a number"), 0};
+  if (const auto sign = (*table)["sign"].value<std::string>()) {
+    if (*sign == "+") return {Kind::positive, 0, 0};
+    if (*sign == "-") return {Kind::negative, 0, 0};
+  }
+  if ((*table)["reported"].value_or(false)) return {Kind::reported, 0, 0};
+  reader.fault(*table, "criterion", "is none that can be evaluated", allowed);
+  return {};
+}
+
+Window read_window(Reader& reader, const toml::table& row) {
+  const toml::table* table = row["window"].as_table();
+  if (!table) return {};
+  Window window;
+  auto time = [&](const char* key) {
+    const toml::node* node = table->get(key);
+    if (node->value<std::string>() == "end") return Window::end_of_run;
+    if (const auto value = node->value<double>()) return *value;
+    reader.fault(*node, "window", "is no time", "a number of a/v_s, or \"end\"");
+    return 0.0;
+  };
+  if (table->contains("at")) window.at = time("at");
+  if (table->contains("from")) window.from = time("from");
+  if (table->contains("to")) window.to = time("to");
+  return window;
+}
+
+template <class Enumeration, std::size_t n>
+Enumeration read_name(Reader& reader, const toml::table& row, const char* key,
+                      const std::pair<const char*, Enumeration> (&names)[n]) {
+  const std::string text = reader.text(row, key);
+  std::string allowed;
+  for (const auto& [name, value] : names) {
+    if (text == name) return value;
+    allowed += (allowed.empty() ? "" : ", ") + std::string(name);
+  }
+  reader.fault(*row.get(key), key, "\"" + text + "\" is not known", allowed);
+  return names[0].second;
+}
+
+constexpr std::array<std::string_view, 13> row_keys{"id",        "number",    "quantity",  "case",   "radius",
+                                                    "estimator", "from",      "statistic", "window", "printed",
+                                                    "unit",      "criterion", "source"};
+
+ComparisonRow read_row(Reader& reader, const toml::table& table) {
+  ComparisonRow row;
+  for (const auto& [key, value] : table)
+    if (std::find(row_keys.begin(), row_keys.end(), key.str()) == row_keys.end())
+      reader.fault(value, std::string(key.str()), "unknown key", {}, std::string(nearest(key.str(), row_keys)));
+  row.id = reader.text(table, "id");
+  row.number = static_cast<int>(reader.get<std::int64_t>(table, "number", "a whole number"));
+  row.quantity = reader.text(table, "quantity");
+  row.case_name = reader.text(table, "case");
+  if (const toml::array* radii = table["radius"].as_array())
+    for (const toml::node& radius : *radii) row.radius.push_back(radius.value_or(std::string()));
+  row.estimator = reader.text(table, "estimator");
+  if (table.contains("from"))
+    row.from = read_name<From>(reader, table, "from",
+                               {{"each", From::each},
+                                {"curves", From::curves},
+                                {"values", From::values},
+                                {"radii", From::radii},
+                                {"case", From::parameters}});
+  if (table.contains("statistic"))
+    row.statistic = read_name<Statistic>(reader, table, "statistic",
+                                         {{"mean", Statistic::mean},
+                                          {"median", Statistic::median},
+                                          {"standard_deviation", Statistic::standard_deviation}});
+  row.window = read_window(reader, table);
+  row.printed = table["printed"].value<std::string>().value_or(fmt::format("{}", table["printed"].value_or(0.0)));
+  row.unit = reader.text(table, "unit");
+  row.criterion = read_criterion(reader, table);
+  row.source = reader.text(table, "source");
+  return row;
+}
+
+std::string nearest_quantity(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const QuantityDefinition& quantity : quantities) names.push_back(quantity.name);
+  return std::string(nearest(name, names));
+}
+
+}  // namespace
+
+const ReferenceCase* Reference::find_case(const std::string& name) const {
+  const auto found = std::find_if(cases.begin(), cases.end(), [&](const ReferenceCase& c) { return c.name == name; });
+  return found == cases.end() ? nullptr : &*found;
+}
+
+Reference read_reference(const std::string& path) {
+  toml::table file;
+  try {
+    file = toml::parse(read_whole_file(path), path);
+  } catch (const toml::parse_error& error) {
+    throw InputError({{.where = path,
+                       .line = static_cast<int>(error.source().begin.line),
+                       .column = static_cast<int>(error.source().begin.column),
+                       .what = std::string(error.description())}});
+  }
+  Reader reader(path);
+  Reference reference{.path = path,
+                      .study = reader.text(file, "study"),
+                      .title = reader.text(file, "title"),
+                      .source = reader.text(file, "source"),
+                      .members = static_cast<int>(file["members"].value_or(std::int64_t{1})),
+                      .cases = {},
+                      .rows = {}};
+  if (const toml::table* cases = file["case"].as_table())
+    for (const auto& [name, table] : *cases)
+      if (table.is_table()) reference.cases.push_back(read_case(reader, std::string(name.str()), *table.as_table()));
+  std::set<std::string> ids;
+  if (const toml::array* rows = file["row"].as_array())
+    for (const toml::node& node : *rows) {
+      if (!node.is_table()) continue;
+      reference.rows.push_back(read_row(reader, *node.as_table()));
+      const ComparisonRow& row = reference.rows.back();
+      if (!ids.insert(row.id).second) reader.fault(node, "id", "\"" + row.id + "\" stands twice");
+      if (!find_quantity(row.quantity))
+        reader.fault(node, "quantity", "there is no quantity \"" + row.quantity + "\"", "a name of docs/quantities.md",
+                     nearest_quantity(row.quantity));
+      const ReferenceCase* c = reference.find_case(row.case_name);
+      if (!c) reader.fault(node, "case", "there is no [case." + row.case_name + "]");
+      for (const std::string& label : row.radius)
+        if (c &&
+            std::none_of(c->radii.begin(), c->radii.end(), [&](const auto& radius) { return radius.label == label; }))
+          reader.fault(node, "radius", "[case." + row.case_name + ".radius] has no \"" + label + "\"");
+      if (row.radius.empty()) reader.fault(node, "radius", "missing", "labels of the case's radii");
+    }
+  if (reference.rows.empty()) reader.fault(file, "row", "there are no rows", "[[row]] tables");
+  reader.raise();
+  return reference;
+}
+
+}  // namespace talus::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Figures in the manner of Niiya, Awazu & Nishimori 2020, Figures 3 to 11.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/comparison/evaluation.hpp"
+
+namespace talus::app {
+
+struct FigureOfStudy {
+  std::filesystem::path path;
+  std::string caption;
+};
+
+/// Draws what the ensembles that are there allow. \param folder made if needed; \throws FileError
+std::vector<FigureOfStudy> draw_niiya2020(const std::vector<StudiedEnsemble>& ensembles,
+                                          const std::filesystem::path& folder);
+
+}  // namespace talus::app

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A paper's runs, all of them, and the paper's numbers beside ours.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace talus::app {
+
+struct StudyRequest {
+  std::string study;  ///< folder in validation/
+  bool quick = false;
+  bool resume = false;
+  int jobs = 1;
+  int members = 0;  ///< 0: as many as the paper has (3 with quick)
+  std::filesystem::path folder;
+};
+
+/// The studies there are.
+inline constexpr const char* study_names[] = {"niiya2020"};
+
+/// Runs every member of every case and radius of validation/STUDY/reference.toml that is not done yet, evaluates all
+/// rows, and writes comparison.txt, comparison.json, the report STUDY.md and its figures into the folder.
+/// \returns done, not_met if a row is not met, interrupted
+/// \throws FileError, InputError
+ExitStatus reproduce(const StudyRequest& request);
+
+}  // namespace talus::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Particles as a table of comma-separated values: a header line that names the columns, then one line a particle.
+///
+///     x [mm],y [mm],z [mm],radius [um],velocity_x [m/s],velocity_y [m/s],velocity_z [m/s],mass [g]
+///     1.5,0,2,200,0,0,-0.1,3.2e-5
+///
+/// Coordinates and radius without a unit are metres, other columns numbers. Blank lines, blanks around entries, a byte
+/// order mark and line ends of either kind are taken.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "numerics/snapshot.hpp"
+
+namespace talus {
+
+/// Reads particles: "position" from x, y and z (y and z may be missing and are then 0), vectors from three columns
+/// NAME_x, NAME_y, NAME_z, and a scalar from every other column; all converted to SI, angles to radians, each to the
+/// double nearest to what is written.
+/// \param required columns that must be there beside x, such as "radius"
+/// \throws FileError if the file cannot be read
+/// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
+///         finite or too large, and columns that are missing, doubled or in an unknown unit
+PointSet read_points_csv(const std::filesystem::path& path, std::span<const std::string_view> required = {});
+
+/// Writes all columns of a snapshot, whole or not at all, numbers in the shortest form that reads back to the same bits
+/// (integers come back as reals).
+/// \throws FileError with the system's reason
+void write_points_csv(const std::filesystem::path& path, const Snapshot& snapshot);
+
+}  // namespace talus

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// summary.json: the numbers in which a run ended.
+///
+///     {"status": "done", "wall_seconds": 12.3, "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
+///
+/// JSON has no numbers that are not finite: such a quantity has the value null and a "reason", one of "not a number",
+/// "infinite" and "minus infinity". It is written rather than left out, so that a reader sees that it was asked for.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "numerics/named_value.hpp"
+
+namespace talus {
+
+struct Summary {
+  std::string status;                  ///< "running", "done", "interrupted" or "failed"
+  double wall_seconds = 0;             ///< s
+  std::vector<NamedValue> quantities;  ///< names unique
+
+  /// \returns null if there is none
+  const NamedValue* find(std::string_view name) const;
+};
+
+/// \throws FileError with the system's reason; \throws std::invalid_argument if a name stands twice
+void write_summary(const std::filesystem::path& path, const Summary& summary);
+
+/// What was written, not finite values too. \throws FileError
+Summary read_summary(const std::filesystem::path& path);
+
+}  // namespace talus

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/points_csv.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "io/scratch_folder.hpp"
+
+namespace talus {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+class PointsCsv : public ::testing::Test {
+ protected:
+  PointSet read(const std::string& content, std::span<const std::string_view> required = {}) const {
+    put_content(folder_ / "points.csv", content);
+    return read_points_csv(folder_ / "points.csv", required);
+  }
+
+  std::vector<std::string> problems(const std::string& content, std::span<const std::string_view> required = {}) const {
+    std::vector<std::string> texts;
+    try {
+      read(content, required);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems())
+        texts.push_back(to_string(problem).substr((folder_ / "points.csv").string().size()));
+    }
+    return texts;
+  }
+
+  const ScratchFolder folder_;
+};
+
+TEST_F(PointsCsv, ConvertsUnitsToTheNearestDouble) {
+  const PointSet points = read(
+      "x [mm],y[um], z ,radius [mm],angle [deg],mass [g],count,energy [J]\n"
+      "1.1,200,3,5,180,2,7,4\n"
+      "+2,-0.3,4,0.7,90,0.1,8.5,5\n");
+  const Snapshot view = points.view();
+  EXPECT_THAT(view.positions(), ElementsAre(Vector3{0.0011, 0.0002, 3}, Vector3{0.002, -3e-7, 4}));
+  EXPECT_THAT(view.scalars("radius"), ElementsAre(0.005, 0.0007));
+  EXPECT_THAT(view.scalars("angle"), ElementsAre(3.141592653589793, 1.5707963267948966));
+  EXPECT_THAT(view.scalars("mass"), ElementsAre(0.002, 0.0001));
+  EXPECT_THAT(view.scalars("count"), ElementsAre(7, 8.5));
+  std::vector<std::string> units;
+  for (const auto& column : points.columns) units.push_back(column.unit);
+  EXPECT_THAT(units, ElementsAre("m", "m", "rad", "kg", "1", "J"));
+}
+
+TEST_F(PointsCsv, ToleratesBlanksLineEndsAndByteOrderMark) {
+  const PointSet points = read("\xEF\xBB\xBF\"x [m]\",\"z [m]\"\r\n\r\n 1 ,\t2 \r\n3,4");
+  EXPECT_THAT(points.view().positions(), ElementsAre(Vector3{1, 0, 2}, Vector3{3, 0, 4}));
+  EXPECT_THAT(read("x\n1\n").view().positions(), ElementsAre(Vector3{1, 0, 0}));
+  EXPECT_EQ(read("x\n").view().size(), 0u);
+}
+
+TEST_F(PointsCsv, ReportsEveryBadLineAtOnce) {
+  EXPECT_THAT(problems("x [mm],radius\n"
+                       "1,two\n"
+                       "1,2\n"
+                       "1,2,3\n"
+                       "\n"
+                       "nan,1e999\n"
+                       ",4 mm\n"),
+              ElementsAre(":2: radius: 'two' is not a number", ":4: has 3 entries for 2 columns",
+                          ":6: x: 'nan' is not finite", ":6: radius: '1e999' is beyond what a double holds",
+                          ":7: x: missing entry", ":7: radius: '4 mm' is not a number"));
+}
+
+TEST_F(PointsCsv, CountsBadLinesBeyondTwenty) {
+  std::string content = "x,y\n";
+  for (int i = 0; i < 50; ++i) content += i % 2 ? "a,b\n" : "1,c\n";
+  const std::vector<std::string> texts = problems(content);
+  ASSERT_THAT(texts, SizeIs(21));
+  EXPECT_EQ(texts[19], ":15: x: 'a' is not a number");  // lines 2 to 14 hold 1, 2, 1, ... problems: 19
+  EXPECT_EQ(texts[20], ": and 36 more bad lines");
+}
+
+TEST_F(PointsCsv, ReportsWhatIsWrongWithTheHeader) {
+  const std::string_view required[] = {"radius"};
+  EXPECT_THAT(problems("X,y [kg],y,mass [stone],w [m\n1,2,3,4,5\n", required),
+              ElementsAre(HasSubstr(":1: y: 'kg' is no unit of length"), ":1: y: stands twice in the header",
+                          HasSubstr(":1: mass: "), HasSubstr(":1: w: unit without a closing bracket"),
+                          HasSubstr(":1: x: missing column"), ":1: radius: missing column"));
+  EXPECT_THAT(problems("x;y;z\n1;2;3\n"),
+              ElementsAre(HasSubstr("missing column; allowed: columns separated by commas")));
+  EXPECT_THAT(problems("x [1]\n"), ElementsAre(HasSubstr("a length needs a unit of length")));
+  EXPECT_THAT(problems("\n"), ElementsAre(HasSubstr("has no header line")));
+  EXPECT_THAT(message_of<FileError>([&] { read_points_csv(folder_ / "none.csv"); }),
+              HasSubstr("none.csv: cannot open: No such file or directory"));
+}
+
+TEST_F(PointsCsv, WhatIsWrittenReadsBackToTheSameBits) {
+  const PointSet written{.columns = {{"radius", "m", std::vector{1.0 / 3, 0x1.0p-1074}},
+                                     {"position", "m", std::vector<Vector3>{{0.1, -0.0, 1e300}, {2, 3, 4}}},
+                                     {"velocity", "m/s", std::vector<Vector3>{{5, 6, 7}, {8, 9, 0.7}}},
+                                     {"number", "1", std::vector<std::int64_t>{-3, 4}}}};
+  write_points_csv(folder_ / "w.csv", written.view());
+  EXPECT_THAT(content_of(folder_ / "w.csv"),
+              HasSubstr("x [m],y [m],z [m],radius [m],velocity_x [m/s],velocity_y [m/s],velocity_z [m/s],number [1]\n"
+                        "0.1,-0,1e+300,0.3333333333333333,5,6,7,-3\n"));
+  const PointSet read = read_points_csv(folder_ / "w.csv");
+  ASSERT_THAT(read.columns, SizeIs(4));
+  EXPECT_EQ(read.view().vectors("position")[0], (Vector3{0.1, -0.0, 1e300}));
+  EXPECT_TRUE(std::signbit(read.view().vectors("position")[0].y));
+  EXPECT_THAT(read.view().scalars("radius"), ElementsAre(1.0 / 3, 0x1.0p-1074));
+  EXPECT_THAT(read.view().vectors("velocity"), ElementsAre(Vector3{5, 6, 7}, Vector3{8, 9, 0.7}));
+  EXPECT_EQ(read.columns[2].unit, "m/s");
+  EXPECT_THAT(read.view().scalars("number"), ElementsAre(-3, 4));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/summary.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/error.hpp"
+#include "io/scratch_folder.hpp"
+
+namespace talus {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(Summary, StandsInTheDocumentedForm) {
+  const ScratchFolder folder;
+  write_summary(
+      folder / "summary.json",
+      {.status = "done", .wall_seconds = 1.5, .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}}});
+  EXPECT_EQ(nlohmann::json::parse(content_of(folder / "summary.json")), nlohmann::json::parse(R"({
+    "status": "done", "wall_seconds": 1.5, "quantities": {
+      "front_speed_max": {"value": 0.1, "unit": "1"},
+      "angle": {"value": null, "unit": "deg", "reason": "not a number"}}})"));
+}
+
+TEST(Summary, ReadsBackEveryValueInOrder) {
+  const ScratchFolder folder;
+  const std::vector<double> values{1.0 / 3, -0.0, 0x1.0p-1074, 1.7976931348623157e308, infinity, -infinity, NAN, 1e22};
+  Summary written{.status = "stopped: \"walltime\"", .wall_seconds = 0.1, .quantities = {}};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    written.quantities.push_back({fmt::format("z{}", 10 - i), "m/s", values[i]});
+  write_summary(folder / "summary.json", written);
+  const Summary read = read_summary(folder / "summary.json");
+  EXPECT_EQ(read.status, written.status);
+  EXPECT_EQ(read.wall_seconds, 0.1);
+  ASSERT_EQ(read.quantities.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    EXPECT_EQ(read.quantities[i].name, written.quantities[i].name);
+    EXPECT_EQ(read.quantities[i].unit, "m/s");
+    if (std::isnan(values[i])) {
+      EXPECT_TRUE(std::isnan(read.quantities[i].value));
+    } else {
+      EXPECT_EQ(read.quantities[i].value, values[i]);
+      EXPECT_EQ(std::signbit(read.quantities[i].value), std::signbit(values[i]));
+    }
+  }
+  EXPECT_EQ(read.find("z8")->value, 0x1.0p-1074);
+  EXPECT_EQ(read.find("z11"), nullptr);
+}
+
+TEST(Summary, RefusesANameThatStandsTwice) {
+  const ScratchFolder folder;
+  EXPECT_THROW(write_summary(folder / "s", {.status = "done", .quantities = {{"a", "1", 1}, {"a", "1", 2}}}),
+               std::invalid_argument);
+}
+
+TEST(Summary, SaysWhatIsWrongWithAFile) {
+  const ScratchFolder folder;
+  const auto message = [&](const std::string& content) {
+    put_content(folder / "summary.json", content);
+    return message_of<FileError>([&] { read_summary(folder / "summary.json"); });
+  };
+  EXPECT_THAT(message("{"), HasSubstr("summary.json: is not a summary of Talus: "));
+  EXPECT_THAT(message(R"({"status": "done", "wall_seconds": 1})"), HasSubstr("key 'quantities' not found"));
+  EXPECT_THAT(message(R"({"status": "done", "wall_seconds": "x", "quantities": {}})"), HasSubstr("must be number"));
+}
+
+}  // namespace
+}  // namespace talus
