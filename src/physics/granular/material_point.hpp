@@ -19,6 +19,8 @@ namespace talus::granular {
 struct HistorySlot {
   const char* name;  ///< snake_case, unique within the law
   const char* unit;  ///< SI; "1" for numbers
+  /// Of a tensor's component, its two axes (0, 1, 2): in a mirror across one of two different axes it changes sign.
+  int axis = 0, other_axis = 0;
 };
 
 /// A lump of grains as a law sees it. A new point is all zeros: no stress, nothing remembered.
@@ -43,12 +45,12 @@ concept ConstitutiveLaw = requires(const Law law, const MaterialPoint<Law>& old,
 /// \param names of the slots, in the order of the components
 template <class Visit, class Tensor>
 constexpr void for_each_tensor_slot(Visit&& visit, const char* const (&names)[6], const char* unit, Tensor& tensor) {
-  visit(HistorySlot{names[0], unit}, tensor.xx);
-  visit(HistorySlot{names[1], unit}, tensor.yy);
-  visit(HistorySlot{names[2], unit}, tensor.zz);
-  visit(HistorySlot{names[3], unit}, tensor.xy);
-  visit(HistorySlot{names[4], unit}, tensor.yz);
-  visit(HistorySlot{names[5], unit}, tensor.zx);
+  visit(HistorySlot{names[0], unit, 0, 0}, tensor.xx);
+  visit(HistorySlot{names[1], unit, 1, 1}, tensor.yy);
+  visit(HistorySlot{names[2], unit, 2, 2}, tensor.zz);
+  visit(HistorySlot{names[3], unit, 0, 1}, tensor.xy);
+  visit(HistorySlot{names[4], unit, 1, 2}, tensor.yz);
+  visit(HistorySlot{names[5], unit, 2, 0}, tensor.zx);
 }
 
 /// Number of slots of a law.
