@@ -304,11 +304,14 @@ TALUS_INLINE Lanes<T, rows> log(Lanes<T, rows> x) {
 /// As gather_rows of a number alone.
 template <int count, class T, int rows, class RowOf>
 TALUS_INLINE void gather_rows(Lanes<T, rows> x, RowOf&& row_of, Lanes<T, rows> (&values)[count]) {
-  for (int r = 0; r < rows; ++r)
+  for (int r = 0; r < rows; ++r) {
+    alignas(registers::bytes) T lane[count][Lanes<T>::lanes];
     for (int k = 0; k < Lanes<T>::lanes; ++k) {
       const auto* row = row_of(x.row[r][k]);
-      for (int c = 0; c < count; ++c) values[c].row[r][k] = static_cast<T>(row[c]);
+      for (int c = 0; c < count; ++c) lane[c][k] = static_cast<T>(row[c]);
     }
+    for (int c = 0; c < count; ++c) values[c].row[r] = Lanes<T>::load(lane[c]).row[0];
+  }
 }
 
 /// Whether the condition holds in every lane.

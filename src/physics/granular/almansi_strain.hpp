@@ -23,16 +23,20 @@ SymmetricTensor3<Number> almansi_strain(const Tensor3<Number>& displacement_grad
   return strain_of_inverse(-1.0 * (displacement_gradient * inverse(unit + displacement_gradient)));
 }
 
-/// e a time step later, from de/dt = -D - e L - L^T e, which follows from d(B^-1)/dt = -B^-1 L - L^T B^-1 exactly. The
-/// step's own deformation f = exp(L dt) is taken to the second order: f^-1 = I - L dt + (L dt)^2/2. A rigid rotation by
-/// the angle t a step keeps |e| to t^4/8. \param velocity_gradient 1/s; \param time_step s
+/// de/dt = -D - e L - L^T e, which follows from d(B^-1)/dt = -B^-1 L - L^T B^-1 exactly.
+template <class Number>
+SymmetricTensor3<Number> strain_rate(const SymmetricTensor3<Number>& strain, const Tensor3<Number>& velocity_gradient) {
+  return -1.0 * symmetric_part(velocity_gradient + 2.0 * (full(strain) * velocity_gradient));
+}
+
+/// e a time step later, by the midpoint rule: second order, and a body that turns without strain stays without. A rigid
+/// rotation by the angle t a step keeps |e| to the factor 1 + 2 t^4.
+/// \param velocity_gradient 1/s; \param time_step s
 template <class Number>
 SymmetricTensor3<Number> transported_strain(const SymmetricTensor3<Number>& strain,
                                             const Tensor3<Number>& velocity_gradient, double time_step) {
-  const Tensor3<Number> step = time_step * velocity_gradient;
-  const Tensor3<Number> g = 0.5 * (step * step) - step;
-  const Tensor3<Number> eg = full(strain) * g;
-  return strain + strain_of_inverse(g) + 2.0 * symmetric_part(eg) + symmetric_part(transpose(g) * eg);
+  const SymmetricTensor3<Number> middle = strain + (0.5 * time_step) * strain_rate(strain, velocity_gradient);
+  return strain + time_step * strain_rate(middle, velocity_gradient);
 }
 
 }  // namespace talus::granular

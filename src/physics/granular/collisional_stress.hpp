@@ -13,15 +13,16 @@ struct CollisionOptions {
   double gravity = 9.8;    ///< g, m/s^2
   double normal = 1.67;    ///< B1
   double shear = 0.0175;   ///< B2
-  double diagonal_factor =
-      1;                   ///< gamma_ii = factor du_i/dx_i; 2 if gamma_ij = du_i/dx_j + du_j/dx_i is meant there too
+  /// gamma_ii over du_i/dx_i: 2 if gamma_ij = du_i/dx_j + du_j/dx_i is meant for i = j too.
+  double diagonal_factor = 1;
   bool isotropic = false;  ///< B1 on the volumetric, B2 on the deviatoric rate, in place of the printed components
 };
 
 /// Eqs 13 and 14, compression positive: -B (D/g)^(1/2) gamma_ij tau with gamma_ij = du_i/dx_j + du_j/dx_i for i != j.
 /// deviates: gamma_ii, which is not defined in print, is du_i/dx_i. The printed components give rotated axes another
-/// stress, B1 being 95 times B2; the isotropic reading, tau_ij = -(D/g)^(1/2) tau (B1 tr(D)/3 delta_ij + 2 B2
-/// D_dev,ij), does not. \param mean_stress tau of Eq. 8, Pa, >= 0; \param velocity_gradient 1/s; \returns Pa
+/// stress, B1 being 95 times B2; the isotropic reading does not:
+///     tau_ij = -(D/g)^(1/2) tau (B1 tr(D)/3 delta_ij + 2 B2 D_dev,ij)
+/// \param mean_stress tau of Eq. 8, Pa, >= 0; \param velocity_gradient 1/s; \returns Pa
 template <class Number>
 SymmetricTensor3<Number> collisional_stress(const CollisionOptions& o, const Number& mean_stress,
                                             const Tensor3<Number>& velocity_gradient) {

@@ -14,8 +14,8 @@ Number density_factor(const Number& packing) {
   return (5.0 / 3.0) * packing;
 }
 
-/// The factor [rho_b/(0.5 rho_p)]^96 by which Eqs 1-3 vanish where grains lose contact; 1 above the packing of the
-/// gate. \param packing rho_b/rho_p; \param gate packing below which the factor acts, 0.5; \param power 96, or any >= 0
+/// The factor [rho_b/(0.5 rho_p)]^96 by which Eqs 1-3 vanish where grains lose contact; 1 above the gate.
+/// \param packing rho_b/rho_p; \param gate packing below which the factor acts, 0.5; \param power 96, or any >= 0
 template <class Number>
 Number contact_gate(const Number& packing, double gate, int power) {
   Number base = minimum(packing * (1.0 / gate), Number(1.0));
@@ -28,12 +28,12 @@ Number contact_gate(const Number& packing, double gate, int power) {
 }
 
 /// The volumetric part of the strain, tr(e)/3, as the density tells it: ln(rho_b/rho_ref)/3, positive in compression.
-/// deviates: the paper takes it from displacements since the last reset; by the density it cannot drift from the
-/// packing.
+/// deviates: the paper takes it from displacements since the last reset; this cannot drift from the packing.
+/// \param packing, reference_packing rho_b/rho_p, rho_ref/rho_p
 template <class Number>
-Number volumetric_strain(const Number& density, double reference_density) {
+Number volumetric_strain(const Number& packing, double reference_packing) {
   using std::log;
-  return (1.0 / 3.0) * log(density * (1.0 / reference_density));
+  return (1.0 / 3.0) * log(packing * (1.0 / reference_packing));
 }
 
 }  // namespace talus::granular

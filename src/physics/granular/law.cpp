@@ -5,6 +5,12 @@ namespace talus::granular {
 
 std::vector<Problem> check(const LawParameters& p) {
   std::vector<Problem> problems;
+  const bool holds_deviator =
+      p.name == LawName::drucker_prager || (p.name == LawName::yuu_umekage && p.form == Form::isotropic);
+  if (holds_deviator && p.largest_deviator > largest_fitted_strain)
+    problems.push_back({.key = "law.largest_deviator",
+                        .what = "the fitted functions end at 0.035",
+                        .allowed = "at most 0.035; with law.form = \"printed\" any"});
   if (p.name != LawName::yuu_umekage) return problems;
   if (p.reset == Reset::strain && p.volume == Volume::density)
     problems.push_back({.key = "law.reset",

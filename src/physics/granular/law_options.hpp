@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The readings of the constitutive laws that a case chooses among (law_parameters.hpp has their names and texts).
+/// The readings of the constitutive laws that a case chooses among (law.hpp has their names and texts).
 #pragma once
 
 #include "base/tensor.hpp"
@@ -47,7 +47,8 @@ struct YuuUmekageOptions {
   int gate_power = 96;                      ///< of the factor by which stress then vanishes
 };
 
-/// The main strain of a strain, or the rate of compression along it of a velocity gradient turned positive.
+/// The component of a strain, a rate of strain or a stress along the main direction; a third of the trace for the
+/// volume.
 template <class Number>
 Number main_strain(MainStrain main, const SymmetricTensor3<Number>& strain) {
   return main == MainStrain::x   ? strain.xx

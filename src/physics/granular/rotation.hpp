@@ -8,8 +8,8 @@
 namespace talus::granular {
 
 /// (I - W dt/2)^-1 (I + W dt/2) with the spin W: a rotation to round-off, by 2 atan(t/2) for the angle t. In closed
-/// form, W being antisymmetric: I + 2 (A + A^2)/(1 + |A|^2/2) with A = W dt/2. \param velocity_gradient 1/s, of which
-/// the spin is the antisymmetric part
+/// form, W being antisymmetric: I + 2 (A + A^2)/(1 + |A|^2/2) with A = W dt/2.
+/// \param velocity_gradient 1/s, of which the spin is the antisymmetric part
 template <class Number>
 Tensor3<Number> rotation_of_step(const Tensor3<Number>& velocity_gradient, double time_step) {
   const Tensor3<Number> half = (0.5 * time_step) * antisymmetric_part(velocity_gradient);

@@ -7,8 +7,8 @@
 
 namespace talus::granular {
 
-/// Largest slope of a curve that is smooth between its joints, from 0 to the last of them; jumps at joints do not
-/// count. \param curve strain -> stress, Pa; \param joints any order, > 0
+/// Largest slope of a curve that is smooth between its joints, from 0 to the last; jumps at joints do not count.
+/// \param curve strain -> stress, Pa; \param joints any order, > 0
 template <class Curve>
 double steepest_slope(Curve&& curve, std::vector<double> joints) {
   std::sort(joints.begin(), joints.end());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "physics/granular/uniaxial_slope.hpp"
 
@@ -13,7 +14,11 @@ YuuUmekageIsotropic::YuuUmekageIsotropic(const YuuUmekageOptions& options, const
       pressure_(pressure_table(functions)),
       shear_(shear_table(functions)),
       initial_pressure_(functions.a1.piece[0].c0 + 2 * functions.a2.piece[0].c0),
-      initial_shear_(functions.a4.piece[0].c0) {
+      line_ratio_(options.unloading_stiffness * functions.a4.piece[0].c0),
+      inverse_line_ratio_(1 / line_ratio_),
+      inverse_grain_density_(1 / options.grain_density) {
+  if (!(options_.largest_deviator <= largest_fitted_strain))
+    throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
   // Uniaxial strain e: e_v = e/3, e_dev,zz = 2e/3, |e_dev| = sqrt(2/3) e.
   const double deviator = std::sqrt(2.0 / 3.0);
   std::vector<double> joints;
@@ -23,7 +28,7 @@ YuuUmekageIsotropic::YuuUmekageIsotropic(const YuuUmekageOptions& options, const
   steepest_ = options_.scale * steepest_slope(
                                    [&](double e) {
                                      const double held = std::min(deviator * e, options_.largest_deviator);
-                                     return pressure_(e / sqrt3) / sqrt3 * (1 + deviator * shear_at(held) * held);
+                                     return pressure_(e / sqrt3) / sqrt3 * (1 + deviator * shear_(held) * held);
                                    },
                                    joints);
   if (options_.unloading != Unloading::none) steepest_ *= options_.unloading_stiffness;

@@ -5,17 +5,22 @@
 ///
 /// with e = -Ea, e_v = tr(e)/3. The friction in simple shear is A4(|e_dev|) |e_dev|/sqrt(2).
 /// Source: Yuu & Umekage 2011, Eqs 1-6 and 8, section 2.1.
-/// deviates: Eqs 1-6 are component formulas, and a state turned by 45 degrees has another shear stress under them, by
-/// 0.5 to 12 times. Here A1 and A2 are taken at the volumetric strain and A4 at the deviator; with the total |e| the
-/// stiffness would fall by more than ten times in a shear zone. The pressure does not fall as the compression grows
-/// (fitted_table.hpp). The deviator is held at `largest_deviator`: beyond the peak of A4 a there is nothing but
-/// rounding.
+/// Range: slow, dense flow of 200 um glass beads near a packing of 0.6, |e| <= 0.035.
+/// deviates: Eqs 1-6 are component formulas; turned by 45 degrees a strain has another shear stress under them, an
+/// eighth to eight times as large. Here A1 and A2 are taken at the volumetric strain and A4 at the deviator; with the
+/// total |e| the stiffness would fall by more than ten times in a shear zone. The pressure does not fall as the
+/// compression grows (fitted_table.hpp). The deviator is held at `largest_deviator`, by default the peak of A4 a.
 ///
-/// Unloading, which the paper omits ("similar to the initial elastic region"), without a branch: the pressure follows
-/// the line of the initial stiffness times k_u and never passes the loading curve; so does the stress ratio tau_dev/p,
-/// whose yield point is that of the largest deviator so far. Nothing toggles, and a closed cycle of one of them only
-/// loses energy. Reset, the paper's rule: while the main strain falls the shear stress drops along its line, and at its
-/// end the deviator starts anew from zero.
+/// Unloading, which the paper omits ("similar to the initial elastic region"). The pressure falls along the line of the
+/// initial stiffness times k_u, rises along it again and never passes the loading curve. So does the stress ratio
+/// tau_dev/p, in any direction; its yield point is that of the largest deviator so far. The next increment decides
+/// anew, so noise does not throw a point off its line. A closed cycle of the pressure, or of the shear strain under
+/// constant pressure, only loses energy; shear at one pressure and back at another may gain some, as with every
+/// stiffness that goes with the pressure. Where the curve of A4 is steeper than the line (near 1e-4, k_u < 2.2) shear
+/// loads along the line, up to 11 % below the curve.
+///
+/// Reset, the paper's rule: while the main strain falls the shear stress drops along its line, whatever the shear; at
+/// the end of the line, and as long as the main strain falls, the deviator starts anew from zero.
 #pragma once
 
 #include "physics/granular/almansi_strain.hpp"
@@ -23,11 +28,13 @@
 #include "physics/granular/fitted_table.hpp"
 #include "physics/granular/law_options.hpp"
 #include "physics/granular/material_point.hpp"
+#include "physics/granular/rotation.hpp"
 
 namespace talus::granular {
 
 class YuuUmekageIsotropic {
  public:
+  /// \throws std::invalid_argument if the largest deviator lies beyond the range of the fits
   YuuUmekageIsotropic(const YuuUmekageOptions& options, const FittedFunctions& functions);
 
   template <class Number>
@@ -35,6 +42,7 @@ class YuuUmekageIsotropic {
     /// Volume: what the pressure is taken at. Deviator: of the strain since the last reset; with unloading of the shear
     /// stress along its line, tau_dev/(p k_u A4(0)): the strain that would give this stress elastically.
     SymmetricTensor3<Number> strain;
+    Number unloading = 0.0;       ///< 1 while the pressure is below its loading curve, else 0
     Number yield_deviator = 0.0;  ///< |e_dev| at the yield point of the shear stress
     Number main_rate = 0.0;       ///< 1/s, smoothed rate of the main strain; 0 without resets
   };
@@ -42,6 +50,7 @@ class YuuUmekageIsotropic {
   static constexpr void for_each_slot(Visit&& visit, H& history) {
     for_each_tensor_slot(visit, {"strain_xx", "strain_yy", "strain_zz", "strain_xy", "strain_yz", "strain_zx"}, "1",
                          history.strain);
+    visit(HistorySlot{"unloading", "1"}, history.unloading);
     visit(HistorySlot{"yield_deviator", "1"}, history.yield_deviator);
     visit(HistorySlot{"main_rate", "1/s"}, history.main_rate);
   }
@@ -50,18 +59,24 @@ class YuuUmekageIsotropic {
   MaterialPoint<YuuUmekageIsotropic, Number> update(const MaterialPoint<YuuUmekageIsotropic, Number>& old,
                                                     const Tensor3<Number>& velocity_gradient, const Number& density,
                                                     double time_step) const {
+    MaterialPoint<YuuUmekageIsotropic, Number> point;
     const SymmetricTensor3<Number> strain = transported_strain(old.history.strain, velocity_gradient, time_step);
-    const Number volume = options_.volume == Volume::density
-                              ? volumetric_strain(density, options_.reference_packing * options_.grain_density)
-                              : (1.0 / 3.0) * trace(strain);
-    const Number pressure = pressure_at(old, volume, density);
-    const Number main_rate = options_.reset == Reset::never
-                                 ? Number(0.0)
-                                 : smoothed_main_rate(old.history.main_rate, options_.main_strain, velocity_gradient,
-                                                      time_step, options_.smoothing_time);
-    const Sheared<Number> sheared =
-        unloads_shear() ? along_line(deviator(strain), old.history.yield_deviator) : along_curve(deviator(strain));
-    return reset(pressure, volume, sheared, main_rate, time_step);
+    Volumetric<Number> volume = volumetric(old, strain, density);
+    SymmetricTensor3<Number> sheared = deviator(strain);
+    if (options_.reset != Reset::never) {
+      point.history.main_rate = smoothed_main_rate(old.history.main_rate, options_.main_strain, velocity_gradient,
+                                                   time_step, options_.smoothing_time);
+      const SymmetricTensor3<Number> only_turned =
+          transformed(deviator(old.history.strain), rotation_of_step(velocity_gradient, time_step));
+      sheared = select_tensor(point.history.main_rate < Number(0.0), only_turned, sheared);
+    }
+    Sheared<Number> shear = unloads_shear() ? along_line(sheared, old.history.yield_deviator) : along_curve(sheared);
+    if (options_.reset != Reset::never) reset(point.history.main_rate, time_step, volume, shear);
+    point.stress = isotropic(volume.pressure) + (volume.pressure * shear.ratio) * shear.deviator;
+    point.history.strain = isotropic(volume.strain) + shear.deviator;
+    point.history.unloading = volume.unloading;
+    point.history.yield_deviator = shear.yield_deviator;
+    return point;
   }
 
   /// c = (M/rho_b)^(1/2), m/s, with M the largest slope of the vertical stress against the vertical strain in uniaxial
@@ -75,11 +90,16 @@ class YuuUmekageIsotropic {
   static constexpr double sqrt3 = 1.7320508075688772;
   static constexpr double tiny = 1e-30;
 
-  /// The deviator of the strain, the stress ratio tau_dev/p over it, and the deviator at the yield point.
+  template <class Number>
+  struct Volumetric {
+    Number strain;    ///< e_v
+    Number pressure;  ///< Pa
+    Number unloading;
+  };
   template <class Number>
   struct Sheared {
-    SymmetricTensor3<Number> deviator;
-    Number ratio;
+    SymmetricTensor3<Number> deviator;  ///< of the strain
+    Number ratio;                       ///< tau_dev = ratio p deviator
     Number yield_deviator;
   };
 
@@ -87,77 +107,64 @@ class YuuUmekageIsotropic {
     return options_.unloading == Unloading::pressure || options_.unloading == Unloading::all;
   }
   bool unloads_shear() const { return options_.unloading == Unloading::shear || options_.unloading == Unloading::all; }
-  /// Slope of the unloading line of the stress ratio.
-  double line_ratio() const { return options_.unloading_stiffness * initial_shear_; }
-
   template <class Number>
-  Number pressure_at(const MaterialPoint<YuuUmekageIsotropic, Number>& old, const Number& volume,
-                     const Number& density) const {
+  Volumetric<Number> volumetric(const MaterialPoint<YuuUmekageIsotropic, Number>& old,
+                                const SymmetricTensor3<Number>& strain, const Number& density) const {
+    const Number volume = options_.volume == Volume::density
+                              ? volumetric_strain(density, options_.reference_packing * options_.grain_density)
+                              : (1.0 / 3.0) * trace(strain);
     const Number packing = density * (1.0 / options_.grain_density);
     const Number stiffness =
         options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
     const Number loading = stiffness * (1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0)));
-    if (!unloads_pressure()) return loading;
+    if (!unloads_pressure()) return {volume, loading, Number(0.0)};
     const Number compression = volume - (1.0 / 3.0) * trace(old.history.strain);
     const Number line =
         (1.0 / 3.0) * trace(old.stress) + (options_.unloading_stiffness * initial_pressure_) * stiffness * compression;
-    return minimum(loading, maximum(line, Number(0.0)));
-  }
-
-  /// A4(a) within the range and beyond.
-  template <class Number>
-  Number shear_at(const Number& a) const {
-    return shear_(a) * beyond_range(a);
+    // Below the curve, or leaving it, the pressure is on the line; compressed further on the curve it stays there.
+    const auto on_line = old.history.unloading > Number(0.5) || compression < Number(0.0);
+    const Number pressure = select(on_line, minimum(loading, maximum(line, Number(0.0))), loading);
+    return {volume, pressure, select(pressure < loading, Number(1.0), Number(0.0))};
   }
 
   template <class Number>
   Sheared<Number> along_curve(const SymmetricTensor3<Number>& strain) const {
     const Number size = norm(strain);
     const Number held = minimum(size, Number(options_.largest_deviator));
-    return {(held / maximum(size, Number(tiny))) * strain, shear_at(held), held};
+    return {(held / maximum(size, Number(tiny))) * strain, shear_(held), Number(0.0)};
   }
 
   template <class Number>
   Sheared<Number> along_line(const SymmetricTensor3<Number>& strain, const Number& old_yield) const {
     const Number size = norm(strain);
-    const Number yield_size = old_yield * shear_at(old_yield) * (1.0 / line_ratio());
+    const Number yield_size = inverse_line_ratio_ * (old_yield * shear_(old_yield));
     const Number excess = maximum(size - yield_size, Number(0.0));
     const Number yield = minimum(old_yield + excess, Number(options_.largest_deviator));
-    const Number held = minimum(size, yield * shear_at(yield) * (1.0 / line_ratio()));
-    return {(held / maximum(size, Number(tiny))) * strain, line_ratio(), yield};
+    const Number held = minimum(size, inverse_line_ratio_ * (yield * shear_(yield)));
+    return {(held / maximum(size, Number(tiny))) * strain, Number(line_ratio_), yield};
   }
 
+  /// The paper's rule, while the main strain falls.
   template <class Number>
-  MaterialPoint<YuuUmekageIsotropic, Number> reset(const Number& pressure, const Number& volume,
-                                                   Sheared<Number> sheared, const Number& main_rate,
-                                                   double time_step) const {
-    MaterialPoint<YuuUmekageIsotropic, Number> point;
-    Number kept_volume = volume;
-    if (options_.reset != Reset::never) {
-      const Number size = norm(sheared.deviator);
-      const Number drop = line_ratio() * time_step * maximum(-1.0 * main_rate, Number(0.0));
-      const Number left = maximum(1.0 - drop / maximum(sheared.ratio * size, Number(tiny)), Number(0.0));
-      sheared.deviator = left * sheared.deviator;
-      const auto unloading = main_rate < Number(0.0);
-      const auto ended = unloading && left < Number(tiny);
-      sheared.yield_deviator = select(ended, Number(0.0), sheared.yield_deviator);
-      if (!unloads_shear()) sheared.ratio = shear_at(norm(sheared.deviator));
-      if (options_.reset == Reset::strain)
-        kept_volume = select(unloading && pressure < Number(tiny), Number(0.0), volume);
-    }
-    point.stress = isotropic(pressure) + (pressure * sheared.ratio) * sheared.deviator;
-    point.history.strain = isotropic(kept_volume) + sheared.deviator;
-    point.history.yield_deviator = unloads_shear() ? sheared.yield_deviator : Number(0.0);
-    point.history.main_rate = main_rate;
-    return point;
+  void reset(const Number& main_rate, double time_step, Volumetric<Number>& volume, Sheared<Number>& shear) const {
+    const auto falls = main_rate < Number(0.0);
+    const Number drop = line_ratio_ * time_step * maximum(-1.0 * main_rate, Number(0.0));
+    const Number left = maximum(1.0 - drop / maximum(shear.ratio * norm(shear.deviator), Number(tiny)), Number(0.0));
+    shear.deviator = left * shear.deviator;
+    shear.yield_deviator = select(falls && left < Number(tiny), Number(0.0), shear.yield_deviator);
+    if (!unloads_shear()) shear.ratio = shear_(norm(shear.deviator));
+    if (options_.reset == Reset::strain)
+      volume.strain = select(falls && volume.pressure < Number(tiny), Number(0.0), volume.strain);
   }
 
   YuuUmekageOptions options_;
   PressureTable pressure_;
   ShearTable shear_;
   double initial_pressure_;  // A1 + 2 A2 at 0, Pa
-  double initial_shear_;     // A4 at 0
-  double steepest_;          // M at f = 1, Pa
+  double line_ratio_;        // k_u A4(0): slope of the unloading line of the stress ratio
+  double inverse_line_ratio_;
+  double inverse_grain_density_;  // m^3/kg
+  double steepest_;               // M at f = 1, Pa
 };
 
 }  // namespace talus::granular

@@ -12,7 +12,8 @@ YuuUmekagePrinted::YuuUmekagePrinted(const YuuUmekageOptions& options, const Fit
     : options_(options),
       table_(component_table(functions)),
       initial_{functions.a1.piece[0].c0, functions.a2.piece[0].c0, functions.a3.piece[0].c0, functions.a4.piece[0].c0},
-      largest_ratio_(0) {
+      largest_ratio_(0),
+      inverse_grain_density_(1 / options.grain_density) {
   const auto value = [&](int function, double a) {
     double A[4];
     table_.evaluate(a, A);
