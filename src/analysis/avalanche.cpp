@@ -118,7 +118,7 @@ AvalancheRun mean_run(std::span<const AvalancheRun> members) {
       for (const auto& entry : avalanche_frame_numbers)
         mean.frames[n].*entry.number += share * member.frames[n].*entry.number;
   }
-  mean.front_speed = spread(speeds).mean;
+  mean.front_speed = spread(common_part(std::move(speeds))).mean;
   return mean;
 }
 

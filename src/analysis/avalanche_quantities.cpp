@@ -66,7 +66,7 @@ std::vector<double> widths_in_radii(std::span<const AvalancheRun> members, const
 double front_speed_spread(std::span<const AvalancheRun> members, const Window& window) {
   std::vector<Curve> curves;
   for (const AvalancheRun& member : members) curves.push_back(within(member.front_speed, window));
-  const CurveSpread result = spread(curves);
+  const CurveSpread result = spread(common_part(std::move(curves)));
   std::vector<double> ratio;
   for (std::size_t n = 0; n < result.deviation.size(); ++n) ratio.push_back(result.deviation[n] / result.mean.value[n]);
   return mean(ratio);
@@ -133,6 +133,11 @@ std::optional<double> ensemble_quantity(const ComparisonRow& row, std::span<cons
     if (row.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
     std::vector<double> numbers;
     for (const AvalancheRun& member : members) numbers.push_back(run_quantity(row.quantity, member, row.window));
+    // A front of fewer than three grains has no angle. Such members are left out, as long as they are the fewer.
+    if (row.quantity == "frontal_angle" || row.quantity == "frontal_angle_first") {
+      std::erase_if(numbers, [](double number) { return std::isnan(number); });
+      if (2 * numbers.size() < members.size()) return AvalancheFrame::none;
+    }
     return evaluate(row.statistic, numbers);
   }
   if (row.from == From::curves) {

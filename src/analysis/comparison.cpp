@@ -47,7 +47,7 @@ Verdict judge(const Criterion& criterion, std::span<const std::optional<double>>
                        [&](const auto& value) { return judge(criterion, value) == verdict; });
   };
   if (any(Verdict::not_met)) return Verdict::not_met;
-  return values.empty() || any(Verdict::not_evaluated) ? Verdict::not_evaluated : Verdict::met;
+  return any(Verdict::met) ? Verdict::met : Verdict::not_evaluated;
 }
 
 std::string to_string(const Criterion& criterion) {

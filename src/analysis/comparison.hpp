@@ -33,8 +33,8 @@ enum class Verdict { met, not_met, reported, not_evaluated };
 /// met)
 Verdict judge(const Criterion& criterion, std::optional<double> value);
 
-/// A row that is to hold at several radii: not met if it is not met at one, else not evaluated if it is not evaluated
-/// at one, else met. A row without values is not evaluated.
+/// A row that is to hold at several radii is judged at those that are there: not met if it is not met at one, met if it
+/// is met at all of them, not evaluated if there are none.
 Verdict judge(const Criterion& criterion, std::span<const std::optional<double>> values);
 
 /// "30 to 70", "17.2 ± 2", "> 0.9", "positive", "reported".

@@ -76,6 +76,16 @@ double first_time_at_or_below(const Curve& curve, double level) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+std::vector<Curve> common_part(std::vector<Curve> curves) {
+  std::size_t points = std::numeric_limits<std::size_t>::max();
+  for (const Curve& curve : curves) points = std::min(points, curve.time.size());
+  for (Curve& curve : curves) {
+    curve.time.resize(points);
+    curve.value.resize(points);
+  }
+  return curves;
+}
+
 CurveSpread spread(std::span<const Curve> curves) {
   CurveSpread result;
   if (curves.empty()) return result;

@@ -33,6 +33,10 @@ Extremes extremes(const Curve& curve);
 /// The first time at which the curve, linear between its points, is at or below the level; nan if it never is.
 double first_time_at_or_below(const Curve& curve, double level);
 
+/// The curves cut to as many points as the shortest has. Runs end with the step that passes their end, which may just
+/// complete a window in one and not in another.
+std::vector<Curve> common_part(std::vector<Curve> curves);
+
 /// Mean and standard deviation (n - 1; nan for one curve) of several curves at each time.
 struct CurveSpread {
   Curve mean;

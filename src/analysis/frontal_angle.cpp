@@ -33,32 +33,23 @@ GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, con
   const Links wide(position, rule.cluster_reach * mean_radius);
   const GrainSet cluster = largest_set(wide.connected_sets(std::vector<bool>(position.size(), true)), position);
   if (cluster.empty()) return {};
-  const double step = rule.step * mean_radius;
-  const Links links(position, step);
+  const Links links(position, rule.step * mean_radius);
 
   std::vector<bool> closed(position.size(), true);
-  double top = position[cluster.front()].z;
   std::uint32_t foremost = cluster.front();
   for (const std::uint32_t i : cluster) {
     closed[i] = false;
-    top = std::max(top, position[i].z);
     if (std::tuple(position[i].x, -position[i].z) > std::tuple(position[foremost].x, -position[foremost].z))
       foremost = i;
   }
 
-  GrainSet way = {foremost}, highest = way;
+  GrainSet way = {foremost};
   closed[foremost] = true;
-  while (!way.empty()) {
-    if (const auto next = next_grain(position, links, closed, way.back())) {
-      closed[*next] = true;
-      way.push_back(*next);
-      continue;
-    }
-    if (position[way.back()].z > position[highest.back()].z) highest = way;
-    if (position[highest.back()].z >= top - step) break;
-    way.pop_back();
+  while (const auto next = next_grain(position, links, closed, way.back())) {
+    closed[*next] = true;
+    way.push_back(*next);
   }
-  return highest;
+  return way;
 }
 
 std::optional<double> angle_of_line(std::span<const Vector3> position, const GrainSet& grains) {

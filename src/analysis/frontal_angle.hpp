@@ -19,10 +19,9 @@ struct FrontalAngleRule {
 /// The grains of the front's surface, from the foremost of the largest cluster upwards, none lower than the one before.
 ///
 /// The next grain is the one, of those within a step and not lower than the last, that lies at the smallest angle from
-/// +x (section 4.3 gives the range of 0 to 180 degrees, not the order: choice; of equal ones the nearest). A grain that
-/// sticks out of the surface has no next: as long as the walk is more than a step below the top of the cluster it goes
-/// back and takes another way (choice). Of all ends the highest counts. \param position m; the foremost of equal ones
-/// is the lowest \param mean_radius of the case, > 0, m
+/// +x (section 4.3 gives the range of 0 to 180 degrees, not the order: choice; of equal ones the nearest). The walk
+/// ends where there is none. \param position m; the foremost of equal ones is the lowest \param mean_radius of the
+/// case, > 0, m
 GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, const FrontalAngleRule& rule = {});
 
 /// Angle between the slope behind the front and the line nearest to the grains' centres, 0 to pi: below pi/2 the front

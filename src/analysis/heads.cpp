@@ -10,71 +10,12 @@ namespace talus {
 namespace {
 
 using Numbers = std::vector<std::uint32_t>;
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::uint32_t largest_number(const Numbers& number, const GrainSet& grains) {
   std::uint32_t largest = 0;
   for (const std::uint32_t i : grains) largest = std::max(largest, number[i]);
   return largest;
-}
-
-std::uint32_t owner_of_nearest(std::span<const Vector3> position, const Links& links,
-                               const std::vector<std::uint32_t>& owner, std::uint32_t j) {
-  std::uint32_t nearest = nobody;
-  double least = infinity;
-  for (const std::uint32_t i : links.of(j)) {
-    const double distance = norm(position[i] - position[j]);
-    if (owner[i] != nobody && distance < least) {
-      nearest = owner[i];
-      least = distance;
-    }
-  }
-  return nearest;
-}
-
-/// For each grain the head that it reaches by the fewest links; nobody for a grain linked to none.
-std::vector<std::uint32_t> share_out(std::span<const Vector3> position, const Links& links,
-                                     const std::vector<GrainSet>& heads) {
-  std::vector<std::uint32_t> owner(position.size(), nobody);
-  GrainSet rim;  // grains that have joined in the last round
-  for (std::uint32_t h = 0; h < heads.size(); ++h)
-    for (const std::uint32_t i : heads[h]) {
-      owner[i] = h;
-      rim.push_back(i);
-    }
-  std::vector<bool> waiting(position.size(), false);
-  while (!rim.empty()) {
-    GrainSet joining;
-    for (const std::uint32_t i : rim)
-      for (const std::uint32_t j : links.of(i))
-        if (owner[j] == nobody && !waiting[j]) {
-          waiting[j] = true;
-          joining.push_back(j);
-        }
-    // Owners are set only after the round, so that the order within it does not matter.
-    std::vector<std::uint32_t> next_owner;
-    for (const std::uint32_t j : joining) next_owner.push_back(owner_of_nearest(position, links, owner, j));
-    for (std::size_t n = 0; n < joining.size(); ++n) owner[joining[n]] = next_owner[n];
-    rim = std::move(joining);
-  }
-  return owner;
-}
-
-/// The head with all grains of its part above the limit that are connected to it through such grains.
-GrainSet grown(const GrainSet& head, std::uint32_t name, const std::vector<std::uint32_t>& owner, const Links& links,
-               const Numbers& number, double limit) {
-  GrainSet members = head;
-  std::vector<bool> taken(owner.size(), false);
-  for (const std::uint32_t i : head) taken[i] = true;
-  for (std::size_t n = 0; n < members.size(); ++n)
-    for (const std::uint32_t j : links.of(members[n]))
-      if (!taken[j] && owner[j] == name && number[j] > limit) {
-        taken[j] = true;
-        members.push_back(j);
-      }
-  std::sort(members.begin(), members.end());
-  return members;
 }
 
 }  // namespace
@@ -99,16 +40,15 @@ std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_
   const Numbers& number = rule.measure == HeadRule::Measure::indirect ? both.indirect : both.direct;
 
   const double limit = rule.share * *std::max_element(number.begin(), number.end());
-  std::vector<bool> candidate(position.size());
-  for (std::size_t i = 0; i < position.size(); ++i) candidate[i] = number[i] > limit;
+  std::vector<bool> candidate(position.size(), false);
+  for (const GrainSet& part : links.connected_sets(std::vector<bool>(position.size(), true))) {
+    const std::uint32_t largest = largest_number(number, part);
+    if (largest <= limit) continue;
+    const double own_limit = rule.own_largest ? rule.share * largest : limit;
+    for (const std::uint32_t i : part) candidate[i] = number[i] > own_limit;
+  }
   std::vector<GrainSet> heads = links.connected_sets(candidate);
   std::erase_if(heads, [&](const GrainSet& head) { return head.size() < rule.least; });
-
-  if (rule.own_largest) {
-    const std::vector<std::uint32_t> owner = share_out(position, links, heads);
-    for (std::uint32_t h = 0; h < heads.size(); ++h)
-      heads[h] = grown(heads[h], h, owner, links, number, rule.share * largest_number(number, heads[h]));
-  }
   std::sort(heads.begin(), heads.end(),
             [&](const GrainSet& a, const GrainSet& b) { return is_larger(a, b, position); });
   return heads;

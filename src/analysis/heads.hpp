@@ -29,20 +29,20 @@ struct HeadRule {
   Measure measure = Measure::indirect;  ///< n' (as the paper decides) or n (its Figure 8a)
   double reach = 4;                     ///< of a neighbour, in mean radii (Eq. 11)
   double share = 0.25;                  ///< of the largest number, above which a grain belongs to a head (section 4.1)
-  std::size_t least = 20;               ///< grains of a head; choice
-  bool count_self = false;              ///< as in neighbour_numbers; choice
-  /// Whether each head's rim is drawn at `share` of its own largest number ("the maximum value calculated for each
-  /// aggregated part") rather than of the largest of all. Changes no number of heads. Choice.
+  /// Grains of a head, counted with its rim. The paper has no least number; below five a group has no shape. Choice.
+  std::size_t least = 5;
+  bool count_self = false;  ///< as in neighbour_numbers; choice
+  /// Whether each head is drawn at `share` of its own largest number ("the maximum value calculated for each aggregated
+  /// part"), and heads that touch then are one; else at `share` of the largest number of all.
   bool own_largest = true;
 };
 
 /// The heads, the one with the most grains first (of equal ones the one farther down), each by index.
 ///
-/// GrainSet whose number is above `share` of the largest of all, and the links between them, make sets; those of at
-/// least `least` grains are heads. With `own_largest`, every grain then falls to the head that it reaches by the fewest
-/// links (of equally many, to that of the nearest grain at the last link), and those above `share` of that head's
-/// largest number that are connected to the head through such grains join it. \param position centres, m; \param
-/// mean_radius of the case, > 0, m
+/// Parts are the connected sets of all grains, two being connected if closer than the reach. Of each part whose largest
+/// number is above `share` of the largest of all (choice: a few grains left behind are no part), the grains above
+/// `share` of its own largest number, and the links between them, make sets; those of at least `least` grains are
+/// heads. \param position centres, m; \param mean_radius of the case, > 0, m
 std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius, const HeadRule& rule = {});
 
 /// Size of a head in the plane x, y; lengths in m, from outer edge to outer edge of the grains (choice). Thickness,

@@ -57,6 +57,11 @@ inline constexpr auto quantities = std::to_array<QuantityDefinition>({
     {"tail_relative_velocity", "1", "how much faster than the front the tail runs, over v_s"},
     {"displacement_spread", "1", "largest difference of a grain's displacement from the mean, along x, over the mean"},
     {"displacement_lateral", "1", "largest difference of a grain's displacement from the mean, along y, over a"},
+    {"fall_speed_start", "1", "mean speed along gravity of a cloud in free space at the start, over v_s"},
+    {"fall_speed_end", "1", "the same at the end, of the grains that have not leaked"},
+    {"leaked_fraction", "1", "share of the grains more than two initial radii behind the median of a falling cloud"},
+    {"axial_density", "1", "grains near the axis of a falling cloud over those of an even disc; below 1: a torus"},
+    {"flatness", "1", "lateral over vertical extent of a falling cloud, 1 for a sphere"},
     {"contact_weight_ratio", "1", "contact force at an overlap of 0.01 a over a grain's weight (gamma)"},
     {"overlap_max", "1", "largest overlap over a"},
 });

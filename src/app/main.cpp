@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include "app/commands.hpp"
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   talus::app::add_check_command(app, action);
   talus::app::add_ensemble_command(app, action);
   talus::app::add_compare_command(app, action);
+  talus::app::add_analyze_command(app, action);
   talus::app::add_reproduce_command(app, action);
   talus::app::add_schema_command(app, action);
 
@@ -50,5 +52,7 @@ int main(int argc, char** argv) {
     return fail(ExitStatus::files, error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitStatus::numerical, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(ExitStatus::numerical, fmt::format("internal error, please report it: {}", error.what()));
   }
 }

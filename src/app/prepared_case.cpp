@@ -1,23 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/prepared_case.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <stdexcept>
 
 #include "app/cloud/cloud_case.hpp"
-#include "io/parameter_reader.hpp"
+#include "base/nearest.hpp"
 
 namespace talus::app {
 
+// There is one model. A case that names none, or another, is read as one of its cases all the same, so that the fault
+// is reported together with the others.
 PreparedCase prepare_case(const CaseFile& file) {
-  std::string model;
-  read_parameter(file, {"model", {}, {}, "which model", true}, model);
-  if (model == "cloud") return prepare_cloud(file);
-  const CaseEntry* entry = file.find("model");
-  throw InputError({{.where = entry->where,
-                     .line = entry->line,
-                     .key = "model",
-                     .what = "there is no model \"" + model + "\"",
-                     .allowed = "cloud"}});
+  return prepare_cloud(file);
+}
+
+std::vector<Problem> check_model(const std::string& model) {
+  if (std::find(model_names.begin(), model_names.end(), model) != model_names.end()) return {};
+  return {{.key = "model",
+           .what = fmt::format("there is no model \"{}\"", model),
+           .allowed = fmt::format("{}", fmt::join(model_names, ", ")),
+           .nearest = std::string(nearest(model, model_names))}};
+}
+
+std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  return analyze_cloud(folder, study_of(resolved).frame);
 }
 
 ParameterList parameters_of(const std::string& model) {

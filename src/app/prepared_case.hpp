@@ -33,9 +33,10 @@ struct PreparedCase {
   std::string model;
   std::int64_t seed = 0;
   run::RunParameters run;
-  ParameterList parameters;  ///< of the model and of the run, with the values they have
-  ParameterList defaults;    ///< the same with the values they have where nothing is given
-  std::string instruction_set;
+  ParameterList parameters;     ///< of the model and of the run, with the values they have
+  ParameterList defaults;       ///< the same with the values they have where nothing is given
+  std::string instruction_set;  ///< that the wish resolves to here
+  std::string inputs;           ///< digest of what the files hold that the case names; empty if it names none
 
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
@@ -53,8 +54,15 @@ struct PreparedCase {
 /// \throws InputError with every problem
 PreparedCase prepare_case(const CaseFile& file);
 
+/// A problem if there is no such model.
+std::vector<Problem> check_model(const std::string& model);
+
 /// The parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
 ParameterList parameters_of(const std::string& model);
+
+/// Analyses the run in a folder once more, as PreparedCase::analyze does at its end. \param resolved the manifest's
+/// case \throws FileError, InputError
+std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 /// The models there are.
 inline constexpr std::array<std::string_view, 1> model_names{"cloud"};

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 
+#include "base/unit.hpp"
+#include "io/checkpoint.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/summary.hpp"
@@ -18,8 +22,9 @@ namespace talus::app {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> not_in_fingerprint{"run.end", "title", "output.pictures",
-                                                             "output.checkpoint_interval"};
+// The wish for an instruction set does not count, but what it resolves to: case_fingerprint.
+constexpr std::array<std::string_view, 5> not_in_fingerprint{
+    "run.end", "title", "output.pictures", "output.checkpoint_interval", "integration.instruction_set"};
 
 double peak_memory_bytes() {
   rusage usage{};
@@ -29,7 +34,11 @@ double peak_memory_bytes() {
 
 /// log.txt. A log that cannot be written must not end a run: the numbers' own files say so if the disk is full.
 std::shared_ptr<spdlog::logger> open_log(const RunFolder& folder, bool append) {
-  auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !append);
+  std::shared_ptr<spdlog::sinks::sink> sink = std::make_shared<spdlog::sinks::null_sink_mt>();
+  try {
+    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !append);
+  } catch (const spdlog::spdlog_ex&) {
+  }
   auto log = std::make_shared<spdlog::logger>("run", sink);
   log->set_pattern("%Y-%m-%d %H:%M:%S  %v");
   log->flush_on(spdlog::level::info);
@@ -47,19 +56,55 @@ void print_regime(const std::vector<RegimeLine>& regime, spdlog::logger& log) {
   }
 }
 
-ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request, const RunFolder& folder,
-                         spdlog::logger& log) {
+Manifest manifest_of(const PreparedCase& prepared, int threads) {
   Manifest manifest = manifest_of_this_program();
   manifest.case_text = resolved_case(prepared.parameters);
   manifest.fingerprint = case_fingerprint(prepared);
   manifest.seed = prepared.seed;
   manifest.instruction_set = prepared.instruction_set;
-  manifest.threads = request.threads;
+  manifest.threads = threads;
+  return manifest;
+}
+
+/// Whether the run in a folder may go on as this case; reads only. \throws InputError with every key that differs
+void check_resumable(const PreparedCase& prepared, const RunFolder& folder, const Manifest& now) {
+  if (!std::filesystem::exists(folder.manifest())) return;  // killed before it began
+  const Manifest then = read_manifest(folder.manifest());
+  std::vector<Problem> problems;
+  auto differs = [&](const std::string& key, const std::string& what, const std::string& allowed) {
+    problems.push_back({.where = folder.path().string(), .key = key, .what = what, .allowed = allowed});
+  };
+  auto old_values = resolved_values(then.case_text), values = resolved_values(now.case_text);
+  for (const auto& [key, value] : old_values) values.try_emplace(key);
+  for (const auto& [key, value] : values) {
+    if (std::find(not_in_fingerprint.begin(), not_in_fingerprint.end(), key) != not_in_fingerprint.end()) continue;
+    auto shown = [](const std::string& text) { return text.empty() ? "not given" : text; };
+    if (value != old_values[key])
+      differs(key, fmt::format("{} in the run there, {} now", shown(old_values[key]), shown(value)),
+              "the same case to resume (only run.end may be later), or --overwrite");
+  }
+  if (const double end = end_of(then); prepared.run.end < end)
+    differs("run.end", fmt::format("{} s, before the end of the run there, {} s", prepared.run.end, end),
+            "the same end or a later one");
+  if (then.instruction_set != now.instruction_set)
+    differs(
+        "integration.instruction_set",
+        fmt::format("{} in the run there, {} now: the bits would differ", then.instruction_set, now.instruction_set),
+        fmt::format("\"{}\"", then.instruction_set));
+  if (problems.empty() && then.fingerprint != now.fingerprint)
+    differs("particles.file", "its points are not those that the run there began with", "the same points");
+  if (!problems.empty()) throw InputError(problems);
+}
+
+ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request, const RunFolder& folder,
+                         const Manifest& manifest, spdlog::logger& log) {
   const bool resume = request.existing == Existing::resume;
-  if (!resume) write_manifest(folder.manifest(), manifest);
-  std::filesystem::create_directories(folder.snapshots());
-  std::error_code ignored;
-  std::filesystem::remove(folder.stop(), ignored);  // of an earlier session
+  write_summary(folder.summary(), {.status = "running", .wall_seconds = 0, .quantities = {}});
+  const CheckpointFiles checkpoints(folder.path());
+  for (const std::string& damage : checkpoints.damages()) {
+    log.warn("passed over: {}", damage);
+    fmt::print(stderr, "talus: passed over: {}\n", damage);
+  }
 
   std::unique_ptr<run::AnyModel> model = prepared.make_model();
   ThreadTeam team(request.threads);
@@ -71,7 +116,6 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                                               .fingerprint = manifest.fingerprint,
                                               .resume = resume},
                                              prepared.observers);
-  if (resume) write_manifest(folder.manifest(), manifest);
 
   Summary summary{
       .status = loop.interrupted ? "interrupted" : "done", .wall_seconds = loop.wall_seconds, .quantities = {}};
@@ -103,10 +147,26 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   return ExitStatus::done;
 }
 
+/// Where even this cannot be written, the trouble that led here is the one to tell.
+void summarize_failure(const RunFolder& folder) {
+  try {
+    write_summary(folder.summary(), {.status = "failed", .wall_seconds = 0, .quantities = {}});
+  } catch (const FileError&) {
+  }
+}
+
 }  // namespace
 
 std::string case_fingerprint(const PreparedCase& prepared) {
-  return fingerprint(prepared.parameters, not_in_fingerprint);
+  std::string all = fingerprint(prepared.parameters, not_in_fingerprint) + "-" + prepared.instruction_set;
+  return prepared.inputs.empty() ? all : all + "-" + prepared.inputs;
+}
+
+double end_of(const Manifest& manifest) {
+  const std::string text = resolved_values(manifest.case_text)["run.end"];
+  const auto end = parse_quantity(std::string_view(text).substr(0, text.rfind('"')).substr(text.find('"') + 1));
+  if (!end) throw FileError("manifest.json", "its case has no run.end");
+  return end->value;
 }
 
 ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
@@ -120,17 +180,21 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   }
   run::catch_signals();
   const RunFolder folder = RunFolder::create(request.folder, request.existing);
+  const Manifest manifest = manifest_of(prepared, request.threads);
+  if (request.existing == Existing::resume) check_resumable(prepared, folder, manifest);
+  write_manifest(folder.manifest(), manifest);  // before any other file: it marks the folder as a run's
   const auto log = open_log(folder, request.existing == Existing::resume);
   log->info("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",
             request.threads, prepared.instruction_set);
   try {
-    return run_in_folder(prepared, request, folder, *log);
+    return run_in_folder(prepared, request, folder, manifest, *log);
   } catch (const NumericalError& error) {
     log->error("numerical failure: {}", error.what());
-    write_summary(folder.summary(), {.status = "failed", .wall_seconds = 0, .quantities = {}});
+    summarize_failure(folder);
     throw;
   } catch (const FileError& error) {
     log->error("file trouble: {}", error.what());
+    summarize_failure(folder);
     throw;
   }
 }

@@ -7,6 +7,7 @@
 
 #include "app/prepared_case.hpp"
 #include "base/error.hpp"
+#include "io/manifest.hpp"
 #include "io/run_folder.hpp"
 
 namespace talus::app {
@@ -19,13 +20,18 @@ struct RunRequest {
   bool dry_run = false;
 };
 
-/// What makes a case the same case: all keys but those that do not change a run's bits. A run may be resumed with a
-/// later end.
+/// What makes a case the same case: all keys but those that do not change a run's bits, what the files hold that it
+/// names, and the instruction set that its wish resolves to. A run may be resumed with a later end.
 std::string case_fingerprint(const PreparedCase& prepared);
+
+/// The end of the run that a manifest describes, s. \throws FileError if it says none
+double end_of(const Manifest& manifest);
 
 /// Runs a case and says on stdout where the results are.
 /// \returns done or interrupted
-/// \throws InputError, NumericalError, FileError; a numerical failure is also in log.txt and summary.json
+/// \throws InputError if the folder may not be used, or if it is to be resumed with another case; nothing has been
+/// written then
+/// \throws NumericalError, FileError; also in log.txt and summary.json, as far as these can be written
 ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request);
 
 }  // namespace talus::app

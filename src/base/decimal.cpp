@@ -64,7 +64,7 @@ std::optional<Decimal> take_decimal(std::string_view& text) {
 }
 
 Decimal to_decimal(double value) {
-  return from_scientific(fmt::format("{:.40e}", value));
+  return from_scientific(fmt::format("{:.39e}", value));
 }
 
 Decimal shortest_decimal(double value) {

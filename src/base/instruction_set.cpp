@@ -38,6 +38,7 @@ InstructionSet resolve(InstructionSet wanted) {
     if (is_available(static_cast<InstructionSet>(i)))
       allowed += (allowed.empty() ? "" : ", ") + std::string(choices<InstructionSet>[i]);
   throw InputError({{.where = "instruction set",
+                     .key = {},
                      .what = fmt::format("this processor has no {}", choice_name(wanted)),
                      .allowed = allowed}});
 }

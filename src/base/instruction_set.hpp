@@ -18,8 +18,8 @@ enum class InstructionSet {
 };
 
 template <>
-inline constexpr auto choices<InstructionSet> =
-    std::to_array<std::string_view>({"automatic", "avx512", "avx2", "portable"});
+inline constexpr auto choices<InstructionSet> = std::to_array<std::string_view>({"automatic", "avx512", "avx2",
+                                                                                 "portable"});
 
 /// Whether the running processor (and operating system) can execute it.
 bool is_available(InstructionSet set);

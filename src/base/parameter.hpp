@@ -8,8 +8,9 @@
 ///
 /// and parsing, defaults, ranges, the JSON schema, the reference page and `check` follow from that one list.
 /// The type of the member says what is read: double (a quantity with a unit, or a plain number if the dimension is
-/// none), std::int64_t, bool, std::string, std::array<double, 3>, an enumeration with `choices`, or std::optional of a
-/// double (may be left out). The member's initial value is the default, except where `required` is set.
+/// none), std::int64_t, bool, std::string, std::array<double, 3>, std::vector<double> (any number of values), an
+/// enumeration with `choices`, or std::optional of one of these (may be left out). The member's initial value is the
+/// default, except where `required` is set.
 #pragma once
 
 #include <array>

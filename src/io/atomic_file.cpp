@@ -20,10 +20,10 @@ std::string system_reason(int error_number) {
 namespace {
 
 /// \throws FileError about `path`, whose content stands under the name `temporary` until the end
-void write_and_rename(const std::string& path, const std::string& temporary, std::string_view content) {
+void write_and_rename(const std::string& path, const std::string& temporary, std::string_view content, Flush flush) {
   Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC, path);
   file.write(content);
-  file.sync();
+  if (flush == Flush::now) file.sync();
   file.close();
   if (std::rename(temporary.c_str(), path.c_str()) != 0)
     throw FileError(path, "cannot rename into place: " + system_reason(errno));
@@ -31,18 +31,18 @@ void write_and_rename(const std::string& path, const std::string& temporary, std
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& path, std::string_view content) {
+void write_atomically(const std::filesystem::path& path, std::string_view content, Flush flush) {
   const std::string temporary = path.string() + std::string(temporary_suffix);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   // Opened first, so that a folder that cannot be flushed is told before anything has changed.
   Descriptor folder_file(folder.string(), O_RDONLY | O_DIRECTORY, path.string());
   try {
-    write_and_rename(path.string(), temporary, content);
+    write_and_rename(path.string(), temporary, content, flush);
   } catch (const FileError&) {
     ::unlink(temporary.c_str());
     throw;
   }
-  folder_file.sync();
+  if (flush == Flush::now) folder_file.sync();
 }
 
 std::string read_whole_file(const std::filesystem::path& path) {

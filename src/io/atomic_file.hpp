@@ -12,11 +12,16 @@ namespace talus {
 /// replaced by the next write of the same file, and removed by --overwrite.
 inline constexpr std::string_view temporary_suffix = ".part";
 
+/// Whether a file is on the disk when its writing returns, or when the system finds the time. Either way a kill of the
+/// program meets the old file or the new one; a loss of power may meet neither, if it comes within seconds of `later`.
+enum class Flush { now, later };
+
 /// Writes `content` under a temporary name, flushes it to the disk, renames it to `path` and flushes the folder. The
 /// folder must exist and have room for the new file beside the old one.
+/// \param flush `later` is for what can be made again from other files
 /// \throws FileError with the system's reason; the temporary is gone then and an older file at `path` is as it was
 ///         (only where flushing the folder fails, after the renaming, is it already the new one)
-void write_atomically(const std::filesystem::path& path, std::string_view content);
+void write_atomically(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::now);
 
 /// \throws FileError with the system's reason
 std::string read_whole_file(const std::filesystem::path& path);

@@ -5,14 +5,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <utility>
+
+#include "io/atomic_file.hpp"
 
 namespace talus {
 
@@ -117,13 +115,7 @@ bool is_dotted_key(std::string_view key) {
 }  // namespace
 
 CaseFile CaseFile::read(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string text;
-  std::array<char, 1 << 14> buffer;
-  while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0)
-    text.append(buffer.data(), static_cast<std::size_t>(stream.gcount()));
-  if (!stream.is_open() || stream.bad()) throw FileError(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-  return from_text(text, path);
+  return from_text(read_whole_file(path), path);
 }
 
 CaseFile CaseFile::from_text(std::string_view text, std::string name) {
@@ -140,8 +132,8 @@ CaseFile CaseFile::from_text(std::string_view text, std::string name) {
   return file;
 }
 
-void CaseFile::set(std::string_view assignment) {
-  std::string option = fmt::format("--set {}", assignment);
+void CaseFile::set(std::string_view assignment, std::string_view option_name) {
+  std::string option = fmt::format("{} {}", option_name, assignment);
   std::replace_if(
       option.begin(), option.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); }, ' ');
   const std::size_t equals = assignment.find('=');

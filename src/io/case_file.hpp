@@ -45,7 +45,8 @@ class CaseFile {
   /// Overrides or adds a value: "particles.count=500", "particles.radius=2 mm". The value is read as TOML if it is
   /// TOML, else it is text. Of several, the last holds. What cannot be read at all is kept in problems(), so that it is
   /// reported together with the rest.
-  void set(std::string_view assignment);
+  /// \param option that gave it, for messages
+  void set(std::string_view assignment, std::string_view option = "--set");
 
   const std::string& name() const { return name_; }
 

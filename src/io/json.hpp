@@ -13,8 +13,8 @@ namespace talus {
 /// Keys in the order in which they were given; bytes that are no UTF-8 become U+FFFD.
 using Json = nlohmann::ordered_json;
 
-inline void write_json(const std::filesystem::path& path, const Json& json) {
-  write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+inline void write_json(const std::filesystem::path& path, const Json& json, Flush flush = Flush::now) {
+  write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', flush);
 }
 
 /// \param what_it_is for messages: "a summary"; \param read Json -> result

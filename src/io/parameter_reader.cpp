@@ -17,11 +17,12 @@ namespace {
 
 /// Whether the words of a message name this key: whole, not as a part of a longer one.
 bool names_key(std::string_view words, std::string_view key) {
-  const auto in_key = [&](std::size_t i) {
-    return i < words.size() && (std::isalnum(static_cast<unsigned char>(words[i])) || words[i] == '_');
-  };
-  for (std::size_t at = words.find(key); at != std::string_view::npos; at = words.find(key, at + 1))
-    if (!in_key(at - 1) && !in_key(at + key.size())) return true;
+  const auto in_key = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t at = words.find(key); at != std::string_view::npos; at = words.find(key, at + 1)) {
+    const std::size_t end = at + key.size();
+    const bool begins = at == 0 || (!in_key(words[at - 1]) && words[at - 1] != '.');
+    if (begins && (end == words.size() || !in_key(words[end]))) return true;
+  }
   return false;
 }
 

@@ -6,17 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/unit.hpp"
 #include "io/case_file.hpp"
+#include "io/json.hpp"
 
 namespace talus {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A number, then something that can begin a unit. The look-ahead keeps "5e3" from being 5 of a unit "e3".
 constexpr std::string_view quantity_pattern =
@@ -146,12 +144,8 @@ std::string json_schema(const ParameterList& defaults, std::string_view title) {
 }
 
 std::string reference_page(const ParameterList& defaults) {
-  std::vector<std::string_view> tables;
-  for (const DescribedParameter& item : defaults)
-    if (std::find(tables.begin(), tables.end(), table_of(item.parameter.key)) == tables.end())
-      tables.push_back(table_of(item.parameter.key));
   std::string page;
-  for (const std::string_view table : tables) {
+  for (const std::string_view table : defaults.tables()) {
     page +=
         fmt::format("{}## {}\n\n", page.empty() ? "" : "\n", table.empty() ? "Top level" : fmt::format("[{}]", table));
     page += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";

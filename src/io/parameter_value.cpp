@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/decimal.hpp"
+#include "io/case_file.hpp"
 
 namespace talus {
 
@@ -50,6 +52,16 @@ std::string number_literal(double value, std::string_view unit) {
 }
 
 }  // namespace
+
+std::vector<std::string_view> ParameterList::tables() const {
+  std::vector<std::string_view> tables;
+  for (const DescribedParameter& item : items_) {
+    const std::string_view table = table_of(item.parameter.key);
+    if (std::find(tables.begin(), tables.end(), table) == tables.end())
+      tables.insert(table.empty() ? tables.begin() : tables.end(), table);
+  }
+  return tables;
+}
 
 std::string range_text(const Parameter& parameter) {
   const Range& range = parameter.range;

@@ -108,6 +108,9 @@ class ParameterList {
   auto begin() const { return items_.begin(); }
   auto end() const { return items_.end(); }
 
+  /// Names of the tables in the order of their first keys; "" for the keys at the top is the first, if there are such.
+  std::vector<std::string_view> tables() const;
+
  private:
   std::vector<DescribedParameter> items_;
 };

@@ -39,12 +39,8 @@ bool is_excluded(std::string_view key, std::span<const std::string_view> exclude
 }  // namespace
 
 std::string resolved_case(const ParameterList& list) {
-  std::vector<std::string_view> tables = {""};  // the keys at the top come first: TOML asks for it
-  for (const DescribedParameter& item : list)
-    if (std::find(tables.begin(), tables.end(), table_of(item.parameter.key)) == tables.end())
-      tables.push_back(table_of(item.parameter.key));
   std::string text;
-  for (const std::string_view table : tables) {
+  for (const std::string_view table : list.tables()) {  // the keys at the top first: TOML asks for it
     if (!table.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
     for (const DescribedParameter& item : list) {
       if (table_of(item.parameter.key) != table) continue;
@@ -56,6 +52,21 @@ std::string resolved_case(const ParameterList& list) {
     }
   }
   return text;
+}
+
+std::map<std::string, std::string> resolved_values(std::string_view resolved_case) {
+  std::map<std::string, std::string> values;
+  std::string table;
+  while (!resolved_case.empty()) {
+    const std::string_view line = resolved_case.substr(0, resolved_case.find('\n'));
+    resolved_case.remove_prefix(std::min(line.size() + 1, resolved_case.size()));
+    const std::size_t equals = line.find(" = ");
+    if (line.starts_with('['))
+      table = std::string(line.substr(1, line.size() - 2)) + ".";
+    else if (!line.starts_with('#') && equals != std::string_view::npos)
+      values[table + std::string(line.substr(0, equals))] = line.substr(equals + 3);
+  }
+  return values;
 }
 
 std::vector<ResolvedLine> resolved_table(const ParameterList& list, const CaseFile& file) {
@@ -73,16 +84,19 @@ std::vector<ResolvedLine> resolved_table(const ParameterList& list, const CaseFi
   return lines;
 }
 
+std::string digest(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return fmt::format("{:016x}", hash);
+}
+
 std::string fingerprint(const ParameterList& list, std::span<const std::string_view> excluded) {
   std::vector<std::string> lines;
   for (const DescribedParameter& item : list)
     if (!is_excluded(item.parameter.key, excluded))
       lines.push_back(fmt::format("{} = {}\n", item.parameter.key, toml_text(item.parameter, item.value)));
   std::sort(lines.begin(), lines.end());
-  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a: Fowler, Noll & Vo, draft-eastlake-fnv
-  for (const std::string& line : lines)
-    for (const char c : line) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
+  return digest(fmt::format("{}", fmt::join(lines, "")));
 }
 
 }  // namespace talus

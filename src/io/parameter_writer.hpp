@@ -2,6 +2,7 @@
 /// The resolved case: every parameter with the value that holds, in SI, whether it was given or is a default.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,9 @@ namespace talus {
 /// As a case file. It reads back to the same bits; what is optional and has no value stands in a comment.
 std::string resolved_case(const ParameterList& list);
 
+/// The keys of such a text and their values as TOML ("\"0.005 s\""); what is not given is not among them.
+std::map<std::string, std::string> resolved_values(std::string_view resolved_case);
+
 /// A line of the table that `talus check` prints.
 struct ResolvedLine {
   std::string key;
@@ -25,7 +29,10 @@ struct ResolvedLine {
 };
 std::vector<ResolvedLine> resolved_table(const ParameterList& list, const CaseFile& file);
 
-/// 16 hexadecimal digits (FNV-1a, 64 bits) of all keys and values, whatever their order: equal for equal cases however
+/// 16 hexadecimal digits of some bytes: FNV-1a, 64 bits (Fowler, Noll & Vo, draft-eastlake-fnv).
+std::string digest(std::string_view bytes);
+
+/// The digest of all keys and values, whatever their order: equal for equal cases however
 /// they were written, different for different ones.
 /// \param excluded keys, or tables with all their keys, that do not count: "run.end", "output"
 std::string fingerprint(const ParameterList& list, std::span<const std::string_view> excluded = {});

@@ -9,7 +9,9 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> snapshot_kinds{"particles", "air"};
 constexpr std::string_view snapshot_ending = ".vtkhdf";
+constexpr std::string_view index_ending = ".hdf.series";
 
 /// Files of a run beside its snapshots. The manifest is last, so that a removal that is cut short can be repeated.
 constexpr std::array<std::string_view, 8> file_names{CheckpointFiles::names[0],
@@ -34,6 +37,11 @@ constexpr std::array<std::string_view, 8> file_names{CheckpointFiles::names[0],
                                                      "log.txt",
                                                      "stop",
                                                      "manifest.json"};
+
+/// What the analysis of a run may leave: of another case, it would be taken for this one's.
+constexpr std::array<std::string_view, 5> derived_names{"analysis/front_speed.csv", "analysis/snapshots.csv",
+                                                        "analysis/head_widths.csv", "pictures/frames.png",
+                                                        "pictures/front_speed.png"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& allowed = {}) {
   throw InputError({{.where = path.string(), .key = {}, .what = what, .allowed = allowed}});
@@ -74,9 +82,11 @@ std::string_view without_suffix(std::string_view name) {
   return name.ends_with(temporary_suffix) ? name.substr(0, name.size() - temporary_suffix.size()) : name;
 }
 
-bool is_snapshot(std::string_view name) {
-  return std::any_of(snapshot_kinds.begin(), snapshot_kinds.end(),
-                     [&](std::string_view kind) { return snapshot_number(without_suffix(name), kind).has_value(); });
+bool is_snapshot_file(std::string_view name) {
+  const std::string_view whole = without_suffix(name);
+  return std::any_of(snapshot_kinds.begin(), snapshot_kinds.end(), [&](std::string_view kind) {
+    return snapshot_number(whole, kind) || (whole.starts_with(kind) && whole.substr(kind.size()) == index_ending);
+  });
 }
 
 bool is_run_file(std::string_view name) {
@@ -133,7 +143,7 @@ RunFolder RunFolder::create(std::filesystem::path path, Existing existing) {
     if (exists && !fs::is_directory(folder.path_)) refuse(folder.path_, "is a file, not a folder");
     if (!exists && existing == Existing::resume) refuse(folder.path_, "there is no such folder; nothing to resume");
     fs::create_directories(folder.path_);
-    folder.lock();
+    folder.lock(existing);
     check(folder, existing);
     if (existing == Existing::overwrite) folder.remove_run();
     fs::remove(folder.stop());
@@ -144,6 +154,10 @@ RunFolder RunFolder::create(std::filesystem::path path, Existing existing) {
 
 std::filesystem::path RunFolder::snapshot(int number, std::string_view kind) const {
   return snapshots() / fmt::format("{}_{:04}{}", kind, number, snapshot_ending);
+}
+
+std::filesystem::path RunFolder::snapshot_index(std::string_view kind) const {
+  return snapshots() / fmt::format("{}{}", kind, index_ending);
 }
 
 std::vector<int> RunFolder::snapshot_numbers(std::string_view kind) const {
@@ -160,18 +174,24 @@ std::optional<int> RunFolder::latest_snapshot(std::string_view kind) const {
   return numbers.empty() ? std::nullopt : std::optional(numbers.back());
 }
 
-void RunFolder::lock() {
+void RunFolder::lock(Existing existing) {
+  using namespace std::chrono_literals;
   lock_ = std::make_shared<Descriptor>(path_.string(), O_RDONLY | O_DIRECTORY);
+  const auto patience = std::chrono::steady_clock::now() + (existing == Existing::resume ? 2s : 0s);
   // A file system without locks is used without them.
-  if (::flock(lock_->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    refuse(path_, "another run is writing into this folder", "--out for another folder");
+  while (::flock(lock_->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (std::chrono::steady_clock::now() >= patience)
+      refuse(path_, "another run is writing into this folder", "--out for another folder");
+    std::this_thread::sleep_for(20ms);
+  }
 }
 
 void RunFolder::remove_run() const {
   const auto remove = [](const fs::path& path) { at(path, "cannot remove", [&] { return fs::remove(path); }); };
   if (fs::is_directory(snapshots()))
     for (const std::string& name : names_in(snapshots()))
-      if (is_snapshot(name)) remove(snapshots() / name);
+      if (is_snapshot_file(name)) remove(snapshots() / name);
+  for (const std::string_view name : derived_names) remove(path_ / name);
   for (const std::string_view name : file_names) {
     remove(path_ / (std::string(name) + std::string(temporary_suffix)));
     remove(path_ / name);

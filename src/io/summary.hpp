@@ -17,7 +17,7 @@
 namespace talus {
 
 struct Summary {
-  std::string status;                  ///< "done", or why the run ended
+  std::string status;                  ///< "running", "done", "interrupted" or "failed"
   double wall_seconds = 0;             ///< s
   std::vector<NamedValue> quantities;  ///< names unique
 

@@ -179,4 +179,10 @@ PointSet read_points(const std::filesystem::path& path) {
   return PointsReader(path).read();
 }
 
+double read_points_time(const std::filesystem::path& path) {
+  const std::vector<double> time = hdf5::Reader(path).doubles(root + "/FieldData/TimeValue");
+  if (time.size() != 1) throw FileError(path.string(), "holds no single 'TimeValue'");
+  return time[0];
+}
+
 }  // namespace talus

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Particles as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
+/// Particles as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read. ParaView finds the reader by
+/// snapshot_index.hpp.
 ///
 ///     /VTKHDF               Type "UnstructuredGrid", Version [1, 0]; every particle is a point and a vertex cell
 ///       Points  n x 3       the column "position"
@@ -27,5 +28,8 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot);
 /// \throws FileError if the file cannot be read or is damaged
 /// \throws InputError if it is no such file: all that is wrong with it
 PointSet read_points(const std::filesystem::path& path);
+
+/// The time of one of our files, s. \throws FileError
+double read_points_time(const std::filesystem::path& path);
 
 }  // namespace talus

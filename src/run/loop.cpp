@@ -9,7 +9,9 @@
 
 #include "base/error.hpp"
 #include "io/checkpoint.hpp"
+#include "io/run_folder.hpp"
 #include "io/series.hpp"
+#include "io/snapshot_index.hpp"
 #include "io/vtkhdf.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
@@ -69,7 +71,9 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   double next_snapshot_time = 0;
 
   auto write_snapshot = [&](std::uint64_t number) {
-    write_points(folder / "snapshots" / fmt::format("particles_{:04}.vtkhdf", number), model.snapshot());
+    const auto n = static_cast<int>(number);
+    write_points(RunFolder(folder).snapshot(n), model.snapshot());
+    index_snapshots(RunFolder(folder), n);
   };
   auto take_snapshot = [&] {
     write_snapshot(snapshots);

@@ -45,6 +45,7 @@ inline std::vector<ComparisonRow> reference_rows() {
     if (key == "id") rows.back().id = value;
     if (key == "quantity") rows.back().quantity = value;
     if (key == "case") rows.back().case_name = value;
+    if (key == "number") rows.back().number = std::stoi(value);
     if (key == "unit") rows.back().unit = value;
     if (key == "from") rows.back().from = from.at(value);
     if (key == "statistic") rows.back().statistic = statistic.at(value);

@@ -58,6 +58,17 @@ TEST(AvalancheFrame, OfABowFromAboveWhateverTheScales) {
   }
 }
 
+TEST(AvalancheFrame, CountsHeadsOfFiveGrainsAndMore) {
+  Points points = test::block({0, 0, 0}, 5, 5, 2);
+  test::append(points, test::block({0, 50, 0}, 4, 4, 2));
+  test::append(points, test::block({0, 90, 0}, 2, 2, 2));
+  const std::vector<Vector3> velocity(points.size());
+  const std::vector<double> radius(points.size(), 1.0);
+  const AvalancheFrame frame = avalanche_frame({0, points, radius, velocity}, {}, {1, 1}, AvalancheView::from_above);
+  EXPECT_EQ(frame.head_count, 2);
+  EXPECT_EQ(frame.head_particles, 25);
+}
+
 TEST(AvalancheFrame, FromTheSide) {
   // A triangle of 12 layers that leans back at 60 degrees ahead of a tail of one layer; the front stands still.
   Points position;

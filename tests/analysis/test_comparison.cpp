@@ -42,12 +42,14 @@ TEST(Criterion, EndsBelongToRangesAndNotToBounds) {
   EXPECT_EQ(judge({Kind::reported}, std::nullopt), Verdict::reported);
 }
 
-TEST(Criterion, HasToHoldAtEachRadius) {
+TEST(Criterion, HasToHoldAtEachRadiusThatIsThere) {
   using Values = std::vector<std::optional<double>>;
   const Criterion above{Kind::above, 1};
   EXPECT_EQ(judge(above, Values{2, 3, 4}), Verdict::met);
   EXPECT_EQ(judge(above, Values{2, 1, 4}), Verdict::not_met);
-  EXPECT_EQ(judge(above, Values{2, std::nullopt, 4}), Verdict::not_evaluated);
+  EXPECT_EQ(judge(above, Values{2, std::nullopt, 4}), Verdict::met);
+  EXPECT_EQ(judge(above, Values{std::nullopt, NAN}), Verdict::not_met);
+  EXPECT_EQ(judge(above, Values{std::nullopt, std::nullopt}), Verdict::not_evaluated);
   EXPECT_EQ(judge(above, Values{0, std::nullopt, 4}), Verdict::not_met);
   EXPECT_EQ(judge(above, Values{}), Verdict::not_evaluated);
 }
@@ -64,7 +66,7 @@ TEST(Quantities, AreNamedOnceAndStandInTheDocuments) {
   std::stringstream text;
   text << file.rdbuf();
   std::set<std::string_view> names;
-  for (const Quantity& quantity : quantities) {
+  for (const QuantityDefinition& quantity : quantities) {
     EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
     const std::string quoted = fmt::format("`{}`", quantity.name);
     EXPECT_NE(text.str().find(quoted), std::string::npos) << quantity.name;

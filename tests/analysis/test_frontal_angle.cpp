@@ -12,9 +12,7 @@ namespace {
 
 using std::numbers::pi;
 using Points = std::vector<Vector3>;
-using testing::Contains;
 using testing::ElementsAre;
-using testing::Not;
 
 constexpr double degree = pi / 180;
 
@@ -63,15 +61,15 @@ TEST(FrontalAngle, GrainsBelowTheForemostTakeNoPart) {
   EXPECT_EQ(*std::max_element(walk.begin(), walk.end()), 9u);
 }
 
-TEST(FrontalAngle, AGrainThatSticksOutIsPassed) {
+TEST(FrontalAngle, TheWalkEndsAtAGrainThatSticksOut) {
   Points points = triangle(12);
   // On the face, touching the third and fourth grain of the surface, a little higher than the place in the lattice,
   // where the way would lead on.
   const auto bump = static_cast<std::uint32_t>(points.size());
   points.push_back({points[12 + 11].x + 1, 0, 1 + 3 * std::sqrt(3.0) + 0.02});
   const GrainSet walk = surface_walk(points, 1);
-  EXPECT_THAT(walk, Not(Contains(bump)));
-  EXPECT_NEAR(angle(points), 60, 1e-10);
+  EXPECT_EQ(walk.back(), bump);
+  EXPECT_LT(walk.size(), 12u);
 }
 
 TEST(FrontalAngle, TakesTheLargestCluster) {

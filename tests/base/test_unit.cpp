@@ -48,19 +48,25 @@ TEST(ParseQuantity, RoundsOnceFromWhatWasWritten) {
   EXPECT_EQ(value_of("1 N/deg"), 57.295779513082320876798);
 }
 
-// 1 deg = 0.017453292519943295769 rad; the quotient in double-double, which carries twice the digits, must round alike.
+// The product in double-double, which carries twice the digits of a double, must round to the same number.
 TEST(ParseQuantity, DegreesAreCorrectlyRounded) {
-  const double high = 0x1.1df46a2529d39p-6, low = 0x1.5c1d8becdd291p-62;  // pi/180
-  Random random(7);
-  int differs_from_plain_product = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const double degrees = std::floor(random.uniform(1, 36000)) / 64;  // exact in decimal and binary
-    const double product = degrees * high;
-    const double rest = std::fma(degrees, high, -product) + degrees * low;
-    EXPECT_EQ(value_of(std::to_string(degrees) + " deg"), product + rest) << degrees;
-    differs_from_plain_product += product != product + rest;
+  struct Factor {
+    const char* unit;
+    double high, low;
+  };
+  for (const Factor& factor : {Factor{"deg", 0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62},        // pi/180
+                               Factor{"N/deg", 0x1.ca5dc1a63c1f8p+5, -0x1.1e7ab456405f9p-49}}) {  // 180/pi
+    Random random(7);
+    int differs_from_plain_product = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double number = std::floor(random.uniform(1, 36000)) / 64;  // exact in decimal and binary
+      const double product = number * factor.high;
+      const double rest = std::fma(number, factor.high, -product) + number * factor.low;
+      EXPECT_EQ(value_of(std::to_string(number) + " " + factor.unit), product + rest) << number << " " << factor.unit;
+      differs_from_plain_product += product != product + rest;
+    }
+    EXPECT_GT(differs_from_plain_product, 0);
   }
-  EXPECT_GT(differs_from_plain_product, 0);
 }
 
 TEST(ParseQuantity, KnowsTheDimension) {

@@ -300,13 +300,27 @@ TEST(ParameterReader, ContradictionsGetTheirLines) {
                   contradiction("slope.angle", "steep as well"), contradiction("title", "missing"),
                   contradiction("particles.count", "consequence of a fault"),
                   contradiction("particles.radius", "too large for particles.count"),
-                  contradiction("particles.radius", "particles.counts is another key")})
+                  contradiction("particles.radius", "particles.counts is another key"),
+                  contradiction("particles.radius", "as is my.particles.count")})
           .problems,
       ElementsAre("c:1: particles.count: 0 is out of range; allowed: a whole number, from 1 to 10000000",
                   "c:2: slope.angle: too steep; allowed: less", "c:2: slope.angle: steep as well; allowed: less",
                   "c:4: particles.radius: particles.counts is another key; allowed: less",
-                  "c: title: missing; allowed: less",
+                  "c:4: particles.radius: as is my.particles.count; allowed: less", "c: title: missing; allowed: less",
                   "--set particles.size=3 mm: particles.size: too large; allowed: less"));
+}
+
+TEST(ParameterReader, ALackThatAMisspellingExplainsIsNoProblem) {
+  const CaseFile file = CaseFile::from_text("particles.sise = \"3 mm\"" + std::string(example::smallest_case), "c");
+  EXPECT_THAT(read(file, {{.where = {}, .key = "particles.size", .what = "missing: a circle needs it"}}).problems,
+              ElementsAre("c:1: particles.sise: unknown key; did you mean 'particles.size'?"));
+}
+
+TEST(ParameterReader, LongTextIsCutBetweenLetters) {
+  const std::string letters(59, 'x');
+  EXPECT_THAT(problem_of("numerics.scheme = \"" + letters + "µµ\""),
+              HasSubstr("\"" + letters + "...\" is not one of the choices"));
+  EXPECT_THAT(problem_of("numerics.scheme = \"" + letters + "y\""), HasSubstr("\"" + letters + "y\" is not one of"));
 }
 
 TEST(ParameterReader, OneParameterBeforeTheOthers) {

@@ -28,6 +28,7 @@ void run_in(const std::filesystem::path& path) {
   for (const int number : {0, 9, 10}) put_content(folder.snapshot(number), "");
   put_content(folder.snapshot(10000, "air"), "");
   put_content(folder.snapshot(11).string() + ".part", "");
+  put_content(folder.snapshot_index(), "");
 }
 
 TEST(RunFolder, IsMadeWithItsParents) {
@@ -56,6 +57,7 @@ TEST(RunFolder, NamesSnapshotsSoThatTheyAreASeries) {
   const RunFolder folder("out");
   EXPECT_EQ(folder.snapshot(7), "out/snapshots/particles_0007.vtkhdf");
   EXPECT_EQ(folder.snapshot(12345, "air"), "out/snapshots/air_12345.vtkhdf");
+  EXPECT_EQ(folder.snapshot_index(), "out/snapshots/particles.hdf.series");
 }
 
 TEST(RunFolder, FindsTheLatestSnapshotByNumber) {
@@ -104,12 +106,13 @@ TEST(RunFolder, OverwritingRemovesTheRunsFilesAndNoOthers) {
   run_in(scratch / "run");
   std::filesystem::create_directories(scratch / "run/snapshots/pictures");
   for (const char* name : {"run/notes.txt", "run/series.csv.bak", "run/snapshots/particles_0001.vtu",
-                           "run/snapshots/pictures/particles_0001.vtkhdf", "run/snapshots/particles_0001.vtkhdf.txt"})
+                           "run/snapshots/pictures/particles_0001.vtkhdf", "run/snapshots/particles_0001.vtkhdf.txt",
+                           "run/snapshots/mine.hdf.series"})
     put_content(scratch / name, name);
   RunFolder::create(scratch / "run", Existing::overwrite);
   EXPECT_THAT(names_in(scratch / "run"), ElementsAre("notes.txt", "series.csv.bak", "snapshots"));
   EXPECT_THAT(names_in(scratch / "run/snapshots"),
-              ElementsAre("particles_0001.vtkhdf.txt", "particles_0001.vtu", "pictures"));
+              ElementsAre("mine.hdf.series", "particles_0001.vtkhdf.txt", "particles_0001.vtu", "pictures"));
   EXPECT_THAT(names_in(scratch / "run/snapshots/pictures"), ElementsAre("particles_0001.vtkhdf"));
   EXPECT_EQ(content_of(scratch / "run/notes.txt"), "run/notes.txt");
 }

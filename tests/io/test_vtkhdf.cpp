@@ -55,6 +55,14 @@ TEST(VtkHdf, LeavesOneFileWhoseBytesDependOnTheSnapshotAlone) {
   write_points(folder / "b.vtkhdf", sample().view());
   EXPECT_THAT(names_in(folder.path()), ElementsAre("a.vtkhdf", "b.vtkhdf"));
   EXPECT_EQ(content_of(folder / "a.vtkhdf"), content_of(folder / "b.vtkhdf"));
+  // Nor on the second in which it is written.
+  const hdf5::Handle file(H5Fopen((folder / "a.vtkhdf").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  for (const char* name : {"VTKHDF/Points", "VTKHDF/PointData/radius", "VTKHDF/FieldData", "VTKHDF"}) {
+    H5O_info_t info;
+    ASSERT_GE(H5Oget_info_by_name(file.id(), name, &info, H5P_DEFAULT), 0);
+    EXPECT_EQ(info.mtime, 0) << name;
+    EXPECT_EQ(info.ctime, 0) << name;
+  }
 }
 
 TEST(VtkHdf, TakesNoParticles) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analysis/avalanche_quantities.hpp"
+#include "analysis/falling_cloud.hpp"
 #include "analysis/quantities.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -38,6 +39,34 @@ void write_table(const std::filesystem::path& path, const std::vector<SeriesColu
                  const std::vector<std::vector<double>>& rows) {
   SeriesWriter table(path, columns);
   for (const auto& row : rows) table.append(row);
+}
+
+/// Fall speed, leakage and shape of a cloud in free space, and what the summary says of them.
+std::vector<NamedValue> analyze_falling_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame) {
+  std::vector<std::vector<double>> rows;
+  double radius = 0;
+  for (const auto& path : snapshot_paths(run_folder)) {
+    const PointSet points = read_points(path);
+    const Snapshot view = points.view();
+    if (rows.empty()) {
+      Vector3 centre;
+      for (const Vector3& x : view.positions()) centre += (1.0 / static_cast<double>(view.size())) * x;
+      for (const Vector3& x : view.positions()) radius = std::max(radius, norm(x - centre));
+    }
+    const FallingCloud c = measure_falling_cloud(view.positions(), view.vectors("velocity"), frame.gravity, radius);
+    rows.push_back({view.time / frame.scales.time(), c.fall_speed / frame.scales.stokes_speed, c.leaked_fraction,
+                    c.axial_density, c.flatness});
+  }
+  if (rows.empty()) return {};
+  write_table(
+      run_folder / "analysis" / "snapshots.csv",
+      {{"time", "a/v_s"}, {"fall_speed", "v_s"}, {"leaked_fraction", "1"}, {"axial_density", "1"}, {"flatness", "1"}},
+      rows);
+  return {{"fall_speed_start", "1", rows.front()[1]},
+          {"fall_speed_end", "1", rows.back()[1]},
+          {"leaked_fraction", "1", rows.back()[2]},
+          {"axial_density", "1", rows.back()[3]},
+          {"flatness", "1", rows.back()[4]}};
 }
 
 std::string unit_in_table(std::string_view name) {
@@ -88,10 +117,14 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
 
 std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame) {
   const AvalancheRun run = read_avalanche(run_folder, frame);
-  if (!frame.has_slope) return {{"overlap_max", "1", run.overlap_max}};
-
   const std::filesystem::path folder = run_folder / "analysis";
   std::filesystem::create_directories(folder);
+  if (!frame.has_slope) {
+    std::vector<NamedValue> quantities;
+    if (frame.motion == cloud::Motion::xyz) quantities = analyze_falling_cloud(run_folder, frame);
+    quantities.push_back({"overlap_max", "1", run.overlap_max});
+    return quantities;
+  }
   std::vector<std::vector<double>> rows;
   for (std::size_t n = 0; n < run.front_speed.time.size(); ++n)
     rows.push_back({run.front_speed.time[n], run.front_speed.value[n]});

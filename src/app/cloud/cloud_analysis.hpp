@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/avalanche.hpp"
+#include "base/vector.hpp"
 #include "models/cloud/pair_sum.hpp"
 #include "numerics/named_value.hpp"
 
@@ -16,6 +17,7 @@ struct CloudFrame {
   AvalancheScales scales;
   cloud::Motion motion = cloud::Motion::xy;
   bool has_slope = true;
+  Vector3 gravity = {0, 0, -1};  ///< unit vector
 
   /// Motion in space is looked at from the side, all grains projected onto the plane x, z.
   AvalancheView view() const {

@@ -10,6 +10,7 @@
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/cloud/cloud_pictures.hpp"
 #include "io/parameter_reader.hpp"
+#include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
 #include "models/cloud/model.hpp"
 #include "models/cloud/stiffness.hpp"
@@ -37,6 +38,13 @@ Grains read_grains(const CaseFile& file, const Parameters& p) {
     grains.radius.assign(grains.position.size(), p.particles.radius);
   }
   return grains;
+}
+
+std::string digest_of(const Grains& grains) {
+  const auto bytes = [](const auto& column) {
+    return std::string_view(reinterpret_cast<const char*>(column.data()), column.size() * sizeof(column[0]));
+  };
+  return digest(std::string(bytes(grains.position)).append(bytes(grains.radius)));
 }
 
 /// The front's place after every step; a case without x as its way down still has a foremost grain.
@@ -86,7 +94,8 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grai
 }
 
 CloudFrame frame_of(const Parameters& p) {
-  return {{p.particles.radius, cloud::scales(p).stokes_speed}, p.motion, p.slope.enabled};
+  const cloud::Scales s = cloud::scales(p);
+  return {{p.particles.radius, s.stokes_speed}, p.motion, p.slope.enabled, s.gravity};
 }
 
 }  // namespace
@@ -116,6 +125,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   ParameterReader reader(file);
   run::for_each_parameter(reader, run);
   cloud::for_each_parameter(reader, p);
+  reader.check(check_model(run.model));
   reader.check(cloud::check(p));
   reader.finish();
   if (run.snapshots == 0) run.snapshots = run.end / 20;
@@ -131,6 +141,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   }
 
   PreparedCase prepared;
+  if (given) prepared.inputs = digest_of(*given);
   prepared.model = "cloud";
   prepared.seed = p.seed;
   prepared.run = run;

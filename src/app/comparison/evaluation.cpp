@@ -71,7 +71,7 @@ std::string radius_of(const CaseFile& file, const ReferenceCase& c) {
 }
 
 std::string number(double value) {
-  if (std::isnan(value)) return "-";
+  if (std::isnan(value)) return "none";
   return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
 }
 
@@ -79,6 +79,17 @@ std::string values_text(const EvaluatedRow& row) {
   std::string text;
   for (const auto& value : row.values) text += (text.empty() ? "" : ", ") + (value ? number(*value) : std::string("-"));
   return text;
+}
+
+/// A row may ask for what its runs cannot give: a name that is none of an ensemble's, the mean of runs that differ in
+/// their snapshots.
+template <class Value>
+std::optional<double> of_row(const Reference& reference, const ComparisonRow& row, Value&& value) {
+  try {
+    return value();
+  } catch (const std::logic_error& error) {
+    throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
+  }
 }
 
 }  // namespace
@@ -123,10 +134,12 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const std::vector
       } else if (row.from == From::parameters) {
         evaluated.values.push_back(there ? std::optional(found->contact_weight_ratio) : std::nullopt);
       } else {
-        evaluated.values.push_back(there ? ensemble_quantity(row, found->runs) : std::nullopt);
+        evaluated.values.push_back(there ? of_row(reference, row, [&] { return ensemble_quantity(row, found->runs); })
+                                         : std::nullopt);
       }
     }
-    if (row.from == From::radii) evaluated.values.push_back(radii_quantity(row, of_radii));
+    if (row.from == From::radii)
+      evaluated.values.push_back(of_row(reference, row, [&] { return radii_quantity(row, of_radii); }));
     evaluated.verdict = row.criterion.kind == Criterion::Kind::reported
                             ? Verdict::reported
                             : judge(row.criterion, std::span<const std::optional<double>>(evaluated.values));

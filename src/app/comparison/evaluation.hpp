@@ -33,6 +33,7 @@ struct EvaluatedRow {
   Verdict verdict = Verdict::not_evaluated;
 };
 
+/// \throws InputError if a row asks for what no such runs have
 std::vector<EvaluatedRow> evaluate(const Reference& reference, const std::vector<StudiedEnsemble>& ensembles);
 
 /// As lines for a terminal.

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "io/case_file.hpp"
 #include "io/figure/figure.hpp"
 #include "io/manifest.hpp"
+#include "io/parameter_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/summary.hpp"
@@ -15,22 +15,16 @@ namespace talus::app {
 namespace {
 
 void print_different_keys(const Manifest& a, const Manifest& b) {
-  // Both are written by the same list of parameters, one key a line, in the same order.
-  auto lines = [](const std::string& text) {
-    std::vector<std::string> list;
-    for (std::size_t start = 0; start < text.size();) {
-      const std::size_t end = std::min(text.find('\n', start), text.size());
-      list.push_back(text.substr(start, end - start));
-      start = end + 1;
-    }
-    return list;
-  };
-  const auto first = lines(a.case_text), second = lines(b.case_text);
-  std::string table;
-  for (std::size_t n = 0; n < std::min(first.size(), second.size()); ++n) {
-    if (first[n].starts_with("[")) table = first[n];
-    if (first[n] != second[n]) fmt::print("  {} {}   |   {}\n", table, first[n], second[n]);
-  }
+  auto first = resolved_values(a.case_text), second = resolved_values(b.case_text);
+  for (const auto& [key, value] : second) first.try_emplace(key);
+  for (const auto& [key, value] : first)
+    if (value != second[key])
+      fmt::print("  {}: {}   |   {}\n", key, value.empty() ? "-" : value, second[key].empty() ? "-" : second[key]);
+}
+
+/// The last part of a path, also of one that ends in '/'.
+std::string name_of(const std::filesystem::path& path) {
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
 }  // namespace
@@ -42,24 +36,24 @@ ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::p
   print_different_keys(read_manifest(first.manifest()), read_manifest(second.manifest()));
 
   const Summary one = read_summary(first.summary()), two = read_summary(second.summary());
-  fmt::print("{:32} {:>14} {:>14} {:>12}\n", "quantity", a.filename().string(), b.filename().string(), "difference");
+  fmt::print("{:32} {:>14} {:>14} {:>12}\n", "quantity", name_of(a), name_of(b), "difference");
   for (const NamedValue& value : one.quantities)
     if (const NamedValue* other = two.find(value.name))
       fmt::print("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value,
                  other->value - value.value, value.unit == "1" ? "" : value.unit);
 
   const Series s = read_series(first.series()), t = read_series(second.series());
-  figure::Figure figure{.title = a.filename().string() + " and " + b.filename().string()};
+  figure::Figure figure{.title = name_of(a) + " and " + name_of(b)};
   for (std::size_t c = 1; c < s.names.size(); ++c) {
     if (!t.has(s.names[c])) continue;
     const auto other_time = t.column("time"), other = t.column(s.names[c]);
     figure.panels.emplace_back(
         figure::Chart{.x = {.label = "time", .unit = "s"},
                       .y = {.label = s.names[c], .unit = s.units[c] == "1" ? "" : s.units[c]},
-                      .series = {figure::Line{.x = s.columns[0], .y = s.columns[c], .label = a.filename().string()},
+                      .series = {figure::Line{.x = s.columns[0], .y = s.columns[c], .label = name_of(a)},
                                  figure::Line{.x = {other_time.begin(), other_time.end()},
                                               .y = {other.begin(), other.end()},
-                                              .label = b.filename().string(),
+                                              .label = name_of(b),
                                               .dash = figure::Dash::dashed}}});
   }
   if (!figure.panels.empty()) {

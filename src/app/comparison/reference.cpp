@@ -5,11 +5,14 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 #include <stdexcept>
 
+#include "analysis/quantities.hpp"
 #include "base/error.hpp"
+#include "base/nearest.hpp"
 #include "io/atomic_file.hpp"
 #include "io/parameter_value.hpp"
 
@@ -22,12 +25,14 @@ class Reader {
  public:
   explicit Reader(std::string path) : path_(std::move(path)) {}
 
-  void fault(const toml::node& node, const std::string& key, const std::string& what, const std::string& allowed = {}) {
+  void fault(const toml::node& node, const std::string& key, const std::string& what, const std::string& allowed = {},
+             const std::string& nearest = {}) {
     problems_.push_back({.where = path_,
                          .line = static_cast<int>(node.source().begin.line),
                          .key = key,
                          .what = what,
-                         .allowed = allowed});
+                         .allowed = allowed,
+                         .nearest = nearest});
   }
 
   template <class T>
@@ -128,8 +133,15 @@ Enumeration read_name(Reader& reader, const toml::table& row, const char* key,
   return names[0].second;
 }
 
+constexpr std::array<std::string_view, 13> row_keys{"id",        "number",    "quantity",  "case",   "radius",
+                                                    "estimator", "from",      "statistic", "window", "printed",
+                                                    "unit",      "criterion", "source"};
+
 ComparisonRow read_row(Reader& reader, const toml::table& table) {
   ComparisonRow row;
+  for (const auto& [key, value] : table)
+    if (std::find(row_keys.begin(), row_keys.end(), key.str()) == row_keys.end())
+      reader.fault(value, std::string(key.str()), "unknown key", {}, std::string(nearest(key.str(), row_keys)));
   row.id = reader.text(table, "id");
   row.number = static_cast<int>(reader.get<std::int64_t>(table, "number", "a whole number"));
   row.quantity = reader.text(table, "quantity");
@@ -156,6 +168,12 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
   row.criterion = read_criterion(reader, table);
   row.source = reader.text(table, "source");
   return row;
+}
+
+std::string nearest_quantity(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const QuantityDefinition& quantity : quantities) names.push_back(quantity.name);
+  return std::string(nearest(name, names));
 }
 
 }  // namespace
@@ -193,7 +211,16 @@ Reference read_reference(const std::string& path) {
       reference.rows.push_back(read_row(reader, *node.as_table()));
       const ComparisonRow& row = reference.rows.back();
       if (!ids.insert(row.id).second) reader.fault(node, "id", "\"" + row.id + "\" stands twice");
-      if (!reference.find_case(row.case_name)) reader.fault(node, "case", "there is no [case." + row.case_name + "]");
+      if (!find_quantity(row.quantity))
+        reader.fault(node, "quantity", "there is no quantity \"" + row.quantity + "\"", "a name of docs/quantities.md",
+                     nearest_quantity(row.quantity));
+      const ReferenceCase* c = reference.find_case(row.case_name);
+      if (!c) reader.fault(node, "case", "there is no [case." + row.case_name + "]");
+      for (const std::string& label : row.radius)
+        if (c &&
+            std::none_of(c->radii.begin(), c->radii.end(), [&](const auto& radius) { return radius.label == label; }))
+          reader.fault(node, "radius", "[case." + row.case_name + ".radius] has no \"" + label + "\"");
+      if (row.radius.empty()) reader.fault(node, "radius", "missing", "labels of the case's radii");
     }
   if (reference.rows.empty()) reader.fault(file, "row", "there are no rows", "[[row]] tables");
   reader.raise();

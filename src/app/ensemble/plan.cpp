@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "app/prepared_case.hpp"
 #include "app/run_case.hpp"
@@ -26,6 +28,9 @@ Varied read_vary(const std::string& text, std::vector<Problem>& problems) {
     problems.push_back({.where = "--vary " + text, .what = "no values", .allowed = "table.key=value1,value2,..."});
     return varied;
   }
+  if (varied.key == "seed")
+    problems.push_back(
+        {.where = "--vary " + text, .what = "each member has a seed of its own", .allowed = "--members"});
   // Commas within brackets belong to an array.
   std::string value;
   int depth = 0;
@@ -48,13 +53,31 @@ std::string folder_name(const std::string& text) {
   return name;
 }
 
+void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
+  CaseFile file = CaseFile::read(request.case_path);
+  for (const std::string& setting : request.settings) file.set(setting);
+  for (const std::string& setting : group.settings) file.set(setting, "--vary");
+  const std::int64_t first_seed = prepare_case(file).seed;
+  for (int k = 0; k < request.members; ++k) {
+    EnsembleMember member{.seed = first_seed + k, .settings = request.settings, .folder = {}, .fingerprint = {}};
+    member.settings.insert(member.settings.end(), group.settings.begin(), group.settings.end());
+    member.settings.push_back(fmt::format("seed={}", member.seed));
+    file.set(member.settings.back());
+    const PreparedCase prepared = prepare_case(file);
+    member.fingerprint = case_fingerprint(prepared);
+    member.end = prepared.run.end;
+    member.folder = request.folder / group.name / fmt::format("seed_{:04}", member.seed);
+    group.members.push_back(std::move(member));
+  }
+}
+
 }  // namespace
 
 EnsemblePlan plan_ensemble(const EnsembleRequest& request) {
   std::vector<Problem> problems;
   std::vector<Varied> varied;
   for (const std::string& text : request.vary) varied.push_back(read_vary(text, problems));
-  if (!problems.empty()) throw InputError(problems);
+  std::erase_if(varied, [](const Varied& key) { return key.values.empty(); });
 
   // All combinations, the last key fastest.
   EnsemblePlan plan{.groups = {{.name = {}, .settings = {}, .members = {}}}};
@@ -70,22 +93,22 @@ EnsemblePlan plan_ensemble(const EnsembleRequest& request) {
     plan.groups = std::move(groups);
   }
 
+  std::set<std::string> names;
   for (EnsembleGroup& group : plan.groups) {
     if (group.name.empty()) group.name = "all";
-    CaseFile file = CaseFile::read(request.case_path);
-    for (const std::string& setting : request.settings) file.set(setting);
-    for (const std::string& setting : group.settings) file.set(setting);
-    const std::int64_t first_seed = prepare_case(file).seed;
-    for (int k = 0; k < request.members; ++k) {
-      EnsembleMember member{.seed = first_seed + k, .settings = request.settings, .folder = {}, .fingerprint = {}};
-      member.settings.insert(member.settings.end(), group.settings.begin(), group.settings.end());
-      member.settings.push_back(fmt::format("seed={}", member.seed));
-      file.set(member.settings.back());
-      member.fingerprint = case_fingerprint(prepare_case(file));
-      member.folder = request.folder / group.name / fmt::format("seed_{:04}", member.seed);
-      group.members.push_back(std::move(member));
+    if (!names.insert(group.name).second)
+      problems.push_back(
+          {.where = "--vary", .what = "two groups would be " + group.name, .allowed = "each value once"});
+    try {
+      add_members(request, group);
+    } catch (const InputError& error) {  // the case's own faults come with every group: once is enough
+      for (const Problem& problem : error.problems())
+        if (std::none_of(problems.begin(), problems.end(),
+                         [&](const Problem& known) { return to_string(known) == to_string(problem); }))
+          problems.push_back(problem);
     }
   }
+  if (!problems.empty()) throw InputError(problems);
   return plan;
 }
 

@@ -24,10 +24,11 @@ struct EnsembleMember {
   std::vector<std::string> settings;  ///< all of them, the seed's too
   std::filesystem::path folder;
   std::string fingerprint;
+  double end = 0;  ///< run.end, s
 };
 
 struct EnsembleGroup {
-  std::string name;                   ///< "radius=1mm size=0.065m"; "all" without varied keys
+  std::string name;                   ///< "radius=1mm_size=0.065m"; "all" without varied keys
   std::vector<std::string> settings;  ///< of the varied keys
   std::vector<EnsembleMember> members;
 };

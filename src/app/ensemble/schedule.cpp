@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/run_case.hpp"
 #include "base/error.hpp"
 #include "io/manifest.hpp"
 #include "io/run_folder.hpp"
@@ -28,12 +29,7 @@ run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
     job.arguments.push_back("--set");
     job.arguments.push_back(setting);
   }
-  const RunFolder folder(run.member.folder);
-  // A folder without a manifest was left by a kill before the run began.
-  if (std::filesystem::exists(folder.manifest()))
-    job.arguments.push_back("--resume");
-  else if (std::filesystem::exists(folder.path()))
-    job.arguments.push_back("--overwrite");
+  if (std::filesystem::exists(run.member.folder)) job.arguments.push_back("--resume");
   return job;
 }
 
@@ -51,11 +47,17 @@ bool is_done(const EnsembleMember& member) {
   const RunFolder folder(member.folder);
   if (!std::filesystem::exists(folder.summary())) return false;
   if (read_summary(folder.summary()).status != "done") return false;
-  if (read_manifest(folder.manifest()).fingerprint != member.fingerprint)
+  const Manifest manifest = read_manifest(folder.manifest());
+  if (manifest.fingerprint != member.fingerprint)
     throw InputError({{.where = folder.path().string(),
                        .what = "holds a run of another case",
                        .allowed = "the same case to resume, or another --out"}});
-  return true;
+  if (end_of(manifest) > member.end)
+    throw InputError({{.where = folder.path().string(),
+                       .key = "run.end",
+                       .what = fmt::format("{} s, before the end of the run there, {} s", member.end, end_of(manifest)),
+                       .allowed = "the same end or a later one, or another --out"}});
+  return end_of(manifest) == member.end;
 }
 
 ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {

@@ -30,7 +30,8 @@ struct ScheduleResult {
   std::vector<FailedRun> failed;
 };
 
-/// True if the member's folder holds its whole run.
+/// True if the member's folder holds its whole run, up to its end.
+/// \throws InputError if it holds another case's, or a later end's
 bool is_done(const EnsembleMember& member);
 
 /// Runs what is not done yet, `jobs` at a time, each on one thread and without pictures; a run that was interrupted is

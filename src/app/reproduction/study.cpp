@@ -4,14 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/comparison/evaluation.hpp"
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "app/reproduction/niiya2020_figures.hpp"
+#include "base/version.hpp"
 #include "io/atomic_file.hpp"
 #include "io/manifest.hpp"
+#include "io/run_folder.hpp"
+#include "io/summary.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 #include "run/progress.hpp"
@@ -55,6 +57,34 @@ std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyReques
   return runs;
 }
 
+double processor_seconds(const std::vector<ScheduledRun>& runs) {
+  double seconds = 0;
+  for (const ScheduledRun& run : runs)
+    if (is_done(run.member))
+      if (const Summary summary = read_summary(RunFolder(run.member.folder).summary()); summary.find("cpu_seconds"))
+        seconds += summary.find("cpu_seconds")->value;
+  return seconds;
+}
+
+/// The report: the table of all rows, what is not met and why (validation/STUDY/gaps.md, written by hand), the figures.
+std::string report_text(const Reference& reference, const StudyRequest& request, const std::filesystem::path& project,
+                        const std::vector<ScheduledRun>& runs, const std::vector<EvaluatedRow>& rows,
+                        const std::string& counts, const std::vector<FigureOfStudy>& figures) {
+  std::string report = fmt::format(
+      "# {}\n\n{}\n\nComputed by `talus reproduce {}{}` with Talus {} ({}): {} runs, {} of processor time on {}.\n"
+      "Rows, estimators and criteria were written down before the first comparison: `validation/{}/reference.toml`.\n\n"
+      "**{}**\n\n{}\n",
+      reference.title, reference.source, reference.study, request.quick ? " --quick" : "", program_version(),
+      program_revision(), runs.size(), run::format_seconds(processor_seconds(runs)),
+      manifest_of_this_program().processor, reference.study, counts, to_markdown(rows));
+  if (const auto gaps = project / "validation" / reference.study / "gaps.md"; std::filesystem::exists(gaps))
+    report += read_whole_file(gaps) + "\n";
+  for (const FigureOfStudy& figure : figures)
+    report +=
+        fmt::format("## {}\n\n![{}](figures/{})\n\n", figure.caption, figure.caption, figure.path.filename().string());
+  return report;
+}
+
 }  // namespace
 
 ExitStatus reproduce(const StudyRequest& request) {
@@ -72,9 +102,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
   fmt::print("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(),
              members, request.jobs, request.folder.string());
-  const auto start = std::chrono::steady_clock::now();
   const ScheduleResult result = run_members(runs, request.jobs);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (const FailedRun& failed : result.failed)
     fmt::print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
   if (result.interrupted) {
@@ -92,19 +120,8 @@ ExitStatus reproduce(const StudyRequest& request) {
   write_atomically(request.folder / "comparison.json", to_json(reference, rows));
 
   const std::vector<FigureOfStudy> figures = draw_niiya2020(ensembles, request.folder / "figures");
-  const Manifest program = manifest_of_this_program();
-  std::string report = fmt::format(
-      "# {}\n\n{}\n\nComputed by `talus reproduce {}{}`: {} runs, {} members of each case and radius; {}{}.\n"
-      "Rows, estimators and criteria: `validation/{}/reference.toml`.\n\n{}: **{}**\n\n{}\n",
-      reference.title, reference.source, reference.study, request.quick ? " --quick" : "", runs.size(), members,
-      result.found_done ? "resumed, " : "",
-      fmt::format("{} on {} cores of {}", run::format_seconds(seconds), request.jobs, program.processor),
-      reference.study, "Rows", counts, to_markdown(rows));
-  for (const FigureOfStudy& figure : figures)
-    report +=
-        fmt::format("\n## {}\n\n![{}](figures/{})\n", figure.caption, figure.caption, figure.path.filename().string());
   const std::filesystem::path report_path = request.folder / (reference.study + ".md");
-  write_atomically(report_path, report);
+  write_atomically(report_path, report_text(reference, request, project, runs, rows, counts, figures));
 
   fmt::print("{}{}\nReport: {}\n", text, counts, report_path.string());
   if (!figures.empty()) fmt::print("Picture: {}\n", figures.front().path.string());

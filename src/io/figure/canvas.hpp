@@ -15,6 +15,7 @@ namespace talus::figure {
 /// A rectangle on the page, in units.
 struct Rectangle {
   double x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Rectangle&) const = default;
   double right() const { return x + width; }
   double bottom() const { return y + height; }
   bool contains(double px, double py) const { return px >= x && px <= right() && py >= y && py <= bottom(); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The layout: what stands around each plot is measured first, and what is left of the width is shared by the columns;
-/// the heights follow from the shapes of the plots. The numbers on an axis depend on its length, so that is repeated;
-/// after three passes nothing changes any more.
+/// the heights follow from the shapes of the plots. The numbers on an axis depend on its length, so that is repeated
+/// until nothing changes, at most ten times.
 #include "io/figure/figure.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,11 @@ class Layout {
     constexpr double widths[] = {480, 720, 860, 980};
     width_ = figure.width > 0 ? figure.width : widths[std::min(columns_, 4) - 1];
     plots_.assign(figure.panels.size(), {0, 0, width_ / columns_, 0.7 * width_ / columns_});
-    for (int pass = 0; pass < 3; ++pass) arrange(context);
+    for (int pass = 0; pass < 10; ++pass) {
+      const std::vector<Rectangle> before = plots_;
+      arrange(context);
+      if (plots_ == before) break;
+    }
   }
 
   double width() const { return width_; }

@@ -47,6 +47,8 @@ struct ShapeSampler {
         return in_plane(p.length * (u - 0.5), p.width * (on_slope ? v : v - 0.5));
       case Shape::triangle:
         return in_plane(p.size * (2 * u - 1), p.size * v);
+      case Shape::wedge:
+        return in_plane(-p.size * u / std::sin(parameters.slope.angle), p.size * v / std::cos(parameters.slope.angle));
       case Shape::ball:
         return {p.size * (2 * u - 1), p.size * (2 * v - 1), p.size * (2 * random.uniform() - 1) + lift()};
       case Shape::dome:
@@ -69,6 +71,10 @@ struct ShapeSampler {
       // Right-angled at the apex: the flanks fall at 45 degrees.
       case Shape::triangle:
         return across >= margin && std::abs(x.x) + across <= p.size - std::sqrt(2.0) * margin;
+      // The level surface lies `size` above the gate's foot, the origin: sizes along gravity.
+      case Shape::wedge:
+        return x.x <= -margin && across >= margin &&
+               across * std::cos(parameters.slope.angle) - x.x * std::sin(parameters.slope.angle) <= p.size - margin;
       case Shape::ball:
         return norm(x - Vector3{0, 0, lift()}) <= p.size - margin;
       case Shape::dome:
@@ -132,6 +138,15 @@ class Placed {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
+double extent(const std::vector<Vector3>& points) {
+  Vector3 low = points.front(), high = low;
+  for (const Vector3& x : points) {
+    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
 }  // namespace
 
 Grains pack(const Parameters& parameters) {
@@ -174,6 +189,9 @@ std::vector<Problem> check_grains(const Parameters& parameters, const Grains& gr
   }
   if (bad_radius) add(fmt::format("{} radii are not positive numbers", bad_radius), "radii above 0");
   if (not_finite) add(fmt::format("{} places are not finite", not_finite), "finite coordinates");
+  if (!grains.position.empty() && !not_finite && !(extent(grains.position) < 1e6 * parameters.particles.radius))
+    add(fmt::format("the points extend over {:.3g} m, more than a million radii", extent(grains.position)),
+        "grains near each other; see particles.radius and the units of the columns");
   if (out_of_plane)
     add(fmt::format("{} points lie outside the plane of motion \"{}\"", out_of_plane, choice_name(parameters.motion)),
         "points in that plane, or motion = \"xyz\"");

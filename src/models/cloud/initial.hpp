@@ -16,11 +16,12 @@ struct Grains {
 
 /// Packs the shape of the case by random sequential addition: each grain in turn is placed at random until it overlaps
 /// none placed before. All radii are drawn before the first place.
-/// With a slope, shapes that stand on it (triangle, dome; any shape in the plane xz) keep every grain above it.
+/// With a slope, shapes that stand on it (triangle, wedge, dome; any shape in the plane xz) keep every grain above it.
 /// \throws NumericalError if a grain finds no place after 10^6 trials (the fraction is too high)
 Grains pack(const Parameters& parameters);
 
-/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion.
+/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion, or
+/// too far apart.
 std::vector<Problem> check_grains(const Parameters& parameters, const Grains& grains);
 
 }  // namespace talus::cloud

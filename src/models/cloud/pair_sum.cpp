@@ -7,6 +7,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "models/cloud/pair_sum/kernel.hpp"
+#include "physics/hydrodynamics/rotne_prager.hpp"
+#include "physics/hydrodynamics/zuk.hpp"
+
 namespace talus::cloud {
 
 namespace {
@@ -15,9 +19,9 @@ using hydrodynamics::Mobility;
 
 // Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the bits of the sums.
 constexpr std::size_t most_tasks = 64;
-constexpr std::size_t gather_block = 512;
+constexpr std::size_t gather_block = 32 * padding;
 
-SumRows choose(InstructionSet set, const PairSum::Options& options, int dimensions) {
+SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t dimensions) {
   const bool single = options.precision == Precision::single_precision;
   switch (set) {
 #if defined(__x86_64__)
@@ -36,10 +40,6 @@ std::array<double Vector3::*, 3> axes(Motion motion) {
   return {&Vector3::x, &Vector3::y, &Vector3::z};
 }
 
-double power_of_two_below(double x) {
-  return x > 0 ? std::exp2(std::floor(std::log2(x))) : 1.0;
-}
-
 void require(bool condition, const char* what) {
   if (!condition) throw std::invalid_argument(what);
 }
@@ -51,87 +51,90 @@ PairSum::PairSum(const Options& options, std::span<const double> radius, std::sp
       instruction_set_(resolve(options.instruction_set)),
       dimensions_(options.motion == Motion::xyz ? 3 : 2),
       axis_(axes(options.motion)),
-      radius_(radius.begin(), radius.end()) {
-  if (options.mobility == Mobility::none || radius_.empty()) return;
-  sum_rows_ = choose(instruction_set_, options, dimensions_);
-  length_ = power_of_two_below(*std::max_element(radius_.begin(), radius_.end()));
-  speed_per_force_ = 1.0 / (8.0 * std::numbers::pi * options.viscosity * length_);
-
-  const std::size_t count = radius_.size();
-  const std::size_t padded = (count + padding - 1) / padding * padding;
-  packed_.assign(padded * (2 * static_cast<std::size_t>(dimensions_) + 1), 0.0);
-  spheres_.count = count;
-  spheres_.padded = padded;
-  double* column = packed_.data();
-  for (int k = 0; k < dimensions_; ++k, column += padded) spheres_.position[k] = column;
-  for (int k = 0; k < dimensions_; ++k, column += padded) spheres_.force[k] = column;
-  spheres_.radius = column;
-
-  // Rows of tiles in tasks of about the same number of pairs: the first rows have the most columns.
-  const std::size_t tiles = (count + tile_rows - 1) / tile_rows;
-  const std::size_t tasks = std::min(tiles, most_tasks);
-  std::size_t begin = 0, offset = 0;
-  for (std::size_t t = 1; t <= tasks; ++t) {
-    const double share = 1 - std::sqrt(1 - static_cast<double>(t) / static_cast<double>(tasks));
-    const auto end = tile_rows * static_cast<std::size_t>(std::lround(share * static_cast<double>(tiles)));
-    if (end <= begin) continue;
-    tasks_.push_back({begin, end, offset});
-    offset += (padded - begin) * static_cast<std::size_t>(dimensions_);
-    begin = end;
+      radius_(radius.begin(), radius.end()),
+      padded_((radius.size() + padding - 1) / padding * padding) {
+  if (options.mobility != Mobility::none && !radius_.empty()) {
+    sum_rows_ = choose(instruction_set_, options, dimensions_);
+    length_ = std::exp2(std::floor(std::log2(*std::max_element(radius_.begin(), radius_.end()))));
+    packed_.assign(padded_ * (2 * dimensions_ + 2), 0.0);
+    divide_into_tasks();
   }
-  sums_.resize(offset);
   reorder(order);
 }
 
+// Tasks of about the same number of pairs: the first rows have the most columns.
+void PairSum::divide_into_tasks() {
+  const std::size_t steps = (size() + task_rows - 1) / task_rows;
+  const std::size_t tasks = std::min((steps + 1) / 2, most_tasks);
+  std::size_t begin = 0, offset = 0;
+  for (std::size_t t = 1; t <= tasks; ++t) {
+    const double rest = std::sqrt(static_cast<double>(tasks - t) / static_cast<double>(tasks));
+    const std::size_t end = steps - static_cast<std::size_t>(std::lround(rest * static_cast<double>(steps)));
+    if (end * task_rows <= begin) continue;
+    tasks_.push_back({begin, end * task_rows, offset});
+    offset += (padded_ - begin) * dimensions_;
+    begin = end * task_rows;
+  }
+  sums_.resize(offset);
+}
+
 void PairSum::reorder(std::span<const std::uint32_t> order) {
-  require(order.empty() || order.size() == radius_.size(), "the order has not one entry a sphere");
-  order_.resize(radius_.size());
-  if (order.empty())
-    std::iota(order_.begin(), order_.end(), 0u);
-  else
+  std::vector<std::uint32_t> straight(size());
+  std::iota(straight.begin(), straight.end(), 0u);
+  if (order.empty()) {
+    order_ = straight;
+  } else {
+    std::vector<std::uint32_t> sorted(order.begin(), order.end());
+    std::sort(sorted.begin(), sorted.end());
+    require(sorted == straight, "the order is no permutation of the spheres");
     order_.assign(order.begin(), order.end());
+  }
   if (!sum_rows_) return;
-  double* radius = packed_.data() + 2 * static_cast<std::size_t>(dimensions_) * spheres_.padded;
-  for (std::size_t n = 0; n < order_.size(); ++n) radius[n] = radius_[order_[n]] / length_;
+  double *const radius_column = column(2 * dimensions_), *const size_column = column(2 * dimensions_ + 1);
+  for (std::size_t n = 0; n < size(); ++n) {
+    const double a = radius_[order_[n]] / length_;
+    radius_column[n] = a;
+    size_column[n] =
+        options_.mobility == Mobility::zuk_2014 ? hydrodynamics::shared_size(a) : hydrodynamics::source_size(a);
+  }
 }
 
 void PairSum::pack(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force) {
-  const std::size_t padded = spheres_.padded, count = spheres_.count;
-  double* const x = packed_.data();
-  double* const f = x + static_cast<std::size_t>(dimensions_) * padded;
   const double per_length = 1 / length_;
-  for_each(team, count, [&](std::size_t n) {
-    const Vector3& position_n = position[order_[n]];
-    const Vector3& force_n = force[order_[n]];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_); ++k) {
-      x[k * padded + n] = position_n.*axis_[k] * per_length;
-      f[k * padded + n] = force_n.*axis_[k] * speed_per_force_;
+  const double speed_per_force = 1 / (8 * std::numbers::pi * options_.viscosity * length_);
+  for_each(team, size(), [&](std::size_t n) {
+    for (std::size_t k = 0; k < dimensions_; ++k) {
+      column(k)[n] = position[order_[n]].*axis_[k] * per_length;
+      column(dimensions_ + k)[n] = force[order_[n]].*axis_[k] * speed_per_force;
     }
   });
-  // Beside the last sphere along the first axis by more than any two radii.
-  const double beyond = *std::max_element(x, x + count) + 8;
-  for (std::size_t n = count; n < padded; ++n) {
-    x[n] = beyond + 8 * static_cast<double>(n - count);
-    for (std::size_t k = 1; k < static_cast<std::size_t>(dimensions_); ++k) x[k * padded + n] = x[k * padded];
+  // The padding stands beside all spheres along the first axis, farther off and apart than two radii (each below 2).
+  double* const x = column(0);
+  const double beyond = *std::max_element(x, x + size()) + 8;
+  for (std::size_t n = size(); n < padded_; ++n) {
+    x[n] = beyond + 8 * static_cast<double>(n - size());
+    for (std::size_t k = 1; k < dimensions_; ++k) column(k)[n] = column(k)[0];
   }
 }
 
 void PairSum::gather(ThreadTeam& team, std::span<Vector3> velocity) const {
-  const std::size_t count = spheres_.count, padded = spheres_.padded;
-  team.run((count + gather_block - 1) / gather_block, [&](std::size_t block) {
-    const std::size_t begin = block * gather_block, end = std::min(begin + gather_block, count);
-    double sum[3][gather_block] = {};
+  // Sums of component k over the tasks, in their order, for the `padding` spheres from `begin`.
+  auto add_tasks = [&](std::size_t k, std::size_t begin, double* result) {
+    double sum[padding] = {};
     for (const Task& task : tasks_) {
-      if (task.begin >= end) break;
-      const std::size_t first = std::max(begin, task.begin), length = padded - task.begin;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_); ++k) {
-        const double* part = sums_.data() + task.offset + k * length;
-        for (std::size_t n = first; n < end; ++n) sum[k][n - begin] += part[n - task.begin];
-      }
+      if (task.begin > begin) break;
+      const double* const part = sums_.data() + task.offset + k * (padded_ - task.begin) + (begin - task.begin);
+      for (std::size_t n = 0; n < padding; ++n) sum[n] += part[n];
     }
-    for (std::size_t n = begin; n < end; ++n) {
-      Vector3& v = velocity[order_[n]];
-      for (std::size_t k = 0; k < 3; ++k) v.*axis_[k] = sum[k][n - begin];
+    std::copy(sum, sum + padding, result);
+  };
+  team.run((padded_ + gather_block - 1) / gather_block, [&](std::size_t block) {
+    const std::size_t end = std::min((block + 1) * gather_block, padded_);
+    for (std::size_t begin = block * gather_block; begin < end; begin += padding) {
+      double sum[3][padding] = {};
+      for (std::size_t k = 0; k < dimensions_; ++k) add_tasks(k, begin, sum[k]);
+      for (std::size_t n = 0; n < padding && begin + n < size(); ++n)
+        for (std::size_t k = 0; k < 3; ++k) velocity[order_[begin + n]].*axis_[k] = sum[k][n];
     }
   });
 }
@@ -145,15 +148,15 @@ void PairSum::velocities(ThreadTeam& team, std::span<const Vector3> position, st
     return;
   }
   pack(team, position, force);
+  PackedSpheres spheres{
+      .count = size(), .padded = padded_, .radius = column(2 * dimensions_), .size = column(2 * dimensions_ + 1)};
+  for (std::size_t k = 0; k < dimensions_; ++k)
+    spheres.position[k] = column(k), spheres.force[k] = column(dimensions_ + k);
   team.run(tasks_.size(), [&](std::size_t t) {
     const Task& task = tasks_[t];
-    const std::size_t length = spheres_.padded - task.begin;
-    double* columns[3] = {};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_); ++k) {
-      columns[k] = sums_.data() + task.offset + k * length;
-      std::fill(columns[k], columns[k] + length, 0.0);
-    }
-    sum_rows_(spheres_, task.begin, task.end, columns);
+    double* sums[3] = {};
+    for (std::size_t k = 0; k < dimensions_; ++k) sums[k] = sums_.data() + task.offset + k * (padded_ - task.begin);
+    sum_rows_(spheres, task.begin, task.end, sums);
   });
   gather(team, velocity);
 }

@@ -13,7 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/vector.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
-#include "physics/hydrodynamics/mobility.hpp"
+#include "physics/hydrodynamics/mobility_names.hpp"
 
 namespace talus::cloud {
 
@@ -47,8 +47,8 @@ class PairSum {
 
   /// Sets the order in which the spheres are packed: a permutation, best one that keeps what is near in space near in
   /// the order; empty: as they are. It changes the last bits, and in single precision it matters for the accuracy:
-  /// pairs lose digits in proportion to the extent of a block of 64 spheres over their distance.
-  /// \throws std::invalid_argument if the length is not the number of spheres
+  /// pairs lose digits in proportion to the extent of a tile of 128 spheres over their distance.
+  /// \throws std::invalid_argument if it is neither empty nor a permutation
   void reorder(std::span<const std::uint32_t> order);
 
   /// velocity[i] = sum over j != i of M_ij F_j; the sphere's own Stokes drag is not in it. Overwrites; components
@@ -65,25 +65,26 @@ class PairSum {
  private:
   struct Task {
     std::size_t begin, end;  // rows
-    std::size_t offset;      // of its sums in sums_
+    std::size_t offset;      // of its velocities in sums_: a column for each dimension, from row `begin` on
   };
 
+  void divide_into_tasks();
   void pack(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force);
   void gather(ThreadTeam& team, std::span<Vector3> velocity) const;
+  double* column(std::size_t k) { return packed_.data() + k * padded_; }
 
   Options options_;
   InstructionSet instruction_set_;
-  int dimensions_;
-  std::array<double Vector3::*, 3> axis_;
-  SumRows sum_rows_ = nullptr;
-  double length_;       // m, unit of the packed numbers: the power of two at or below the largest radius
-  double speed_per_force_;  // 1/(8 pi mu length_)
+  std::size_t dimensions_;
+  std::array<double Vector3::*, 3> axis_;  // those of the motion first
   std::vector<double> radius_;
-  std::vector<std::uint32_t> order_;
+  std::size_t padded_;
+  SumRows sum_rows_ = nullptr;        // none without interaction
+  double length_ = 1;                 // m, unit of the packed lengths: the power of two at or below the largest radius
+  std::vector<std::uint32_t> order_;  // sphere at each packed place
+  std::vector<double> packed_;        // columns of padded_ numbers: positions, forces, radius, size
   std::vector<Task> tasks_;
-  std::vector<double> packed_;  // columns of padded_ numbers: positions, forces, radius
-  std::vector<double> sums_;    // velocities of each task, columns of its own length
-  PackedSpheres spheres_;
+  std::vector<double> sums_;
 };
 
 }  // namespace talus::cloud

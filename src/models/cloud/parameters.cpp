@@ -27,7 +27,8 @@ double component_in_plane(const Vector3& v, Motion motion) {
 }
 
 /// Area of a plane shape, or volume.
-double extent_of_shape(const Parameters::Particles& p) {
+double extent_of_shape(const Parameters& parameters) {
+  const Parameters::Particles& p = parameters.particles;
   switch (p.shape) {
     case Shape::circle:
       return pi * p.size * p.size;
@@ -35,6 +36,8 @@ double extent_of_shape(const Parameters::Particles& p) {
       return p.length * p.width;
     case Shape::triangle:
       return p.size * p.size;
+    case Shape::wedge:
+      return p.size * p.size / std::sin(2 * parameters.slope.angle);
     case Shape::ball:
       return 4.0 / 3.0 * pi * p.size * p.size * p.size;
     case Shape::dome:
@@ -46,7 +49,7 @@ double extent_of_shape(const Parameters::Particles& p) {
 }
 
 bool is_plane(Shape shape) {
-  return shape == Shape::circle || shape == Shape::rectangle || shape == Shape::triangle;
+  return shape == Shape::circle || shape == Shape::rectangle || shape == Shape::triangle || shape == Shape::wedge;
 }
 
 /// Mean square or cube of the radii over that of the mean radius; the cut of the normal distribution is neglected.
@@ -91,16 +94,21 @@ std::vector<Problem> check(const Parameters& p) {
     add("motion", "\"xyz\" with the plane shape \"" + shape + "\"", "\"xy\" or \"xz\"; or shape ball, dome or file");
   if (!is_plane(grains.shape) && grains.shape != Shape::file && p.motion != Motion::xyz)
     add("motion", "a plane with the shape \"" + shape + "\"", "\"xyz\"; or a plane shape");
-  if (grains.shape == Shape::triangle && p.motion == Motion::xy)
-    add("motion", "\"xy\": a triangle stands on the slope", "\"xz\"");
+  if ((grains.shape == Shape::triangle || grains.shape == Shape::wedge) && p.motion == Motion::xy)
+    add("motion", "\"xy\": a " + shape + " stands on the slope", "\"xz\"");
+  if (grains.shape == Shape::wedge && !(p.slope.enabled && p.slope.angle > 0 && p.slope.angle < 0.5 * pi))
+    add("slope.angle", "a level surface behind a gate needs an incline (slope.enabled)", "above 0 deg, below 90 deg");
   if (grains.shape == Shape::dome && !p.slope.enabled)
     add("slope.enabled", "false, but a dome stands on the slope", "true, or shape \"ball\"");
 
-  if (const double extent = extent_of_shape(grains); extent > 0) {
+  if (const double extent = extent_of_shape(p); extent > 0 && std::isfinite(extent)) {
     const double fraction = scales(p).volume_fraction;
     const double jamming = is_plane(grains.shape) ? jamming_plane : jamming_space;
     if (fraction > jamming)
-      add("particles.count", fmt::format("the grains would fill {:.3g} of the shape", fraction),
+      add("particles.count",
+          fmt::format("the grains would fill {:.3g} of the shape (particles.shape, particles.size, particles.length, "
+                      "particles.width, particles.radius)",
+                      fraction),
           fmt::format("at most {}: random packing without overlap jams", jamming));
   }
   if (grains.density == p.fluid.density)
@@ -133,7 +141,7 @@ Scales scales(const Parameters& p) {
   s.stokes_speed = std::abs(s.mean_weight) * s.driving / (6 * pi * p.fluid.viscosity * a);
   s.stokes_time = a / s.stokes_speed;
   s.contact_ratio = p.contact.stiffness * 0.01 * a / std::abs(s.mean_weight);
-  if (const double extent = extent_of_shape(p.particles); extent > 0) {
+  if (const double extent = extent_of_shape(p); extent > 0) {
     const double n = static_cast<double>(p.particles.count);
     s.volume_fraction = is_plane(p.particles.shape) ? n * pi * a * a * moment(p.particles, 2) / extent
                                                     : n * 4.0 / 3.0 * pi * a * a * a * moment(p.particles, 3) / extent;

@@ -13,11 +13,11 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/cloud/pair_sum.hpp"
-#include "physics/hydrodynamics/mobility.hpp"
+#include "physics/hydrodynamics/mobility_names.hpp"
 
 namespace talus::cloud {
 
-enum class Shape { circle, rectangle, triangle, ball, dome, file };
+enum class Shape { circle, rectangle, triangle, wedge, ball, dome, file };
 enum class RadiusDistribution { uniform, normal };
 enum class Boundary { centres, whole };
 enum class Method { chebyshev, euler };
@@ -71,19 +71,22 @@ template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"seed", dimension::none, between(0, 9e15), "seed of the radii and positions"}, p.seed);
 
-  visit(Parameter{"particles.shape",
-                  {},
-                  {},
-                  "where the grains are at the start: circle, rectangle and triangle in the "
-                  "plane of motion, ball and dome (half a ball on the slope) in space, or a file of points",
-                  true},
-        p.particles.shape);
+  visit(
+      Parameter{"particles.shape",
+                {},
+                {},
+                "where the grains are at the start: circle, rectangle, triangle and wedge (a heap with a level surface "
+                "behind a gate upright to the slope) in the plane of motion, ball and dome (half a ball on the slope) "
+                "in space, or a file of points",
+                true},
+      p.particles.shape);
   visit(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains; with a file, its points"},
         p.particles.count);
-  visit(Parameter{"particles.size", dimension::length, at_least(0),
-                  "radius of the circle, ball or dome; height of the "
-                  "triangle, whose base on the slope is twice as long"},
-        p.particles.size);
+  visit(
+      Parameter{"particles.size", dimension::length, at_least(0),
+                "radius of the circle, ball or dome; height of the triangle, whose base on the slope is twice as long; "
+                "depth of the gate's foot below the wedge's surface"},
+      p.particles.size);
   visit(Parameter{"particles.length", dimension::length, at_least(0), "rectangle: extent along x"}, p.particles.length);
   visit(Parameter{"particles.width", dimension::length, at_least(0), "rectangle: extent across (y or z)"},
         p.particles.width);
@@ -181,7 +184,7 @@ Scales scales(const Parameters& parameters);
 namespace talus {
 template <>
 inline constexpr auto choices<cloud::Shape> = std::to_array<std::string_view>({"circle", "rectangle", "triangle",
-                                                                               "ball", "dome", "file"});
+                                                                               "wedge", "ball", "dome", "file"});
 template <>
 inline constexpr auto choices<cloud::RadiusDistribution> = std::to_array<std::string_view>({"uniform", "normal"});
 template <>

@@ -24,6 +24,7 @@ constexpr int steps_between_estimates = 5;
 constexpr int steps_between_sorts = 16;
 constexpr int most_stages = 250;
 constexpr double least_step_over_largest = 1e-6;
+constexpr double farthest_move = 1e4;  // of a grain within a step, in mean radii: the error control refuses less
 
 double root_mean_square_error(ThreadTeam& team, const State& state, const Workspace& work, double step,
                               double second_order) {
@@ -49,8 +50,16 @@ bool all_finite(ThreadTeam& team, std::span<const Vector3> v) {
       [](bool a, bool b) { return a && b; });
 }
 
-/// Takes the stages of a step; the result is in work.latest. \returns false as soon as a velocity is not finite
-bool take_stages(ThreadTeam& team, State& state, Workspace& work, const ChebyshevStages& scheme, double step) {
+bool all_near(ThreadTeam& team, const std::vector<Vector3>& before, const std::vector<Vector3>& after, double limit) {
+  return reduce(
+      team, before.size(), true, [&](std::size_t i) { return norm(after[i] - before[i]) <= limit; },
+      [](bool a, bool b) { return a && b; });
+}
+
+/// Takes the stages of a step; the result is in work.latest. \returns false as soon as a velocity is not finite or a
+/// grain is farther than `farthest` from where it was
+bool take_stages(ThreadTeam& team, State& state, Workspace& work, const ChebyshevStages& scheme, double step,
+                 double farthest) {
   const std::size_t count = state.position.size();
   for_each(team, count, [&](std::size_t i) {
     work.before[i] = state.position[i];
@@ -58,6 +67,7 @@ bool take_stages(ThreadTeam& team, State& state, Workspace& work, const Chebyshe
   });
   for (std::size_t j = 1; j < scheme.stages.size(); ++j) {
     const ChebyshevStages::Stage stage = scheme.stages[j];
+    if (!all_near(team, state.position, work.latest, farthest)) return false;
     work.velocities(team, work.latest, work.trial_velocity);
     ++state.evaluations;
     if (!all_finite(team, work.trial_velocity)) return false;
@@ -68,7 +78,7 @@ bool take_stages(ThreadTeam& team, State& state, Workspace& work, const Chebyshe
       work.latest[i] = next;
     });
   }
-  return true;
+  return all_near(team, state.position, work.latest, farthest);
 }
 
 void keep_derived(State& state, Workspace& work) {
@@ -97,16 +107,16 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
         "a larger contact.stiffness (overlaps grow like the square root of the number of grains), or a larger "
         "integration.largest_overlap";
   } else {
-    for (std::size_t i = 0; i < work.trial_velocity.size(); ++i) {
-      const Vector3& v = work.trial_velocity[i];
-      if (!std::isfinite(v.x + v.y + v.z)) {
-        worst = i;
-        break;
-      }
-    }
+    const auto broken = std::find_if(work.trial_velocity.begin(), work.trial_velocity.end(),
+                                     [](const Vector3& v) { return !std::isfinite(v.x + v.y + v.z); });
+    const bool infinite = broken != work.trial_velocity.end();
+    const auto fastest = std::max_element(work.trial_velocity.begin(), work.trial_velocity.end(),
+                                          [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); });
+    worst = static_cast<std::size_t>((infinite ? broken : fastest) - work.trial_velocity.begin());
     const Vector3& f = work.velocities.contact_force()[worst];
     const bool contact = !std::isfinite(f.x + f.y + f.z);
-    report.what = "the velocity is not finite";
+    report.what = infinite ? "the velocity is not finite"
+                           : fmt::format("a grain moves by more than {:g} radii in the shortest step", farthest_move);
     report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
     report.advice = "no two grains at one place at the start, a smaller integration.largest_step";
   }
@@ -162,7 +172,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
     if (rate > 0) step = std::min(step, stable);
     const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, damping), damping);
 
-    bool finite = take_stages(team, state, work, scheme, step);
+    bool finite = take_stages(team, state, work, scheme, step, farthest_move * a);
     double error = 0, overlap = 0;
     if (finite) {
       work.velocities(team, work.latest, work.trial_velocity);

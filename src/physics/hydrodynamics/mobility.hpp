@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The choice among the laws by which spheres in a viscous fluid drag each other.
+/// The choice among the laws by which spheres in a viscous fluid drag each other. Plain, because files compiled for one
+/// instruction set include it; the names for case files stand in mobility_names.hpp.
 #pragma once
-
-#include <array>
-#include <string_view>
-
-#include "base/parameter.hpp"
 
 namespace talus::hydrodynamics {
 
@@ -16,9 +12,3 @@ enum class Mobility {
 };
 
 }  // namespace talus::hydrodynamics
-
-namespace talus {
-template <>
-inline constexpr auto choices<hydrodynamics::Mobility> =
-    std::to_array<std::string_view>({"rotne-prager-1969", "zuk-2014", "none"});
-}

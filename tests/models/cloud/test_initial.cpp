@@ -80,6 +80,26 @@ TEST(Pack, KeepsEveryGrainAboveTheSlope) {
   for (std::size_t i = 0; i < dome.radius.size(); ++i) EXPECT_GE(dome.position[i].z, dome.radius[i]);
 }
 
+TEST(Pack, AWedgeIsUprightAtItsGateAndLevelAtItsSurface) {
+  Parameters p = polystyrene(Shape::wedge, 800);
+  p.particles.size = 75 * p.particles.radius;
+  p.motion = Motion::xz;
+  p.slope.angle = 0.5;
+  EXPECT_NEAR(scales(p).volume_fraction, 800 * std::numbers::pi * std::sin(1.0) / (75 * 75.0), 1e-3);
+  const Grains wedge = pack(p);
+  EXPECT_GE(smallest_gap(wedge), 0);
+  double front = -1, highest = 0;
+  for (const Vector3& x : wedge.position) {
+    const double above_the_foot = x.z * std::cos(0.5) - x.x * std::sin(0.5);
+    front = std::max(front, x.x);
+    highest = std::max(highest, above_the_foot);
+    EXPECT_LE(x.x, 0);
+    EXPECT_LE(above_the_foot, p.particles.size);
+  }
+  EXPECT_GT(front, -2 * p.particles.radius);
+  EXPECT_GT(highest, p.particles.size - 2 * p.particles.radius);
+}
+
 TEST(Pack, WholeGrainsStayInsideWhenAsked) {
   Parameters p = disc(300);
   p.particles.boundary = Boundary::whole;

@@ -4,7 +4,7 @@
 
 namespace talus::cloud {
 
-SumRows sum_rows_portable(hydrodynamics::Mobility mobility, int dimensions, bool single_precision) {
+SumRows sum_rows_portable(hydrodynamics::Mobility mobility, std::size_t dimensions, bool single_precision) {
   return choose(mobility, dimensions, single_precision);
 }
 

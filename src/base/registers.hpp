@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Vector registers of the instruction set that the including file is compiled for: the compiler's vector types, and
+/// the operations that those do not know. What lanes.hpp is made of; nothing else includes it.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__AVX512F__)
+#define TALUS_INSTRUCTION_SET avx512
+#elif defined(__AVX2__)
+#define TALUS_INSTRUCTION_SET avx2
+#else
+#define TALUS_INSTRUCTION_SET portable
+#endif
+#define TALUS_INLINE [[gnu::always_inline]] inline
+// Short loops over rows or dimensions have to vanish before the compiler gives registers to what they run over.
+#define TALUS_UNROLL _Pragma("GCC unroll 16")
+
+namespace talus {
+inline namespace TALUS_INSTRUCTION_SET {
+namespace registers {
+
+#if defined(__AVX512F__)
+inline constexpr int bytes = 64;
+#elif defined(__AVX2__)
+inline constexpr int bytes = 32;
+#else
+inline constexpr int bytes = 16;
+#endif
+
+template <class T>
+struct Of {
+  typedef T Register __attribute__((vector_size(bytes)));
+#if defined(__AVX512F__)
+  using Mask = std::conditional_t<sizeof(T) == 8, __mmask8, __mmask16>;
+#else
+  using Mask = decltype(Register{} > Register{});
+#endif
+};
+
+/// Sum of the lanes: the upper half onto the lower half, and so on.
+template <class Register>
+TALUS_INLINE auto sum(Register x) {
+  constexpr int lanes = sizeof(x) / sizeof(x[0]);
+  if constexpr (lanes == 2)
+    return x[0] + x[1];
+  else if constexpr (lanes == 4)
+    return sum(__builtin_shufflevector(x, x, 0, 1) + __builtin_shufflevector(x, x, 2, 3));
+  else if constexpr (lanes == 8)
+    return sum(__builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7));
+  else
+    return sum(__builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7) +
+               __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15));
+}
+
+// The few operations that the compiler's vector arithmetic does not know: a b + c and c - a b, rounded once where the
+// instruction set can; an estimate of the reciprocal square root, good to `estimate_bits` bits; a > b; a choice lane by
+// lane; whether a mask holds in every lane.
+#if defined(__AVX512F__)
+inline constexpr int estimate_bits = 14;
+TALUS_INLINE __m512d fused(__m512d a, __m512d b, __m512d c) {
+  return _mm512_fmadd_pd(a, b, c);
+}
+TALUS_INLINE __m512 fused(__m512 a, __m512 b, __m512 c) {
+  return _mm512_fmadd_ps(a, b, c);
+}
+TALUS_INLINE __m512d negative_fused(__m512d a, __m512d b, __m512d c) {
+  return _mm512_fnmadd_pd(a, b, c);
+}
+TALUS_INLINE __m512 negative_fused(__m512 a, __m512 b, __m512 c) {
+  return _mm512_fnmadd_ps(a, b, c);
+}
+TALUS_INLINE __m512d estimate_reciprocal_sqrt(__m512d x) {
+  return _mm512_maskz_rsqrt14_pd(0xff, x);
+}
+TALUS_INLINE __m512 estimate_reciprocal_sqrt(__m512 x) {
+  return _mm512_maskz_rsqrt14_ps(0xffff, x);
+}
+TALUS_INLINE __mmask8 greater(__m512d a, __m512d b) {
+  return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ);
+}
+TALUS_INLINE __mmask16 greater(__m512 a, __m512 b) {
+  return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ);
+}
+TALUS_INLINE __m512d blend(__mmask8 m, __m512d yes, __m512d no) {
+  return _mm512_mask_blend_pd(m, no, yes);
+}
+TALUS_INLINE __m512 blend(__mmask16 m, __m512 yes, __m512 no) {
+  return _mm512_mask_blend_ps(m, no, yes);
+}
+TALUS_INLINE bool all(__mmask8 mask) {
+  return mask == 0xff;
+}
+TALUS_INLINE bool all(__mmask16 mask) {
+  return mask == 0xffff;
+}
+#elif defined(__AVX2__)
+inline constexpr int estimate_bits = 11;
+TALUS_INLINE __m256d fused(__m256d a, __m256d b, __m256d c) {
+  return _mm256_fmadd_pd(a, b, c);
+}
+TALUS_INLINE __m256 fused(__m256 a, __m256 b, __m256 c) {
+  return _mm256_fmadd_ps(a, b, c);
+}
+TALUS_INLINE __m256d negative_fused(__m256d a, __m256d b, __m256d c) {
+  return _mm256_fnmadd_pd(a, b, c);
+}
+TALUS_INLINE __m256 negative_fused(__m256 a, __m256 b, __m256 c) {
+  return _mm256_fnmadd_ps(a, b, c);
+}
+// Doubles by way of floats: the argument must lie in their range, which numbers in units of a grain's radius do.
+TALUS_INLINE __m256d estimate_reciprocal_sqrt(__m256d x) {
+  return _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(x)));
+}
+TALUS_INLINE __m256 estimate_reciprocal_sqrt(__m256 x) {
+  return _mm256_rsqrt_ps(x);
+}
+template <class Register>
+TALUS_INLINE auto greater(Register a, Register b) {
+  return a > b;
+}
+template <class Mask, class Register>
+TALUS_INLINE Register blend(Mask m, Register yes, Register no) {
+  return m ? yes : no;
+}
+template <class Mask>
+TALUS_INLINE bool all(Mask mask) {
+  return _mm256_movemask_epi8((__m256i)mask) == -1;
+}
+#else
+inline constexpr int estimate_bits = 53;  // not an estimate
+template <class Register>
+TALUS_INLINE Register fused(Register a, Register b, Register c) {
+  return a * b + c;
+}
+template <class Register>
+TALUS_INLINE Register negative_fused(Register a, Register b, Register c) {
+  return c - a * b;
+}
+template <class Register>
+TALUS_INLINE Register estimate_reciprocal_sqrt(Register x) {
+  for (unsigned k = 0; k < sizeof(Register) / sizeof(x[0]); ++k) x[k] = std::sqrt(x[k]);
+  return 1 / x;
+}
+template <class Register>
+TALUS_INLINE auto greater(Register a, Register b) {
+  return a > b;
+}
+template <class Mask, class Register>
+TALUS_INLINE Register blend(Mask m, Register yes, Register no) {
+  return m ? yes : no;
+}
+template <class Mask>
+TALUS_INLINE bool all(Mask mask) {
+  bool set = true;
+  for (unsigned k = 0; k < sizeof(Mask) / sizeof(mask[0]); ++k) set = set && mask[k] != 0;
+  return set;
+}
+#endif
+
+}  // namespace registers
+}  // namespace TALUS_INSTRUCTION_SET
+}  // namespace talus

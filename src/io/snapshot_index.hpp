@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// snapshots/particles.hdf.series: the snapshots and their times, in ParaView's form for series of files.
+///
+///     {"file-series-version": "1.0", "files": [{"name": "particles_0000.vtkhdf", "time": 0.0}, ...]}
+///
+/// Debian's ParaView 5.11.0 knows its VTKHDF reader by the endings .hdf and .hdf.series alone (later ones by .vtkhdf
+/// too), and counts frames where it is given single files; through this file it opens the series with its times.
+#pragma once
+
+#include <string_view>
+
+#include "io/run_folder.hpp"
+
+namespace talus {
+
+/// Lists the snapshots 0 to `latest` that are there. To be called after each snapshot, `latest`, is written: the times
+/// of those before are taken from the index as it was, and from the snapshots where it has none.
+/// \throws FileError if the index cannot be written or a snapshot not be read
+void index_snapshots(const RunFolder& folder, int latest, std::string_view kind = "particles");
+
+}  // namespace talus

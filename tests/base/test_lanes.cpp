@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Lanes of the instruction set that the tests are compiled for. The others run in the tests of the sum over pairs.
+#include "base/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+template <class T>
+class LanesOf : public testing::Test {};
+using Numbers = testing::Types<float, double>;
+TYPED_TEST_SUITE(LanesOf, Numbers);
+
+template <class T>
+Lanes<T> ramp(double first) {
+  return Lanes<T>::ramp(0) + first;
+}
+
+TYPED_TEST(LanesOf, ComputeLaneByLaneAndRowByRow) {
+  using T = TypeParam;
+  const T rows[2] = {3, 5};
+  const auto x = Lanes<T, 2>::spread(rows);
+  const auto y = ramp<T>(2);
+  const auto sum = x + y, difference = x - y, product = x * y, quotient = x / y;
+  const auto fused = multiply_add(x, y, Lanes<T>(7)), negative = negative_multiply_add(x, y, Lanes<T>(7));
+  const auto over_rows = multiply_add_rows(x, y, Lanes<T>(1));
+  for (int r = 0; r < 2; ++r)
+    for (int k = 0; k < Lanes<T>::lanes; ++k) {
+      const T a = rows[r], b = static_cast<T>(2 + k);
+      EXPECT_EQ(sum.row[r][k], a + b);
+      EXPECT_EQ(difference.row[r][k], a - b);
+      EXPECT_EQ(product.row[r][k], a * b);
+      EXPECT_EQ(quotient.row[r][k], a / b);
+      EXPECT_EQ(fused.row[r][k], a * b + 7);
+      EXPECT_EQ(negative.row[r][k], 7 - a * b);
+      EXPECT_EQ(over_rows.row[0][k], 1 + 3 * b + 5 * b);
+    }
+  const int n = Lanes<T>::lanes;
+  EXPECT_EQ(sum_lanes(x, 1), 5 * n);
+  EXPECT_EQ(sum_lanes(y, 0), 2 * n + n * (n - 1) / 2);
+}
+
+TYPED_TEST(LanesOf, SelectWhateverStandsInTheOther) {
+  using T = TypeParam;
+  const T nan = std::numeric_limits<T>::quiet_NaN();
+  const auto index = Lanes<T>::ramp(4);
+  const auto chosen = select(index > Lanes<T, 2>::ramp_of_rows(4), index, Lanes<T>(static_cast<double>(nan)));
+  for (int r = 0; r < 2; ++r)
+    for (int k = 0; k < Lanes<T>::lanes; ++k)
+      if (k > r)
+        EXPECT_EQ(chosen.row[r][k], 4 + k);
+      else
+        EXPECT_TRUE(std::isnan(chosen.row[r][k]));
+  EXPECT_TRUE(all(index > Lanes<T>(3)));
+  EXPECT_FALSE(all(index > Lanes<T>(4)));
+  EXPECT_FALSE(all(Lanes<T>(static_cast<double>(nan)) > Lanes<T>(0)));
+}
+
+TYPED_TEST(LanesOf, ReciprocalSquareRootOverTheRangeOfDistances) {
+  using T = TypeParam;
+  for (double x = 1e-12; x < 1e12; x *= 1.37) {
+    const T argument = static_cast<T>(x);
+    const T y = reciprocal_sqrt(Lanes<T>(static_cast<double>(argument))).row[0][0];
+    const auto ratio = static_cast<double>(y * std::sqrt(static_cast<long double>(argument)));
+    EXPECT_NEAR(ratio, 1, std::numeric_limits<T>::epsilon());
+  }
+  EXPECT_FALSE(std::isfinite(reciprocal_sqrt(Lanes<T>(0)).row[0][0]));
+}
+
+}  // namespace
+}  // namespace talus

@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The checks of tools/ find what is planted."""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import check_documents  # noqa: E402
+import check_layers  # noqa: E402
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        self.write("src/base/a.hpp", "#pragma once\n")
+        self.write("src/models/cloud/m.hpp", '#include "base/a.hpp"\n')
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+
+class Layers(Tree):
+    def test_a_clean_tree_has_no_problem(self):
+        for check in check_layers.CHECKS:
+            self.assertEqual(check(self.root), [], check.__name__)
+
+    def test_an_upward_include_is_found(self):
+        self.write("src/base/b.cpp", '\n#include "models/cloud/m.hpp"\n')
+        self.assertRegex(check_layers.check_layers(self.root)[0], r"src/base/b.cpp:2: base must not include models")
+
+    def test_models_do_not_include_io(self):
+        self.write("src/io/w.hpp", "")
+        self.write("src/models/cloud/n.cpp", '#include "io/w.hpp"\n')
+        self.assertEqual(len(check_layers.check_layers(self.root)), 1)
+
+    def test_an_include_that_is_not_there_is_found(self):
+        self.write("src/base/b.cpp", '#include "a.hpp"\n')
+        self.assertIn("not below src/", check_layers.check_layers(self.root)[0])
+
+    def test_run_that_names_a_model_is_found(self):
+        self.write("src/run/r.cpp", "\ncloud::Parameters p;\n")
+        self.assertRegex(check_layers.check_run_names_no_model(self.root)[0], r"src/run/r.cpp:2: .*cloud")
+
+    def test_a_cycle_is_found(self):
+        self.write("src/base/c.hpp", '#include "base/d.hpp"\n')
+        self.write("src/base/d.hpp", '#include "base/c.hpp"\n')
+        self.assertIn("includes itself", check_layers.check_cycles(self.root)[0])
+
+    def test_a_template_header_behind_an_instruction_set_file_is_found(self):
+        self.write("src/base/v.hpp", "#include <vector>\n")
+        self.write("src/models/cloud/sum_avx2.cpp", '#include "base/v.hpp"\n')
+        self.assertRegex(check_layers.check_instruction_set_files(self.root)[0], r"src/base/v.hpp:1: <vector>")
+
+    def test_a_long_file_needs_a_reason(self):
+        self.write("src/base/long.cpp", "\n" * 401)
+        self.assertIn("401 lines", check_layers.check_lengths(self.root)[0])
+        self.write("src/base/long.cpp", "// longer than 400 lines because it is a table\n" + "\n" * 400)
+        self.assertEqual(check_layers.check_lengths(self.root), [])
+
+
+class Documents(Tree):
+    def documents(self):
+        return sorted(self.root.rglob("*.md"))
+
+    def test_a_broken_link_is_found(self):
+        self.write("docs/a.md", "[good](../src/base/a.hpp) [web](https://x.org) [part](#part)\n\n[bad](b.md)\n")
+        self.assertEqual(
+            list(check_documents.check_links(self.root, self.documents())),
+            ["docs/a.md:3: the link b.md leads nowhere"],
+        )
+
+    def test_links_in_code_are_no_links(self):
+        self.write("docs/a.md", "```\n[bad](b.md)\n```\n")
+        self.assertEqual(list(check_documents.check_links(self.root, self.documents())), [])
+
+    def test_a_path_that_is_not_there_is_found(self):
+        self.write("ARCHITECTURE.md", "`src/base/a.hpp` and `src/base/gone.hpp` and `src/models/*/state.hpp`\n")
+        self.assertEqual(
+            list(check_documents.check_paths(self.root, self.documents())),
+            ["ARCHITECTURE.md:1: there is no src/base/gone.hpp"],
+        )
+
+    def test_functions_and_tests_of_the_equations_are_looked_up(self):
+        self.write("src/base/law.hpp", "double law(double x);\n")
+        self.write("tests/base/test_law.cpp", "TEST(Law, Holds) {}\n")
+        self.write("EQUATIONS.md", "| 1 | `law()` | `Law.Holds` |\n| 2 | `lore()` | `Law.Breaks` |\n")
+        problems = list(check_documents.check_equations(self.root))
+        self.assertEqual(len(problems), 2)
+        self.assertIn("lore()", problems[0])
+        self.assertIn("Law.Breaks", problems[1])
+
+
+class Packages(unittest.TestCase):
+    def test_every_package_is_named_once_with_its_purpose(self):
+        names = []
+        for line in (ROOT / "packages.txt").read_text(encoding="utf-8").splitlines():
+            if line and not line.startswith("#"):
+                self.assertGreater(len(line.split(None, 1)), 1, line)
+                names.append(line.split()[0])
+        self.assertEqual(len(names), len(set(names)))
+
+    def test_nothing_is_installed_where_all_is_there(self):
+        result = subprocess.run([ROOT / "tools" / "install_packages"], capture_output=True, text=True, check=False)
+        self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks the documents against the tree: links, paths in backticks, and the functions and tests that EQUATIONS.md names."""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+CODE = re.compile(r"`([^`\s]+)`")
+FOLDERS = ("src/", "tests/", "cases/", "docs/", "tools/", "validation/", "benchmarks/", "web/")
+
+
+def tracked(root, *patterns):
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", *patterns], capture_output=True, text=True, check=True)
+    return [root / name for name in listed.stdout.splitlines()]
+
+
+def lines_of(path):
+    """Numbered lines outside of fenced code."""
+    fenced = False
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if line.lstrip().startswith("```"):
+            fenced = not fenced
+        elif not fenced:
+            yield number, line
+
+
+def check_links(root, documents):
+    for path in documents:
+        for number, line in lines_of(path):
+            for target in LINK.findall(line):
+                if re.match(r"[a-z]+:|#", target):
+                    continue
+                if not (path.parent / target.split("#")[0]).exists():
+                    yield f"{path.relative_to(root)}:{number}: the link {target} leads nowhere"
+
+
+def check_paths(root, documents):
+    for path in documents:
+        if path.name not in ("README.md", "ARCHITECTURE.md", "EQUATIONS.md", "CONTRIBUTING.md"):
+            continue
+        for number, line in lines_of(path):
+            for name in CODE.findall(line):
+                if name.startswith(FOLDERS) and not re.search(r"[*<>{}…]|[A-Z]{3,}|NAME", name):
+                    if not list(root.glob(name.rstrip("/"))):
+                        yield f"{path.relative_to(root)}:{number}: there is no {name}"
+
+
+def check_equations(root):
+    """In the tables of EQUATIONS.md, `name()` is a function of src/ and `Suite.Test` a test of tests/."""
+    document = root / "EQUATIONS.md"
+    if not document.exists():
+        yield "EQUATIONS.md:1: is missing"
+        return
+    source = "\n".join(p.read_text(encoding="utf-8") for p in (root / "src").rglob("*.?pp"))
+    tests = "\n".join(p.read_text(encoding="utf-8") for p in (root / "tests").rglob("*.*p*") if p.is_file())
+    for number, line in lines_of(document):
+        if not line.startswith("|"):
+            continue
+        for name in CODE.findall(line):
+            function = re.fullmatch(r"(?:\w+::)*(\w+)\(\)", name)
+            test = re.fullmatch(r"([A-Z]\w+)\.(\w+)", name)
+            if function and not re.search(rf"\b{function.group(1)}\(", source):
+                yield f"EQUATIONS.md:{number}: src/ has no function {name}"
+            if test and not re.search(rf"\(\s*{test.group(1)}\s*,\s*{test.group(2)}\s*\)", tests):
+                yield f"EQUATIONS.md:{number}: there is no test {name}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("root", nargs="?", default=pathlib.Path(__file__).resolve().parent.parent, type=pathlib.Path)
+    root = parser.parse_args().root
+    documents = tracked(root, "*.md")
+    problems = [*check_links(root, documents), *check_paths(root, documents), *check_equations(root)]
+    print("\n".join(problems), end="\n" if problems else "")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

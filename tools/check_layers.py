@@ -1,0 +1,134 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks that src/ keeps to its layers: who may include whom, files of one instruction set, lengths of files.
+
+base < numerics < physics < models; io and analysis stand on numerics; run on io and analysis; only app sees all.
+"""
+
+import argparse
+import pathlib
+import re
+import sys
+
+ALLOWED = {
+    "base": {"base"},
+    "numerics": {"base", "numerics"},
+    "physics": {"base", "numerics", "physics"},
+    "models": {"base", "numerics", "physics", "models"},
+    "analysis": {"base", "numerics", "analysis"},
+    "io": {"base", "numerics", "io"},
+    "run": {"base", "numerics", "io", "analysis", "run"},
+    "app": {"base", "numerics", "physics", "models", "analysis", "io", "run", "app"},
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
+# What a file of one instruction set may include of the system: headers without templates that leak to other files.
+PLAIN_SYSTEM_HEADERS = {"cmath", "cstddef", "cstdint", "type_traits", "immintrin.h", "concepts"}
+GENERATED = {"revision.hpp"}  # made by the build
+MOST_LINES = 400
+REASON = "longer than 400 lines because"
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        found = INCLUDE.match(line)
+        if found:
+            yield number, found.group(1) == "<", found.group(2)
+
+
+def check_layers(root):
+    problems = []
+    for path in sorted((root / "src").rglob("*.?pp")):
+        layer = path.relative_to(root / "src").parts[0]
+        for number, system, name in includes(path):
+            if system or name in GENERATED:
+                continue
+            target = name.split("/")[0]
+            where = f"{path.relative_to(root)}:{number}"
+            if not (root / "src" / name).exists():
+                problems.append(f'{where}: "{name}" is not below src/; write includes from src/ on')
+            elif target not in ALLOWED.get(layer, set()):
+                problems.append(f"{where}: {layer} must not include {target}; see ARCHITECTURE.md, layers")
+    return problems
+
+
+def check_run_names_no_model(root):
+    problems = []
+    models = [p.name for p in (root / "src" / "models").iterdir() if p.is_dir()]
+    for path in sorted((root / "src" / "run").rglob("*.?pp")):
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for model in models:
+                if re.search(rf"\b{model}::", line):
+                    problems.append(f"{path.relative_to(root)}:{number}: run knows no model, but names {model}")
+    return problems
+
+
+def check_instruction_set_files(root):
+    """Transitively, a *_avx2.cpp or *_avx512.cpp sees only plain headers."""
+    problems = []
+    for path in sorted((root / "src").rglob("*_avx*.cpp")):
+        seen, todo = set(), [path]
+        while todo:
+            current = todo.pop()
+            for number, system, name in includes(current):
+                if system and name not in PLAIN_SYSTEM_HEADERS:
+                    problems.append(
+                        f"{current.relative_to(root)}:{number}: <{name}> reaches {path.name}, which is compiled for one "
+                        "instruction set: its templates would leak to the other files"
+                    )
+                header = root / "src" / name
+                if not system and header.exists() and header not in seen:
+                    seen.add(header)
+                    todo.append(header)
+    return problems
+
+
+def check_cycles(root):
+    graph = {}
+    for path in (root / "src").rglob("*.hpp"):
+        graph[path] = [root / "src" / name for _, system, name in includes(path) if not system]
+    problems, done = [], set()
+
+    def visit(path, way):
+        if path in way:
+            names = " -> ".join(str(p.relative_to(root / "src")) for p in way[way.index(path):] + [path])
+            problems.append(f"{path.relative_to(root)}:1: includes itself: {names}")
+            return
+        if path in done:
+            return
+        for target in graph.get(path, []):
+            visit(target, way + [path])
+        done.add(path)
+
+    for path in sorted(graph):
+        visit(path, [])
+    return problems
+
+
+def check_lengths(root):
+    problems = []
+    for folder in ("src", "tests", "benchmarks", "tools"):
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix not in (".cpp", ".hpp", ".py"):
+                continue
+            lines = path.read_text(encoding="utf-8").splitlines()
+            if len(lines) > MOST_LINES and not any(REASON in line for line in lines[:12]):
+                problems.append(
+                    f"{path.relative_to(root)}:1: {len(lines)} lines; split it, or say at the top '{REASON} ...'"
+                )
+    return problems
+
+
+CHECKS = (check_layers, check_run_names_no_model, check_instruction_set_files, check_cycles, check_lengths)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("root", nargs="?", default=pathlib.Path(__file__).resolve().parent.parent, type=pathlib.Path)
+    root = parser.parse_args().root
+    problems = [problem for check in CHECKS for problem in check(root)]
+    print("\n".join(dict.fromkeys(problems)), end="\n" if problems else "")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
