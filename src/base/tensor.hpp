@@ -103,6 +103,14 @@ Number norm(const SymmetricTensor3<Number>& a) {
   return sqrt(double_dot(a, a));
 }
 
+/// Component by component, `yes` where the condition holds.
+template <class Condition, class Number>
+constexpr SymmetricTensor3<Number> select_tensor(const Condition& condition, const SymmetricTensor3<Number>& yes,
+                                                 const SymmetricTensor3<Number>& no) {
+  return {select(condition, yes.xx, no.xx), select(condition, yes.yy, no.yy), select(condition, yes.zz, no.zz),
+          select(condition, yes.xy, no.xy), select(condition, yes.yz, no.yz), select(condition, yes.zx, no.zx)};
+}
+
 /// (a + a^T)/2: of a velocity gradient the rate of deformation.
 template <class Number>
 constexpr SymmetricTensor3<Number> symmetric_part(const Tensor3<Number>& a) {

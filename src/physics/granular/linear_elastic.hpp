@@ -7,18 +7,9 @@
 
 #include "base/tensor.hpp"
 #include "physics/granular/material_point.hpp"
+#include "physics/granular/rotation.hpp"
 
 namespace talus::granular {
-
-/// The rotation of a body that turns with the spin w for dt, (I - w dt/2)^-1 (I + w dt/2): a rotation to all orders.
-/// Source: Hughes & Winget, Int. J. Numer. Methods Eng. 15, 1862-1867 (1980).
-/// \param spin antisymmetric part of the velocity gradient, 1/s
-template <class Number>
-Tensor3<Number> rotation_of(const Tensor3<Number>& spin, double time_step) {
-  const Tensor3<Number> unit = full(isotropic<Number>(1.0));
-  const Tensor3<Number> half = (0.5 * time_step) * spin;
-  return inverse(unit - half) * (unit + half);
-}
 
 /// d tau/dt = -lambda tr(D) I - 2 G D in axes that turn with the material; compression positive.
 class LinearElastic {
@@ -37,7 +28,7 @@ class LinearElastic {
                                               const Tensor3<Number>& velocity_gradient, const Number& /*density*/,
                                               double time_step) const {
     const SymmetricTensor3<Number> rate = symmetric_part(velocity_gradient);
-    const Tensor3<Number> rotation = rotation_of(antisymmetric_part(velocity_gradient), time_step);
+    const Tensor3<Number> rotation = rotation_of_step(velocity_gradient, time_step);
     return {transformed(old.stress, rotation) - (2 * shear_modulus_ * time_step) * rate -
                 isotropic<Number>(lambda_ * time_step * trace(rate)),
             {}};
