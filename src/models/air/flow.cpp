@@ -172,9 +172,23 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
       conductance_[a][f] = phi * slip.pull * dt / rho * area_over_way * (passages_.is_end(axis, place) ? 2 : 1);
     });
   }
+  // Pressure's share of the velocity over dt.
+  const auto press = [&](double sign, FaceField& velocity) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
+        if (passages_.open[a][f] <= 0) return;
+        const int place = axis == 0 ? i : axis == 1 ? j : k;
+        velocity[a][f] -= sign * pull_[a][f] * dt / rho * pressure_step(axis, place, f, pressure);
+      });
+    }
+  };
   if (implicit_) {
+    // With the guessed pressure at work: viscosity then meets the velocity to come, and a steady flow is exact.
+    press(1, stream.velocity);
     stress_ = stream.velocity;
     transport_.spread_implicitly(team, stress_, pull_, parameters_.viscosity / rho * dt, stream.velocity);
+    press(-1, stream.velocity);
   }
 
   // The mixture's volume flow without this step's pressure.
@@ -211,12 +225,10 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
   iterations_ +=
       solver_.solve(team, source_, pressure, {.tolerance = parameters_.tolerance, .absolute = rounding}).iterations;
 
+  press(1, stream.velocity);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
-      if (passages_.open[a][f] <= 0) return;
-      const int place = axis == 0 ? i : axis == 1 ? j : k;
-      stream.velocity[a][f] -= pull_[a][f] * dt / rho * pressure_step(axis, place, f, pressure);
+    for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) {
       stream.mass[a][f] = rho * void_fraction_[a][f] * stream.velocity[a][f];
     });
   }
