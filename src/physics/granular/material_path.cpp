@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+
+#include "physics/granular/almansi_strain.hpp"
 
 namespace talus::granular {
 
@@ -26,10 +29,37 @@ PathPoint record(double time, double density, const SymmetricTensor3<>& strain, 
   return recorded;
 }
 
+/// F a time step later: exp(L dt) F, to the fourth order.
+Tensor3<> deformed(const Tensor3<>& deformation, const Tensor3<>& velocity_gradient, double time_step) {
+  Tensor3<> result = deformation, term = deformation;
+  for (int k = 1; k <= 4; ++k) {
+    term = (time_step / k) * (velocity_gradient * term);
+    result = result + term;
+  }
+  return result;
+}
+
+/// The law over a step, with the strain from displacements where it asks for that.
+template <class Law>
+MaterialPoint<Law> updated(const Law& law, const MaterialPoint<Law>& old, Tensor3<>& deformation,
+                           const Tensor3<>& velocity_gradient, double density, double step) {
+  if constexpr (std::is_same_v<Law, YuuUmekagePrinted>)
+    if (law.by_displacements()) {
+      const Tensor3<> unit = full(isotropic(1.0));
+      deformation = deformed(deformation, velocity_gradient, step);
+      const auto point =
+          law.update_at_strain(old, almansi_strain(deformation - unit), velocity_gradient, density, step);
+      if (point.history.resets > old.history.resets) deformation = unit;
+      return point;
+    }
+  return law.update(old, velocity_gradient, density, step);
+}
+
 template <class Law>
 std::vector<PathPoint> follow(const Law& law, std::span<const PathStretch> path, const PathOptions& options) {
   MaterialPoint<Law> point{};
   SymmetricTensor3<> strain;
+  Tensor3<> deformation = full(isotropic(1.0));  // since the last reset
   double time = 0, density = options.density;
   std::vector<PathPoint> points{record<Law>(time, density, strain, point)};
   for (const PathStretch& stretch : path) {
@@ -40,7 +70,7 @@ std::vector<PathPoint> follow(const Law& law, std::span<const PathStretch> path,
       for (int n = 1; n <= steps; ++n) {
         density = start_density * std::exp(-rate * step * ((k - 1) * static_cast<double>(steps) + n));
         strain = transported_strain(strain, stretch.velocity_gradient, step);
-        point = law.update(point, stretch.velocity_gradient, density, step);
+        point = updated(law, point, deformation, stretch.velocity_gradient, density, step);
       }
       time = start + stretch.duration * k / options.points;
       points.push_back(record<Law>(time, density, strain, point));
