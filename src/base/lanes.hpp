@@ -36,6 +36,26 @@ template <Scalar T>
 TALUS_INLINE T reciprocal_sqrt(T x) {
   return T(1) / std::sqrt(x);
 }
+template <Scalar T>
+TALUS_INLINE constexpr T minimum(T a, T b) {
+  return a > b ? b : a;
+}
+template <Scalar T>
+TALUS_INLINE constexpr T maximum(T a, T b) {
+  return a > b ? a : b;
+}
+/// f of every number of x; of a number alone f(x).
+template <Scalar T, class Function>
+TALUS_INLINE T map_lanes(T x, Function&& f) {
+  return f(x);
+}
+/// Fills `values` from a row of memory that each number of x chooses. \param row_of number -> const T2*, at least
+/// `count` long
+template <int count, Scalar T, class RowOf>
+TALUS_INLINE void gather_rows(T x, RowOf&& row_of, T (&values)[count]) {
+  const auto* row = row_of(x);
+  for (int k = 0; k < count; ++k) values[k] = static_cast<T>(row[k]);
+}
 
 inline namespace TALUS_INSTRUCTION_SET {
 
@@ -142,6 +162,21 @@ TALUS_INLINE LanesMask<T, (p > q ? p : q)> operator>(Lanes<T, p> a, Lanes<T, q> 
   return mask;
 }
 
+template <class T, int p, int q>
+TALUS_INLINE LanesMask<T, (p > q ? p : q)> operator<(Lanes<T, p> a, Lanes<T, q> b) {
+  return b > a;
+}
+template <class T, int rows>
+TALUS_INLINE LanesMask<T, rows> operator&&(LanesMask<T, rows> a, LanesMask<T, rows> b) {
+  for (int r = 0; r < rows; ++r) a.row[r] = static_cast<typename registers::Of<T>::Mask>(a.row[r] & b.row[r]);
+  return a;
+}
+template <class T, int rows>
+TALUS_INLINE LanesMask<T, rows> operator||(LanesMask<T, rows> a, LanesMask<T, rows> b) {
+  for (int r = 0; r < rows; ++r) a.row[r] = static_cast<typename registers::Of<T>::Mask>(a.row[r] | b.row[r]);
+  return a;
+}
+
 /// Lane by lane, `yes` where the condition holds and `no` elsewhere, whatever stands in the other.
 template <class T, int rows, int p, int q>
 TALUS_INLINE Lanes<T, rows> select(LanesMask<T, rows> condition, Lanes<T, p> yes, Lanes<T, q> no) {
@@ -150,6 +185,44 @@ TALUS_INLINE Lanes<T, rows> select(LanesMask<T, rows> condition, Lanes<T, p> yes
     x.row[r] = registers::blend(condition.row[r], yes.row[r % p], no.row[r % q]);
   }
   return x;
+}
+
+template <class T, int p, int q>
+TALUS_INLINE auto minimum(Lanes<T, p> a, Lanes<T, q> b) {
+  return select(a > b, b, a);
+}
+template <class T, int p, int q>
+TALUS_INLINE auto maximum(Lanes<T, p> a, Lanes<T, q> b) {
+  return select(a > b, a, b);
+}
+
+/// f(number) of every number of x, one after the other: for what has no vector form.
+template <class T, int rows, class Function>
+TALUS_INLINE Lanes<T, rows> map_lanes(Lanes<T, rows> x, Function&& f) {
+  for (int r = 0; r < rows; ++r)
+    for (int k = 0; k < Lanes<T>::lanes; ++k) x.row[r][k] = static_cast<T>(f(x.row[r][k]));
+  return x;
+}
+template <class T, int rows>
+TALUS_INLINE Lanes<T, rows> sqrt(Lanes<T, rows> x) {
+  return map_lanes(x, [](T number) { return std::sqrt(number); });
+}
+template <class T, int rows>
+TALUS_INLINE Lanes<T, rows> log(Lanes<T, rows> x) {
+  return map_lanes(x, [](T number) { return std::log(number); });
+}
+
+/// As gather_rows of a number alone.
+template <int count, class T, int rows, class RowOf>
+TALUS_INLINE void gather_rows(Lanes<T, rows> x, RowOf&& row_of, Lanes<T, rows> (&values)[count]) {
+  for (int r = 0; r < rows; ++r) {
+    alignas(registers::bytes) T lane[count][Lanes<T>::lanes];
+    for (int k = 0; k < Lanes<T>::lanes; ++k) {
+      const auto* row = row_of(x.row[r][k]);
+      for (int c = 0; c < count; ++c) lane[c][k] = static_cast<T>(row[c]);
+    }
+    for (int c = 0; c < count; ++c) values[c].row[r] = Lanes<T>::load(lane[c]).row[0];
+  }
 }
 
 /// Whether the condition holds in every lane.

@@ -18,6 +18,9 @@ struct Vector3 {
     return *this;
   }
   constexpr bool operator==(const Vector3&) const = default;
+  /// Component along an axis: 0 x, 1 y, 2 z.
+  constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
 constexpr Vector3 operator+(Vector3 a, const Vector3& b) {

@@ -8,8 +8,7 @@
 namespace talus {
 
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                          double skin) {
-  const std::size_t count = position.size();
+                          double skin, std::size_t count, const Keep& keep) {
   reference_.assign(position.begin(), position.end());
   skin_ = skin;
   neighbours_.clear();
@@ -27,7 +26,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
       grid.for_each_candidate(position[i], [&](std::uint32_t j) {
         const Vector3 d = position[i] - position[j];
         const double reach = radius[i] + radius[j] + skin;
-        if (dot(d, d) <= reach * reach && j != i) list.push_back(j);
+        if (dot(d, d) <= reach * reach && j != i && (!keep || keep(i, j))) list.push_back(j);
       });
       std::sort(list.begin() + begin, list.end());
       first_[i + 1] = list.size() - static_cast<std::size_t>(begin);

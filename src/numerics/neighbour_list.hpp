@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -17,7 +18,15 @@ class NeighbourList {
  public:
   /// Builds a full list (each pair stands twice).
   /// \param position, radius in m, one entry a particle; \param skin >= 0, in m
-  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
+    build(team, position, radius, skin, position.size(), nullptr);
+  }
+
+  /// The same, with neighbours among all for the first `listed` particles only: those behind them are ghosts.
+  /// \param keep whether i may ever interact with the near j; none: always
+  using Keep = std::function<bool(std::size_t i, std::uint32_t j)>;
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin,
+             std::size_t listed, const Keep& keep);
 
   /// True if every particle, less the mean displacement of all, is within half the skin of where the list was built,
   /// so that no touching pair is missing.

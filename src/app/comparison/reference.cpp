@@ -68,7 +68,7 @@ ReferenceCase read_case(Reader& reader, const std::string& name, const toml::tab
   ReferenceCase c{.name = name, .file = reader.text(table, "file"), .where = {}, .radii = {}};
   if (const toml::table* where = table["where"].as_table())
     for (const auto& [key, value] : *where) c.where.emplace_back(key.str(), value.value_or(std::string()));
-  if (const toml::table* radii = table["radius"].as_table())
+  if (const toml::table* radii = table[table.contains("variant") ? "variant" : "radius"].as_table())
     for (const auto& [label, settings] : *radii) {
       ReferenceCase::Radius radius{.label = std::string(label.str()), .settings = {}};
       if (const toml::table* keys = settings.as_table())
@@ -146,7 +146,7 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
   row.number = static_cast<int>(reader.get<std::int64_t>(table, "number", "a whole number"));
   row.quantity = reader.text(table, "quantity");
   row.case_name = reader.text(table, "case");
-  if (const toml::array* radii = table["radius"].as_array())
+  if (const toml::array* radii = table[table.contains("variant") ? "variant" : "radius"].as_array())
     for (const toml::node& radius : *radii) row.radius.push_back(radius.value_or(std::string()));
   row.estimator = reader.text(table, "estimator");
   if (table.contains("from"))
@@ -155,6 +155,7 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
                                 {"curves", From::curves},
                                 {"values", From::values},
                                 {"radii", From::radii},
+                                {"variants", From::radii},
                                 {"case", From::parameters}});
   if (table.contains("statistic"))
     row.statistic = read_name<Statistic>(reader, table, "statistic",

@@ -12,7 +12,8 @@
 
 namespace talus::app {
 
-/// One of the paper's cases, and what each radius changes in it.
+/// One of the paper's cases, and what each of its variants changes in it; where the radius of the grains is what varies
+/// the file calls them radii.
 struct ReferenceCase {
   std::string name;
   std::string file;                                        ///< in cases/

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The grains at the start: lumps on a regular lattice, at rest, without stress.
+#pragma once
+
+#include "models/continuum/material.hpp"
+#include "models/continuum/parameters.hpp"
+#include "models/continuum/state.hpp"
+
+namespace talus::continuum {
+
+/// Fills the bed of the case with the lattice of lattice_of(). Source: Yuu & Umekage 2011, section 3 ("The initial
+/// imaginary particle configuration is regular and uniform").
+State initial_state(const Parameters& parameters, const Material& material);
+
+}  // namespace talus::continuum

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The constitutive law of a case, applied to all lumps: the one place where the choice of the law is met.
+#pragma once
+
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "models/continuum/parameters.hpp"
+#include "models/continuum/state.hpp"
+#include "physics/granular/linear_elastic.hpp"
+
+namespace talus::continuum {
+
+class Material {
+ public:
+  explicit Material(const Parameters& parameters);
+
+  /// What the law remembers of each lump.
+  std::vector<granular::HistorySlot> slots() const;
+
+  /// Upper bound of the speed of pressure waves, m/s.
+  double sound_speed(double density) const;
+
+  /// Applies the law to every lump over a time step, from `old` to `next`, which may be the same.
+  /// \param velocity_gradient 1/s; \param density at the end of the step, kg/m^3; \param keep_history false: only the
+  ///        stress of `next` is written, for a stage within a step
+  void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
+              std::span<const double> density, double time_step, MaterialColumns& next, bool keep_history) const;
+
+  /// Turns what the law knows of a lump as a mirror does. \param sign of vectors, per axis, as Image::vector_sign
+  void mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const;
+
+ private:
+  std::variant<granular::LinearElastic> law_;
+};
+
+inline SymmetricTensor3<> stress_of(const MaterialColumns& columns, std::size_t i) {
+  const auto& s = columns.stress;
+  return {s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]};
+}
+
+}  // namespace talus::continuum

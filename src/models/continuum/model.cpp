@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::continuum {
+
+namespace {
+
+double largest_speed(const State& s) {
+  double speed = 0;
+  for (const Vector3& v : s.velocity) speed = std::max(speed, norm(v));
+  return speed;
+}
+
+Vector3 momentum(const State& s) {
+  Vector3 sum;
+  for (const Vector3& v : s.velocity) sum += v;
+  return s.mass * sum;
+}
+
+bool bears_load(const Domain& domain, std::size_t wall) {
+  if (wall < 6) return is_mirror(domain.box().faces[wall]);
+  return wall - 6 < domain.plates().size();
+}
+
+/// Share of the lumps under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
+/// Source: da Cruz et al. 2005, as cited by Yuu & Umekage 2011, section 2.1.
+double quasistatic_share(const Parameters& p, const State& s) {
+  std::size_t pressed = 0, quasistatic = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const double pressure = trace(stress_of(s.material, i)) / 3;
+    if (!(pressure > 0)) continue;
+    ++pressed;
+    quasistatic += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) < 1e-2;
+  }
+  return pressed == 0 ? 0 : static_cast<double>(quasistatic) / static_cast<double>(pressed);
+}
+
+}  // namespace
+
+Continuum::Continuum(const Parameters& parameters)
+    : parameters_(parameters), state_(initial_state(parameters, Material(parameters))) {}
+
+void Continuum::begin(ThreadTeam& team) {
+  workspace_.emplace(parameters_, state_);
+  continuum::begin(team, parameters_, state_, *workspace_);
+}
+
+void Continuum::resume(ThreadTeam& team) {
+  workspace_.emplace(parameters_, state_);
+  derive(team, parameters_, state_, *workspace_);
+}
+
+void Continuum::advance(ThreadTeam& team) {
+  continuum::advance(team, parameters_, state_, *workspace_);
+}
+
+std::vector<NamedValue> Continuum::totals() const {
+  const State& s = state_;
+  const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
+  const Vector3 p = momentum(s);
+  std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
+                                    {"speed_max", "m/s", largest_speed(s)},
+                                    {"density_min", "kg/m3", *least},
+                                    {"density_max", "kg/m3", *most},
+                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+                                    {"gate_time", "s", s.gate_time}};
+  const auto add = [&](const std::string& name, const Vector3& v) {
+    for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
+  };
+  add("momentum", p);
+  add("impulse_gravity", s.gravity_impulse);
+  add("impulse_damping", s.damping_impulse);
+  for (std::size_t wall = 0; wall < most_walls; ++wall)
+    if (bears_load(workspace_->sweep.neighbourhood().domain(), wall))
+      add(std::string("impulse_") + wall_names[wall], s.wall_impulse[wall]);
+  return values;
+}
+
+std::vector<RegimeLine> Continuum::regime() const {
+  const State& s = state_;
+  const double c = workspace_->sound_speed;
+  const double h = *std::min_element(workspace_->smoothing_length.begin(), workspace_->smoothing_length.end());
+  const double courant = s.last_step * c / h;
+  const double mach = largest_speed(s) / c;
+  const auto [least, most] = std::minmax_element(s.packing.begin(), s.packing.end());
+  const double quasistatic = quasistatic_share(parameters_, s);
+  return {
+      {"Courant number", fmt::format("{:.3g}", courant),
+       "time step times the speed of pressure waves over the least smoothing length; stable below about 0.5 "
+       "(Runge-Kutta), 1 (leapfrog)",
+       courant > (parameters_.integration.method == Method::runge_kutta ? 0.5 : 1.0)},
+      {"speed of pressure waves", fmt::format("{:.4g} m/s", c), "bound over the law's own table"},
+      {"Mach number", fmt::format("{:.3g}", mach), "largest speed over that of pressure waves", mach > 0.3},
+      {"packing", fmt::format("{:.3f} to {:.3f}", *least, *most), "as the kernel deposits it; at most 0.74 in grains",
+       *most > 0.74},
+      {"share of slow flow", fmt::format("{:.3f}", quasistatic),
+       "lumps under pressure with an inertial number below 0.01, where the stress does not depend on the rate",
+       quasistatic < 0.5},
+  };
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a case of the continuum model says: grains as a continuum of lumps that move and carry stress, in a box with a
+/// plate across it (Yuu & Umekage 2011). SI, angles in radians; the initial values are the defaults.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parameter.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "physics/sph/balance.hpp"
+
+namespace talus::continuum {
+
+enum class GateOpens { when_settled, at_time, from_the_start };
+enum class LawName { linear_elastic };
+enum class Smoothing { local, fixed };
+enum class Continuity { printed, corrected };
+enum class Friction { coulomb, printed, none };
+enum class FrictionFrom { gate, start };
+enum class Method { runge_kutta, leapfrog };
+
+struct Parameters {
+  struct BoxSize {
+    double width = 0, depth = 0, height = 0;
+    FaceKind left = FaceKind::wall, right = FaceKind::wall;
+    FaceKind front = FaceKind::symmetry, rear = FaceKind::symmetry;
+    FaceKind floor = FaceKind::wall, top = FaceKind::open;
+  } box;
+  struct Plate {
+    std::optional<double> height;
+    std::optional<double> slit_left, slit_right;
+  } plate;
+  struct Gate {
+    GateOpens opens = GateOpens::when_settled;
+    double time = 0;
+  } gate;
+  struct Grains {
+    double density = 2500;
+    double diameter = 200e-6;
+  } grains;
+  struct Bed {
+    double packing = 0.6;
+    double spacing = 0;
+    double height = 0;
+    std::optional<double> bottom;
+    std::optional<double> left, right;
+  } bed;
+  struct Law {
+    LawName name = LawName::linear_elastic;
+    double lambda = 2.94e6;
+    double shear_modulus = 2.94e6;
+  } law;
+  struct Sph {
+    Smoothing smoothing = Smoothing::local;
+    Continuity continuity = Continuity::printed;
+    sph::StressForm stress_form = sph::StressForm::balanced;
+    double viscosity_alpha = 0.05;
+    double viscosity_beta = 0;
+  } sph;
+  struct Walls {
+    Friction friction = Friction::coulomb;
+    double coefficient = 0.3;
+    FrictionFrom friction_from = FrictionFrom::gate;
+  } walls;
+  struct Gravity {
+    double acceleration = 9.81;
+  } gravity;
+  struct Settle {
+    double speed = 0.5e-3;
+    double duration = 20e-3;
+    double longest = 1;
+    std::optional<double> damping_time;
+  } settle;
+  struct Integration {
+    Method method = Method::runge_kutta;
+    double courant = 0.3;
+    std::optional<double> step;
+    double skin = 0.2;
+  } integration;
+};
+
+/// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right",
+                  true},
+        p.box.width);
+  visit(Parameter{"box.depth", dimension::length, above(0), "extent along y, from the front face at 0 to the rear",
+                  true},
+        p.box.depth);
+  visit(Parameter{"box.height", dimension::length, above(0), "extent along z, from the floor at 0 to the top", true},
+        p.box.height);
+  visit(Parameter{"box.left",
+                  {},
+                  {},
+                  "what the left face is: a wall (with friction), a symmetry plane, periodic (with its opposite), free "
+                  "as printed (mirror without reversing the velocity), or open"},
+        p.box.left);
+  visit(Parameter{"box.right", {}, {}, "the right face"}, p.box.right);
+  visit(Parameter{"box.front", {}, {}, "the front face"}, p.box.front);
+  visit(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
+  visit(Parameter{"box.floor", {}, {}, "the floor"}, p.box.floor);
+  visit(Parameter{"box.top", {}, {}, "the top"}, p.box.top);
+
+  visit(Parameter{"plate.height", dimension::length, above(0),
+                  "height of a thin horizontal plate across the box; left out: no plate"},
+        p.plate.height);
+  visit(Parameter{"plate.slit_left", dimension::length, at_least(0), "where the slit in the plate begins, along x"},
+        p.plate.slit_left);
+  visit(Parameter{"plate.slit_right", dimension::length, above(0), "where the slit in the plate ends"},
+        p.plate.slit_right);
+  visit(Parameter{"gate.opens", {}, {}, "when the gate that shuts the slit goes"}, p.gate.opens);
+  visit(Parameter{"gate.time", dimension::time, at_least(0), "with gate.opens = \"at-time\": when"}, p.gate.time);
+
+  visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
+        p.grains.density);
+  visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
+
+  visit(Parameter{"bed.packing", dimension::none, between(0.1, 0.74), "packing fraction at the start"}, p.bed.packing);
+  visit(Parameter{"bed.spacing", dimension::length, above(0),
+                  "distance of the lumps at the start; fitted to whole numbers of lumps along each side", true},
+        p.bed.spacing);
+  visit(Parameter{"bed.height", dimension::length, above(0), "height of the bed at the start", true}, p.bed.height);
+  visit(Parameter{"bed.bottom", dimension::length, at_least(0), "bottom of the bed; left out: the plate, or the floor"},
+        p.bed.bottom);
+  visit(Parameter{"bed.left", dimension::length, at_least(0), "where the bed begins along x; left out: the left face"},
+        p.bed.left);
+  visit(Parameter{"bed.right", dimension::length, above(0), "where the bed ends along x; left out: the right face"},
+        p.bed.right);
+
+  visit(Parameter{"law.name", {}, {}, "constitutive law of the grains"}, p.law.name);
+  visit(Parameter{"law.lambda", dimension::pressure, above(0), "linear-elastic: Lame's first constant"}, p.law.lambda);
+  visit(Parameter{"law.shear_modulus", dimension::pressure, above(0), "linear-elastic: shear modulus"},
+        p.law.shear_modulus);
+
+  visit(Parameter{"sph.smoothing",
+                  {},
+                  {},
+                  "smoothing length: of each lump from its density, h = (m/rho_b)^(1/3), or fixed at its value at the "
+                  "start"},
+        p.sph.smoothing);
+  visit(Parameter{"sph.continuity",
+                  {},
+                  {},
+                  "rate of the density: Eq. 16 as printed, which follows the kernel's sum, or -rho_b times the trace "
+                  "of the corrected velocity gradient"},
+        p.sph.continuity);
+  visit(Parameter{"sph.stress_form",
+                  {},
+                  {},
+                  "factor of the stress in Eq. 17: balanced (the floor carries the weight) or as printed"},
+        p.sph.stress_form);
+  visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0), "Monaghan's viscosity, linear coefficient"},
+        p.sph.viscosity_alpha);
+  visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
+        p.sph.viscosity_beta);
+
+  visit(Parameter{"walls.friction", {}, {}, "friction of walls and plate: Coulomb's, the printed rule, or none"},
+        p.walls.friction);
+  visit(Parameter{"walls.coefficient", dimension::none, at_least(0), "coefficient of wall friction"},
+        p.walls.coefficient);
+  visit(Parameter{"walls.friction_from", {}, {}, "whether walls are rough from the start or once the gate has opened"},
+        p.walls.friction_from);
+
+  visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
+        p.gravity.acceleration);
+
+  visit(Parameter{"settle.speed", dimension::velocity, above(0),
+                  "the bed has settled when 99 of 100 lumps are slower than this"},
+        p.settle.speed);
+  visit(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
+  visit(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
+        p.settle.longest);
+  visit(Parameter{"settle.damping_time", dimension::time, above(0),
+                  "time in which velocities decay by a factor e until the gate opens, which spares waiting; left out: "
+                  "no such damping"},
+        p.settle.damping_time);
+
+  visit(Parameter{"integration.method", {}, {}, "second-order Runge-Kutta, or leapfrog"}, p.integration.method);
+  visit(Parameter{"integration.courant", dimension::none, above(0),
+                  "time step times the speed of pressure waves over the smallest smoothing length"},
+        p.integration.courant);
+  visit(Parameter{"integration.step", dimension::time, above(0), "a fixed time step in place of the Courant number's"},
+        p.integration.step);
+  visit(Parameter{"integration.skin", dimension::none, at_least(0),
+                  "skin of the neighbour lists, in lump spacings: wider lists last longer and cost more"},
+        p.integration.skin);
+}
+
+/// Contradictions between keys that are each valid by themselves; empty if there are none.
+std::vector<Problem> check(const Parameters& parameters);
+
+/// The box, and the plate with its slit shut unless there is no gate.
+Domain domain_of(const Parameters& parameters);
+
+/// The lattice on which the lumps stand at the start.
+struct Lattice {
+  Vector3 corner;                    ///< of the bed, m
+  Vector3 spacing;                   ///< m, close to bed.spacing
+  std::array<std::int64_t, 3> count; ///< lumps along x, y, z
+  double mass;                       ///< of a lump, kg: the bed's mass is its volume times packing and grain density
+};
+Lattice lattice_of(const Parameters& parameters);
+
+}  // namespace talus::continuum
+
+namespace talus {
+template <>
+inline constexpr auto choices<continuum::GateOpens> =
+    std::to_array<std::string_view>({"when-settled", "at-time", "from-the-start"});
+template <>
+inline constexpr auto choices<continuum::LawName> = std::to_array<std::string_view>({"linear-elastic"});
+template <>
+inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
+template <>
+inline constexpr auto choices<continuum::Continuity> = std::to_array<std::string_view>({"printed", "corrected"});
+template <>
+inline constexpr auto choices<continuum::Friction> =
+    std::to_array<std::string_view>({"coulomb", "printed", "none"});
+template <>
+inline constexpr auto choices<continuum::FrictionFrom> = std::to_array<std::string_view>({"gate", "start"});
+template <>
+inline constexpr auto choices<continuum::Method> = std::to_array<std::string_view>({"runge-kutta", "leapfrog"});
+}  // namespace talus

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The state of the grains as a continuum: its columns and counters, each named once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "numerics/field.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "physics/granular/material_point.hpp"
+
+namespace talus::continuum {
+
+/// What the law knows of each lump, column by column.
+struct MaterialColumns {
+  std::array<std::vector<double>, 6> stress;  ///< Pa, compression positive: xx yy zz xy yz zx
+  std::vector<std::vector<double>> history;   ///< one column a slot of the law
+};
+
+/// The names of the walls that may bear load, and of the columns of their impulses.
+inline constexpr std::array<const char*, most_walls> wall_names = {"left",  "right", "front", "rear",
+                                                                   "floor", "top",   "plate", "plate_2"};
+
+struct State {
+  double time = 0;         ///< s
+  std::uint64_t step = 0;  ///< steps taken
+
+  std::vector<Vector3> position;       ///< m
+  std::vector<Vector3> velocity;       ///< m/s; with the leapfrog of half a step before
+  std::vector<double> density;         ///< bulk density, kg/m^3
+  std::vector<std::int64_t> identity;  ///< number of the lump at the start: columns are re-sorted now and then
+  MaterialColumns material;
+  std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
+  double mass = 0;                           ///< of a lump, kg
+
+  std::vector<double> packing;     ///< as the kernel deposits it: sum of m W over lumps and images, over rho_p; derived
+  std::vector<double> shear_rate;  ///< (2 D':D')^(1/2), D' the deviator of the rate of deformation, last evaluated, 1/s
+
+  // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
+  std::array<Vector3, most_walls> wall_impulse{};
+  Vector3 damping_impulse;  ///< what the damping of the settling bed took, N s
+  Vector3 gravity_impulse;  ///< what gravity gave, N s
+
+  // Phases.
+  double gate_time = -1;   ///< when the gate opened, s; -1: it has not
+  double quiet_time = -1;  ///< since when the bed has been slower than settle.speed, s; -1: it is not
+
+  // Where the neighbour lists were built: kept, so that a resumed run has the same lists.
+  std::vector<Vector3> list_position;
+  std::vector<double> list_smoothing_length;
+  std::uint64_t list_builds = 0;
+  double last_step = 0;  ///< s, length of the last step; 0 before the first
+};
+
+namespace detail {
+inline constexpr std::array<const char*, 6> stress_names = {"stress_xx", "stress_yy", "stress_zz",
+                                                            "stress_xy", "stress_yz", "stress_zx"};
+inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
+inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
+inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
+  std::array<std::array<std::string, 3>, most_walls> names;
+  for (std::size_t wall = 0; wall < most_walls; ++wall)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      names[wall][axis] = std::string("impulse_") + wall_names[wall] + "_" + "xyz"[axis];
+  return names;
+}();
+}  // namespace detail
+
+template <class Visit, class S>
+void for_each_field(Visit&& visit, S& s) {
+  visit(Field{"time", "s"}, s.time);
+  visit(Field{"step", "1"}, s.step);
+  visit(Field{"position", "m"}, s.position);
+  visit(Field{"velocity", "m/s"}, s.velocity);
+  visit(Field{"density", "kg/m3"}, s.density);
+  visit(Field{"identity", "1"}, s.identity);
+  for (std::size_t c = 0; c < 6; ++c) visit(Field{detail::stress_names[c], "Pa"}, s.material.stress[c]);
+  for (std::size_t k = 0; k < s.slots.size(); ++k)
+    visit(Field{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
+  visit(Field{"mass", "kg"}, s.mass);
+  visit(Field{"packing", "1", FieldRole::derived}, s.packing);
+  visit(Field{"shear_rate", "1/s"}, s.shear_rate);
+  for (std::size_t wall = 0; wall < most_walls; ++wall)
+    for (int axis = 0; axis < 3; ++axis)
+      visit(Field{detail::impulse_names[wall][static_cast<std::size_t>(axis)], "N s"}, s.wall_impulse[wall][axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    visit(Field{detail::damping_names[axis], "N s"}, s.damping_impulse[axis]);
+    visit(Field{detail::gravity_names[axis], "N s"}, s.gravity_impulse[axis]);
+  }
+  visit(Field{"gate_time", "s"}, s.gate_time);
+  visit(Field{"quiet_time", "s"}, s.quiet_time);
+  visit(Field{"list_position", "m", FieldRole::kept, false}, s.list_position);
+  visit(Field{"list_smoothing_length", "m", FieldRole::kept, false}, s.list_smoothing_length);
+  visit(Field{"list_builds", "1"}, s.list_builds);
+  visit(Field{"last_step", "s"}, s.last_step);
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A step in order: (1) positions, velocities, densities and stresses move on, by the midpoint rule or the leapfrog,
+/// each stage starting from the state at the start of the step, so that none toggles a branch of the law; (2) walls rub
+/// and turn back; (3) the phase is looked at: the gate opens when its time has come or the bed is at rest; (4) where
+/// lumps have moved too far, they are sorted now and then and the neighbour lists are built; (5) the rates of the new
+/// state are evaluated: they open the next step. On entry and exit: rates, packing and lists belong to the state.
+#include "models/continuum/step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "models/continuum/sort.hpp"
+#include "models/continuum/walls.hpp"
+#include "physics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr std::uint64_t builds_between_sorts = 16;
+
+Vector3 gravity(const Parameters& p) {
+  return {0, 0, -p.gravity.acceleration};
+}
+
+/// The explicit midpoint rule.
+void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
+  const Vector3 g = gravity(p);
+  const std::size_t count = s.position.size();
+  for_each(team, count, [&](std::size_t i) {
+    w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
+    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + g);
+    w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
+  });
+  w.material.update(team, s.material, w.rates.velocity_gradient, w.density, 0.5 * dt, w.columns, false);
+  w.sweep(team, {w.position, w.velocity, w.density, w.columns}, Sweep::Wanted::all, w.rates);
+  for_each(team, count, [&](std::size_t i) {
+    w.position[i] = s.position[i];
+    s.position[i] += dt * w.velocity[i];
+    s.velocity[i] += dt * (w.rates.acceleration[i] + g);
+    s.density[i] += dt * w.rates.density_rate[i];
+  });
+  w.material.update(team, s.material, w.rates.velocity_gradient, s.density, dt, s.material, true);
+  s.gravity_impulse += (dt * s.mass * static_cast<double>(count)) * g;
+  meet_walls(team, p, w.sweep.neighbourhood().domain(), w.rates, w.position, dt, s);
+}
+
+/// Velocities live half a step before positions, densities and stresses: kick, half a drift, strain, half a drift. It
+/// neither damps nor feeds waves, and evaluates forces and gradients once each.
+void leapfrog(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
+  const Vector3 g = gravity(p);
+  const double kick = 0.5 * (s.last_step + dt);
+  const std::size_t count = s.position.size();
+  for_each(team, count, [&](std::size_t i) { s.velocity[i] += kick * (w.rates.acceleration[i] + g); });
+  s.gravity_impulse += (kick * s.mass * static_cast<double>(count)) * g;
+  meet_walls(team, p, w.sweep.neighbourhood().domain(), w.rates, s.position, kick, s);
+  for_each(team, count, [&](std::size_t i) { w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i]; });
+  w.sweep(team, {w.position, s.velocity, s.density, s.material}, Sweep::Wanted::gradients, w.rates);
+  for_each(team, count, [&](std::size_t i) {
+    w.position[i] = s.position[i];
+    s.position[i] += dt * s.velocity[i];
+    s.density[i] += dt * w.rates.density_rate[i];
+  });
+  w.material.update(team, s.material, w.rates.velocity_gradient, s.density, dt, s.material, true);
+}
+
+void damp(ThreadTeam& team, const Parameters& p, State& s, double dt) {
+  if (!p.settle.damping_time || s.gate_time >= 0) return;
+  const double left = std::exp(-dt / *p.settle.damping_time);
+  const Vector3 momentum = reduce(
+      team, s.velocity.size(), Vector3{},
+      [&](std::size_t i) {
+        s.velocity[i] = left * s.velocity[i];
+        return s.velocity[i];
+      },
+      [](const Vector3& a, const Vector3& b) { return a + b; });
+  s.damping_impulse += (s.mass * (1 / left - 1)) * momentum;
+}
+
+[[noreturn]] void give_up(const State& s, std::size_t i) {
+  const Vector3& x = s.position[i];
+  const bool density = !(s.density[i] > 0) || !std::isfinite(s.density[i]);
+  throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
+                                        : "the velocity is not finite",
+                        .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+                        .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
+                        .step = s.step,
+                        .time = s.time,
+                        .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
+}
+
+void check_possible(ThreadTeam& team, const State& s) {
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  const std::size_t worst = reduce(
+      team, s.position.size(), none,
+      [&](std::size_t i) {
+        const Vector3& v = s.velocity[i];
+        return std::isfinite(v.x + v.y + v.z) && std::isfinite(s.density[i]) && s.density[i] > 0 ? none : i;
+      },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  if (worst != none) give_up(s, worst);
+}
+
+/// Settle, open, run: looks whether the bed is at rest, and opens the gate when it is time.
+void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  const double limit = p.settle.speed * p.settle.speed;
+  const auto moving = reduce(
+      team, s.velocity.size(), std::size_t{0},
+      [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
+      [](std::size_t a, std::size_t b) { return a + b; });
+  const bool quiet = 100 * moving <= s.velocity.size();
+  if (!quiet) s.quiet_time = -1;
+  if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
+  if (s.gate_time >= 0) return;
+  const bool settled = quiet && s.time - s.quiet_time >= p.settle.duration;
+  if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
+    s.gate_time = s.time;
+    w.sweep.open_gates();
+  } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
+    throw NumericalError({.what = "the bed has not settled",
+                          .term = fmt::format("{} of {} lumps are faster than settle.speed", moving, s.velocity.size()),
+                          .place = "the bed",
+                          .step = s.step,
+                          .time = s.time,
+                          .advice = "a shorter settle.damping_time, a longer settle.longest"});
+  }
+}
+
+void measure(ThreadTeam& team, const State& s, Workspace& w) {
+  for_each(team, s.position.size(),
+           [&](std::size_t i) { w.smoothing_length[i] = w.sweep.smoothing_length(s.density[i]); });
+}
+
+void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  if (s.list_builds % builds_between_sorts == 0) {
+    sort_for_locality(s, sph::support * p.bed.spacing);
+    measure(team, s, w);
+  }
+  for (Vector3& x : s.position) x = w.sweep.neighbourhood().domain().wrap(x);
+  s.list_position = s.position;
+  s.list_smoothing_length = w.smoothing_length;
+  ++s.list_builds;
+  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
+}
+
+/// The rates of the state, with what derives from them.
+void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  const bool all = p.integration.method == Method::runge_kutta;
+  w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? Sweep::Wanted::all : Sweep::Wanted::forces,
+          w.rates);
+  s.packing.resize(s.position.size());
+  s.shear_rate.resize(s.position.size());
+  for_each(team, s.position.size(), [&](std::size_t i) {
+    s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
+    const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
+    s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
+  });
+}
+
+}  // namespace
+
+Workspace::Workspace(const Parameters& parameters, const State& state)
+    : material(parameters),
+      sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
+      sweep(parameters, state.mass, sound_speed),
+      position(state.position.size()),
+      velocity(state.position.size()),
+      density(state.position.size()),
+      columns(state.material),
+      smoothing_length(state.position.size()) {}
+
+void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  if (p.gate.opens == GateOpens::from_the_start) s.gate_time = 0;
+  measure(team, s, w);
+  find_neighbours(team, p, s, w);
+  evaluate(team, p, s, w);
+}
+
+void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  if (s.gate_time >= 0) w.sweep.open_gates();
+  measure(team, s, w);
+  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
+  evaluate(team, p, s, w);
+}
+
+double time_step(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w) {
+  if (p.integration.step) return *p.integration.step;
+  const double least = reduce(
+      team, s.position.size(), std::numeric_limits<double>::infinity(),
+      [&](std::size_t i) { return w.smoothing_length[i]; }, [](double a, double b) { return std::min(a, b); });
+  return p.integration.courant * least / w.sound_speed;
+}
+
+void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  const double dt = time_step(team, p, s, w);
+  p.integration.method == Method::runge_kutta ? runge_kutta(team, p, s, w, dt) : leapfrog(team, p, s, w, dt);
+  turn_back(team, w.material, w.sweep.neighbourhood().domain(), w.position, s);
+  damp(team, p, s, dt);
+  s.time += dt;
+  s.last_step = dt;
+  ++s.step;
+  check_possible(team, s);
+  look_at_phase(team, p, s, w);
+  measure(team, s, w);
+  if (!w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) find_neighbours(team, p, s, w);
+  evaluate(team, p, s, w);
+}
+
+}  // namespace talus::continuum

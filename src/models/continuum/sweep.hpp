@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The sweep over pairs: what each lump feels from its neighbours and from their images behind the boundaries. Lumps are
+/// packed into records, one a lump; images exist only as records, made from those of their sources.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/tensor.hpp"
+#include "models/continuum/parameters.hpp"
+#include "models/continuum/state.hpp"
+#include "numerics/neighbourhood.hpp"
+#include "physics/sph/artificial_viscosity.hpp"
+
+namespace talus::continuum {
+
+/// Rates of change of every lump, of one evaluation.
+struct Rates {
+  std::vector<Vector3> acceleration;           ///< from stress and viscosity, without gravity, m/s^2
+  std::vector<double> density_rate;            ///< Eq. 16, kg/(m^3 s)
+  std::vector<Tensor3<>> velocity_gradient;    ///< du_i/dx_j, 1/s
+  std::vector<double> kernel_density;          ///< sum of m W over lumps and images, kg/m^3
+  /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's axis, m/s^2. What
+  /// images do along a wall cancels in the sum over all lumps.
+  std::vector<std::array<double, most_walls>> wall_push;
+
+  void resize(std::size_t count);
+};
+
+/// What an evaluation reads.
+struct LumpView {
+  std::span<const Vector3> position;
+  std::span<const Vector3> velocity;
+  std::span<const double> density;
+  const MaterialColumns& material;
+};
+
+class Sweep {
+ public:
+  /// \param mass of a lump, kg; \param sound_speed of the viscosity, m/s
+  Sweep(const Parameters& parameters, double mass, double sound_speed);
+
+  /// Smoothing length of a lump, m.
+  double smoothing_length(double density) const;
+
+  /// Builds the neighbour lists.
+  void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
+  const Neighbourhood& neighbourhood() const { return around_; }
+  void open_gates() { around_.open_gates(); }
+
+  /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
+  enum class Wanted { all, gradients, forces };
+  void operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, Rates& rates);
+
+ private:
+  struct alignas(128) Record {
+    Vector3 position, velocity;
+    SymmetricTensor3<> specific_stress;  // tau/rho^2, m^5/(kg s^2)
+    double smoothing_length, density, volume;
+  };
+  template <bool gradients, bool forces>
+  struct Gather;
+
+  void pack(ThreadTeam& team, const LumpView& lumps);
+  template <bool gradients, bool forces>
+  void sweep(ThreadTeam& team, Rates& rates) const;
+
+  double mass_;
+  double sound_speed_;
+  double fixed_smoothing_length_;  // 0: local
+  double grain_density_;
+  double skin_;
+  sph::StressForm stress_form_;
+  bool corrected_continuity_;
+  sph::ArtificialViscosity viscosity_;
+  Neighbourhood around_;
+  std::vector<std::array<std::int8_t, 3>> image_walls_;  // the wall that bears each component, -1: none; by image
+  std::vector<Record> records_;
+};
+
+}  // namespace talus::continuum

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The surroundings of particles in a domain: their ghosts, which are images of particles behind mirrors and periodic
+/// faces, and for each particle the list of those particles and ghosts that it may interact with. Ghosts have no state:
+/// each is a source and an image, and takes its place and its values from them at every evaluation.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/vector.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "numerics/neighbour_list.hpp"
+
+namespace talus {
+
+struct Ghost {
+  std::uint32_t source;
+  std::uint32_t image;  ///< number in Neighbourhood::images()
+};
+
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(Domain domain) : domain_(std::move(domain)) {}
+
+  const Domain& domain() const { return domain_; }
+  void open_gates() { domain_.open_gates(); }
+
+  /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + a_j + skin.
+  /// \param position inside the domain, m; \param radius m; one entry a particle; \param skin >= 0, m
+  /// \throws std::invalid_argument if the largest reach, 2 a + skin, passes the domain's, or a position is not finite
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
+
+  /// True if no particle has moved and grown by more than half the skin since the list was built, so that no pair
+  /// closer than a_i + a_j is missing. False for a position that is not finite.
+  bool holds(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) const;
+
+  std::size_t particles() const { return reference_.size(); }
+  std::span<const Ghost> ghosts() const { return ghosts_; }
+  std::span<const Image> images() const { return images_; }
+  const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
+
+  /// The neighbours of particle i, itself not among them, sorted: first particles, then ghosts, numbered from
+  /// particles() on. Whether i sees them is not decided here: where is_near_plate(i), ask the domain.
+  std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
+  std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
+  bool is_near_plate(std::size_t i) const { return near_plate_[i]; }
+
+ private:
+  Domain domain_;
+  double skin_ = -1;
+  double reach_ = 0;
+  std::vector<Vector3> reference_;
+  std::vector<double> reference_radius_;
+  std::vector<Image> images_;
+  std::vector<Ghost> ghosts_;
+  NeighbourList list_;
+  std::vector<std::uint32_t> first_ghost_;
+  std::vector<char> near_plate_;
+};
+
+}  // namespace talus

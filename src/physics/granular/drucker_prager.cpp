@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/granular/drucker_prager.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace talus::granular {
+
+DruckerPrager::DruckerPrager(const DruckerPragerOptions& options, const FittedFunctions& functions)
+    : options_(options), shear_(shear_table(functions)), inverse_grain_density_(1 / options.grain_density) {
+  if (!(options_.largest_deviator <= largest_fitted_strain))
+    throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
+  const double lambda = options_.scale * functions.a2.piece[0].c0;
+  two_g_ = options_.scale * (functions.a1.piece[0].c0 - functions.a2.piece[0].c0);
+  inverse_two_g_ = 1 / two_g_;
+  bulk_ = lambda + two_g_ / 3;
+}
+
+double DruckerPrager::sound_speed(double density) const {
+  return std::sqrt((bulk_ + 2.0 / 3.0 * two_g_) / density);
+}
+
+}  // namespace talus::granular

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Yuu & Umekage's constitutive equations in isotropic form: the same fitted functions, the same answer in any axes.
+///
+///     loading:  tau = p I + A4(|e_dev|) p e_dev,   p = alpha f(rho_b) (A1 + 2 A2)(sqrt(3) e_v) e_v,   p = 0 if e_v < 0
+///
+/// with e = -Ea, e_v = tr(e)/3. The friction in simple shear is A4(|e_dev|) |e_dev|/sqrt(2).
+/// Source: Yuu & Umekage 2011, Eqs 1-6 and 8, section 2.1.
+/// Range: slow, dense flow of 200 um glass beads near a packing of 0.6, |e| <= 0.035.
+/// deviates: Eqs 1-6 are component formulas; turned by 45 degrees a strain has another shear stress under them, an
+/// eighth to eight times as large. Here A1 and A2 are taken at the volumetric strain and A4 at the deviator; with the
+/// total |e| the stiffness would fall by more than ten times in a shear zone. The pressure does not fall as the
+/// compression grows (fitted_table.hpp). The deviator is held at `largest_deviator`, by default the peak of A4 a.
+///
+/// Unloading, which the paper omits ("similar to the initial elastic region"). The pressure falls along the line of the
+/// initial stiffness times k_u, rises along it again and never passes the loading curve. So does the stress ratio
+/// tau_dev/p, in any direction; its yield point is that of the largest deviator so far. The next increment decides
+/// anew, so noise does not throw a point off its line. A closed cycle of the pressure, or of the shear strain under
+/// constant pressure, only loses energy; shear at one pressure and back at another may gain some, as with every
+/// stiffness that goes with the pressure. Where the curve of A4 is steeper than the line (near 1e-4, k_u < 2.2) shear
+/// loads along the line, up to 11 % below the curve.
+///
+/// Reset, the paper's rule: while the main strain falls the shear stress drops along its line, whatever the shear; at
+/// the end of the line, and as long as the main strain falls, the deviator starts anew from zero.
+#pragma once
+
+#include "physics/granular/almansi_strain.hpp"
+#include "physics/granular/equation_of_state.hpp"
+#include "physics/granular/fitted_table.hpp"
+#include "physics/granular/law_options.hpp"
+#include "physics/granular/material_point.hpp"
+#include "physics/granular/rotation.hpp"
+
+namespace talus::granular {
+
+class YuuUmekageIsotropic {
+ public:
+  /// \throws std::invalid_argument if the largest deviator lies beyond the range of the fits
+  YuuUmekageIsotropic(const YuuUmekageOptions& options, const FittedFunctions& functions);
+
+  template <class Number>
+  struct History {
+    /// Volume: what the pressure is taken at. Deviator: of the strain since the last reset; with unloading of the shear
+    /// stress along its line, tau_dev/(p k_u A4(0)): the strain that would give this stress elastically.
+    SymmetricTensor3<Number> strain;
+    Number unloading = 0.0;       ///< 1 while the pressure is below its loading curve, else 0
+    Number yield_deviator = 0.0;  ///< |e_dev| at the yield point of the shear stress
+    Number main_rate = 0.0;       ///< 1/s, smoothed rate of the main strain; 0 without resets
+  };
+  template <class Visit, class H>
+  static constexpr void for_each_slot(Visit&& visit, H& history) {
+    for_each_tensor_slot(visit, {"strain_xx", "strain_yy", "strain_zz", "strain_xy", "strain_yz", "strain_zx"}, "1",
+                         history.strain);
+    visit(HistorySlot{"unloading", "1"}, history.unloading);
+    visit(HistorySlot{"yield_deviator", "1"}, history.yield_deviator);
+    visit(HistorySlot{"main_rate", "1/s"}, history.main_rate);
+  }
+
+  template <class Number>
+  MaterialPoint<YuuUmekageIsotropic, Number> update(const MaterialPoint<YuuUmekageIsotropic, Number>& old,
+                                                    const Tensor3<Number>& velocity_gradient, const Number& density,
+                                                    double time_step) const {
+    MaterialPoint<YuuUmekageIsotropic, Number> point;
+    const SymmetricTensor3<Number> strain = transported_strain(old.history.strain, velocity_gradient, time_step);
+    Volumetric<Number> volume = volumetric(old, strain, density);
+    SymmetricTensor3<Number> sheared = deviator(strain);
+    if (options_.reset != Reset::never) {
+      point.history.main_rate = smoothed_main_rate(old.history.main_rate, options_.main_strain, velocity_gradient,
+                                                   time_step, options_.smoothing_time);
+      const SymmetricTensor3<Number> only_turned =
+          transformed(deviator(old.history.strain), rotation_of_step(velocity_gradient, time_step));
+      sheared = select_tensor(point.history.main_rate < Number(0.0), only_turned, sheared);
+    }
+    Sheared<Number> shear = unloads_shear() ? along_line(sheared, old.history.yield_deviator) : along_curve(sheared);
+    if (options_.reset != Reset::never) reset(point.history.main_rate, time_step, volume, shear);
+    point.stress = isotropic(volume.pressure) + (volume.pressure * shear.ratio) * shear.deviator;
+    point.history.strain = isotropic(volume.strain) + shear.deviator;
+    point.history.unloading = volume.unloading;
+    point.history.yield_deviator = shear.yield_deviator;
+    return point;
+  }
+
+  /// c = (M/rho_b)^(1/2), m/s, with M the largest slope of the vertical stress against the vertical strain in uniaxial
+  /// compression, times k_u if a stress unloads along its line. An upper bound for every state.
+  double sound_speed(double density) const;
+  /// Largest pressure of the loading curve at f = 1, Pa.
+  double largest_pressure() const { return options_.scale * pressure_(largest_fitted_strain) / sqrt3; }
+  const YuuUmekageOptions& options() const { return options_; }
+
+ private:
+  static constexpr double sqrt3 = 1.7320508075688772;
+  static constexpr double tiny = 1e-30;
+
+  template <class Number>
+  struct Volumetric {
+    Number strain;    ///< e_v
+    Number pressure;  ///< Pa
+    Number unloading;
+  };
+  template <class Number>
+  struct Sheared {
+    SymmetricTensor3<Number> deviator;  ///< of the strain
+    Number ratio;                       ///< tau_dev = ratio p deviator
+    Number yield_deviator;
+  };
+
+  bool unloads_pressure() const {
+    return options_.unloading == Unloading::pressure || options_.unloading == Unloading::all;
+  }
+  bool unloads_shear() const { return options_.unloading == Unloading::shear || options_.unloading == Unloading::all; }
+  template <class Number>
+  Volumetric<Number> volumetric(const MaterialPoint<YuuUmekageIsotropic, Number>& old,
+                                const SymmetricTensor3<Number>& strain, const Number& density) const {
+    const Number volume = options_.volume == Volume::density
+                              ? volumetric_strain(density, options_.reference_packing * options_.grain_density)
+                              : (1.0 / 3.0) * trace(strain);
+    const Number packing = density * (1.0 / options_.grain_density);
+    const Number stiffness =
+        options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
+    const Number loading = stiffness * (1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0)));
+    if (!unloads_pressure()) return {volume, loading, Number(0.0)};
+    const Number compression = volume - (1.0 / 3.0) * trace(old.history.strain);
+    const Number line =
+        (1.0 / 3.0) * trace(old.stress) + (options_.unloading_stiffness * initial_pressure_) * stiffness * compression;
+    // Below the curve, or leaving it, the pressure is on the line; compressed further on the curve it stays there.
+    const auto on_line = old.history.unloading > Number(0.5) || compression < Number(0.0);
+    const Number pressure = select(on_line, minimum(loading, maximum(line, Number(0.0))), loading);
+    return {volume, pressure, select(pressure < loading, Number(1.0), Number(0.0))};
+  }
+
+  template <class Number>
+  Sheared<Number> along_curve(const SymmetricTensor3<Number>& strain) const {
+    const Number size = norm(strain);
+    const Number held = minimum(size, Number(options_.largest_deviator));
+    return {(held / maximum(size, Number(tiny))) * strain, shear_(held), Number(0.0)};
+  }
+
+  template <class Number>
+  Sheared<Number> along_line(const SymmetricTensor3<Number>& strain, const Number& old_yield) const {
+    const Number size = norm(strain);
+    const Number yield_size = inverse_line_ratio_ * (old_yield * shear_(old_yield));
+    const Number excess = maximum(size - yield_size, Number(0.0));
+    const Number yield = minimum(old_yield + excess, Number(options_.largest_deviator));
+    const Number held = minimum(size, inverse_line_ratio_ * (yield * shear_(yield)));
+    return {(held / maximum(size, Number(tiny))) * strain, Number(line_ratio_), yield};
+  }
+
+  /// The paper's rule, while the main strain falls.
+  template <class Number>
+  void reset(const Number& main_rate, double time_step, Volumetric<Number>& volume, Sheared<Number>& shear) const {
+    const auto falls = main_rate < Number(0.0);
+    const Number drop = line_ratio_ * time_step * maximum(-1.0 * main_rate, Number(0.0));
+    const Number left = maximum(1.0 - drop / maximum(shear.ratio * norm(shear.deviator), Number(tiny)), Number(0.0));
+    shear.deviator = left * shear.deviator;
+    shear.yield_deviator = select(falls && left < Number(tiny), Number(0.0), shear.yield_deviator);
+    if (!unloads_shear()) shear.ratio = shear_(norm(shear.deviator));
+    if (options_.reset == Reset::strain)
+      volume.strain = select(falls && volume.pressure < Number(tiny), Number(0.0), volume.strain);
+  }
+
+  YuuUmekageOptions options_;
+  PressureTable pressure_;
+  ShearTable shear_;
+  double initial_pressure_;  // A1 + 2 A2 at 0, Pa
+  double line_ratio_;        // k_u A4(0): slope of the unloading line of the stress ratio
+  double inverse_line_ratio_;
+  double inverse_grain_density_;  // m^3/kg
+  double steepest_;               // M at f = 1, Pa
+};
+
+}  // namespace talus::granular

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The cubic spline kernel in three dimensions, with support 2 h.
+/// Source: Monaghan, Annu. Rev. Astron. Astrophys. 30, 543-574 (1992), section 2.2; Yuu & Umekage 2011, below Eq. 16.
+#pragma once
+
+#include <numbers>
+
+#include "base/lanes.hpp"
+
+namespace talus::sph {
+
+/// Support over smoothing length: pairs farther apart do not interact.
+inline constexpr double support = 2;
+
+/// Smoothing length of a lump, h = (m/rho_b)^(1/3): the distance between lumps. Yuu & Umekage 2011, below Eq. 16.
+/// \param mass kg; \param density bulk density, kg/m^3; \returns m
+inline double smoothing_length(double mass, double density) {
+  return std::cbrt(mass / density);
+}
+
+/// W(r, h) = ((2-q)^3 - 4 (1-q)^3)/(4 pi h^3) with q = r/h, each cube counted where its base is positive.
+/// \param distance r, m; \param h smoothing length, m; \returns 1/m^3
+template <class Number>
+TALUS_INLINE Number cubic_spline(Number distance, Number h) {
+  const Number inverse_h = 1.0 / h;
+  const Number q = distance * inverse_h;
+  const Number zero = 0.0;
+  const Number outer = select(Number(2.0) > q, Number(2.0) - q, zero);
+  const Number inner = select(Number(1.0) > q, Number(1.0) - q, zero);
+  return 1.0 / (4 * std::numbers::pi) * (inverse_h * inverse_h * inverse_h) *
+         (outer * outer * outer - 4.0 * (inner * inner * inner));
+}
+
+/// F(r, h) = (dW/dr)/r <= 0, so that the gradient of W at x_i is F (x_i - x_j). Finite at r = 0.
+/// \param distance r, m; \param h smoothing length, m; \returns 1/m^5
+template <class Number>
+TALUS_INLINE Number cubic_spline_slope(Number distance, Number h) {
+  const Number inverse_h = 1.0 / h;
+  const Number q = distance * inverse_h;
+  const Number outer = select(Number(2.0) > q, Number(2.0) - q, Number(0.0));
+  // ((2-q)^2 - 4 (1-q)^2)/q is 4 - 3 q within q < 1.
+  const Number shape = select(q > Number(1.0), outer * outer / q, 4.0 - 3.0 * q);
+  const Number h2 = inverse_h * inverse_h;
+  return -3.0 / (4 * std::numbers::pi) * (h2 * h2 * inverse_h) * shape;
+}
+
+}  // namespace talus::sph

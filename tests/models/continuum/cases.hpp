@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Small cases for the tests of the continuum model.
+#pragma once
+
+#include <cmath>
+
+#include "models/continuum/model.hpp"
+#include "physics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+inline constexpr double spacing = 1e-2;
+
+/// A frictionless box whose lumps fill it along x and y to a height; elastic grains, no viscosity, no gate.
+/// \param count lumps along x, y, z; \param room free height above, in spacings
+inline Parameters column(double x, double y, double z, double room = 0) {
+  Parameters p;
+  p.box.width = x * spacing;
+  p.box.depth = y * spacing;
+  p.box.height = (z + room) * spacing;
+  p.bed.spacing = spacing;
+  p.bed.height = z * spacing;
+  p.bed.packing = 0.6;
+  p.law.lambda = 0.8e6;
+  p.law.shear_modulus = 0.6e6;
+  p.sph.viscosity_alpha = 0;
+  p.sph.smoothing = Smoothing::fixed;
+  p.walls.friction = Friction::none;
+  p.gate.opens = GateOpens::from_the_start;
+  return p;
+}
+
+/// A block in the middle of empty space.
+inline Parameters free_block(double x, double y, double z) {
+  Parameters p = column(x, y, z);
+  p.box = {.width = 1, .depth = y * spacing, .height = 10};
+  p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = FaceKind::open;
+  p.bed.left = 0.5 - 0.5 * x * spacing;
+  p.bed.right = 0.5 + 0.5 * x * spacing;
+  p.bed.bottom = 5;
+  return p;
+}
+
+inline double bulk_density(const Parameters& p) {
+  return p.bed.packing * p.grains.density;
+}
+
+/// Moment of the kernel's gradient on the cubic lattice with h equal to its spacing: divergences of stress come out
+/// larger by this factor.
+inline double lattice_moment() {
+  double moment = 0;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j)
+      for (int k = -2; k <= 2; ++k)
+        moment -= sph::cubic_spline_slope(std::sqrt(double(i * i + j * j + k * k)), 1.0) * i * i;
+  return moment;
+}
+
+/// A column in the order of the lumps at the start.
+template <class T>
+std::vector<T> by_identity(const State& s, const std::vector<T>& column) {
+  std::vector<T> ordered(column.size());
+  for (std::size_t i = 0; i < column.size(); ++i) ordered[static_cast<std::size_t>(s.identity[i])] = column[i];
+  return ordered;
+}
+
+inline Vector3 momentum(const State& s) {
+  Vector3 sum;
+  for (const Vector3& v : s.velocity) sum += v;
+  return s.mass * sum;
+}
+
+/// Momentum of the lumps less all that they were given: zero but for round-off.
+inline Vector3 momentum_error(const State& s) {
+  Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse;
+  for (const Vector3& impulse : s.wall_impulse) error += impulse;
+  return error;
+}
+
+}  // namespace talus::continuum

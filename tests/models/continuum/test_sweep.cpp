@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.hpp"
+#include "cases.hpp"
+#include "physics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+namespace {
+
+/// A state and its sweep, to be evaluated as it stands.
+struct Evaluation {
+  ThreadTeam team{2};
+  Parameters parameters;
+  Material material;
+  State state;
+  Sweep sweep;
+  Rates rates;
+
+  explicit Evaluation(const Parameters& p)
+      : parameters(p), material(p), state(initial_state(p, material)), sweep(p, state.mass, 50) {}
+
+  /// Moves every lump at random by up to a share of the spacing.
+  void disturb(double share) {
+    Random random(3);
+    for (Vector3& x : state.position)
+      x += share * spacing * Vector3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  }
+  void stress(const SymmetricTensor3<>& t) {
+    const double component[6] = {t.xx, t.yy, t.zz, t.xy, t.yz, t.zx};
+    for (std::size_t c = 0; c < 6; ++c) state.material.stress[c].assign(state.position.size(), component[c]);
+  }
+  template <class Field>
+  void velocity(Field&& field) {
+    for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
+  }
+  void evaluate(Sweep::Wanted wanted = Sweep::Wanted::all) {
+    std::vector<double> h;
+    for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
+    sweep.find_neighbours(team, state.position, h);
+    sweep(team, {state.position, state.velocity, state.density, state.material}, wanted, rates);
+  }
+};
+
+void expect_gradient(const Tensor3<>& found, const Tensor3<>& exact, double tolerance) {
+  const Tensor3<> d = found - exact;
+  for (const double c : {d.xx, d.xy, d.xz, d.yx, d.yy, d.yz, d.zx, d.zy, d.zz}) EXPECT_NEAR(c, 0, tolerance);
+}
+
+TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedLumps) {
+  Evaluation e(free_block(6, 5, 7));
+  e.disturb(0.1);
+  const Tensor3<> exact{1, -2, 0.5, 3, -1, 0.25, 0.75, 2, -0.5};
+  e.velocity([&](const Vector3& x) {
+    return Vector3{exact.xx * x.x + exact.xy * x.y + exact.xz * x.z, exact.yx * x.x + exact.yy * x.y + exact.yz * x.z,
+                   exact.zx * x.x + exact.zy * x.y + exact.zz * x.z};
+  });
+  e.evaluate();
+  for (const Tensor3<>& found : e.rates.velocity_gradient) expect_gradient(found, exact, 1e-10);
+}
+
+TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
+  for (const double depth : {1.0, 2.0, 5.0}) {
+    // The floor, the left and the front face are mirrors; the others free. Fields that leave the mirrors' planes in
+    // place are u_x = a x, u_y = b y, u_z = c z.
+    Parameters p = column(6, depth, 6, 4);
+    p.box.width *= 2;
+    p.bed.left = 0;
+    p.bed.right = 6 * spacing;
+    p.box.rear = FaceKind::open;
+    p.box.right = FaceKind::open;
+    Evaluation e(p);
+    e.disturb(0.2);
+    const Tensor3<> exact{1, 0, 0, 0, -2, 0, 0, 0, 3};
+    e.velocity([&](const Vector3& x) { return Vector3{exact.xx * x.x, exact.yy * x.y, exact.zz * x.z}; });
+    e.evaluate();
+    for (const Tensor3<>& found : e.rates.velocity_gradient) expect_gradient(found, exact, 1e-11);
+  }
+}
+
+TEST(Sweep, GradientsAreExactOnBothSidesOfAPlateAndAtItsEdges) {
+  // Above the plate the lumps stretch away from it, below they rest.
+  Parameters p = column(20, 2, 30);
+  p.plate.height = 15 * spacing;
+  p.bed.bottom = 0;
+  Evaluation e(p);
+  e.disturb(0.2);
+  const double height = 15 * spacing;
+  e.velocity([&](const Vector3& x) { return x.z > height ? Vector3{0, 0, 2 * (x.z - height)} : Vector3{}; });
+  e.evaluate();
+  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
+    const bool above = e.state.position[i].z > height;
+    if (e.state.position[i].z < 27 * spacing)  // the closed top does not stretch along
+      expect_gradient(e.rates.velocity_gradient[i], above ? Tensor3<>{.zz = 2} : Tensor3<>{}, 1e-11);
+  }
+}
+
+TEST(Sweep, UniformStressOnALatticeBetweenMirrorsPushesNothing) {
+  for (const FaceKind kind : {FaceKind::wall, FaceKind::symmetry, FaceKind::periodic}) {
+    Parameters p = column(7, 1, 5);
+    p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = kind;
+    Evaluation e(p);
+    e.stress({3000, 2000, 1000, 0, 0, 0});
+    e.evaluate();
+    for (const Vector3& a : e.rates.acceleration) EXPECT_LT(norm(a), 1e-9);
+  }
+}
+
+TEST(Sweep, WallsBearTheStressTimesTheirArea) {
+  // Uniform stress in a closed box: each wall is pushed by stress times area times the kernel's moment.
+  Parameters p = column(7, 3, 5);
+  p.box.top = FaceKind::wall;
+  Evaluation e(p);
+  e.stress({3000, 2000, 1000, 0, 0, 0});
+  e.evaluate();
+  std::array<double, most_walls> push{};
+  for (const auto& one : e.rates.wall_push)
+    for (std::size_t w = 0; w < most_walls; ++w) push[w] += e.state.mass * one[w];
+  const double d2 = spacing * spacing, m = lattice_moment();
+  const double expected[6] = {3000 * 15, -3000 * 15, 2000 * 35, -2000 * 35, 1000 * 21, -1000 * 21};
+  for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(push[w], expected[w] * d2 * m, 1e-9 * std::abs(expected[w] * d2));
+}
+
+TEST(Sweep, ForcesBetweenLumpsCancelAndWallsBearTheRest) {
+  Parameters p = column(8, 2, 30);
+  p.plate.height = 15 * spacing;
+  p.plate.slit_left = 2.3 * spacing;
+  p.plate.slit_right = 5.4 * spacing;
+  p.bed.bottom = 0;
+  p.sph.smoothing = Smoothing::local;
+  p.sph.viscosity_alpha = 0.1;
+  Evaluation e(p);
+  e.disturb(0.3);
+  Random random(5);
+  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
+    e.state.density[i] *= random.uniform(0.9, 1.1);
+    e.state.velocity[i] = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    for (auto& column : e.state.material.stress) column[i] = random.uniform(-1000, 1000);
+  }
+  e.evaluate();
+  Vector3 total, by_walls;
+  double size = 0;
+  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
+    total += e.rates.acceleration[i];
+    size += norm(e.rates.acceleration[i]);
+    const auto& push = e.rates.wall_push[i];
+    by_walls += Vector3{push[0] + push[1], push[2] + push[3], push[4] + push[5] + push[6]};
+  }
+  EXPECT_LT(norm(total - by_walls), 1e-13 * size);
+  EXPECT_GT(norm(by_walls), 1e-6 * size);
+}
+
+TEST(Sweep, ThePlatesTwoSidesDoNotFeelEachOther) {
+  Parameters p = column(12, 2, 30);
+  p.plate.height = 15 * spacing;
+  p.bed.bottom = 0;
+  Evaluation both(p);
+  both.stress({3000, 2000, 1000, 0, 0, 100});
+  both.disturb(0.3);
+  Evaluation above(p);
+  above.stress({3000, 2000, 1000, 0, 0, 100});
+  above.disturb(0.3);
+  const double plate = *p.plate.height;
+  for (std::size_t i = 0; i < above.state.position.size(); ++i)
+    if (above.state.position[i].z < plate) above.state.position[i].z -= 1e3;
+  both.evaluate();
+  above.evaluate();
+  int near = 0;
+  for (std::size_t i = 0; i < both.state.position.size(); ++i) {
+    const double z = both.state.position[i].z - plate;
+    if (z < 0) continue;
+    near += z < spacing;
+    EXPECT_EQ(both.rates.acceleration[i], above.rates.acceleration[i]);
+    EXPECT_EQ(both.rates.kernel_density[i], above.rates.kernel_density[i]);
+    EXPECT_EQ(both.rates.velocity_gradient[i], above.rates.velocity_gradient[i]);
+  }
+  EXPECT_GT(near, 20);
+}
+
+TEST(Sweep, ThroughAnOpenSlitTheBedIsWhole) {
+  // With the whole plate open, rates are those of a box without one.
+  Parameters p = column(8, 2, 30);
+  Evaluation without(p);
+  without.disturb(0.3);
+  without.stress({3000, 2000, 1000, 0, 0, 100});
+  p.plate.height = 15 * spacing;
+  p.plate.slit_left = 0;
+  p.plate.slit_right = 8 * spacing;
+  p.bed.bottom = 0;
+  Evaluation open(p);
+  open.disturb(0.3);
+  open.stress({3000, 2000, 1000, 0, 0, 100});
+  without.evaluate();
+  open.evaluate();
+  for (std::size_t i = 0; i < open.state.position.size(); ++i)
+    EXPECT_EQ(open.rates.acceleration[i], without.rates.acceleration[i]);
+  // With the gate shut they are not.
+  p.gate.opens = GateOpens::when_settled;
+  Evaluation shut(p);
+  shut.disturb(0.3);
+  shut.stress({3000, 2000, 1000, 0, 0, 100});
+  shut.evaluate();
+  EXPECT_NE(shut.rates.acceleration, without.rates.acceleration);
+  shut.sweep.open_gates();
+  shut.evaluate();
+  EXPECT_EQ(shut.rates.acceleration, without.rates.acceleration);
+}
+
+TEST(Sweep, TheDensityFollowsTheKernelsSum) {
+  // Eq. 16 in its pair form is the rate of the kernel's sum, image for image, with a fixed smoothing length.
+  Parameters p = column(6, 1, 9, 3);
+  Evaluation e(p);
+  e.disturb(0.2);
+  e.velocity([](const Vector3& x) { return Vector3{std::sin(40 * x.z), std::sin(300 * x.x) * x.y, std::cos(50 * x.x)}; });
+  const double dt = 1e-6;
+  e.evaluate();
+  const auto rate = e.rates.density_rate;
+  const auto start = e.state.position;
+  const auto at = [&](double time) {
+    for (std::size_t i = 0; i < start.size(); ++i) e.state.position[i] = start[i] + time * e.state.velocity[i];
+    e.evaluate(Sweep::Wanted::forces);
+    return e.rates.kernel_density;
+  };
+  const auto later = at(dt), earlier = at(-dt);
+  for (std::size_t i = 0; i < start.size(); ++i)
+    EXPECT_NEAR((later[i] - earlier[i]) / (2 * dt), rate[i], 1e-4 * std::abs(rate[i]) + 0.5);
+}
+
+TEST(Sweep, TheKernelsPackingOnALatticeIsTheBeds) {
+  Evaluation e(column(6, 1, 8, 4));
+  e.evaluate();
+  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
+    if (e.state.position[i].z < 6 * spacing) {
+      EXPECT_NEAR(e.rates.kernel_density[i], 1500, 1500 * 2e-4);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace talus::continuum

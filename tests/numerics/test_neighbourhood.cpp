@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "numerics/neighbourhood.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "base/random.hpp"
+
+namespace talus {
+namespace {
+
+using enum FaceKind;
+
+struct Points {
+  std::vector<Vector3> position;
+  std::vector<double> radius;
+};
+
+Points random_points(const Box& box, std::size_t count, double least, double most) {
+  Random random(11);
+  Points points;
+  for (std::size_t n = 0; n < count; ++n) {
+    points.position.push_back({random.uniform(box.low.x, box.high.x), random.uniform(box.low.y, box.high.y),
+                               random.uniform(box.low.z, box.high.z)});
+    points.radius.push_back(random.uniform(least, most));
+  }
+  return points;
+}
+
+/// All places that a point stands for in an endless row of mirrors or periods, per axis, by their definition.
+std::vector<double> copies(const Box& box, int axis, double x, double reach) {
+  std::vector<double> found;
+  const double low = box.low[axis], extent = box.extent(axis);
+  for (int n = -20; n <= 20; ++n) {
+    if (box.is_periodic(axis)) {
+      found.push_back(x + n * extent);
+    } else {
+      found.push_back(x + 2 * n * extent);
+      found.push_back(2 * low - x + 2 * n * extent);
+    }
+  }
+  std::erase_if(found, [&](double c) { return c < low - reach || c > low + extent + reach; });
+  return found;
+}
+
+TEST(Neighbourhood, FindsEveryCopyOfEveryNeighbourAlsoInThinBoxes) {
+  for (const Box& box : {Box{{0, 0, 0}, {6, 1, 8}, {wall, wall, symmetry, wall, symmetry, symmetry}},
+                         Box{{-1, 0, 0}, {5, 0.7, 8}, {wall, wall, periodic, periodic, wall, wall}},
+                         Box{{0, 0, 0}, {1.1, 1.2, 1.3}, {wall, wall, periodic, periodic, wall, symmetry}}}) {
+    const Points points = random_points(box, 60, 0.5, 0.8);
+    const double skin = 0.2;
+    ThreadTeam team(2);
+    Neighbourhood around{Domain(box, {})};
+    around.build(team, points.position, points.radius, skin);
+    std::size_t with_itself = 0;
+    for (std::size_t i = 0; i < 60; ++i) {
+      std::vector<double> expected, found;
+      for (std::size_t j = 0; j < 60; ++j)
+        for (const double x : copies(box, 0, points.position[j].x, 2))
+          for (const double y : copies(box, 1, points.position[j].y, 2))
+            for (const double z : copies(box, 2, points.position[j].z, 2)) {
+              const Vector3 place{x, y, z};
+              if (place == points.position[i]) continue;
+              const double distance = norm(place - points.position[i]);
+              if (distance <= points.radius[i] + points.radius[j] + skin) expected.push_back(distance);
+            }
+      for (const std::uint32_t j : around.of(i)) {
+        if (j < 60) {
+          found.push_back(norm(points.position[j] - points.position[i]));
+        } else {
+          const Ghost ghost = around.ghosts()[j - 60];
+          found.push_back(norm(around.image(ghost).position(points.position[ghost.source]) - points.position[i]));
+          with_itself += ghost.source == i;
+        }
+      }
+      std::sort(expected.begin(), expected.end());
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found.size(), expected.size()) << i;
+      for (std::size_t n = 0; n < found.size(); ++n) EXPECT_NEAR(found[n], expected[n], 1e-12);
+      EXPECT_EQ(around.first_ghost_of(i),
+                std::count_if(around.of(i).begin(), around.of(i).end(), [](std::uint32_t j) { return j < 60; }));
+    }
+    EXPECT_GT(with_itself, 60u);
+  }
+}
+
+TEST(Neighbourhood, HoldsUntilMotionAndGrowthTogetherPassHalfTheSkin) {
+  const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
+  ThreadTeam team(1);
+  Neighbourhood around{Domain(box, {})};
+  std::vector<Vector3> x = {{1, 1, 1}, {2, 1, 1}};
+  std::vector<double> a = {1, 1};
+  EXPECT_FALSE(around.holds(team, x, a));
+  around.build(team, x, a, 0.5);
+  EXPECT_TRUE(around.holds(team, x, a));
+  for (Vector3& p : x) p.z += 0.24;  // also together: walls do not move along
+  EXPECT_TRUE(around.holds(team, x, a));
+  a[0] += 0.02;
+  EXPECT_FALSE(around.holds(team, x, a));
+  a[0] -= 0.2;
+  EXPECT_TRUE(around.holds(team, x, a));
+  x[1].z = NAN;
+  EXPECT_FALSE(around.holds(team, x, a));
+}
+
+TEST(Neighbourhood, RefusesAReachThatPassesFromPlateToFloor) {
+  const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
+  ThreadTeam team(1);
+  Neighbourhood around{Domain(box, {{.axis = 2, .position = 1.5, .openings = {}}})};
+  const std::vector<Vector3> x = {{5, 5, 5}};
+  EXPECT_THROW(around.build(team, x, std::vector<double>{0.7}, 0.2), std::invalid_argument);
+  EXPECT_NO_THROW(around.build(team, x, std::vector<double>{0.6}, 0.2));
+  EXPECT_FALSE(around.is_near_plate(0));
+}
+
+}  // namespace
+}  // namespace talus
