@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 

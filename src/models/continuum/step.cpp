@@ -14,7 +14,7 @@
 
 #include "models/continuum/sort.hpp"
 #include "models/continuum/walls.hpp"
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 

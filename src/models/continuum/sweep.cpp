@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "models/continuum/material.hpp"
-#include "physics/sph/cubic_spline.hpp"
-#include "physics/sph/velocity_gradient.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+#include "numerics/sph/velocity_gradient.hpp"
 
 namespace talus::continuum {
 

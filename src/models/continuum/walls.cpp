@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_friction.hpp"
 
 namespace talus::continuum {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "models/continuum/model.hpp"
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 

@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 #include "cases.hpp"
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 namespace {
