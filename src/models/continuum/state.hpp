@@ -16,7 +16,8 @@ namespace talus::continuum {
 
 /// What the law knows of each lump, column by column.
 struct MaterialColumns {
-  std::array<std::vector<double>, 6> stress;  ///< Pa, compression positive: xx yy zz xy yz zx
+  std::array<std::vector<double>, 6> stress;        ///< the law's, Pa, compression positive: xx yy zz xy yz zx
+  std::array<std::vector<double>, 6> collisional;   ///< by collisions, Pa, the same order
   std::vector<std::vector<double>> history;   ///< one column a slot of the law
 };
 
@@ -58,6 +59,9 @@ struct State {
 namespace detail {
 inline constexpr std::array<const char*, 6> stress_names = {"stress_xx", "stress_yy", "stress_zz",
                                                             "stress_xy", "stress_yz", "stress_zx"};
+inline constexpr std::array<const char*, 6> collisional_names = {
+    "collisional_stress_xx", "collisional_stress_yy", "collisional_stress_zz",
+    "collisional_stress_xy", "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
@@ -78,6 +82,8 @@ void for_each_field(Visit&& visit, S& s) {
   visit(Field{"density", "kg/m3"}, s.density);
   visit(Field{"identity", "1"}, s.identity);
   for (std::size_t c = 0; c < 6; ++c) visit(Field{detail::stress_names[c], "Pa"}, s.material.stress[c]);
+  for (std::size_t c = 0; c < 6; ++c)
+    visit(Field{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
   for (std::size_t k = 0; k < s.slots.size(); ++k)
     visit(Field{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
   visit(Field{"mass", "kg"}, s.mass);
