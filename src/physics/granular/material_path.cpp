@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -14,12 +15,12 @@ namespace talus::granular {
 namespace {
 
 /// Steps between two recorded points, so that none deforms or turns the point too far.
-int steps_between(const PathStretch& stretch, const PathOptions& options) {
+double steps_between(const PathStretch& stretch, const PathOptions& options) {
   const Tensor3<> spin = antisymmetric_part(stretch.velocity_gradient);
   const double rate = norm(symmetric_part(stretch.velocity_gradient));
   const double turn = std::sqrt(spin.xy * spin.xy + spin.yz * spin.yz + spin.zx * spin.zx);
   const double steps = stretch.duration / options.points * std::max(rate, turn / 1000) / options.largest_increment;
-  return std::max(1, static_cast<int>(std::ceil(steps)));
+  return std::max(1.0, std::ceil(steps));
 }
 
 template <class Law>
@@ -64,11 +65,11 @@ std::vector<PathPoint> follow(const Law& law, std::span<const PathStretch> path,
   std::vector<PathPoint> points{record<Law>(time, density, strain, point)};
   for (const PathStretch& stretch : path) {
     const double start = time, start_density = density, rate = trace(stretch.velocity_gradient);
-    const int steps = steps_between(stretch, options);
-    const double step = stretch.duration / options.points / steps;
+    const auto steps = static_cast<std::int64_t>(steps_between(stretch, options));
+    const double step = stretch.duration / options.points / static_cast<double>(steps);
     for (int k = 1; k <= options.points; ++k) {
-      for (int n = 1; n <= steps; ++n) {
-        density = start_density * std::exp(-rate * step * ((k - 1) * static_cast<double>(steps) + n));
+      for (std::int64_t n = 1; n <= steps; ++n) {
+        density = start_density * std::exp(-rate * step * (static_cast<double>((k - 1) * steps + n)));
         strain = transported_strain(strain, stretch.velocity_gradient, step);
         point = updated(law, point, deformation, stretch.velocity_gradient, density, step);
       }
@@ -80,6 +81,12 @@ std::vector<PathPoint> follow(const Law& law, std::span<const PathStretch> path,
 }
 
 }  // namespace
+
+double steps_of_path(std::span<const PathStretch> path, const PathOptions& options) {
+  double steps = 0;
+  for (const PathStretch& stretch : path) steps += options.points * steps_between(stretch, options);
+  return steps;
+}
 
 std::vector<HistorySlot> history_of(const AnyLaw& law) {
   return std::visit(
