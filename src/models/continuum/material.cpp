@@ -2,6 +2,7 @@
 #include "models/continuum/material.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace talus::continuum {
 
@@ -31,6 +32,9 @@ void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::s
 
 Material::Material(const Parameters& p)
     : law_(granular::make_law(p.law, p.grains.density)) {
+  const std::vector<granular::HistorySlot> remembered = slots();
+  for (std::size_t k = 0; k < remembered.size(); ++k)
+    if (remembered[k].name == std::string_view("strain_xx")) first_strain_slot_ = k;
   if (p.law.collisions != granular::Collisions::none)
     collisions_ = granular::collision_options(p.law, p.grains.diameter, p.gravity.acceleration);
 }
@@ -64,6 +68,12 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, std::span<co
         });
       },
       law_);
+}
+
+double Material::strain(const MaterialColumns& columns, std::size_t i) const {
+  if (!first_strain_slot_) return 0;
+  const auto e = [&](std::size_t c) { return columns.history[*first_strain_slot_ + c][i]; };
+  return norm(SymmetricTensor3<>{e(0), e(1), e(2), e(3), e(4), e(5)});
 }
 
 void Material::mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const {

@@ -29,11 +29,15 @@ class Material {
   void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
               std::span<const double> density, double time_step, MaterialColumns& next, bool keep_history) const;
 
+  /// Norm of the strain that the law remembers of a lump; 0 if it remembers none.
+  double strain(const MaterialColumns& columns, std::size_t lump) const;
+
   /// Turns what the law knows of a lump as a mirror does. \param sign of vectors, per axis, as Image::vector_sign
   void mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const;
 
  private:
   granular::AnyLaw law_;
+  std::optional<std::size_t> first_strain_slot_;
   std::optional<granular::CollisionOptions> collisions_;
 };
 

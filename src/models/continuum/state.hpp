@@ -38,6 +38,7 @@ struct State {
   double mass = 0;                           ///< of a lump, kg
 
   std::vector<double> packing;     ///< as the kernel deposits it: sum of m W over lumps and images, over rho_p; derived
+  std::vector<double> strain;      ///< |e|, norm of the strain that the law remembers; 0 if it remembers none; derived
   std::vector<double> shear_rate;  ///< (2 D':D')^(1/2), D' the deviator of the rate of deformation, last evaluated, 1/s
 
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
@@ -88,6 +89,7 @@ void for_each_field(Visit&& visit, S& s) {
     visit(Field{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
   visit(Field{"mass", "kg"}, s.mass);
   visit(Field{"packing", "1", FieldRole::derived}, s.packing);
+  visit(Field{"strain", "1", FieldRole::derived}, s.strain);
   visit(Field{"shear_rate", "1/s"}, s.shear_rate);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     for (int axis = 0; axis < 3; ++axis)

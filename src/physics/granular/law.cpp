@@ -54,6 +54,7 @@ AnyLaw make_law(const LawParameters& p, double grain_density) {
                                   .reset = p.reset,
                                   .main_strain = p.main_strain,
                                   .smoothing_time = p.smoothing_time,
+                                  .close_packing = p.close_packing,
                                   .largest_deviator = p.largest_deviator,
                                   .shear_sum = p.shear_sum,
                                   .gate_packing = p.gate_packing,

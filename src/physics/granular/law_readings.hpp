@@ -48,6 +48,7 @@ struct YuuUmekageOptions {
   Reset reset = Reset::never;
   MainStrain main_strain = MainStrain::z;
   double smoothing_time = 2e-4;             ///< s, over which the rate of the main strain is averaged
+  double close_packing = 0.64;              ///< beyond which the pressure rises along its initial stiffness again
   double largest_deviator = 0.014;          ///< |e_dev| beyond which the deviator no longer grows
   ShearSum shear_sum = ShearSum::absolute;  ///< printed components only
   double gate_packing = 0.5;                ///< packing below which contacts are lost
