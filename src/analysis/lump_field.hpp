@@ -44,8 +44,8 @@ class LumpField {
   /// Packing fraction as the kernel deposits it: the sum of solid volume times W over lumps and images.
   double packing(const Vector3& x) const;
 
-  /// Mean of a column over the lumps around x, weighted by volume times W; nan where there is none. Exact for a constant
-  /// field. Vectors of images are turned as mirrors turn them. \param column one entry a lump
+  /// Mean of a column over the lumps around x, weighted by volume times W; nan where there is none. Exact for a
+  /// constant field. Vectors of images are turned as mirrors turn them. \param column one entry a lump
   double value(const Vector3& x, std::span<const double> column) const;
   Vector3 value(const Vector3& x, std::span<const Vector3> column) const;
 
