@@ -99,7 +99,9 @@ void check_resumable(const PreparedCase& prepared, const RunFolder& folder, cons
 ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request, const RunFolder& folder,
                          const Manifest& manifest, spdlog::logger& log) {
   const bool resume = request.existing == Existing::resume;
-  write_summary(folder.summary(), {.status = "running", .wall_seconds = 0, .quantities = {}});
+  write_summary(
+      folder.summary(),
+      {.status = "running", .wall_seconds = 0, .instruction_set = manifest.instruction_set, .quantities = {}});
   const CheckpointFiles checkpoints(folder.path());
   for (const std::string& damage : checkpoints.damages()) {
     log.warn("passed over: {}", damage);
@@ -117,8 +119,10 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                                               .resume = resume},
                                              prepared.observers);
 
-  Summary summary{
-      .status = loop.interrupted ? "interrupted" : "done", .wall_seconds = loop.wall_seconds, .quantities = {}};
+  Summary summary{.status = loop.interrupted ? "interrupted" : "done",
+                  .wall_seconds = loop.wall_seconds,
+                  .instruction_set = manifest.instruction_set,
+                  .quantities = {}};
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
     summary.quantities = prepared.analyze(folder.path());
@@ -148,9 +152,11 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
 }
 
 /// Where even this cannot be written, the trouble that led here is the one to tell.
-void summarize_failure(const RunFolder& folder) {
+void summarize_failure(const RunFolder& folder, const Manifest& manifest) {
   try {
-    write_summary(folder.summary(), {.status = "failed", .wall_seconds = 0, .quantities = {}});
+    write_summary(
+        folder.summary(),
+        {.status = "failed", .wall_seconds = 0, .instruction_set = manifest.instruction_set, .quantities = {}});
   } catch (const FileError&) {
   }
 }
@@ -190,11 +196,11 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     return run_in_folder(prepared, request, folder, manifest, *log);
   } catch (const NumericalError& error) {
     log->error("numerical failure: {}", error.what());
-    summarize_failure(folder);
+    summarize_failure(folder, manifest);
     throw;
   } catch (const FileError& error) {
     log->error("file trouble: {}", error.what());
-    summarize_failure(folder);
+    summarize_failure(folder, manifest);
     throw;
   }
 }

@@ -41,12 +41,18 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
       entry["reason"] = std::isnan(quantity.value) ? not_a_number : quantity.value > 0 ? infinite : minus_infinity;
     quantities[quantity.name] = std::move(entry);
   }
-  write_json(path, {{"status", summary.status}, {"wall_seconds", summary.wall_seconds}, {"quantities", quantities}});
+  write_json(path, {{"status", summary.status},
+                    {"wall_seconds", summary.wall_seconds},
+                    {"instruction_set", summary.instruction_set},
+                    {"quantities", quantities}});
 }
 
 Summary read_summary(const std::filesystem::path& path) {
   return read_json(path, "a summary", [](const Json& json) {
-    Summary summary{.status = json.at("status"), .wall_seconds = json.at("wall_seconds"), .quantities = {}};
+    Summary summary{.status = json.at("status"),
+                    .wall_seconds = json.at("wall_seconds"),
+                    .instruction_set = json.value("instruction_set", ""),
+                    .quantities = {}};
     for (const auto& [name, entry] : json.at("quantities").items())
       summary.quantities.push_back({name, entry.at("unit"), value_of(entry)});
     return summary;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// summary.json: the numbers in which a run ended.
 ///
-///     {"status": "done", "wall_seconds": 12.3, "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
+///     {"status": "done", "wall_seconds": 12.3, "instruction_set": "avx2",
+///      "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
 ///
 /// JSON has no numbers that are not finite: such a quantity has the value null and a "reason", one of "not a number",
 /// "infinite" and "minus infinity". It is written rather than left out, so that a reader sees that it was asked for.
@@ -19,6 +20,7 @@ namespace talus {
 struct Summary {
   std::string status;                  ///< "running", "done", "interrupted" or "failed"
   double wall_seconds = 0;             ///< s
+  std::string instruction_set = {};    ///< of the sum over pairs: the bits belong to it
   std::vector<NamedValue> quantities;  ///< names unique
 
   /// \returns null if there is none

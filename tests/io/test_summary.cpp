@@ -22,11 +22,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Summary, StandsInTheDocumentedForm) {
   const ScratchFolder folder;
-  write_summary(
-      folder / "summary.json",
-      {.status = "done", .wall_seconds = 1.5, .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}}});
+  write_summary(folder / "summary.json", {.status = "done",
+                                          .wall_seconds = 1.5,
+                                          .instruction_set = "avx2",
+                                          .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}}});
   EXPECT_EQ(nlohmann::json::parse(content_of(folder / "summary.json")), nlohmann::json::parse(R"({
-    "status": "done", "wall_seconds": 1.5, "quantities": {
+    "status": "done", "wall_seconds": 1.5, "instruction_set": "avx2", "quantities": {
       "front_speed_max": {"value": 0.1, "unit": "1"},
       "angle": {"value": null, "unit": "deg", "reason": "not a number"}}})"));
 }
@@ -34,13 +35,15 @@ TEST(Summary, StandsInTheDocumentedForm) {
 TEST(Summary, ReadsBackEveryValueInOrder) {
   const ScratchFolder folder;
   const std::vector<double> values{1.0 / 3, -0.0, 0x1.0p-1074, 1.7976931348623157e308, infinity, -infinity, NAN, 1e22};
-  Summary written{.status = "stopped: \"walltime\"", .wall_seconds = 0.1, .quantities = {}};
+  Summary written{
+      .status = "stopped: \"walltime\"", .wall_seconds = 0.1, .instruction_set = "avx512", .quantities = {}};
   for (std::size_t i = 0; i < values.size(); ++i)
     written.quantities.push_back({fmt::format("z{}", 10 - i), "m/s", values[i]});
   write_summary(folder / "summary.json", written);
   const Summary read = read_summary(folder / "summary.json");
   EXPECT_EQ(read.status, written.status);
   EXPECT_EQ(read.wall_seconds, 0.1);
+  EXPECT_EQ(read.instruction_set, "avx512");
   ASSERT_EQ(read.quantities.size(), values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(read.quantities[i].name, written.quantities[i].name);

@@ -87,7 +87,7 @@ EnsemblePlan plan_ensemble(const EnsembleRequest& request) {
       for (const std::string& value : key.values) {
         EnsembleGroup more = group;
         more.settings.push_back(key.key + "=" + value);
-        more.name += (more.name.empty() ? "" : "_") + folder_name(key.key.substr(key.key.rfind('.') + 1) + "=" + value);
+        more.name += fmt::format("{}{}={}", more.name.empty() ? "" : "_", last_part(key.key), folder_name(value));
         groups.push_back(std::move(more));
       }
     plan.groups = std::move(groups);

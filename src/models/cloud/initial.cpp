@@ -36,23 +36,25 @@ std::vector<double> draw_radii(const Parameters::Particles& p, Random& random) {
 struct ShapeSampler {
   const Parameters& parameters;
   bool on_slope;
+  // A shape has those it needs: check().
+  double size = parameters.particles.size.value_or(0);
+  double length = parameters.particles.length.value_or(0), width = parameters.particles.width.value_or(0);
 
   Vector3 draw(Random& random) const {
-    const Parameters::Particles& p = parameters.particles;
     const double u = random.uniform(), v = random.uniform();
-    switch (p.shape) {
+    switch (parameters.particles.shape) {
       case Shape::circle:
-        return in_plane(p.size * (2 * u - 1), p.size * (2 * v - 1));
+        return in_plane(size * (2 * u - 1), size * (2 * v - 1));
       case Shape::rectangle:
-        return in_plane(p.length * (u - 0.5), p.width * (on_slope ? v : v - 0.5));
+        return in_plane(length * (u - 0.5), width * (on_slope ? v : v - 0.5));
       case Shape::triangle:
-        return in_plane(p.size * (2 * u - 1), p.size * v);
+        return in_plane(size * (2 * u - 1), size * v);
       case Shape::wedge:
-        return in_plane(-p.size * u / std::sin(parameters.slope.angle), p.size * v / std::cos(parameters.slope.angle));
+        return in_plane(-size * u / std::sin(parameters.slope.angle), size * v / std::cos(parameters.slope.angle));
       case Shape::ball:
-        return {p.size * (2 * u - 1), p.size * (2 * v - 1), p.size * (2 * random.uniform() - 1) + lift()};
+        return {size * (2 * u - 1), size * (2 * v - 1), size * (2 * random.uniform() - 1) + lift()};
       case Shape::dome:
-        return {p.size * (2 * u - 1), p.size * (2 * v - 1), p.size * random.uniform()};
+        return {size * (2 * u - 1), size * (2 * v - 1), size * random.uniform()};
       case Shape::file:
         break;
     }
@@ -60,25 +62,24 @@ struct ShapeSampler {
   }
 
   bool contains(const Vector3& x, double margin) const {
-    const Parameters::Particles& p = parameters.particles;
     const double across = parameters.motion == Motion::xz ? x.z : x.y;
-    switch (p.shape) {
+    switch (parameters.particles.shape) {
       case Shape::circle:
-        return std::hypot(x.x, across - (on_slope ? p.size : 0)) <= p.size - margin;
+        return std::hypot(x.x, across - (on_slope ? size : 0)) <= size - margin;
       case Shape::rectangle:
-        return std::abs(x.x) <= 0.5 * p.length - margin &&
-               std::abs(across - (on_slope ? 0.5 * p.width : 0)) <= 0.5 * p.width - margin;
+        return std::abs(x.x) <= 0.5 * length - margin &&
+               std::abs(across - (on_slope ? 0.5 * width : 0)) <= 0.5 * width - margin;
       // Right-angled at the apex: the flanks fall at 45 degrees.
       case Shape::triangle:
-        return across >= margin && std::abs(x.x) + across <= p.size - std::sqrt(2.0) * margin;
+        return across >= margin && std::abs(x.x) + across <= size - std::sqrt(2.0) * margin;
       // The level surface lies `size` above the gate's foot, the origin: sizes along gravity.
       case Shape::wedge:
         return x.x <= -margin && across >= margin &&
-               across * std::cos(parameters.slope.angle) - x.x * std::sin(parameters.slope.angle) <= p.size - margin;
+               across * std::cos(parameters.slope.angle) - x.x * std::sin(parameters.slope.angle) <= size - margin;
       case Shape::ball:
-        return norm(x - Vector3{0, 0, lift()}) <= p.size - margin;
+        return norm(x - Vector3{0, 0, lift()}) <= size - margin;
       case Shape::dome:
-        return x.z >= margin && norm(x) <= p.size - margin;
+        return x.z >= margin && norm(x) <= size - margin;
       case Shape::file:
         break;
     }
@@ -86,11 +87,11 @@ struct ShapeSampler {
   }
 
  private:
-  double lift() const { return on_slope ? parameters.particles.size : 0.0; }
+  double lift() const { return on_slope ? size : 0.0; }
   Vector3 in_plane(double x, double across) const {
     if (parameters.motion == Motion::xy) return {x, across, 0};
     // A circle above the slope rests on it.
-    return {x, 0, across + (on_slope && parameters.particles.shape == Shape::circle ? parameters.particles.size : 0.0)};
+    return {x, 0, across + (on_slope && parameters.particles.shape == Shape::circle ? size : 0.0)};
   }
 };
 

@@ -26,22 +26,23 @@ double component_in_plane(const Vector3& v, Motion motion) {
   return 0;
 }
 
-/// Area of a plane shape, or volume.
+/// Area of a plane shape, or volume; 0 where a length is missing or the shape is a file's.
 double extent_of_shape(const Parameters& parameters) {
   const Parameters::Particles& p = parameters.particles;
+  const double size = p.size.value_or(0);
   switch (p.shape) {
     case Shape::circle:
-      return pi * p.size * p.size;
+      return pi * size * size;
     case Shape::rectangle:
-      return p.length * p.width;
+      return p.length.value_or(0) * p.width.value_or(0);
     case Shape::triangle:
-      return p.size * p.size;
+      return size * size;
     case Shape::wedge:
-      return p.size * p.size / std::sin(2 * parameters.slope.angle);
+      return size * size / std::sin(2 * parameters.slope.angle);
     case Shape::ball:
-      return 4.0 / 3.0 * pi * p.size * p.size * p.size;
+      return 4.0 / 3.0 * pi * size * size * size;
     case Shape::dome:
-      return 2.0 / 3.0 * pi * p.size * p.size * p.size;
+      return 2.0 / 3.0 * pi * size * size * size;
     case Shape::file:
       return 0;
   }
@@ -79,16 +80,15 @@ std::vector<Problem> check(const Parameters& p) {
     add("particles.file", "given, but particles.shape is \"" + shape + "\"", "particles.shape = \"file\"");
   }
   if (grains.shape == Shape::rectangle) {
-    if (!(grains.length > 0)) add("particles.length", "missing: a rectangle needs it", "a length above 0");
-    if (!(grains.width > 0)) add("particles.width", "missing: a rectangle needs it", "a length above 0");
-    if (grains.size > 0)
-      add("particles.size", "has no meaning for a rectangle", "particles.length and particles.width");
+    if (!grains.length) add("particles.length", "missing: a rectangle needs it", "a length above 0");
+    if (!grains.width) add("particles.width", "missing: a rectangle needs it", "a length above 0");
+    if (grains.size) add("particles.size", "has no meaning for a rectangle", "particles.length and particles.width");
   } else {
-    if (grains.shape != Shape::file && !(grains.size > 0))
+    if (grains.shape != Shape::file && !grains.size)
       add("particles.size", "missing: the shape \"" + shape + "\" needs it", "a length above 0");
-    if (grains.shape == Shape::file && grains.size > 0) add("particles.size", "has no meaning for a file", "nothing");
-    if (grains.length > 0) add("particles.length", "has no meaning for the shape \"" + shape + "\"", "nothing");
-    if (grains.width > 0) add("particles.width", "has no meaning for the shape \"" + shape + "\"", "nothing");
+    if (grains.shape == Shape::file && grains.size) add("particles.size", "has no meaning for a file", "nothing");
+    if (grains.length) add("particles.length", "has no meaning for the shape \"" + shape + "\"", "nothing");
+    if (grains.width) add("particles.width", "has no meaning for the shape \"" + shape + "\"", "nothing");
   }
   if (is_plane(grains.shape) && p.motion == Motion::xyz)
     add("motion", "\"xyz\" with the plane shape \"" + shape + "\"", "\"xy\" or \"xz\"; or shape ball, dome or file");

@@ -27,9 +27,7 @@ struct Parameters {
   struct Particles {
     Shape shape = Shape::circle;
     std::int64_t count = 2000;
-    double size = 0;
-    double length = 0;
-    double width = 0;
+    std::optional<double> size, length, width;  ///< m; those that the shape has, check() sees to it
     std::string file;
     double radius = 0;
     double radius_spread = 0.05;
@@ -83,12 +81,12 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains; with a file, its points"},
         p.particles.count);
   visit(
-      Parameter{"particles.size", dimension::length, at_least(0),
+      Parameter{"particles.size", dimension::length, above(0),
                 "radius of the circle, ball or dome; height of the triangle, whose base on the slope is twice as long; "
                 "depth of the gate's foot below the wedge's surface"},
       p.particles.size);
-  visit(Parameter{"particles.length", dimension::length, at_least(0), "rectangle: extent along x"}, p.particles.length);
-  visit(Parameter{"particles.width", dimension::length, at_least(0), "rectangle: extent across (y or z)"},
+  visit(Parameter{"particles.length", dimension::length, above(0), "rectangle: extent along x"}, p.particles.length);
+  visit(Parameter{"particles.width", dimension::length, above(0), "rectangle: extent across (y or z)"},
         p.particles.width);
   visit(Parameter{"particles.file", {}, {}, "CSV file with columns x, y, z and radius, relative to the case"},
         p.particles.file);

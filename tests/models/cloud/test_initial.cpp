@@ -31,15 +31,15 @@ TEST(Pack, FillsTheDiscWithoutOverlap) {
     furthest = std::max(furthest, norm(x));
     ++quadrant[(x.x > 0) + 2 * (x.y > 0)];
   }
-  EXPECT_LE(furthest, p.particles.size);
-  EXPECT_GT(furthest, 0.97 * p.particles.size);
+  EXPECT_LE(furthest, *p.particles.size);
+  EXPECT_GT(furthest, 0.97 * *p.particles.size);
   for (const int count : quadrant) EXPECT_NEAR(count, 150, 40);
   EXPECT_NEAR(scales(p).volume_fraction, 0.43, 0.43 * 0.002);
 }
 
 TEST(Pack, RadiiFollowTheirDistribution) {
   Parameters p = disc(4000);
-  p.particles.size *= 3;
+  *p.particles.size *= 3;
   auto moments = [&] {
     const Grains grains = pack(p);
     double mean = 0, square = 0, low = 1, high = 0;
@@ -94,10 +94,10 @@ TEST(Pack, AWedgeIsUprightAtItsGateAndLevelAtItsSurface) {
     front = std::max(front, x.x);
     highest = std::max(highest, above_the_foot);
     EXPECT_LE(x.x, 0);
-    EXPECT_LE(above_the_foot, p.particles.size);
+    EXPECT_LE(above_the_foot, *p.particles.size);
   }
   EXPECT_GT(front, -2 * p.particles.radius);
-  EXPECT_GT(highest, p.particles.size - 2 * p.particles.radius);
+  EXPECT_GT(highest, *p.particles.size - 2 * p.particles.radius);
 }
 
 TEST(Pack, WholeGrainsStayInsideWhenAsked) {
@@ -105,7 +105,7 @@ TEST(Pack, WholeGrainsStayInsideWhenAsked) {
   p.particles.boundary = Boundary::whole;
   const Grains grains = pack(p);
   for (std::size_t i = 0; i < grains.radius.size(); ++i)
-    EXPECT_LE(norm(grains.position[i]) + grains.radius[i], p.particles.size * (1 + 1e-12));
+    EXPECT_LE(norm(grains.position[i]) + grains.radius[i], *p.particles.size * (1 + 1e-12));
 }
 
 TEST(Pack, SameSeedSamePlacesAndAnotherSeedOthers) {
@@ -117,7 +117,7 @@ TEST(Pack, SameSeedSamePlacesAndAnotherSeedOthers) {
 
 TEST(Pack, GivesUpOnAShapeThatIsTooSmall) {
   Parameters p = disc(200);
-  p.particles.size *= 0.8;
+  *p.particles.size *= 0.8;
   EXPECT_THROW(pack(p), NumericalError);
 }
 
@@ -129,13 +129,13 @@ TEST(Check, FindsContradictions) {
     return found;
   };
   Parameters p = disc(100);
-  p.particles.size = 0;
+  p.particles.size.reset();
   p.motion = Motion::xyz;
   p.particles.width = 1;
   p.particles.density = 1.2;
   EXPECT_EQ(keys(p), (std::vector<std::string>{"particles.size", "particles.width", "motion", "particles.density"}));
   p = disc(100);
-  p.particles.size *= 0.85;
+  *p.particles.size *= 0.85;
   EXPECT_EQ(keys(p), std::vector<std::string>{"particles.count"});
   p = disc(100);
   p.slope.angle = 0;
