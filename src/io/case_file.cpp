@@ -165,7 +165,8 @@ void CaseFile::set(std::string_view assignment, std::string_view option_name) {
 CaseFile CaseFile::part(std::span<const std::string_view> keys) const {
   CaseFile part = *this;
   std::erase_if(part.entries_, [&](const CaseEntry& entry) {
-    return std::none_of(keys.begin(), keys.end(), [&](std::string_view key) { return lies_in(entry.key, key); });
+    return std::none_of(keys.begin(), keys.end(),
+                        [&](std::string_view key) { return entry.key == key || lies_in(entry.key, key); });
   });
   return part;
 }

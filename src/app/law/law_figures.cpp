@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "app/law/law_results.hpp"
 #include "io/figure/figure.hpp"
@@ -23,10 +25,10 @@ constexpr std::array<Component, 3> shear_components{&SymmetricTensor3<>::xy, &Sy
                                                     &SymmetricTensor3<>::zx};
 constexpr std::array<const char*, 3> normal_names{"xx", "yy", "zz"}, shear_names{"xy", "yz", "zx"};
 
-/// Which of three components of the strain varies most along the path.
-std::size_t most_varied(const FollowedPath& path, const std::array<Component, 3>& components) {
+/// Which of three components of the strain varies most along the path, and by how much.
+std::pair<std::size_t, double> most_varied(const FollowedPath& path, const std::array<Component, 3>& components) {
   std::size_t most = 0;
-  double widest = -1;
+  double widest = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto [low, high] = std::minmax_element(
         path.points.begin(), path.points.end(),
@@ -34,7 +36,7 @@ std::size_t most_varied(const FollowedPath& path, const std::array<Component, 3>
     const double width = high->strain.*components[c] - low->strain.*components[c];
     if (width > widest) widest = width, most = c;
   }
-  return most;
+  return {most, widest};
 }
 
 template <class Value>
@@ -79,7 +81,8 @@ Curves curves_of(const FittedFunctions& functions, const std::vector<double>& st
 }  // namespace
 
 void draw_path(const FollowedPath& path, const std::filesystem::path& file) {
-  const std::size_t normal = most_varied(path, normal_components), shear = most_varied(path, shear_components);
+  const std::size_t normal = most_varied(path, normal_components).first;
+  const auto [shear, sheared_by] = most_varied(path, shear_components);
   Chart normals{.title = "normal stress",
                 .x = {fmt::format("*e*_{{{}}}", normal_names[normal])},
                 .y = {"*τ*", "Pa"},
@@ -118,7 +121,9 @@ void draw_path(const FollowedPath& path, const std::filesystem::path& file) {
       .y = {"*p*", "Pa"},
       .series = {Line{.x = column(path, [&](const auto& point) { return point.density / grain_density; }),
                       .y = column(path, [](const auto& point) { return trace(point.stress) / 3; })}}};
-  write_png({.panels = {normals, shears, frictions, pressures}}, file);
+  std::vector<Panel> panels{normals, shears, frictions, pressures};
+  if (sheared_by == 0) panels.erase(panels.begin() + 1);
+  write_png({.panels = std::move(panels), .columns = 2}, file);
 }
 
 void draw_functions(const LawCase& parameters, const std::filesystem::path& file) {
@@ -134,16 +139,21 @@ void draw_functions(const LawCase& parameters, const std::filesystem::path& file
     if (repaired) chart.series.push_back(Line{.x = strain, .y = other, .label = "repaired", .colour = blue});
     return chart;
   };
-  const Axis a{.label = "|*Ea*|", .logarithmic = true};
+  const auto axis = [&](std::string label) {
+    return Axis{.label = std::move(label), .low = strain.front(), .high = strain.back(), .logarithmic = true};
+  };
   std::vector<Panel> panels;
   for (std::size_t k = 0; k < 4; ++k)
-    panels.emplace_back(chart(fmt::format("A{}", k + 1), a,
-                              {.label = fmt::format("A{}", k + 1), .unit = k < 3 ? "Pa" : "", .logarithmic = true},
+    panels.emplace_back(chart(fmt::format("A{}", k + 1), axis("|*Ea*|"),
+                              {.label = fmt::format("A{}", k + 1),
+                               .unit = k < 3 ? "Pa" : "",
+                               .low = k == 2 ? std::optional(1e3) : std::nullopt,
+                               .logarithmic = true},
                               printed.a1_to_a4[k], chosen.a1_to_a4[k]));
-  panels.emplace_back(chart("friction in simple shear", {.label = "|*e*_{dev}|", .logarithmic = true},
-                            {.label = "A4 |*e*_{dev}| / √2"}, printed.friction, chosen.friction));
-  panels.emplace_back(chart("pressure", {.label = "*e*_{v}", .logarithmic = true},
-                            {.label = "*p*", .unit = "Pa", .logarithmic = true}, printed.pressure, chosen.pressure));
+  panels.emplace_back(chart("friction in simple shear", axis("|*e*_{dev}|"), {.label = "A4 |*e*_{dev}| / √2"},
+                            printed.friction, chosen.friction));
+  panels.emplace_back(chart("pressure", axis("*e*_{v}"), {.label = "*p*", .unit = "Pa", .logarithmic = true},
+                            printed.pressure, chosen.pressure));
   write_png({.panels = std::move(panels), .columns = 2}, file);
 }
 

@@ -16,6 +16,10 @@ double pressure_of(const granular::PathPoint& point) {
 double shear_of(const granular::PathPoint& point) {
   return norm(deviator(point.stress)) / std::sqrt(2.0);
 }
+/// Not a number without pressure.
+double friction_of(const granular::PathPoint& point) {
+  return pressure_of(point) > 0 ? shear_of(point) / pressure_of(point) : std::nan("");
+}
 
 constexpr const char* components[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
@@ -33,7 +37,7 @@ std::vector<NamedValue> quantities_of(const FollowedPath& path) {
   for (const granular::PathPoint& point : path.points) {
     pressure = std::max(pressure, pressure_of(point));
     shear = std::max(shear, shear_of(point));
-    if (pressure_of(point) > 0) friction = std::max(friction, shear_of(point) / pressure_of(point));
+    friction = std::fmax(friction, friction_of(point));
   }
   const granular::PathPoint& last = path.points.back();
   const double sound = std::visit([&](const auto& law) { return law.sound_speed(path.options.density); }, path.law);
@@ -65,17 +69,16 @@ void write_path_table(const FollowedPath& path, const std::filesystem::path& fil
     const granular::PathPoint& point = path.points[k];
     // A point ends the stretch that led to it; the first begins the first.
     const std::size_t stretch = k == 0 ? 0 : (k - 1) / static_cast<std::size_t>(path.options.points);
-    const double pressure = pressure_of(point), shear = shear_of(point);
     values = {point.time,
               static_cast<double>(stretch + 1),
               point.density / path.parameters.grains.density,
-              pressure,
-              shear,
-              shear / pressure};
+              pressure_of(point),
+              shear_of(point),
+              friction_of(point)};
     add_values(values, point.strain);
     add_values(values, point.stress);
     if (collide)
-      add_values(values, granular::collisional_stress(collisions, std::max(pressure, 0.0),
+      add_values(values, granular::collisional_stress(collisions, std::max(pressure_of(point), 0.0),
                                                       path.stretches[stretch].velocity_gradient));
     values.insert(values.end(), point.history.begin(), point.history.end());
     writer.append(values);
