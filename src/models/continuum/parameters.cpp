@@ -56,7 +56,8 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
         fmt::format("{:.4g} to {:.4g} mm: six spacings from both", room / millimetre,
                     (p.box.height - room) / millimetre));
   if (p.plate.slit_left.has_value() != p.plate.slit_right.has_value()) {
-    add(p.plate.slit_left ? "plate.slit_right" : "plate.slit_left", "missing: the slit needs both its ends", "a length");
+    add(p.plate.slit_left ? "plate.slit_right" : "plate.slit_left", "missing: the slit needs both its ends",
+        "a length");
   } else if (p.plate.slit_left && !(*p.plate.slit_left < *p.plate.slit_right && *p.plate.slit_right <= p.box.width)) {
     add("plate.slit_right", fmt::format("{:.4g} mm leaves no slit", *p.plate.slit_right / millimetre),
         "above plate.slit_left, at most box.width");
@@ -135,8 +136,7 @@ Lattice lattice_of(const Parameters& p) {
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }
-  lattice.mass =
-      p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
+  lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
   return lattice;
 }
 
