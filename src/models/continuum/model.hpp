@@ -23,6 +23,8 @@ class Continuum {
 
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
+  /// When the gate opened, s.
+  double time_origin() const;
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);

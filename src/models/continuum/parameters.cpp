@@ -94,6 +94,11 @@ std::vector<Problem> check(const Parameters& p) {
   check_faces(p, problems);
   check_plate(p, problems);
   check_bed(p, problems);
+  for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
+  if (p.law.collisions != granular::Collisions::none && !(p.gravity.acceleration > 0))
+    problems.push_back({.key = "law.collisions",
+                        .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
+                        .allowed = "none without gravity"});
   if (p.gate.opens != GateOpens::at_time && p.gate.time > 0)
     problems.push_back({.key = "gate.time",
                         .what = fmt::format("given, but gate.opens is \"{}\"", choice_name(p.gate.opens)),

@@ -12,12 +12,12 @@
 #include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "physics/granular/law_options.hpp"
 #include "physics/sph/balance.hpp"
 
 namespace talus::continuum {
 
 enum class GateOpens { when_settled, at_time, from_the_start };
-enum class LawName { linear_elastic };
 enum class Smoothing { local, fixed };
 enum class Continuity { printed, corrected };
 enum class Friction { coulomb, printed, none };
@@ -50,11 +50,7 @@ struct Parameters {
     std::optional<double> bottom;
     std::optional<double> left, right;
   } bed;
-  struct Law {
-    LawName name = LawName::linear_elastic;
-    double lambda = 2.94e6;
-    double shear_modulus = 2.94e6;
-  } law;
+  granular::LawParameters law;
   struct Sph {
     Smoothing smoothing = Smoothing::local;
     Continuity continuity = Continuity::printed;
@@ -133,10 +129,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"bed.right", dimension::length, above(0), "where the bed ends along x; left out: the right face"},
         p.bed.right);
 
-  visit(Parameter{"law.name", {}, {}, "constitutive law of the grains"}, p.law.name);
-  visit(Parameter{"law.lambda", dimension::pressure, above(0), "linear-elastic: Lame's first constant"}, p.law.lambda);
-  visit(Parameter{"law.shear_modulus", dimension::pressure, above(0), "linear-elastic: shear modulus"},
-        p.law.shear_modulus);
+  granular::for_each_parameter(visit, p.law);
 
   visit(Parameter{"sph.smoothing",
                   {},
@@ -213,8 +206,6 @@ namespace talus {
 template <>
 inline constexpr auto choices<continuum::GateOpens> =
     std::to_array<std::string_view>({"when-settled", "at-time", "from-the-start"});
-template <>
-inline constexpr auto choices<continuum::LawName> = std::to_array<std::string_view>({"linear-elastic"});
 template <>
 inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
 template <>

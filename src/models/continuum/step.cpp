@@ -153,8 +153,10 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
           w.rates);
   s.packing.resize(s.position.size());
   s.shear_rate.resize(s.position.size());
+  s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
+    s.strain[i] = w.material.strain(s.material, i);
     const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
     s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
   });

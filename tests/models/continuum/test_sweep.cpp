@@ -215,7 +215,9 @@ TEST(Sweep, TheDensityFollowsTheKernelsSum) {
   Parameters p = column(6, 1, 9, 3);
   Evaluation e(p);
   e.disturb(0.2);
-  e.velocity([](const Vector3& x) { return Vector3{std::sin(40 * x.z), std::sin(300 * x.x) * x.y, std::cos(50 * x.x)}; });
+  e.velocity([](const Vector3& x) {
+    return Vector3{std::sin(40 * x.z), std::sin(300 * x.x) * x.y, std::cos(50 * x.x)};
+  });
   const double dt = 1e-6;
   e.evaluate();
   const auto rate = e.rates.density_rate;
