@@ -59,12 +59,13 @@ double drift(const Curve& cumulative, double length, double from, double to) {
 }
 
 double first_maximum_time(const Curve& values, double reach) {
-  for (std::size_t n = 0; n < values.time.size(); ++n) {
+  for (std::size_t n = 1; n < values.time.size(); ++n) {
     if (!covers(values, values.time[n], values.time[n] + reach)) break;
     bool largest = true;
-    for (std::size_t m = 0; m < values.time.size() && largest; ++m)
-      if (std::abs(values.time[m] - values.time[n]) <= reach * (1 + 1e-9))
-        largest = !(values.value[m] > values.value[n]);
+    for (std::size_t m = 0; m < values.time.size() && largest; ++m) {
+      if (m == n || std::abs(values.time[m] - values.time[n]) > reach * (1 + 1e-9)) continue;
+      largest = m < n ? values.value[m] < values.value[n] : values.value[m] <= values.value[n];
+    }
     if (largest) return values.time[n];
   }
   return none;

@@ -33,8 +33,9 @@ Curve mean_rates(const Curve& cumulative, double length, double every, double fr
 /// by how much of itself the rate changes.
 double drift(const Curve& cumulative, double length, double from, double to);
 
-/// Time of the first value that is the largest of all within `reach` before and after it; nan if there is none. The
-/// curve has to cover the reach after it; before, it may begin later, as a rate does that begins from nothing.
+/// Time of the first value that is larger than all within `reach` before it and not smaller than any within `reach`
+/// after it; nan if there is none. The curve has to cover the reach after it; before, it may begin later, as a rate
+/// does that begins from nothing. The first value of a curve is no maximum.
 double first_maximum_time(const Curve& values, double reach);
 
 /// Standard deviation of a curve about its own centred mean over `length`, of the data within from..to whose mean the

@@ -107,7 +107,8 @@ HopperFrame hopper_frame(const Snapshot& snapshot, const Snapshot* before, const
 
 struct HopperRun {
   HopperSetting setting;
-  Series series;                         ///< in the run's time
+  /// In the run's time: the columns of app/continuum/hopper_observers.hpp and the model's impulses.
+  Series series;
   double gate_time = 0;                  ///< in the run's time, s; its end if the gate never opened
   std::vector<HopperFrame> frames = {};  ///< rising in time
 

@@ -93,11 +93,6 @@ double period(const Curve& curve, const Window& window) {
   return dominant_period(at_equal_times(curve, period_rate, window.from, window.to), shortest_period, longest_period);
 }
 
-double period_of_discharge(const HopperRun& run, const Window& window) {
-  return dominant_period(mean_rates(discharged_mass(run), 1 / period_rate, 1 / period_rate, window.from, window.to),
-                         shortest_period, longest_period);
-}
-
 double share_at(const HopperRun& run, const Window& window) {
   const Curve share = discharged_share(run);
   const double at = time_of(window, run);
@@ -190,9 +185,9 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
       {"discharge_rate_max", [](Run r, In w) { return largest_discharge(r, w).value; }},
       {"discharge_rate_max_time", [](Run r, In w) { return largest_discharge(r, w).time; }},
       {"slit_velocity_extreme_time",
-       [](Run r, In w) { return extreme_time(integral(scaled(r.curve("slit_velocity_z"), -1)), r, w); }},
+       [](Run r, In w) { return extreme_time(integral(scaled(r.curve("slit_velocity"), -1)), r, w); }},
       {"slit_velocity_fluctuation",
-       [](Run r, In w) { return fluctuation(r.curve("slit_velocity_z"), largest_mean, w.from, w.to); }},
+       [](Run r, In w) { return fluctuation(r.curve("slit_velocity"), largest_mean, w.from, w.to); }},
       {"discharged_fraction_400ms", share_at},
       {"residual_fraction", [](Run r, In w) { return 1 - share_at(r, w); }},
       {"floor_arrival_first_time", [](Run r, In) { return first_time_at_or_below(r.curve("lowest_z"), 1e-3); }},
@@ -219,11 +214,11 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
       {"floor_stress_settled",
        [](Run r, In) { return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth); }},
       {"floor_stress_error", [](Run r, In) { return settled_force(r) / (r.setting.mass() * r.setting.gravity) - 1; }},
-      {"period_discharge", period_of_discharge},
-      {"period_density", period_of("above_slit_density")},
-      {"period_velocity", period_of("above_slit_velocity_z")},
-      {"period_stress", period_of("above_slit_stress_zz")},
-      {"period_strain", period_of("above_slit_strain")},
+      {"period_discharge", period_of("discharge_rate")},
+      {"period_density", period_of("probe_density")},
+      {"period_velocity", period_of("probe_velocity")},
+      {"period_stress", period_of("probe_stress")},
+      {"period_strain", period_of("probe_strain")},
       {"stress_ratio_flow", at(&HopperFrame::stress_ratio)},
       {"stress_ratio_settled", [](Run r, In) { return settled_stress_ratio(r); }},
       {"inertial_share", at(&HopperFrame::inertial_share)},
@@ -256,11 +251,11 @@ double hopper_quantity(std::string_view name, const HopperRun& run, const Window
 }
 
 Curve discharged_mass(const HopperRun& run) {
-  return scaled(run.curve("mass_above_plate"), -1, run.setting.mass());
+  return run.curve("discharged_mass");
 }
 
 Curve discharged_share(const HopperRun& run) {
-  return scaled(run.curve("mass_above_plate"), -1 / run.setting.mass(), 1);
+  return scaled(discharged_mass(run), 1 / run.setting.mass());
 }
 
 }  // namespace talus

@@ -25,8 +25,8 @@ double hopper_pair_quantity(std::string_view name, const HopperRun& first, const
 /// place for (a slit's without a plate) are left out.
 std::vector<NamedValue> hopper_summary(const HopperRun& run);
 
-/// Discharge Q from the mass above the plate: kg passed against the time from the gate's opening. Without points if the
-/// series lacks the column.
+/// Mass below the plate against the time from the gate's opening, kg: the integral of Q. Without points if the series
+/// lacks the column.
 Curve discharged_mass(const HopperRun& run);
 /// The same over the mass of all lumps at the start.
 Curve discharged_share(const HopperRun& run);

@@ -112,7 +112,7 @@ void add_analyze_command(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
       footer +
-      "x points down the slope, y to its left, z away from it. Of a run's folder, analysis/, pictures/ and\n"
+      "x points down the slope, y to its left, z away from it; of a heap z is up. Of a run's folder, analysis/, pictures/ and\n"
       "the quantities of summary.json are made anew from its snapshots and its series.");
   command->callback([options, &action] {
     action = [options] {

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/continuum/continuum_analysis.hpp"
+#include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hopper_observers.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_reader.hpp"
@@ -99,13 +101,18 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = [p, run] { return forecast(p, run); };
-  prepared.analyze = [](const std::filesystem::path&) { return std::vector<NamedValue>{}; };
-  prepared.draw = [](const std::filesystem::path&) { return std::vector<std::filesystem::path>{}; };
+  prepared.analyze = [p](const std::filesystem::path& folder) { return analyze_continuum(folder, hopper_setting(p)); };
+  prepared.draw = [p, title = run.title](const std::filesystem::path& folder) {
+    return draw_continuum(folder, hopper_setting(p), title);
+  };
   return prepared;
 }
 
-std::vector<NamedValue> analyze_continuum_run(const CaseFile&, const std::filesystem::path&) {
-  return {};
+std::vector<NamedValue> analyze_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  const PreparedCase prepared = prepare_continuum(resolved);
+  std::vector<NamedValue> quantities = prepared.analyze(folder);
+  prepared.draw(folder);
+  return quantities;
 }
 
 }  // namespace talus::app

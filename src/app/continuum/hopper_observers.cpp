@@ -36,6 +36,12 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     }
   }
 
+  double lowest = std::nan(""), near_floor = 0;
+  for (const Vector3& x : position) {
+    lowest = std::fmin(lowest, x.z);
+    if (x.z < p.bed.spacing) near_floor += mass;
+  }
+
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (p.plate.slit_left && p.plate.slit_right) {
@@ -61,6 +67,7 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     probe_strain = field.value(probe, pick(snapshot.scalars("strain")));
   }
   return {{"discharged_mass", "kg", passed},         {"discharge_rate", "kg/s", rate},
+          {"lowest_z", "m", lowest},                 {"mass_near_floor", "kg", near_floor},
           {"slit_velocity", "m/s", slit_velocity},   {"probe_density", "kg/m3", probe_density},
           {"probe_velocity", "m/s", probe_velocity}, {"probe_stress", "Pa", probe_stress},
           {"probe_strain", "1", probe_strain}};

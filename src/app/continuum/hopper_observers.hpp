@@ -13,6 +13,8 @@ namespace talus::app {
 /// Columns, all at the time of the row; x and z in m from the lower left corner, y in the middle:
 ///   discharged_mass  kg    mass of the lumps whose centre is below the plate; without a plate 0
 ///   discharge_rate   kg/s  flux of mass downwards through the plate's plane, lumps spread along z by the cubic spline
+///   lowest_z         m     of the lumps' centres
+///   mass_near_floor  kg    of the lumps within a spacing of the floor
 ///   slit_velocity    m/s   u_z in the middle of the slit
 ///   probe_density    kg/m3, probe_velocity m/s (u_z), probe_stress Pa (the law's, zz), probe_strain 1 (norm of the
 ///   strain
