@@ -22,8 +22,8 @@ seed = 3
 motion = "xy"
 [particles]
 shape = "circle"
-count = 300
-size = "0.135 m"
+count = 60
+size = "60 mm"
 radius = "5 mm"
 density = "20 kg/m3"
 [slope]
@@ -36,7 +36,7 @@ pictures = false
 """
 
 # Small steps and frequent checkpoints: a run long enough to be stopped within.
-SLOW = ("--set", "integration.largest_step=0.01", "--set", "output.checkpoint_interval=50 ms")
+SLOW = ("--set", "integration.largest_step=0.005", "--set", "output.checkpoint_interval=5 ms")
 
 
 def checkpoints(folder):
@@ -63,6 +63,16 @@ def bits(folder):
     for path in sorted((folder / "snapshots").glob("*.vtkhdf")):
         found[path.name] = path.read_bytes()
     return found
+
+
+def state(folder):
+    """All that the newest checkpoint of a run holds, byte by byte, apart from timings."""
+    steps = checkpoints(folder)
+    found = {}
+    with h5py.File(Path(folder) / max(steps, key=steps.get), "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return {name: value.tobytes() if hasattr(value, "tobytes") else value for name, value in found.items()
+            if name not in ("run/wall_seconds", "run/cpu_seconds")}
 
 
 def tree(folder):

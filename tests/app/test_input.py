@@ -23,7 +23,7 @@ enabled = true
 snapshots = "0.1 ms"
 """
 
-POINTS = CASE.replace('shape = "circle"\ncount = 300\nsize = "0.135 m"', 'shape = "file"\nfile = "points.csv"')
+POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
 class BadCase(ProgramTest):
@@ -45,7 +45,7 @@ class BadCase(ProgramTest):
             (3, "motoin", "unknown key", "did you mean 'motion'?"),
             (5, "particles.shape", "circel", "did you mean 'circle'?"),
             (6, "particles.count", "2.5", "a whole number"),
-            (7, "particles.size", "0.135", "a length, at least 0 mm, such as \"5 mm\""),
+            (7, "particles.size", "0.135", "a length, above 0 mm, such as \"5 mm\""),
             (8, "particles.radius", "mn", "a length, above 0 mm"),
             (9, "particles.radius_spread", "2", "from 0 to 0.9"),
             (10, "particles.density", "20 kg/m", "a density, above 0 kg/m3"),

@@ -125,6 +125,16 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   throw NumericalError(report);
 }
 
+/// No step as short as this would ever be refused: its error could not be held.
+[[noreturn]] void refuse_stiffness(const State& state, double stable, double largest_step) {
+  throw NumericalError({.what = fmt::format("the longest stable step is {:.2g} of the largest", stable / largest_step),
+                        .term = "contact force, Eq. 2",
+                        .place = "the stiffest contacts",
+                        .step = state.step,
+                        .time = state.time,
+                        .advice = "a smaller contact.stiffness, by the same factor at least"});
+}
+
 }  // namespace
 
 Workspace::Workspace(const Parameters& parameters, const State& state)
@@ -170,6 +180,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
     const bool euler = p.integration.method == Method::euler;
     const double stable = chebyshev_stages(euler ? 1 : most_stages, damping).stability / rate;
     if (rate > 0) step = std::min(step, stable);
+    if (stable < least_step_over_largest * largest_step) refuse_stiffness(state, stable, largest_step);
     const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, damping), damping);
 
     bool finite = take_stages(team, state, work, scheme, step, farthest_move * a);
