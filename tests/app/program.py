@@ -89,7 +89,8 @@ class ProgramTest(unittest.TestCase):
     """Works in an empty folder that is removed again; `case.toml` is in it."""
 
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="talus-test-"))
+        memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # flushing to a disk takes its time
+        self.folder = Path(tempfile.mkdtemp(prefix="talus-test-", dir=memory))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         (self.folder / "case.toml").write_text(CASE)
 
