@@ -72,6 +72,15 @@ double front_speed_spread(std::span<const AvalancheRun> members, const Window& w
   return mean(ratio);
 }
 
+/// A front of fewer than three grains has no angle. Such members are left out, as long as they are the fewer: if not,
+/// there is none at all.
+std::vector<double> angles_that_are(std::vector<double> angles) {
+  const std::size_t members = angles.size();
+  std::erase_if(angles, [](double angle) { return std::isnan(angle); });
+  if (2 * angles.size() < members) angles.clear();
+  return angles;
+}
+
 /// Standard deviation of the frontal angle over the members, mean over the last quarter of the data over the first.
 double frontal_angle_spread_ratio(std::span<const AvalancheRun> members) {
   std::vector<double> deviation;
@@ -79,7 +88,7 @@ double frontal_angle_spread_ratio(std::span<const AvalancheRun> members) {
   for (std::size_t n = 0; n < data; ++n) {
     std::vector<double> angle;
     for (const AvalancheRun& member : members) angle.push_back(member.data()[n].frontal_angle);
-    deviation.push_back(standard_deviation(angle));
+    deviation.push_back(standard_deviation(angles_that_are(std::move(angle))));
   }
   const std::size_t quarter = deviation.size() / 4;
   return mean(std::span(deviation).last(quarter)) / mean(std::span(deviation).first(quarter));
@@ -133,10 +142,9 @@ std::optional<double> ensemble_quantity(const ComparisonRow& row, std::span<cons
     if (row.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
     std::vector<double> numbers;
     for (const AvalancheRun& member : members) numbers.push_back(run_quantity(row.quantity, member, row.window));
-    // A front of fewer than three grains has no angle. Such members are left out, as long as they are the fewer.
     if (row.quantity == "frontal_angle" || row.quantity == "frontal_angle_first") {
-      std::erase_if(numbers, [](double number) { return std::isnan(number); });
-      if (2 * numbers.size() < members.size()) return AvalancheFrame::none;
+      numbers = angles_that_are(std::move(numbers));
+      if (numbers.empty()) return AvalancheFrame::none;
     }
     return evaluate(row.statistic, numbers);
   }

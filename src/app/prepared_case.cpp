@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/cloud/cloud_case.hpp"
+#include "app/cloud/cloud_pictures.hpp"
 #include "base/nearest.hpp"
 
 namespace talus::app {
@@ -27,7 +28,10 @@ std::vector<Problem> check_model(const std::string& model) {
 }
 
 std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  return analyze_cloud(folder, study_of(resolved).frame);
+  const CloudStudy study = study_of(resolved);
+  std::vector<NamedValue> quantities = analyze_cloud(folder, study.frame);
+  draw_cloud(folder, study.frame, study.title);
+  return quantities;
 }
 
 ParameterList parameters_of(const std::string& model) {

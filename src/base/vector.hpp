@@ -32,6 +32,9 @@ constexpr Vector3 operator*(double s, const Vector3& a) {
 constexpr double dot(const Vector3& a, const Vector3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+constexpr Vector3 cross(const Vector3& a, const Vector3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline double norm(const Vector3& a) {
   return std::sqrt(dot(a, a));
 }

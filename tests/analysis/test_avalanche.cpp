@@ -191,6 +191,19 @@ TEST(EnsembleQuantity, MeansSpreadsAndPooledValues) {
   EXPECT_THROW(of("head_count", From::values), std::out_of_range);
 }
 
+TEST(EnsembleQuantity, MembersWithoutAnAngleAreLeftOutWhileTheyAreTheFewer) {
+  std::vector<AvalancheRun> members = {synthetic(-1, 1), synthetic(0, 1), synthetic(1, 1)};
+  const ComparisonRow spread_ratio{.quantity = "frontal_angle_spread_ratio", .from = From::curves};
+  const ComparisonRow at_first{.quantity = "frontal_angle_first", .from = From::each, .statistic = Statistic::mean};
+  members[2].frames[1].frontal_angle = AvalancheFrame::none;
+  // The first datum's standard deviation is now that of two angles, 9 degrees apart.
+  EXPECT_NEAR(*ensemble_quantity(spread_ratio, members), 1 / (9 / std::sqrt(2.0) + 8), 1e-12);
+  EXPECT_NEAR(*ensemble_quantity(at_first, members), 88 - 4.5, 1e-12);
+  members[1].frames[1].frontal_angle = AvalancheFrame::none;
+  EXPECT_TRUE(std::isnan(*ensemble_quantity(spread_ratio, members)));
+  EXPECT_TRUE(std::isnan(*ensemble_quantity(at_first, members)));
+}
+
 TEST(EnsembleQuantity, TheAspectRatioIsThatOfTheMeans) {
   std::vector<AvalancheRun> members = {synthetic(0, 1), synthetic(0, 1)};
   for (AvalancheFrame& frame : members[1].frames) frame.head_width = 3 * frame.head_thickness;

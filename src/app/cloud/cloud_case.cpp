@@ -107,7 +107,7 @@ CloudStudy study_of(const CaseFile& file) {
   run::for_each_parameter(reader, run);
   cloud::for_each_parameter(reader, p);
   reader.finish();
-  return {frame_of(p), cloud::scales(p).contact_ratio};
+  return {run.title, frame_of(p), cloud::scales(p).contact_ratio};
 }
 
 ParameterList cloud_parameters() {

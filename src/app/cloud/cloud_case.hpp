@@ -2,6 +2,8 @@
 /// The cloud model as the commands see it.
 #pragma once
 
+#include <string>
+
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/prepared_case.hpp"
 
@@ -12,6 +14,7 @@ PreparedCase prepare_cloud(const CaseFile& file);
 
 /// What a study needs to know of a run's case.
 struct CloudStudy {
+  std::string title;
   CloudFrame frame;
   double contact_weight_ratio = 0;  ///< gamma of Eq. 9
 };

@@ -4,9 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 #include "analysis/frontal_angle.hpp"
 #include "analysis/heads.hpp"
+#include "analysis/statistics.hpp"
 #include "io/figure/figure.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -32,8 +38,127 @@ std::vector<std::int64_t> marked(const Snapshot& snapshot, const CloudFrame& fra
 
 View view_of(const CloudFrame& frame) {
   if (frame.motion == cloud::Motion::xy) return view_xy;
-  if (frame.motion == cloud::Motion::xz || !frame.has_slope) return view_xz;
-  return view_oblique(-0.6, 0.45);
+  if (frame.motion == cloud::Motion::xz) return view_xz;
+  return view_oblique(0.6, 0.45);
+}
+
+/// Across gravity, which points down the page, and along it.
+std::array<View, 2> views_of_a_fall(const Vector3& gravity) {
+  const Vector3 other = std::abs(gravity.x) < 0.9 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
+  const Vector3 across = other - dot(other, gravity) * gravity;
+  const Vector3 right = (1 / norm(across)) * across, up = -1 * gravity;
+  return {View{right, up, cross(right, up)}, View{right, cross(gravity, right), gravity}};
+}
+
+double quantile_along(std::span<const Vector3> position, const Vector3& direction, double probability) {
+  std::vector<double> along;
+  for (const Vector3& x : position) along.push_back(dot(x, direction));
+  return quantile(along, probability);
+}
+
+/// A window of the given extent about the cloud's middle, which most of the grains have not left.
+Window follow(std::span<const Vector3> position, const View& view, double half_width, double below, double above) {
+  const double x = quantile_along(position, view.right, 0.5), y = quantile_along(position, view.up, 0.5);
+  return {x - half_width, x + half_width, y - below, y + above};
+}
+
+/// The front of an avalanche, with what is 180 radii behind it.
+Window front_of(std::span<const Vector3> position, const CloudFrame& frame) {
+  const double a = frame.scales.mean_radius, front = quantile_along(position, {1, 0, 0}, 1);
+  if (frame.motion == cloud::Motion::xz) return {front - 180 * a, front + 20 * a, -8 * a, 72 * a};
+  const double centre = quantile_along(position, {0, 1, 0}, 0.5);
+  if (frame.motion == cloud::Motion::xy) return {front - 180 * a, front + 20 * a, centre - 50 * a, centre + 50 * a};
+  const View view = view_of(frame);
+  const double x = dot(view.right, {front, centre, 0}), y = dot(view.up, {front, centre, 0});
+  return {x - 180 * a, x + 40 * a, y - 45 * a, y + 105 * a};
+}
+
+struct Frames {
+  std::vector<PointSet> points;
+  std::vector<std::vector<std::int64_t>> categories;
+  std::vector<std::vector<double>> radii_of_cloud;  // of a cloud that falls: without the grains that it has left behind
+
+  Frames(std::span<const std::filesystem::path> snapshots, const CloudFrame& frame) {
+    const std::size_t last = snapshots.size() - 1;
+    std::vector<std::size_t> chosen = {0, last / 5, last / 2, last};
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    for (const std::size_t n : chosen) {
+      points.push_back(read_points(snapshots[n]));
+      categories.push_back(marked(points.back().view(), frame));
+    }
+  }
+
+  std::vector<ParticlePicture> pictures(const CloudFrame& frame, const View& view) const {
+    std::vector<ParticlePicture> pictures;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      const Snapshot snapshot = points[n].view();
+      ParticlePicture picture{.title = fmt::format("*t̃* = {:.1f}", snapshot.time / frame.scales.time()),
+                              .positions = snapshot.positions(),
+                              .radii = snapshot.scalars("radius"),
+                              .view = view,
+                              .length = {frame.scales.mean_radius, "*a*"}};
+      picture.slope = frame.has_slope && frame.motion != cloud::Motion::xy;
+      picture.depth = frame.motion == cloud::Motion::xyz;
+      if (frame.has_slope && frame.motion != cloud::Motion::xyz)
+        picture.colouring =
+            ByCategory{.of = categories[n],
+                       .categories = {{frame.motion == cloud::Motion::xy ? "head" : "surface of the front", blue}}};
+      pictures.push_back(std::move(picture));
+    }
+    return pictures;
+  }
+};
+
+Figure figure_of(const std::string& title, std::vector<ParticlePicture> pictures) {
+  Figure figure{.title = title};
+  for (ParticlePicture& picture : pictures) figure.panels.emplace_back(std::move(picture));
+  return figure;
+}
+
+/// The whole avalanche, and its front.
+std::vector<std::pair<std::string, Figure>> avalanche_figures(const Frames& frames, const CloudFrame& frame,
+                                                              const std::string& title) {
+  std::vector<ParticlePicture> whole = frames.pictures(frame, view_of(frame));
+  share_scale(whole);
+  std::vector<std::pair<std::string, Figure>> figures;
+  figures.emplace_back("frames.png", figure_of(title, std::move(whole)));
+  std::vector<ParticlePicture> front = frames.pictures(frame, view_of(frame));
+  for (ParticlePicture& picture : front) picture.window = front_of(picture.positions, frame);
+  figures.emplace_back("front.png", figure_of(title + ": the front", std::move(front)));
+  return figures;
+}
+
+/// Radii of the grains that are within a distance of the median along a direction; the others are left out of a
+/// picture.
+std::vector<double> radii_of_those_near(const ParticlePicture& picture, const Vector3& direction, double distance) {
+  const double middle = quantile_along(picture.positions, direction, 0.5);
+  std::vector<double> radii(picture.radii.begin(), picture.radii.end());
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    if (std::abs(dot(picture.positions[i], direction) - middle) > distance)
+      radii[i] = std::numeric_limits<double>::quiet_NaN();
+  return radii;
+}
+
+/// A falling cloud from the side, with the grains that it leaves behind, and below that as seen along gravity.
+std::vector<std::pair<std::string, Figure>> fall_figures(Frames& frames, const CloudFrame& frame,
+                                                         const std::string& title) {
+  const auto [side, along] = views_of_a_fall(frame.gravity);
+  const double radius = 0.5 * (quantile_along(frames.points[0].view().positions(), side.right, 1) -
+                               quantile_along(frames.points[0].view().positions(), side.right, 0));
+  std::vector<ParticlePicture> pictures = frames.pictures(frame, side), from_below = frames.pictures(frame, along);
+  frames.radii_of_cloud.resize(from_below.size());
+  for (std::size_t n = 0; n < from_below.size(); ++n) {
+    frames.radii_of_cloud[n] = radii_of_those_near(from_below[n], side.up, 2 * radius);
+    from_below[n].radii = frames.radii_of_cloud[n];
+  }
+  for (ParticlePicture& picture : pictures)
+    picture.window = follow(picture.positions, side, 2 * radius, 2 * radius, 4 * radius);
+  for (ParticlePicture& picture : from_below)
+    picture.window = follow(picture.positions, along, 2 * radius, 2 * radius, 2 * radius);
+  std::move(from_below.begin(), from_below.end(), std::back_inserter(pictures));
+  Figure figure = figure_of(title, std::move(pictures));
+  figure.columns = static_cast<int>(frames.points.size());
+  return {{"frames.png", std::move(figure)}};
 }
 
 }  // namespace
@@ -46,36 +171,12 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
 
   const std::vector<std::filesystem::path> snapshots = snapshot_paths(run_folder);
   if (!snapshots.empty()) {
-    const std::size_t last = snapshots.size() - 1;
-    std::vector<std::size_t> chosen = {0, last / 5, last / 2, last};
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    std::vector<PointSet> points;
-    std::vector<std::vector<std::int64_t>> categories;
-    for (const std::size_t n : chosen) {
-      points.push_back(read_points(snapshots[n]));
-      categories.push_back(marked(points.back().view(), frame));
+    Frames frames(snapshots, frame);
+    for (const auto& [name, figure] :
+         frame.has_slope ? avalanche_figures(frames, frame, title) : fall_figures(frames, frame, title)) {
+      drawn.push_back(pictures / name);
+      write_png(figure, drawn.back());
     }
-    std::vector<ParticlePicture> frames;
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      const Snapshot view = points[n].view();
-      ParticlePicture picture{.title = fmt::format("*t̃* = {:.1f}", view.time / frame.scales.time()),
-                              .positions = view.positions(),
-                              .radii = view.scalars("radius"),
-                              .view = view_of(frame),
-                              .length = {frame.scales.mean_radius, "*a*"}};
-      picture.slope = frame.has_slope && frame.motion != cloud::Motion::xy;
-      picture.depth = frame.motion == cloud::Motion::xyz;
-      if (frame.has_slope && frame.motion != cloud::Motion::xyz)
-        picture.colouring =
-            ByCategory{.of = categories[n],
-                       .categories = {{frame.motion == cloud::Motion::xy ? "head" : "surface of the front", blue}}};
-      frames.push_back(std::move(picture));
-    }
-    share_scale(frames);
-    Figure figure{.title = title};
-    for (ParticlePicture& picture : frames) figure.panels.emplace_back(std::move(picture));
-    drawn.push_back(pictures / "frames.png");
-    write_png(figure, drawn.back());
   }
 
   if (std::filesystem::exists(run_folder / "analysis" / "front_speed.csv")) {
@@ -84,7 +185,7 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
     const Chart chart{.title = title,
                       .x = {.label = "*t* *v*_{s}/*a*"},
                       .y = {.label = "front speed *v*_{f}/*v*_{s}"},
-                      .series = {Line{.x = {time.begin(), time.end()}, .y = {value.begin(), value.end()}}}};
+                      .series = {figure::Line{.x = {time.begin(), time.end()}, .y = {value.begin(), value.end()}}}};
     drawn.push_back(pictures / "front_speed.png");
     write_png({.panels = {chart}}, drawn.back());
   }

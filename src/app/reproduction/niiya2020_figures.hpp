@@ -15,7 +15,8 @@ struct FigureOfStudy {
   std::string caption;
 };
 
-/// Draws what the ensembles that are there allow. \param folder made if needed; \throws FileError
+/// Draws what the ensembles that are there allow: figures and panels of cases without a finished run are left out.
+/// Particles are those of the first member at the largest radius. \param folder made if needed; \throws FileError
 std::vector<FigureOfStudy> draw_niiya2020(const std::vector<StudiedEnsemble>& ensembles,
                                           const std::filesystem::path& folder);
 

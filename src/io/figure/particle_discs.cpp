@@ -67,6 +67,17 @@ void fade_with_depth(const ParticlePicture& picture, std::vector<Colour>& colour
 
 }  // namespace
 
+namespace {
+
+double mean_radius(const ParticlePicture& picture) {
+  double sum = 0, count = 0;
+  for (const double radius : picture.radii)
+    if (std::isfinite(radius)) sum += radius, ++count;
+  return count > 0 ? sum / count : 0;
+}
+
+}  // namespace
+
 ColourBar bar_of(const ByValue& colouring) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : colouring.values) {
@@ -85,6 +96,7 @@ void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projecti
   std::vector<Colour> colours = colours_of(picture);
   if (picture.depth) fade_with_depth(picture, colours);
   cairo_set_line_width(context, outline_width);
+  const bool outlined = mean_radius(picture) * p.scale >= outlined_from;  // all or none
   for (const std::size_t i : order_of(picture)) {
     const Obstacle centre = p(picture.positions[i]);
     const double radius = std::max(least_radius, picture.radii[i] * p.scale);
@@ -94,14 +106,14 @@ void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projecti
     cairo_new_sub_path(context);
     cairo_arc(context, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
     set_colour(context, colours[i]);
-    if (radius < outlined_from) {
+    if (!outlined) {
       cairo_fill(context);
     } else {
       cairo_fill_preserve(context);
       set_colour(context, mix(colours[i], ink, 0.45));
       cairo_stroke(context);
     }
-    if (picture.depth && radius >= outlined_from) {  // a highlight makes a ball of it
+    if (picture.depth && outlined) {  // a highlight makes a ball of it
       cairo_arc(context, centre.x - 0.28 * radius, centre.y - 0.3 * radius, 0.42 * radius, 0, 2 * std::numbers::pi);
       set_colour(context, with_alpha(white, 0.28));
       cairo_fill(context);

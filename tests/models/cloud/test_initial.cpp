@@ -31,8 +31,8 @@ TEST(Pack, FillsTheDiscWithoutOverlap) {
     furthest = std::max(furthest, norm(x));
     ++quadrant[(x.x > 0) + 2 * (x.y > 0)];
   }
-  EXPECT_LE(furthest, p.particles.size);
-  EXPECT_GT(furthest, 0.97 * p.particles.size);
+  EXPECT_LE(furthest, *p.particles.size);
+  EXPECT_GT(furthest, 0.97 * *p.particles.size);
   for (const int count : quadrant) EXPECT_NEAR(count, 150, 40);
   EXPECT_NEAR(scales(p).volume_fraction, 0.43, 0.43 * 0.002);
 }
@@ -94,10 +94,10 @@ TEST(Pack, AWedgeIsUprightAtItsGateAndLevelAtItsSurface) {
     front = std::max(front, x.x);
     highest = std::max(highest, above_the_foot);
     EXPECT_LE(x.x, 0);
-    EXPECT_LE(above_the_foot, p.particles.size);
+    EXPECT_LE(above_the_foot, *p.particles.size);
   }
   EXPECT_GT(front, -2 * p.particles.radius);
-  EXPECT_GT(highest, p.particles.size - 2 * p.particles.radius);
+  EXPECT_GT(highest, *p.particles.size - 2 * p.particles.radius);
 }
 
 TEST(Pack, WholeGrainsStayInsideWhenAsked) {
@@ -105,7 +105,7 @@ TEST(Pack, WholeGrainsStayInsideWhenAsked) {
   p.particles.boundary = Boundary::whole;
   const Grains grains = pack(p);
   for (std::size_t i = 0; i < grains.radius.size(); ++i)
-    EXPECT_LE(norm(grains.position[i]) + grains.radius[i], p.particles.size * (1 + 1e-12));
+    EXPECT_LE(norm(grains.position[i]) + grains.radius[i], *p.particles.size * (1 + 1e-12));
 }
 
 TEST(Pack, SameSeedSamePlacesAndAnotherSeedOthers) {

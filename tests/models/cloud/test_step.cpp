@@ -71,6 +71,42 @@ TEST(Advance, WithoutDragThePatternIsKept) {
   }
 }
 
+TEST(Advance, WithoutContactsReversedGravityTakesACloudBack) {
+  // Stokes flow is reversible; what remains is the step's error, of first order.
+  Parameters p = polystyrene(Shape::ball, 60);
+  p.particles.size = 12 * p.particles.radius;
+  p.motion = Motion::xyz;
+  p.slope.enabled = p.contact.enabled = false;
+  p.fluid.mobility = hydrodynamics::Mobility::zuk_2014;
+  p.integration.tolerance = 1e3;
+  ThreadTeam team(1);
+  const Grains start = pack(p);
+  auto missed = [&](double largest_step) {
+    p.integration.largest_step = largest_step;
+    Grains grains = start;
+    double end = 2 * scales(p).stokes_time;
+    for (const double upwards : {-1.0, 1.0}) {
+      p.gravity.direction = {0, 0, upwards};
+      Cloud cloud(p, grains);
+      cloud.begin(team);
+      run_until(cloud, team, end * (1 - 1e-9));
+      end = cloud.state().time;
+      if (upwards < 0) {
+        const double fallen = start.position[0].z - cloud.state().position[0].z;
+        EXPECT_GT(fallen, 4 * p.particles.radius) << "something has moved";
+      }
+      grains.position = cloud.state().position;
+    }
+    double worst = 0;
+    for (std::size_t i = 0; i < start.position.size(); ++i)
+      worst = std::max(worst, norm(grains.position[i] - start.position[i]));
+    return worst / p.particles.radius;
+  };
+  const double coarse = missed(0.02), fine = missed(0.01);
+  EXPECT_LT(fine, 0.2);
+  EXPECT_NEAR(coarse / fine, 2, 0.3);
+}
+
 TEST(Advance, ARestingGrainSinksIntoTheSlopeByItsWeightOverTheStiffness) {
   Parameters p = polystyrene(Shape::file, 1);
   p.motion = Motion::xz;
