@@ -35,9 +35,6 @@ snapshots = "0.1 ms"
 pictures = false
 """
 
-# Small steps and frequent checkpoints: a run long enough to be stopped within.
-SLOW = ("--set", "integration.largest_step=0.005", "--set", "output.checkpoint_interval=5 ms")
-
 
 def checkpoints(folder):
     """Steps of the whole checkpoints of a run, by name; each is verified against its own first lines."""
@@ -85,12 +82,16 @@ def rows(path):
         return list(csv.DictReader(file))
 
 
+def scratch_folder():
+    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # flushing to a disk takes its time
+    return Path(tempfile.mkdtemp(prefix="talus-test-", dir=memory))
+
+
 class ProgramTest(unittest.TestCase):
     """Works in an empty folder that is removed again; `case.toml` is in it."""
 
     def setUp(self):
-        memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # flushing to a disk takes its time
-        self.folder = Path(tempfile.mkdtemp(prefix="talus-test-", dir=memory))
+        self.folder = scratch_folder()
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         (self.folder / "case.toml").write_text(CASE)
 
@@ -101,9 +102,9 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(done.returncode, status, f"{arguments}\n{done.stdout}\n{done.stderr}")
         return done
 
-    def start(self, *arguments):
+    def start(self, *arguments, **options):
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
+                                   stderr=subprocess.DEVNULL, **options)
         self.addCleanup(self._end, process)
         return process
 

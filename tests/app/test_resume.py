@@ -4,9 +4,10 @@ import json
 import resource
 import shutil
 import signal
+import subprocess
 import unittest
 
-from program import SLOW, ProgramTest, bits, checkpoints, rows, state
+from program import CASE, PROGRAM, ProgramTest, bits, checkpoints, rows, scratch_folder, state
 
 # 700 grains are three chunks of work, one for each of three threads.
 LARGE = ("--set", "particles.count=700", "--set", "particles.size=206 mm", "--set", "run.end=0.2 ms")
@@ -38,92 +39,52 @@ class Threads(ProgramTest):
         self.assertEqual(differing, [])
 
 
-class Interrupted(ProgramTest):
-    """Every way to end a run early; `whole` is the same run undisturbed."""
+# More than a second: long enough to be stopped within, also by a test that has to wait for a processor.
+LONG = ("--set", "integration.largest_step=0.0002", "--set", "output.checkpoint_interval=20 ms")
 
-    def setUp(self):
-        super().setUp()
-        self.talus("run", "case.toml", "--out", "whole", *SLOW)
-        self.whole = bits(self.folder / "whole")
-        self.steps = len(rows(self.folder / "whole/series.csv")) - 1
-        self.assertGreater(self.steps, 500)
 
-    def begin(self, *arguments):
-        return self.start("run", "case.toml", "--out", "r", *SLOW, *arguments)
+class Resumed(ProgramTest):
+    settings = ()  # of every run
+
+    @classmethod
+    def setUpClass(cls):
+        """The same run undisturbed, for all tests of the class."""
+        folder = scratch_folder()
+        cls.addClassCleanup(shutil.rmtree, folder)
+        (folder / "case.toml").write_text(CASE)
+        cls.whole = folder / "whole"
+        subprocess.run([PROGRAM, "run", "case.toml", "--out", "whole", *cls.settings], cwd=folder, check=True,
+                       capture_output=True)
+        cls.steps = len(rows(cls.whole / "series.csv")) - 1
 
     def assert_goes_on_to_the_same_bits(self, threads=1):
-        self.talus("run", "case.toml", "--out", "r", "--resume", "--threads", threads, *SLOW)
-        self.assertEqual(bits(self.folder / "r"), self.whole)
-        self.assertEqual(state(self.folder / "r"), state(self.folder / "whole"))
-        self.assertEqual((self.folder / "r/analysis/snapshots.csv").read_bytes(),
-                         (self.folder / "whole/analysis/snapshots.csv").read_bytes())
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--threads", threads, *self.settings)
+        self.assertEqual(bits(self.folder / "r"), bits(self.whole))
+        self.assertEqual(state(self.folder / "r"), state(self.whole))
+        for table in sorted((self.whole / "analysis").iterdir()):
+            self.assertEqual((self.folder / "r/analysis" / table.name).read_bytes(), table.read_bytes())
+        self.assertEqual(list((self.folder / "r").rglob("*.part")), [])
 
     def assert_resumes_from_newest_checkpoint(self):
         """A session without time for a step leaves a checkpoint where it began."""
         newest = max(checkpoints(self.folder / "r").values())
-        self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "1e-9", *SLOW, status=130)
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "1e-9", *self.settings, status=130)
         self.assertEqual(max(checkpoints(self.folder / "r").values()), newest)
         self.assertEqual(len(rows(self.folder / "r/series.csv")), newest + 1)
         return newest
 
-    def test_killed_at_several_moments(self):
-        moments = [0, 1, self.steps // 7, self.steps // 3, self.steps // 2, self.steps - 60]
-        resumed_at = []
-        for n, moment in enumerate(moments):
-            process = self.begin("--threads", 1 + n % 3, *(("--resume",) if n else ()))
-            if moment:
-                self.wait_for_rows(process, "r", moment)
-            else:
-                self.wait_until((self.folder / "r/manifest.json").exists, process)
-            self.kill(process)
-            if checkpoints(self.folder / "r"):
-                resumed_at.append(self.assert_resumes_from_newest_checkpoint())
-        self.assertEqual(resumed_at, sorted(resumed_at))
-        self.assertGreater(resumed_at[-1], 0)
-        self.assert_goes_on_to_the_same_bits()
 
-    def killed_by_a_file_size_limit(self, limit, checkpoint_interval):
-        """The system kills the run, in the middle of the write that makes a file larger than this."""
-        process = self.begin("--set", "output.snapshots=1 s", "--set",
-                             f"output.checkpoint_interval={checkpoint_interval}")
-        self.wait_for_rows(process, "r", 2)
-        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (limit, limit))
-        self.assertEqual(process.wait(), -signal.SIGXFSZ)
+class Interrupted(Resumed):
+    """A run that is stopped from outside while it goes on."""
 
-    def test_killed_in_the_middle_of_a_checkpoint(self):
-        self.talus("run", "case.toml", "--out", "whole", "--overwrite", *SLOW, "--set", "output.snapshots=1 s")
-        self.whole = bits(self.folder / "whole")
-        size = (self.folder / "whole/checkpoint_a.h5").stat().st_size
-        self.killed_by_a_file_size_limit(size - 1000, "10 us")
-        parts = list((self.folder / "r").glob("checkpoint_?.h5.part"))
-        self.assertEqual([part.stat().st_size for part in parts], [size - 1000])
-        self.assertTrue(checkpoints(self.folder / "r"))
-        self.talus("run", "case.toml", "--out", "r", "--resume", *SLOW, "--set", "output.snapshots=1 s")
-        self.assertEqual(bits(self.folder / "r"), self.whole)
-        self.assertEqual(list((self.folder / "r").glob("*.part")), [])
+    settings = LONG
 
-    def test_killed_in_the_middle_of_a_row(self):
-        whole = (self.folder / "whole/series.csv").read_bytes()
-        limit = whole.index(b"\n", len(whole) // 2) + 30
-        self.killed_by_a_file_size_limit(limit, "1 h")
-        self.assertEqual((self.folder / "r/series.csv").read_bytes(), whole[:limit])
-        self.assertEqual(checkpoints(self.folder / "r"), {"checkpoint_a.h5": 0})
-        self.talus("run", "case.toml", "--out", "r", "--resume", *SLOW, "--set", "output.snapshots=1 s")
-        self.assertEqual((self.folder / "r/series.csv").read_bytes(), whole)
-
-    def test_damaged_newest_checkpoint_is_passed_over(self):
-        process = self.begin()
-        self.wait_for_rows(process, "r", self.steps // 2)
-        self.wait_until(lambda: len(checkpoints(self.folder / "r")) == 2, process)
-        self.kill(process)
-        steps = checkpoints(self.folder / "r")
-        newest = max(steps, key=steps.get)
-        content = bytearray((self.folder / "r" / newest).read_bytes())
-        content[-100] ^= 1
-        (self.folder / "r" / newest).write_bytes(content)
-        said = self.talus("run", "case.toml", "--out", "r", "--resume", *SLOW).stderr
-        self.assertRegex(said, f"passed over: r/{newest}: does not have the checksum")
-        self.assertEqual(bits(self.folder / "r"), self.whole)
+    def begin(self, part, *arguments):
+        """Starts the run and waits until it has written this part of the series."""
+        process = self.start("run", "case.toml", "--out", "r", *self.settings, *arguments)
+        series, whole = self.folder / "r/series.csv", self.whole / "series.csv"
+        self.wait_until(lambda: series.exists() and series.stat().st_size > part * whole.stat().st_size, process)
+        return process
 
     def assert_left_with_a_checkpoint(self, reason):
         summary = json.loads((self.folder / "r/summary.json").read_text())
@@ -134,11 +95,17 @@ class Interrupted(ProgramTest):
         self.assertEqual(len(rows(self.folder / "r/series.csv")), step + 1)
         self.assertIn(f"interrupted by {reason}", (self.folder / "r/log.txt").read_text())
 
+    def test_killed_twice(self):
+        self.kill(self.begin(0.1))
+        first = self.assert_resumes_from_newest_checkpoint()
+        self.kill(self.begin(0.4, "--resume", "--threads", 3))
+        self.assertGreater(self.assert_resumes_from_newest_checkpoint(), first)
+        self.assert_goes_on_to_the_same_bits()
+
     def test_signals(self):
         for number, name in ((signal.SIGINT, "SIGINT"), (signal.SIGTERM, "SIGTERM")):
             with self.subTest(name):
-                process = self.begin()
-                self.wait_for_rows(process, "r", self.steps // 4)
+                process = self.begin(0.2)
                 process.send_signal(number)
                 self.assertEqual(process.wait(), 130)
                 self.assert_left_with_a_checkpoint(name)
@@ -146,26 +113,84 @@ class Interrupted(ProgramTest):
             shutil.rmtree(self.folder / "r")
 
     def test_stop_file(self):
-        # It is looked for every half second; so many steps last longer.
-        many = ("--set", "integration.largest_step=0.0002", "--set", "output.checkpoint_interval=1 h")
-        self.talus("run", "case.toml", "--out", "whole", "--overwrite", *many)
-        self.steps = len(rows(self.folder / "whole/series.csv")) - 1
-        process = self.start("run", "case.toml", "--out", "r", *many)
-        self.wait_for_rows(process, "r", 10)
+        process = self.begin(0.01)  # it is looked for every half second
         (self.folder / "r/stop").touch()
         self.assertEqual(process.wait(), 130)
         self.assert_left_with_a_checkpoint("the file r/stop")
-        self.talus("run", "case.toml", "--out", "r", "--resume", *many)
+        self.assert_goes_on_to_the_same_bits()
         self.assertFalse((self.folder / "r/stop").exists())
-        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "whole"))
 
     def test_walltime(self):
-        self.talus("run", "case.toml", "--out", "r", "--walltime", "0.02", *SLOW, status=130)
+        self.talus("run", "case.toml", "--out", "r", "--walltime", "0.1", *LONG, status=130)
         self.assert_left_with_a_checkpoint("the wall-time limit")
         seconds = json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"]
-        self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "0.01", *SLOW, status=130)
-        self.assertGreater(json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"], seconds)
+        self.assertGreaterEqual(seconds, 0.1)
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "0.1", *LONG, status=130)
+        self.assertGreaterEqual(json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"], seconds + 0.1)
         self.assert_goes_on_to_the_same_bits(threads=3)
+
+    def test_damaged_newest_checkpoint_is_passed_over(self):
+        process = self.begin(0.3)
+        self.wait_until(lambda: len(list((self.folder / "r").glob("checkpoint_?.h5"))) == 2, process)
+        self.kill(process)
+        steps = checkpoints(self.folder / "r")
+        newest = max(steps, key=steps.get)
+        content = bytearray((self.folder / "r" / newest).read_bytes())
+        content[-100] ^= 1
+        (self.folder / "r" / newest).write_bytes(content)
+        said = self.talus("run", "case.toml", "--out", "r", "--resume", *LONG).stderr
+        self.assertRegex(said, f"passed over: r/{newest}: does not have the checksum")
+        self.assertEqual(bits(self.folder / "r"), bits(self.whole))
+
+
+class KilledWhileItWrites(Resumed):
+    """A limit on the size of files makes the system kill the run in the middle of the write that would pass it."""
+
+    settings = ("--set", "output.checkpoint_interval=1 us", "--set", "output.snapshots=1 s", "--set",
+                "integration.largest_step=0.02")
+
+    def setUp(self):
+        super().setUp()
+        self.size = (self.whole / "checkpoint_a.h5").stat().st_size
+        self.series = (self.whole / "series.csv").read_bytes()
+
+    def killed_by(self, limit, *arguments):
+        def limits():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+        process = self.start("run", "case.toml", "--out", "r", *self.settings, *arguments, preexec_fn=limits)
+        self.assertEqual(process.wait(), -signal.SIGXFSZ)
+
+    def leave_at_start(self):
+        self.talus("run", "case.toml", "--out", "r", "--walltime", "1e-9", *self.settings, status=130)
+        self.assertEqual(set(checkpoints(self.folder / "r").values()), {0})
+
+    def test_manifest(self):
+        self.killed_by(500)
+        self.assertEqual(len((self.folder / "r/manifest.json.part").read_bytes()), 500)
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_first_snapshot(self):
+        self.killed_by(10000)
+        self.assertEqual(list((self.folder / "r/snapshots").glob("*.vtkhdf")), [])
+        self.assertTrue((self.folder / "r/snapshots/particles_0000.vtkhdf.part").exists())
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_checkpoint(self):
+        self.leave_at_start()
+        self.killed_by(self.size - 1000, "--resume")
+        [part] = (self.folder / "r").glob("checkpoint_?.h5.part")
+        self.assertEqual(part.stat().st_size, self.size - 1000)
+        self.assertEqual(self.assert_resumes_from_newest_checkpoint(), 0)
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_row(self):
+        limit = self.series.index(b"\n", self.size + 10000) + 30
+        self.killed_by(limit)
+        self.assertEqual((self.folder / "r/series.csv").read_bytes(), self.series[:limit])
+        self.assertEqual(self.assert_resumes_from_newest_checkpoint(), self.series[:limit].count(b"\n") - 2)
+        self.assert_goes_on_to_the_same_bits()
 
 
 if __name__ == "__main__":

@@ -7,10 +7,11 @@ import re
 import subprocess
 import unittest
 
-from program import CASE, SLOW, ProgramTest, bits, checkpoints, rows, state, tree
+from program import CASE, ProgramTest, bits, checkpoints, rows, state, tree
 
 # Snapshots of 15 kB after every step, 160 of them.
-FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", *SLOW)
+FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", "--set",
+           "integration.largest_step=0.005")
 POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
