@@ -39,9 +39,10 @@ constexpr std::array<std::string_view, 8> file_names{CheckpointFiles::names[0],
                                                      "manifest.json"};
 
 /// What the analysis of a run may leave: of another case, it would be taken for this one's.
-constexpr std::array<std::string_view, 5> derived_names{"analysis/front_speed.csv", "analysis/snapshots.csv",
-                                                        "analysis/head_widths.csv", "pictures/frames.png",
-                                                        "pictures/front_speed.png"};
+constexpr std::array<std::string_view, 11> derived_names{
+    "analysis/snapshots.csv", "analysis/front_speed.csv", "analysis/head_widths.csv",  "analysis/discharge.csv",
+    "analysis/surfaces.csv",  "pictures/frames.png",      "pictures/front.png",        "pictures/front_speed.png",
+    "pictures/packing.png",   "pictures/discharge.png",   "pictures/surface_angle.png"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& allowed = {}) {
   throw InputError({{.where = path.string(), .key = {}, .what = what, .allowed = allowed}});

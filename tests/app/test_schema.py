@@ -11,7 +11,7 @@ ROWS = "x [mm],y [mm],radius [mm]\n" + "".join(f"{9 * i},{9 * j},5\n" for i in r
 
 
 class Schema(ProgramTest):
-    def properties(self):
+    def properties(self, model="cloud"):
         """Keys with their tables' names, and their schemas."""
         def walk(table, prefix):
             for name, entry in table["properties"].items():
@@ -19,7 +19,7 @@ class Schema(ProgramTest):
                     yield from walk(entry, f"{prefix}{name}.")
                 else:
                     yield prefix + name, entry
-        return dict(walk(json.loads(self.talus("schema").stdout), ""))
+        return dict(walk(json.loads(self.talus("schema", model).stdout), ""))
 
     def test_lists_the_keys_that_a_resolved_case_has(self):
         self.talus("run", "case.toml", "--out", "r")
@@ -39,9 +39,10 @@ class Schema(ProgramTest):
     def test_knows_every_key_of_every_case_in_the_project(self):
         cases = sorted((PROJECT / "cases").glob("*.toml"))
         self.assertGreater(len(cases), 3)
-        properties = self.properties()
         for path in cases:
-            for table, entries in tomllib.loads(path.read_text()).items():
+            case = tomllib.loads(path.read_text())
+            properties = self.properties(case["model"])
+            for table, entries in case.items():
                 for key in entries if isinstance(entries, dict) else [None]:
                     self.assertIn(f"{table}.{key}" if key else table, properties, path.name)
 
@@ -53,10 +54,11 @@ class Schema(ProgramTest):
     def test_check_tells_keys_without_a_value(self):
         self.assertRegex(self.talus("check", "case.toml").stdout, r"particles\.length +- ")
 
-    def test_reference_page_is_that_of_this_program(self):
-        page = PROJECT / "docs/case-reference-cloud.md"
-        self.assertEqual(page.read_text(), self.talus("schema", "cloud", "--markdown").stdout,
-                         f"{page} is stale: build/talus schema cloud --markdown > {page.relative_to(PROJECT)}")
+    def test_reference_pages_are_those_of_this_program(self):
+        for model in ("cloud", "continuum"):
+            page = PROJECT / f"docs/case-reference-{model}.md"
+            self.assertEqual(page.read_text(), self.talus("schema", model, "--markdown").stdout,
+                             f"{page} is stale: build/talus schema {model} --markdown > {page.relative_to(PROJECT)}")
 
 
 class Analyze(ProgramTest):

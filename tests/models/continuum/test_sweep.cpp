@@ -38,7 +38,7 @@ struct Evaluation {
   void velocity(Field&& field) {
     for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
   }
-  void evaluate(Sweep::Wanted wanted = Wanted::all) {
+  void evaluate(Wanted wanted = Wanted::all) {
     std::vector<double> h;
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
