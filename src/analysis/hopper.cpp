@@ -53,6 +53,11 @@ void measure_surfaces(HopperFrame& frame, const HopperView& view, const HopperSh
       corner_packing_ratio(view.packing, view.surfaces.hopper, shape.hopper(), shape, corner);
 }
 
+/// Whether the heap in the bin, beside the stream, is still below the layers in which the stream is measured.
+bool stream_is_free(const FreeSurface& bin) {
+  return std::none_of(bin.z.begin(), bin.z.end(), [](double z) { return z > below_from; });
+}
+
 void measure_stream(HopperFrame& frame, const Snapshot& snapshot, const LumpField& field, const HopperShape& shape) {
   frame.stream_width_above = stream_width(snapshot.positions(), above_from, above_to);
   frame.stream_width_below = stream_width(snapshot.positions(), below_from, below_to);
@@ -60,7 +65,7 @@ void measure_stream(HopperFrame& frame, const Snapshot& snapshot, const LumpFiel
   std::vector<double> along;
   for (double z = stream_from; z < stripes_to; z += hopper_cell)
     along.push_back(field.packing(cell_centre({shape.middle(), 0.5 * shape.depth, z}, hopper_cell)));
-  frame.stream_stripes = standard_deviation(along) / mean(along);
+  if (mean(along) > 0) frame.stream_stripes = standard_deviation(along) / mean(along);
 }
 
 void measure_hopper(HopperFrame& frame, const Snapshot& snapshot, const LumpField& field, const HopperShape& shape) {
@@ -130,7 +135,7 @@ HopperFrame hopper_frame(const Snapshot& snapshot, const Snapshot* before, const
 
   frame.left_right_imbalance = imbalance_in_bin(position, setting);
   if (!setting.shape.plate) return frame;
-  measure_stream(frame, snapshot, field, setting.shape);
+  if (stream_is_free(view.surfaces.bin)) measure_stream(frame, snapshot, field, setting.shape);
   measure_hopper(frame, snapshot, field, setting.shape);
   return frame;
 }

@@ -17,8 +17,8 @@ constexpr double length_of_mean = 20e-3, every = 1e-3;  // s, estimator.discharg
 
 double share_of_larger(const HopperRun& first, const HopperRun& second, const Window& window) {
   const double to = std::min({window.to, first.end(), second.end()});
-  const Curve a = mean_rates(discharged_mass(first), length_of_mean, every, window.from, to);
-  const Curve b = mean_rates(discharged_mass(second), length_of_mean, every, window.from, to);
+  const Curve a = mean_rates(passed_mass(first), length_of_mean, every, window.from, to);
+  const Curve b = mean_rates(passed_mass(second), length_of_mean, every, window.from, to);
   if (a.value.empty() || a.value.size() != b.value.size()) return none;
   double larger = 0;
   for (std::size_t n = 0; n < a.value.size(); ++n) larger += a.value[n] > b.value[n];
@@ -28,7 +28,7 @@ double share_of_larger(const HopperRun& first, const HopperRun& second, const Wi
 double ratio_at_largest(const HopperRun& first, const HopperRun& second, const Window& window) {
   const double time = hopper_quantity("discharge_rate_max_time", first, window);
   return hopper_quantity("discharge_rate_max", first, window) /
-         mean_rate(discharged_mass(second), time - 0.5 * length_of_mean, time + 0.5 * length_of_mean);
+         mean_rate(passed_mass(second), time - 0.5 * length_of_mean, time + 0.5 * length_of_mean);
 }
 
 double largest_share_difference(const HopperRun& first, const HopperRun& second, const Window& window) {

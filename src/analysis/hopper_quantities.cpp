@@ -73,7 +73,7 @@ struct LargestMean {
   double value = none, time = none;
 };
 LargestMean largest_discharge(const HopperRun& run, const Window& window) {
-  const Curve means = mean_rates(discharged_mass(run), largest_mean, largest_every, window.from, end_of(window, run));
+  const Curve means = mean_rates(passed_mass(run), largest_mean, largest_every, window.from, end_of(window, run));
   if (means.time.empty()) return {};
   const Extremes found = extremes(means);
   return {found.largest, found.largest_time};
@@ -85,12 +85,20 @@ double extreme_time(const Curve& cumulative, const HopperRun& run, const Window&
 }
 
 double discharge_fall(const HopperRun& run, const Window& window) {
-  const Curve passed = discharged_mass(run);
+  const Curve passed = passed_mass(run);
   return mean_rate(passed, window.from, window.to) - mean_rate(passed, 2 * window.from - window.to, window.from);
 }
 
+/// Of the window, or as much of it as there are grains at the place: at least half.
 double period(const Curve& curve, const Window& window) {
-  return dominant_period(at_equal_times(curve, period_rate, window.from, window.to), shortest_period, longest_period);
+  double to = window.to;
+  for (std::size_t n = 0; n < curve.time.size() && curve.time[n] <= window.to; ++n)
+    if (curve.time[n] > window.from && !std::isfinite(curve.value[n])) {
+      to = n > 0 ? curve.time[n - 1] : window.from;
+      break;
+    }
+  if (to - window.from < 0.5 * (window.to - window.from)) return none;
+  return dominant_period(at_equal_times(curve, period_rate, window.from, to), shortest_period, longest_period);
 }
 
 double share_at(const HopperRun& run, const Window& window) {
@@ -178,10 +186,10 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
   using Run = const HopperRun&;
   using In = const Window&;
   static const std::map<std::string_view, OfRun> all = {
-      {"discharge_rate_plateau", [](Run r, In w) { return mean_rate(discharged_mass(r), w.from, w.to); }},
-      {"discharge_rate_drift", [](Run r, In w) { return drift(discharged_mass(r), trend_mean, w.from, w.to); }},
+      {"discharge_rate_plateau", [](Run r, In w) { return mean_rate(passed_mass(r), w.from, w.to); }},
+      {"discharge_rate_drift", [](Run r, In w) { return drift(passed_mass(r), trend_mean, w.from, w.to); }},
       {"discharge_rate_fall", discharge_fall},
-      {"discharge_rate_extreme_time", [](Run r, In w) { return extreme_time(discharged_mass(r), r, w); }},
+      {"discharge_rate_extreme_time", [](Run r, In w) { return extreme_time(passed_mass(r), r, w); }},
       {"discharge_rate_max", [](Run r, In w) { return largest_discharge(r, w).value; }},
       {"discharge_rate_max_time", [](Run r, In w) { return largest_discharge(r, w).time; }},
       {"slit_velocity_extreme_time",
@@ -252,6 +260,10 @@ double hopper_quantity(std::string_view name, const HopperRun& run, const Window
 
 Curve discharged_mass(const HopperRun& run) {
   return run.curve("discharged_mass");
+}
+
+Curve passed_mass(const HopperRun& run) {
+  return integral(run.curve("discharge_rate"));
 }
 
 Curve discharged_share(const HopperRun& run) {

@@ -43,7 +43,7 @@ void write_snapshots(const std::filesystem::path& path, const HopperRun& run) {
 }
 
 void write_discharge(const std::filesystem::path& path, const HopperRun& run) {
-  const Curve rate = mean_rates(discharged_mass(run), 20e-3, 5e-3, 0, run.end());
+  const Curve rate = mean_rates(passed_mass(run), 20e-3, 5e-3, 0, run.end());
   std::vector<std::vector<double>> rows;
   for (std::size_t n = 0; n < rate.time.size(); ++n) rows.push_back({rate.time[n], rate.value[n]});
   write_table(path, {{"time", "s"}, {"discharge_rate", "kg/s"}}, rows);

@@ -25,7 +25,6 @@ double bed_mass(const Parameters& p) {
   return lattice.mass * static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2]);
 }
 
-
 std::vector<NamedValue> groups(const Parameters& p) {
   const continuum::Lattice lattice = continuum::lattice_of(p);
   const double density = p.bed.packing * p.grains.density;

@@ -20,7 +20,8 @@ namespace {
 using namespace figure;
 
 constexpr double printed_times[] = {0, 0.17, 0.2, 0.3, 0.4, 0.5, 1.0};  // s, Figure 4
-constexpr Colour dot_colour = with_alpha(rgb(0x5b4a33), 0.25);
+constexpr Colour dot_colour = rgb(0x5b4a33);
+constexpr int dots_of_lump = 50;
 constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
 const figure::Unit millimetre{1e-3, "mm"};
 
@@ -49,6 +50,16 @@ std::vector<std::size_t> chosen_frames(const Frames& frames) {
     chosen = {0, last / 5, last / 2, last};
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
+}
+
+/// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
+Colour colour_of_dots(const HopperShape& s) {
+  const double dots = dots_of_lump * s.depth / std::pow(s.spacing, 3);  // 1/m^2
+  return with_alpha(dot_colour, std::clamp(0.25 * 18e6 / dots, 0.03, 1.0));
+}
+
+std::string title_of(double time) {
+  return fmt::format("*t* = {:.2f} s", std::abs(time) < 5e-3 ? 0.0 : time);
 }
 
 Window window_of(const HopperShape& shape, double top) {
@@ -87,18 +98,19 @@ void draw_dots(const Frames& frames, const HopperSetting& setting, const std::st
                                          setting.grain_density, setting.smoothing_length);
     Domain domain = setting.domain;
     if (frames.time[n] >= 0) domain.open_gates();
-    dots.push_back(lump_dots(view.positions(), lumps.smoothing_length, view.integers("identity"), domain));
+    dots.push_back(
+        lump_dots(view.positions(), lumps.smoothing_length, view.integers("identity"), domain, dots_of_lump));
     top = std::max(top, highest(view) + 4 * setting.shape.spacing);
   }
   Figure figure{.title = title};
   std::vector<std::vector<double>> radii;
   for (const auto& set : dots) radii.emplace_back(set.size(), 0.5 * dot_diameter);
   for (std::size_t n = 0; n < chosen.size(); ++n) {
-    ParticlePicture picture{.title = fmt::format("*t* = {:.2f} s", frames.time[chosen[n]]),
+    ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
                             .positions = dots[n],
                             .radii = radii[n],
                             .view = view_xz,
-                            .colouring = Plain{dot_colour},
+                            .colouring = Plain{colour_of_dots(setting.shape)},
                             .segments = outline(setting.shape, top),
                             .length = millimetre};
     picture.window = window_of(setting.shape, top);
@@ -114,7 +126,7 @@ void draw_packing(const Frames& frames, const HopperSetting& setting, const std:
   const Snapshot view = points.view();
   const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
   ParticlePicture picture{
-      .title = fmt::format("*t* = {:.2f} s", frames.time.back()),
+      .title = title_of(frames.time.back()),
       .positions = view.positions(),
       .radii = radii,
       .view = view_xz,
