@@ -178,11 +178,11 @@ class ExistingFolder(ProgramTest):
 
     def test_overwriting_leaves_nothing_of_the_old_run_but_what_others_put_there(self):
         self.talus("run", "case.toml", "--out", "r", "--set", "output.pictures=true")
-        for name in ("analysis/head_widths.csv", "pictures/frames.png", "pictures/front.png", "pictures/front_speed.png",
-                     "snapshots/particles_0010.vtkhdf"):
+        for name in ("analysis/head_widths.csv", "pictures/frames.png", "pictures/front.png",
+                     "pictures/front_speed.png", "snapshots/particles_0010.vtkhdf"):
             self.assertTrue((self.folder / "r" / name).exists(), name)
         (self.folder / "r/snapshots/particles_0077.vtkhdf.part").touch()
-        for name in ("notes.txt", "analysis/mine.csv", "pictures/mine.png"):
+        for name in ("notes.txt", "analysis/mine.txt", "pictures/mine.svg"):
             (self.folder / "r" / name).write_text("mine")
         # Without a slope there is neither a head nor a front.
         other = ("--set", "slope.enabled=false", "--set", "gravity.direction=[1, 0, 0]", "--set",
@@ -190,7 +190,7 @@ class ExistingFolder(ProgramTest):
         self.talus("run", "case.toml", "--out", "r", "--overwrite", *other)
         self.talus("run", "case.toml", "--out", "fresh", *other)
         self.assertEqual(set(tree(self.folder / "r")) - set(tree(self.folder / "fresh")),
-                         {"notes.txt", "analysis/mine.csv", "pictures/mine.png"})
+                         {"notes.txt", "analysis/mine.txt", "pictures/mine.svg"})
         self.assertEqual(bits(self.folder / "r"), bits(self.folder / "fresh"))
 
 
