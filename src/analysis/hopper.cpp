@@ -53,9 +53,11 @@ void measure_surfaces(HopperFrame& frame, const HopperView& view, const HopperSh
       corner_packing_ratio(view.packing, view.surfaces.hopper, shape.hopper(), shape, corner);
 }
 
-/// Whether the heap in the bin, beside the stream, is still below the layers in which the stream is measured.
-bool stream_is_free(const FreeSurface& bin) {
-  return std::none_of(bin.z.begin(), bin.z.end(), [](double z) { return z > below_from; });
+/// Whether the heap in the bin, left and right of what is below the slit, is lower than where the stream is measured.
+bool stream_is_free(const FreeSurface& bin, const HopperShape::Plate& plate) {
+  for (std::size_t n = 0; n < bin.x.size(); ++n)
+    if ((bin.x[n] < plate.slit_left || bin.x[n] > plate.slit_right) && bin.z[n] > below_from) return false;
+  return true;
 }
 
 void measure_stream(HopperFrame& frame, const Snapshot& snapshot, const LumpField& field, const HopperShape& shape) {
@@ -135,7 +137,7 @@ HopperFrame hopper_frame(const Snapshot& snapshot, const Snapshot* before, const
 
   frame.left_right_imbalance = imbalance_in_bin(position, setting);
   if (!setting.shape.plate) return frame;
-  if (stream_is_free(view.surfaces.bin)) measure_stream(frame, snapshot, field, setting.shape);
+  if (stream_is_free(view.surfaces.bin, *setting.shape.plate)) measure_stream(frame, snapshot, field, setting.shape);
   measure_hopper(frame, snapshot, field, setting.shape);
   return frame;
 }

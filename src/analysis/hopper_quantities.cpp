@@ -89,15 +89,20 @@ double discharge_fall(const HopperRun& run, const Window& window) {
   return mean_rate(passed, window.from, window.to) - mean_rate(passed, 2 * window.from - window.to, window.from);
 }
 
-/// Of the window, or as much of it as there are grains at the place: at least half.
-double period(const Curve& curve, const Window& window) {
-  double to = window.to;
-  for (std::size_t n = 0; n < curve.time.size() && curve.time[n] <= window.to; ++n)
-    if (curve.time[n] > window.from && !std::isfinite(curve.value[n])) {
-      to = n > 0 ? curve.time[n - 1] : window.from;
-      break;
-    }
-  if (to - window.from < 0.5 * (window.to - window.from)) return none;
+/// The curve up to its first value after `from` that is not finite: the place has run empty.
+Curve while_there_are_grains(Curve curve, double from) {
+  std::size_t n = 0;
+  while (n < curve.time.size() && (curve.time[n] <= from || std::isfinite(curve.value[n]))) ++n;
+  curve.time.resize(n);
+  curve.value.resize(n);
+  return curve;
+}
+
+/// Of the window, or of as much of it as there are grains at the place: at least half.
+double period(const Curve& whole, const Window& window) {
+  const Curve curve = while_there_are_grains(whole, window.from);
+  if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return none;
+  const double to = std::min(window.to, curve.time.back());
   return dominant_period(at_equal_times(curve, period_rate, window.from, to), shortest_period, longest_period);
 }
 
