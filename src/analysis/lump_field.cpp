@@ -113,7 +113,7 @@ Vector3 LumpField::value(const Vector3& x, std::span<const Vector3> column) cons
 
 Tensor3<> LumpField::velocity_gradient(std::size_t lump, std::span<const Vector3> velocity) const {
   const Vector3& x = lumps_.position[lump];
-  sph::GradientSums sums;
+  sph::GradientSums<> sums;
   for_each_near(x, reach_, [&](std::uint32_t j, const Image& image, const Vector3& d) {
     const double h = 0.5 * (lumps_.smoothing_length[lump] + lumps_.smoothing_length[j]);
     const double r = norm(d);

@@ -95,7 +95,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.defaults = continuum_parameters();
   run::for_each_parameter(prepared.parameters, run);
   continuum::for_each_parameter(prepared.parameters, p);
-  prepared.instruction_set = choice_name(resolve(InstructionSet::automatic));
+  prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};

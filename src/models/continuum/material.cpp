@@ -30,8 +30,7 @@ void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::s
 
 }  // namespace
 
-Material::Material(const Parameters& p)
-    : law_(granular::make_law(p.law, p.grains.density)) {
+Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grains.density)) {
   const std::vector<granular::HistorySlot> remembered = slots();
   for (std::size_t k = 0; k < remembered.size(); ++k)
     if (remembered[k].name == std::string_view("strain_xx")) first_strain_slot_ = k;

@@ -16,9 +16,9 @@ namespace talus::continuum {
 
 /// What the law knows of each lump, column by column.
 struct MaterialColumns {
-  std::array<std::vector<double>, 6> stress;        ///< the law's, Pa, compression positive: xx yy zz xy yz zx
-  std::array<std::vector<double>, 6> collisional;   ///< by collisions, Pa, the same order
-  std::vector<std::vector<double>> history;   ///< one column a slot of the law
+  std::array<std::vector<double>, 6> stress;       ///< the law's, Pa, compression positive: xx yy zz xy yz zx
+  std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order
+  std::vector<std::vector<double>> history;        ///< one column a slot of the law
 };
 
 /// The names of the walls that may bear load, and of the columns of their impulses.
@@ -60,9 +60,9 @@ struct State {
 namespace detail {
 inline constexpr std::array<const char*, 6> stress_names = {"stress_xx", "stress_yy", "stress_zz",
                                                             "stress_xy", "stress_yz", "stress_zx"};
-inline constexpr std::array<const char*, 6> collisional_names = {
-    "collisional_stress_xx", "collisional_stress_yy", "collisional_stress_zz",
-    "collisional_stress_xy", "collisional_stress_yz", "collisional_stress_zx"};
+inline constexpr std::array<const char*, 6> collisional_names = {"collisional_stress_xx", "collisional_stress_yy",
+                                                                 "collisional_stress_zz", "collisional_stress_xy",
+                                                                 "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {

@@ -8,7 +8,7 @@ namespace {
 
 TEST(VelocityGradient, IsExactForALinearFieldWhateverTheNeighbours) {
   const Tensor3<> exact{1, -2, 0.5, 3, -1, 0.25, 0.75, 2, -0.5};
-  GradientSums sums;
+  GradientSums<> sums;
   for (const Vector3 d : {Vector3{1, 0.1, 0}, {0.2, -1, 0.3}, {0, 0.3, 1}, {-0.7, 0.2, 0.1}, {0.5, 0.5, -0.5}}) {
     const Vector3 du{exact.xx * d.x + exact.xy * d.y + exact.xz * d.z, exact.yx * d.x + exact.yy * d.y + exact.yz * d.z,
                      exact.zx * d.x + exact.zy * d.y + exact.zz * d.z};
@@ -27,7 +27,7 @@ TEST(VelocityGradient, IsExactForALinearFieldWhateverTheNeighbours) {
 
 TEST(VelocityGradient, StaysFiniteForALoneLumpAndForALineOfThem) {
   EXPECT_EQ(velocity_gradient({}), Tensor3<>{});
-  GradientSums line;
+  GradientSums<> line;
   line.add(0.5, -1, {1, 0, 0}, {0, 2, 0});
   EXPECT_EQ(velocity_gradient(line).yx, 1.0);
 }
