@@ -139,6 +139,7 @@ Chart thickness_ratios(const Radii& radii) {
 Chart frontal_angles(const Radii& radii) {
   Chart chart = over_time(radii, {.label = "frontal angle *φ*_{f}", .unit = "°", .low = 30, .high = 120},
                           {{&AvalancheFrame::frontal_angle}}, 0);
+  chart.x.low = -1;  // the start is seen whole
   chart.series.push_back(figure::Reference{.low = 60, .high = 60, .label = "printed at the end"});
   return chart;
 }
@@ -160,7 +161,7 @@ Chart head_motions(const Radii& radii) {
 
 Chart layer_motions(const Radii& radii) {
   Chart chart =
-      over_time(radii, {.label = "*ṽ*_{x} − *ṽ*_{f}"},
+      over_time(radii, {.label = "*ṽ*_{x} − *ṽ*_{f}", .low = -16, .high = 1},
                 {{.number = &AvalancheFrame::head_upper_relative_velocity, .label = "upper head"},
                  {.number = &AvalancheFrame::head_lower_relative_velocity, .label = "lower head", .open = true}});
   chart.series.push_back(figure::Reference{});

@@ -17,6 +17,7 @@ namespace {
 
 using namespace figure;
 
+constexpr double page_width = 720;
 constexpr double end = 1e9;  // later than any snapshot: the last one
 
 /// A panel and its part of the caption.
@@ -102,12 +103,12 @@ class Album {
     for (std::size_t i = 0; i < parts.size(); i += static_cast<std::size_t>(page.figure.rows.back()))
       page.figure.rows.push_back(parts[i].wide || parts.size() == 1 ? 1 : 2);
     for (Part& part : parts) page.figure.panels.push_back(std::move(part.panel));
-    page.figure.width = 720;
+    page.figure.width = page_width;
     pages_.push_back(std::move(page));
   }
 
   std::string one_run(const Radii& radii) const {
-    return fmt::format("One run with *a*<sub>p</sub> = {}.", radii.back()->radius);
+    return fmt::format("Particles: one run with *a*<sub>p</sub> = {}.", radii.back()->radius);
   }
 
   void initial_shapes() {
@@ -125,6 +126,7 @@ class Album {
     add("figure_03.png", "As Figure 3: the shapes at the start", std::move(parts),
         "Lengths in particle radii, the slope falls along *x*." +
             (left_out.empty() ? "" : " Left out for want of finished runs:" + left_out + "."));
+    pages_.back().figure.width = 0.82 * page_width;  // 6000 discs make a large file
   }
 
   void circle() {
@@ -155,7 +157,7 @@ class Album {
          {bands[1], "the front gathers and becomes wavy", true},
          {member.with_heads(end, view_downhill), "heads at the end of the run (blue)"},
          {front_speeds(rectangles_, 20, 28), "front speed over *v*<sub>s</sub>"}},
-        "Particles: " + one_run(rectangles_) + " " + spread_of(rectangles_));
+        one_run(rectangles_) + " " + spread_of(rectangles_));
   }
 
   void triangle() {
@@ -165,7 +167,7 @@ class Album {
          {member.relative_speed(end), "the same at the end of the run", true},
          {front_speeds(triangles_, 0, 0), "front speed over *v*<sub>s</sub>"},
          {thickness_ratios(triangles_), "thickness of the head over the median of the rear half"}},
-        "Particles: " + one_run(triangles_) + " " + spread_of(triangles_));
+        one_run(triangles_) + " " + spread_of(triangles_));
   }
 
   void heads() {
@@ -213,7 +215,7 @@ class Album {
         {{without_legend(member.frontal_surface(15.9)), "the grains of the front's surface and the line through them"},
          {member.frontal_surface(end), "the same at the end of the run"},
          {with_aspect(frontal_angles(triangles_), 0.4), "angle between the slope and the line", true}},
-        "Particles: " + one_run(triangles_) + " " + spread_of(triangles_));
+        one_run(triangles_) + " " + spread_of(triangles_));
   }
 
   void motions() {
@@ -223,7 +225,9 @@ class Album {
       parts.push_back({head_motions(circles_), "its rear and its front, relative to the front"});
     }
     if (!triangles_.empty()) {
-      parts.push_back({layer_motions(triangles_), "upper third and lower part of the triangle's head"});
+      parts.push_back(
+          {layer_motions(triangles_),
+           "upper third and lower part of the triangle's head (of the first, values below the axis are not shown)"});
       parts.push_back({tail_motions(triangles_), "the triangle's tail"});
     }
     add("figure_motions.png", "Beside Figures 5b and 7a: motion relative to the front in time", std::move(parts),

@@ -116,8 +116,7 @@ ParticlePicture MemberSnapshots::at(double t, const View& view) {
 ParticlePicture MemberSnapshots::circle_at_start() {
   ParticlePicture picture = at(0, view_xy);
   double size = 0;
-  for (std::size_t i = 0; i < picture.positions.size(); ++i)
-    size = std::max(size, norm(picture.positions[i]) + picture.radii[i]);
+  for (const Vector3& x : picture.positions) size = std::max(size, norm(x));
   picture.title = "circle";
   picture.segments = {measure({}, {size, 0, 0}, fmt::format("*R* = {:.0f} *a*_{{p}}", size / radius_))};
   return picture;
@@ -126,11 +125,8 @@ ParticlePicture MemberSnapshots::circle_at_start() {
 ParticlePicture MemberSnapshots::rectangle_at_start() {
   ParticlePicture picture = at(0, view_downhill);
   double left = 0, right = 0, rear = 0;
-  for (std::size_t i = 0; i < picture.positions.size(); ++i) {
-    left = std::max(left, picture.positions[i].y + picture.radii[i]);
-    right = std::min(right, picture.positions[i].y - picture.radii[i]);
-    rear = std::min(rear, picture.positions[i].x - picture.radii[i]);
-  }
+  for (const Vector3& x : picture.positions)
+    left = std::max(left, x.y), right = std::min(right, x.y), rear = std::min(rear, x.x);
   const double behind = rear - 8 * radius_;
   picture.title = "rectangle";
   picture.segments = {
@@ -141,10 +137,9 @@ ParticlePicture MemberSnapshots::rectangle_at_start() {
 ParticlePicture MemberSnapshots::triangle_at_start() {
   ParticlePicture picture = at(0, view_xz);
   // The gate's foot is the corner at the slope; the level surface falls from the gate's top to the slope behind.
-  const Vector3 foot{foremost(picture.positions) + radius_, 0, 0}, upwards{-std::sqrt(0.5), 0, std::sqrt(0.5)};
+  const Vector3 foot{foremost(picture.positions), 0, 0}, upwards{-std::sqrt(0.5), 0, std::sqrt(0.5)};
   double depth = 0;
-  for (std::size_t i = 0; i < picture.positions.size(); ++i)
-    depth = std::max(depth, dot(upwards, picture.positions[i] - foot) + picture.radii[i]);
+  for (const Vector3& x : picture.positions) depth = std::max(depth, dot(upwards, x - foot));
   picture.title = "triangle";
   picture.slope = true;
   picture.segments = {measure(foot, foot + depth * upwards, fmt::format("*D* = {:.0f} *a*_{{p}}", depth / radius_))};

@@ -22,7 +22,7 @@ class MemberSnapshots {
   /// All grains at the snapshot nearest to t, in a/v_s; plain. The title tells the time. \throws FileError
   figure::ParticlePicture at(double t, const figure::View& view);
 
-  /// Figure 3: the shapes at the start with their sizes R, W and D in radii, measured on the outermost grains.
+  /// Figure 3: the shapes at the start with their sizes R, W and D in radii, measured between the outermost centres.
   figure::ParticlePicture circle_at_start();
   figure::ParticlePicture rectangle_at_start();
   figure::ParticlePicture triangle_at_start();

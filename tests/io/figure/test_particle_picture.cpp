@@ -266,6 +266,20 @@ TEST(ParticlePicture, LabelsOfSegmentsCoverAsLittleAsTheyCan) {
   EXPECT_EQ(right, 0);
 }
 
+TEST(ParticlePicture, LabelsOfSegmentsStayInThePlot) {
+  // Discs left of an upright line at the right edge: beside it on the right there is nothing to cover, but no room.
+  std::vector<Vector3> positions;
+  for (int i = 0; i < 900; ++i) positions.push_back({1.35 + 0.02 * (i % 30), 1.0 / 30 * (i / 30), 0});
+  Scene scene(positions, std::vector<double>(positions.size(), 0.01));
+  scene.picture.colouring = Plain{blue};
+  scene.picture.segments = {{.from = {1.96, 0.1, 0}, .to = {1.96, 0.9, 0}, .label = "HHH", .colour = vermillion}};
+  const Picture picture = scene.drawn();
+  int label = 0;
+  for (int y = 5; y < 95; ++y)
+    for (int x = 0; x < 193; ++x) label += difference(picture.at(x, y), vermillion) < 0.25;
+  EXPECT_GT(label, 20);
+}
+
 TEST(ParticlePicture, ScaleBarIsAsLongAsItSays) {
   Scene scene({}, {});  // 2 m wide: the largest round length up to 0.28 of that is 0.5 m, 50 pixels
   const Picture picture = scene.drawn();
