@@ -130,7 +130,7 @@ ParticlePicture MemberSnapshots::rectangle_at_start() {
   const double behind = rear - 8 * radius_;
   picture.title = "rectangle";
   picture.segments = {
-      measure({behind, left, 0}, {behind, right, 0}, fmt::format("{:.0f} *a*_{{p}}", (left - right) / radius_))};
+      measure({behind, left, 0}, {behind, right, 0}, fmt::format("2*W* = {:.0f} *a*_{{p}}", (left - right) / radius_))};
   return picture;
 }
 

@@ -91,14 +91,16 @@ void draw_plane(cairo_t* context, const ParticlePicture& picture, const Ground& 
 Rectangle place_beside(const Obstacle& from, const Obstacle& to, const TextExtent& label, const Rectangle& plot,
                        const std::vector<Obstacle>& obstacles) {
   const double width = label.width + 3, height = label.ascent + label.descent + 3, gap = 4;
-  const bool steep = std::abs(to.y - from.y) > std::abs(to.x - from.x);
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double nx = (to.y - from.y) / length, ny = -(to.x - from.x) / length;  // across the line
+  const double distance = gap + 0.5 * (std::abs(nx) * width + std::abs(ny) * height);
   Rectangle best;
   std::pair fewest{true, std::numeric_limits<std::ptrdiff_t>::max()};
   for (const double t : {0.5, 0.85, 0.15}) {
     const double x = from.x + t * (to.x - from.x), y = from.y + t * (to.y - from.y);
     for (const double side : {1.0, -1.0}) {
-      const Rectangle patch{x + (steep ? side * (gap + 0.5 * width) : 0) - 0.5 * width,
-                            y + (steep ? 0 : -side * (gap + 0.5 * height)) - 0.5 * height, width, height};
+      const Rectangle patch{x + side * distance * nx - 0.5 * width, y + side * distance * ny - 0.5 * height, width,
+                            height};
       const bool cut = !plot.contains(patch.x, patch.y) || !plot.contains(patch.right(), patch.bottom());
       const std::pair covered{cut, std::count_if(obstacles.begin(), obstacles.end(), [&](const Obstacle& point) {
                                 return patch.contains(point.x, point.y);

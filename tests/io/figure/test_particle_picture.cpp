@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -264,6 +265,20 @@ TEST(ParticlePicture, LabelsOfSegmentsCoverAsLittleAsTheyCan) {
   }
   EXPECT_GT(left, 20);
   EXPECT_EQ(right, 0);
+}
+
+TEST(ParticlePicture, LabelsOfSegmentsStandClearOfSlantingLines) {
+  Scene scene({}, {});
+  scene.picture.segments = {{.from = {0.3, 0.05, 0}, .to = {1.2, 0.95, 0}, .colour = vermillion}};
+  const int alone = scene.drawn().count(vermillion, 0.25);
+  scene.picture.segments[0].label = "HHHHHH";
+  EXPECT_GT(scene.drawn().count(vermillion, 0.25), alone + 20) << "the label's patch would pale the line";
+  const Picture picture = scene.drawn();
+  for (int k = 10; k < 80; ++k) {
+    double least = 1;  // the line is somewhere on each diagonal across it
+    for (int d = -1; d <= 1; ++d) least = std::min(least, difference(picture.at(30 + k + d, 94 - k), vermillion));
+    EXPECT_LT(least, 0.35) << k;
+  }
 }
 
 TEST(ParticlePicture, LabelsOfSegmentsStayInThePlot) {
