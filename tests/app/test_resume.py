@@ -113,7 +113,7 @@ class Interrupted(Resumed):
             shutil.rmtree(self.folder / "r")
 
     def test_stop_file(self):
-        process = self.begin(0.01)  # it is looked for every half second
+        process = self.begin(0.01)  # it is looked for ten times a second
         (self.folder / "r/stop").touch()
         self.assertEqual(process.wait(), 130)
         self.assert_left_with_a_checkpoint("the file r/stop")
