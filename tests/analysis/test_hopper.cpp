@@ -222,7 +222,8 @@ TEST(Hopper, QuantitiesOfTwoRuns) {
   EXPECT_NEAR(of("period_stiffness_ratio"), 1, 1e-12);
   EXPECT_NEAR(hopper_pair_quantity("surface_slope_500ms_difference", fast, slow, {.at = 0.5}), 5, 1e-12);
   EXPECT_NEAR(hopper_pair_quantity("discharge_resolution_difference", fast, slow, {}),
-              0.5 * (0.2 * 0.28 + 1.5 * 0.02 * 0.006 / (2 * pi) + 0.05 * 3e-3 * std::sqrt(pi)) / slow.setting.mass(), 1e-6)
+              0.5 * (0.2 * 0.28 + 1.5 * 0.02 * 0.006 / (2 * pi) + 0.05 * 3e-3 * std::sqrt(pi)) / slow.setting.mass(),
+              1e-6)
       << "the ripple ends two thirds through a period";
   EXPECT_THROW(of("discharge_rate_max"), std::out_of_range);
 }

@@ -66,10 +66,14 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     probe_stress = field.value(probe, pick(snapshot.scalars("stress_zz")));
     probe_strain = field.value(probe, pick(snapshot.scalars("strain")));
   }
-  return {{"discharged_mass", "kg", passed},         {"discharge_rate", "kg/s", rate},
-          {"lowest_z", "m", lowest},                 {"mass_near_floor", "kg", near_floor},
-          {"slit_velocity", "m/s", slit_velocity},   {"probe_density", "kg/m3", probe_density},
-          {"probe_velocity", "m/s", probe_velocity}, {"probe_stress", "Pa", probe_stress},
+  return {{"discharged_mass", "kg", passed},
+          {"discharge_rate", "kg/s", rate},
+          {"lowest_z", "m", lowest},
+          {"mass_near_floor", "kg", near_floor},
+          {"slit_velocity", "m/s", slit_velocity},
+          {"probe_density", "kg/m3", probe_density},
+          {"probe_velocity", "m/s", probe_velocity},
+          {"probe_stress", "Pa", probe_stress},
           {"probe_strain", "1", probe_strain}};
 }
 

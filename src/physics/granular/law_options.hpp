@@ -80,10 +80,12 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
                   {},
                   "what the volumetric strain is measured by: the density, or the strain since the last reset"},
         p.volume);
-  visit(Parameter{"law.close_packing", dimension::none, between(0.1, 1),
-                  "isotropic form: packing beyond which grains cannot give way any more, random close packing: from there "
-                  "on the pressure rises along its initial stiffness again; 1: never"},
-        p.close_packing);
+  visit(
+      Parameter{
+          "law.close_packing", dimension::none, between(0.1, 1),
+          "isotropic form: packing beyond which grains cannot give way any more, random close packing: from there "
+          "on the pressure rises along its initial stiffness again; 1: never"},
+      p.close_packing);
   visit(Parameter{"law.largest_deviator", dimension::none, above(0),
                   "|e_dev| beyond which shear no longer hardens or softens the grains"},
         p.largest_deviator);

@@ -120,8 +120,8 @@ class YuuUmekageIsotropic {
     const Number stiffness =
         options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
     const Number beyond = maximum(volume - close_volume_, Number(0.0));
-    const Number loading = stiffness * ((1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0))) +
-                                        initial_pressure_ * beyond);
+    const Number loading =
+        stiffness * ((1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0))) + initial_pressure_ * beyond);
     if (!unloads_pressure()) return {volume, loading, Number(0.0)};
     const Number compression = volume - (1.0 / 3.0) * trace(old.history.strain);
     const Number line =

@@ -79,4 +79,25 @@ inline Vector3 momentum_error(const State& s) {
   return error;
 }
 
+/// A model at the start of its run.
+inline Continuum started(const Parameters& p, ThreadTeam& team) {
+  Continuum model(p);
+  model.begin(team);
+  return model;
+}
+
+/// A bed on a plate with a slit.
+inline Parameters small_hopper() {
+  Parameters p = column(12, 2, 10, 40);
+  p.plate.height = 15 * spacing;
+  p.plate.slit_left = 3.6 * spacing;
+  p.plate.slit_right = 8.3 * spacing;
+  p.sph.viscosity_alpha = 0.2;
+  p.sph.smoothing = Smoothing::local;
+  p.walls.friction = Friction::coulomb;
+  p.law.lambda = 4e5;
+  p.law.shear_modulus = 1e3;
+  return p;
+}
+
 }  // namespace talus::continuum
