@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/avalanche.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <stdexcept>
 
@@ -16,6 +17,14 @@ namespace talus {
 namespace {
 
 constexpr double reach_of_gradient = 4;  // mean radii, as of the neighbours of Eq. 11
+
+/// m/s; none unless the front was there during the window that ends at t.
+double speed_at(const Curve& front, double t, double window) {
+  const double rounding = 1e-9 * window;
+  if (front.time.empty() || t - window < front.time.front() - rounding || t > front.time.back() + rounding)
+    return AvalancheFrame::none;
+  return front_speed(front, t, window);
+}
 
 void look_from_above(AvalancheFrame& frame, const GrainsInMotion& grains, double front_speed,
                      const AvalancheScales& scales) {
@@ -56,9 +65,7 @@ AvalancheFrame avalanche_frame(const GrainsInMotion& grains, const Curve& front,
                                AvalancheView view) {
   AvalancheFrame frame{.time = grains.time / scales.time()};
   const double window = front_speed_window * scales.time();
-  double speed = AvalancheFrame::none;
-  if (!front.time.empty() && grains.time - front.time.front() >= window * (1 - 1e-9))
-    speed = front_speed(front, grains.time, window);
+  const double speed = speed_at(front, grains.time, window);
   frame.front_speed = speed / scales.stokes_speed;
   if (view == AvalancheView::from_above)
     look_from_above(frame, grains, speed, scales);
@@ -84,10 +91,10 @@ Curve AvalancheRun::curve(double AvalancheFrame::*number, std::size_t first) con
 AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales& scales, std::size_t grains) {
   AvalancheRun run{.scales = scales, .grains = static_cast<double>(grains)};
   const double window = front_speed_window * scales.time();
-  run.front_speed = front_speed_curve(front, window, end);
+  run.front_speed = front_speed_curve(front, window, front.time.empty() ? end : std::min(end, front.time.back()));
   for (double& t : run.front_speed.time) t /= scales.time();
   for (double& v : run.front_speed.value) v /= scales.stokes_speed;
-  run.front_speed_end = front_speed(front, end, window) / scales.stokes_speed;
+  run.front_speed_end = speed_at(front, end, window) / scales.stokes_speed;
   return run;
 }
 

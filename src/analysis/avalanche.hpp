@@ -85,7 +85,7 @@ struct AvalancheRun {
   AvalancheScales scales;
   double grains = 0;
   Curve front_speed = {};                              ///< v_s against a/v_s, at 0.25, 0.5, ... after the start
-  double front_speed_end = 0;                          ///< v_s, over the last window of the run
+  double front_speed_end = 0;                          ///< v_s, over the last window of the run; nan if it is shorter
   std::vector<AvalancheFrame> frames = {};             ///< the state at the start, then the data
   double displacement_spread = AvalancheFrame::none;   ///< over the mean displacement along x
   double displacement_lateral = AvalancheFrame::none;  ///< over a

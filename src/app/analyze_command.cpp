@@ -110,10 +110,10 @@ void add_analyze_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print JSON");
-  command->footer(
-      footer +
-      "x points down the slope, y to its left, z away from it. Of a run's folder, analysis/, pictures/ and\n"
-      "the quantities of summary.json are made anew from its snapshots and its series.");
+  command->footer(footer +
+                  "x points down the slope, y to its left, z away from it; of a heap z is up. Of a run's folder, "
+                  "analysis/, pictures/ and\n"
+                  "the quantities of summary.json are made anew from its snapshots and its series.");
   command->callback([options, &action] {
     action = [options] {
       return std::filesystem::is_directory(options->file) ? analyze_run_folder(*options) : analyze_file(*options);

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   talus::app::add_ensemble_command(app, action);
   talus::app::add_compare_command(app, action);
   talus::app::add_analyze_command(app, action);
+  talus::app::add_law_command(app, action);
   talus::app::add_reproduce_command(app, action);
   talus::app::add_schema_command(app, action);
 

@@ -9,14 +9,25 @@
 
 #include "app/cloud/cloud_case.hpp"
 #include "app/cloud/cloud_pictures.hpp"
+#include "app/continuum/continuum_case.hpp"
 #include "base/nearest.hpp"
 
 namespace talus::app {
 
-// There is one model. A case that names none, or another, is read as one of its cases all the same, so that the fault
-// is reported together with the others.
+namespace {
+
+bool is_continuum(const CaseFile& file) {
+  const CaseEntry* entry = file.find("model");
+  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+  return name && *name == "continuum";
+}
+
+}  // namespace
+
+// A case that names no model, or one that there is not, is read as one of a cloud all the same, so that the fault is
+// reported together with the others.
 PreparedCase prepare_case(const CaseFile& file) {
-  return prepare_cloud(file);
+  return is_continuum(file) ? prepare_continuum(file) : prepare_cloud(file);
 }
 
 std::vector<Problem> check_model(const std::string& model) {
@@ -28,6 +39,7 @@ std::vector<Problem> check_model(const std::string& model) {
 }
 
 std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  if (is_continuum(resolved)) return analyze_continuum_run(resolved, folder);
   const CloudStudy study = study_of(resolved);
   std::vector<NamedValue> quantities = analyze_cloud(folder, study.frame);
   draw_cloud(folder, study.frame, study.title);
@@ -36,6 +48,7 @@ std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesys
 
 ParameterList parameters_of(const std::string& model) {
   if (model == "cloud") return cloud_parameters();
+  if (model == "continuum") return continuum_parameters();
   throw std::invalid_argument("no model " + model);
 }
 

@@ -60,11 +60,11 @@ std::vector<Problem> check_model(const std::string& model);
 /// The parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
 ParameterList parameters_of(const std::string& model);
 
-/// Analyses the run in a folder and draws its pictures once more, as PreparedCase does at the end of a run. \param resolved the manifest's
-/// case \throws FileError, InputError
+/// Analyses the run in a folder and draws its pictures once more, as PreparedCase does at the end of a run. \param
+/// resolved the manifest's case \throws FileError, InputError
 std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 /// The models there are.
-inline constexpr std::array<std::string_view, 1> model_names{"cloud"};
+inline constexpr std::array<std::string_view, 2> model_names{"cloud", "continuum"};
 
 }  // namespace talus::app

@@ -112,6 +112,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   ThreadTeam team(request.threads);
   const run::LoopResult loop = run::run_loop(*model, team, folder.path(),
                                              {.end = prepared.run.end,
+                                              .series_interval = prepared.run.series,
                                               .snapshot_interval = prepared.run.snapshots,
                                               .checkpoint_interval = prepared.run.checkpoint_interval,
                                               .walltime = request.walltime,

@@ -12,6 +12,21 @@
 
 namespace talus::app {
 
+namespace {
+
+std::string page_head(const std::string& model) {
+  return fmt::format(
+      "# Case reference: {0}\n\n"
+      "Every key of a case of the model `{0}`. This page is the output of `talus schema {0} --markdown`; the texts "
+      "stand\n"
+      "beside the parameters in `src/models/{0}/parameters.hpp`. Quantities are strings with a unit (`\"5 mm\"`), of "
+      "any\n"
+      "unit of their dimension; the unit below is that of the default and of the output of `talus check`.\n",
+      model);
+}
+
+}  // namespace
+
 void add_schema_command(CLI::App& app, Action& action) {
   struct Options {
     std::string model = "cloud";
@@ -26,8 +41,10 @@ void add_schema_command(CLI::App& app, Action& action) {
   command->callback([options, &action] {
     action = [options] {
       const ParameterList list = parameters_of(options->model);
-      fmt::print(
-          "{}", options->page ? reference_page(list) : json_schema(list, "Talus case, model " + options->model) + "\n");
+      if (options->page)
+        fmt::print("{}\n{}", page_head(options->model), reference_page(list));
+      else
+        fmt::print("{}", json_schema(list, "Talus case, model " + options->model));
       return ExitStatus::done;
     };
   });

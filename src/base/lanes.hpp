@@ -225,6 +225,22 @@ TALUS_INLINE void gather_rows(Lanes<T, rows> x, RowOf&& row_of, Lanes<T, rows> (
   }
 }
 
+/// Columns of a table whose rows are elsewhere in memory: column c of the rows that the lanes choose.
+/// \param row_of lane -> const double*, aligned to a register \param columns as many as the table has, a multiple of 8
+template <int columns, class RowOf>
+TALUS_INLINE void load_columns(RowOf&& row_of, Lanes<double> (&column)[columns]) {
+  using Register = Lanes<double>::Register;
+  constexpr int lanes = Lanes<double>::lanes;
+  const double* row[lanes];
+  TALUS_UNROLL for (int k = 0; k < lanes; ++k) row[k] = row_of(k);
+  TALUS_UNROLL for (int c = 0; c < columns; c += lanes) {
+    Register block[lanes];
+    TALUS_UNROLL for (int k = 0; k < lanes; ++k) block[k] = *reinterpret_cast<const Register*>(row[k] + c);
+    registers::transpose(block);
+    TALUS_UNROLL for (int k = 0; k < lanes; ++k) column[c + k].row[0] = block[k];
+  }
+}
+
 /// Whether the condition holds in every lane.
 template <class T, int rows>
 TALUS_INLINE bool all(LanesMask<T, rows> condition) {

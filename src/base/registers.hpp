@@ -63,6 +63,43 @@ TALUS_INLINE auto sum(Register x) {
                __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15));
 }
 
+/// Rows become columns: lane k of the new register r is lane r of the old register k.
+template <class Register>
+TALUS_INLINE void transpose(Register (&r)[sizeof(Register) / 8]) requires(sizeof(Register{}[0]) == 8) {
+  constexpr int lanes = sizeof(Register) / 8;
+  Register t[lanes];
+  if constexpr (lanes == 2) {
+    t[0] = __builtin_shufflevector(r[0], r[1], 0, 2);
+    t[1] = __builtin_shufflevector(r[0], r[1], 1, 3);
+    r[0] = t[0], r[1] = t[1];
+  } else if constexpr (lanes == 4) {
+    TALUS_UNROLL for (int k = 0; k < 4; k += 2) {
+      t[k] = __builtin_shufflevector(r[k], r[k + 1], 0, 4, 2, 6);
+      t[k + 1] = __builtin_shufflevector(r[k], r[k + 1], 1, 5, 3, 7);
+    }
+    TALUS_UNROLL for (int k = 0; k < 2; ++k) {
+      r[k] = __builtin_shufflevector(t[k], t[k + 2], 0, 1, 4, 5);
+      r[k + 2] = __builtin_shufflevector(t[k], t[k + 2], 2, 3, 6, 7);
+    }
+  } else {
+    TALUS_UNROLL for (int k = 0; k < 8; k += 2) {
+      t[k] = __builtin_shufflevector(r[k], r[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+      t[k + 1] = __builtin_shufflevector(r[k], r[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    Register u[lanes];
+    TALUS_UNROLL for (int k = 0; k < 8; k += 4) {
+      TALUS_UNROLL for (int l = 0; l < 2; ++l) {
+        u[k + l] = __builtin_shufflevector(t[k + l], t[k + l + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+        u[k + l + 2] = __builtin_shufflevector(t[k + l], t[k + l + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+      }
+    }
+    TALUS_UNROLL for (int k = 0; k < 4; ++k) {
+      r[k] = __builtin_shufflevector(u[k], u[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+      r[k + 4] = __builtin_shufflevector(u[k], u[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+  }
+}
+
 // The few operations that the compiler's vector arithmetic does not know: a b + c and c - a b, rounded once where the
 // instruction set can; an estimate of the reciprocal square root, good to `estimate_bits` bits; a > b; a choice lane by
 // lane; whether a mask holds in every lane.

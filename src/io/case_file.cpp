@@ -162,6 +162,15 @@ void CaseFile::set(std::string_view assignment, std::string_view option_name) {
   }
 }
 
+CaseFile CaseFile::part(std::span<const std::string_view> keys) const {
+  CaseFile part = *this;
+  std::erase_if(part.entries_, [&](const CaseEntry& entry) {
+    return std::none_of(keys.begin(), keys.end(),
+                        [&](std::string_view key) { return entry.key == key || lies_in(entry.key, key); });
+  });
+  return part;
+}
+
 const CaseEntry* CaseFile::find(std::string_view key) const {
   const auto entry =
       std::find_if(entries_.begin(), entries_.end(), [&](const CaseEntry& candidate) { return candidate.key == key; });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -47,6 +48,9 @@ class CaseFile {
   /// reported together with the rest.
   /// \param option that gave it, for messages
   void set(std::string_view assignment, std::string_view option = "--set");
+
+  /// The same case as if it held these keys, and what lies in these tables, alone.
+  CaseFile part(std::span<const std::string_view> keys) const;
 
   const std::string& name() const { return name_; }
 

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
@@ -38,10 +39,10 @@ constexpr std::array<std::string_view, 8> file_names{CheckpointFiles::names[0],
                                                      "stop",
                                                      "manifest.json"};
 
-/// What the analysis of a run may leave: of another case, it would be taken for this one's.
-constexpr std::array<std::string_view, 5> derived_names{"analysis/front_speed.csv", "analysis/snapshots.csv",
-                                                        "analysis/head_widths.csv", "pictures/frames.png",
-                                                        "pictures/front_speed.png"};
+/// Folders of what is made from a run, with the ending of their files: what is left of another case, whatever its name,
+/// would be taken for this one's.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> derived_files{
+    {{"analysis", ".csv"}, {"pictures", ".png"}}};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& allowed = {}) {
   throw InputError({{.where = path.string(), .key = {}, .what = what, .allowed = allowed}});
@@ -191,7 +192,10 @@ void RunFolder::remove_run() const {
   if (fs::is_directory(snapshots()))
     for (const std::string& name : names_in(snapshots()))
       if (is_snapshot_file(name)) remove(snapshots() / name);
-  for (const std::string_view name : derived_names) remove(path_ / name);
+  for (const auto& [folder, ending] : derived_files)
+    if (fs::is_directory(path_ / folder))
+      for (const std::string& name : names_in(path_ / folder))
+        if (without_suffix(name).ends_with(ending)) remove(path_ / folder / name);
   for (const std::string_view name : file_names) {
     remove(path_ / (std::string(name) + std::string(temporary_suffix)));
     remove(path_ / name);

@@ -3,6 +3,7 @@
 ///
 ///     manifest.json  series.csv  checkpoint_a.h5  checkpoint_b.h5  summary.json  report.html  log.txt  stop
 ///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf ...
+///     analysis/*.csv  pictures/*.png
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,7 @@ namespace talus {
 enum class Existing {
   refuse,
   resume,    ///< go on with the run in it
-  overwrite  ///< remove that run's files, and no others
+  overwrite  ///< remove that run's files, with all tables in analysis/ and all PNGs in pictures/, and no others
 };
 
 class RunFolder {

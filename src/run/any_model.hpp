@@ -19,6 +19,7 @@ class AnyModel {
   virtual ~AnyModel() = default;
   virtual double time() const = 0;
   virtual std::uint64_t step() const = 0;
+  virtual double time_origin() const = 0;  ///< from which run.end counts, s; infinite while it has not come
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
   virtual Snapshot snapshot() const = 0;  ///< valid until the next step
@@ -36,6 +37,7 @@ class ModelAdapter final : public AnyModel {
 
   double time() const override { return model_.state().time; }
   std::uint64_t step() const override { return model_.state().step; }
+  double time_origin() const override { return model_.time_origin(); }
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }
   Snapshot snapshot() const override { return snapshot_of(model_.state()); }

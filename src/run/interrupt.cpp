@@ -38,7 +38,7 @@ std::optional<std::string> Interrupt::reason() {
   const Clock::time_point now = Clock::now();
   if (deadline_ && now >= *deadline_) return "the wall-time limit";
   if (now >= next_look_) {
-    next_look_ = now + std::chrono::milliseconds(500);
+    next_look_ = now + std::chrono::milliseconds(100);
     std::error_code ignored;
     if (std::filesystem::exists(stop_file_, ignored)) return "the file " + stop_file_.string();
   }

@@ -18,7 +18,7 @@ bool signal_has_come();
 
 class Interrupt {
  public:
-  /// \param stop_file looked for every half second; \param walltime from now, none: no limit
+  /// \param stop_file looked for ten times a second; \param walltime from now, none: no limit
   Interrupt(std::filesystem::path stop_file, std::optional<std::chrono::duration<double>> walltime);
 
   /// Why the run should leave now; nothing if it may go on. Cheap enough for every step.

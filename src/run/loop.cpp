@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -69,6 +70,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   std::uint64_t snapshots = 0;      // taken
   std::uint64_t snapshot_step = 0;  // of the last one
   double next_snapshot_time = 0;
+  double next_row_time = 0;
 
   auto write_snapshot = [&](std::uint64_t number) {
     const auto n = static_cast<int>(number);
@@ -80,6 +82,12 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     ++snapshots;
     snapshot_step = model.step();
     next_snapshot_time = options.snapshot_interval * (std::floor(model.time() / options.snapshot_interval) + 1);
+  };
+
+  auto add_row = [&](SeriesWriter& series) {
+    append(series, row_of(model, observers));
+    if (options.series_interval > 0)
+      next_row_time = options.series_interval * (std::floor(model.time() / options.series_interval) + 1);
   };
 
   // Where a run stands: begun now, or as the newest whole checkpoint left it.
@@ -98,15 +106,15 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     checkpoint->get("run/snapshots", snapshots);
     checkpoint->get("run/snapshot_step", snapshot_step);
     checkpoint->get("run/next_snapshot_time", next_snapshot_time);
+    checkpoint->get("run/next_row_time", next_row_time);
     checkpoint->get("run/wall_seconds", wall);
     checkpoint->get("run/cpu_seconds", cpu);
     clock.add(wall, cpu);
     series = SeriesWriter::resume(folder / "series.csv", columns_of(row_of(model, observers)), rows);
   } else {
     model.begin(team);
-    const std::vector<NamedValue> row = row_of(model, observers);
-    series.emplace(folder / "series.csv", columns_of(row));
-    append(*series, row);
+    series.emplace(folder / "series.csv", columns_of(row_of(model, observers)));
+    add_row(*series);
     take_snapshot();
   }
 
@@ -118,6 +126,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     writer.put("run/snapshots", snapshots);
     writer.put("run/snapshot_step", snapshot_step);
     writer.put("run/next_snapshot_time", next_snapshot_time, "s");
+    writer.put("run/next_row_time", next_row_time, "s");
     writer.put("run/wall_seconds", clock.wall());
     writer.put("run/cpu_seconds", clock.cpu());
     checkpoints.save(writer);
@@ -127,24 +136,29 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   Interrupt interrupt(folder / "stop", options.walltime
                                            ? std::optional(std::chrono::duration<double>(*options.walltime))
                                            : std::nullopt);
-  Progress progress(stderr, model.time(), options.end);
+  // Until its origin has come, a run makes no progress that could be told.
+  auto elapsed = [&] { return std::max(model.time() - model.time_origin(), 0.0); };
+  Progress progress(stderr, elapsed(), options.end);
   double last_checkpoint = clock.wall();
   LoopResult result;
-  while (model.time() < options.end) {
+  while (!(model.time() >= model.time_origin() + options.end)) {
     if (const auto reason = interrupt.reason()) {
       result.interrupted = true;
       result.reason = *reason;
       break;
     }
     model.advance(team);
-    append(*series, row_of(model, observers));
+    if (model.time() >= next_row_time) add_row(*series);
     if (model.time() >= next_snapshot_time) take_snapshot();
     if (clock.wall() - last_checkpoint > options.checkpoint_interval) {
       save();
       last_checkpoint = clock.wall();
     }
-    progress.update(model.time(), [&] {
-      return fmt::format("t = {:.4g} s of {:.4g} s  step {}  {:.3g} steps/s", model.time(), options.end, model.step(),
+    progress.update(elapsed(), [&] {
+      const std::string where = std::isinf(model.time_origin())
+                                    ? fmt::format("t = {:.4g} s, settling", model.time())
+                                    : fmt::format("t = {:.4g} s of {:.4g} s", elapsed(), options.end);
+      return fmt::format("{}  step {}  {:.3g} steps/s", where, model.step(),
                          static_cast<double>(model.step()) / clock.wall());
     });
   }

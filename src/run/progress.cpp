@@ -10,6 +10,7 @@ namespace talus::run {
 
 std::string format_seconds(double seconds) {
   if (!std::isfinite(seconds)) return "?";
+  if (seconds > 3.15e10) return "more than a thousand years";
   const auto s = static_cast<std::int64_t>(std::llround(seconds));
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);

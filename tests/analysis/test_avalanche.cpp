@@ -253,6 +253,20 @@ TEST(AvalancheRun, FromTheRecordsOfTheFront) {
   EXPECT_NEAR(run.front_speed_end, 20, 1e-9);
 }
 
+TEST(AvalancheRun, HasNoFrontSpeedWhereNoWindowFits) {
+  const AvalancheScales scales{0.002, 4};  // a window is 0.125 ms
+  const Curve front{{0, 1e-4, 2e-4}, {0, 0.01, 0.02}};
+  EXPECT_EQ(avalanche_run(front, 2e-4, scales, 5).front_speed.time.size(), 1u);
+  EXPECT_NEAR(avalanche_run(front, 2e-4, scales, 5).front_speed_end, 25, 1e-9);
+  const AvalancheRun brief = avalanche_run(front, 1e-4, scales, 5);
+  EXPECT_TRUE(brief.front_speed.time.empty());
+  EXPECT_TRUE(std::isnan(brief.front_speed_end));
+  const AvalancheRun outlived = avalanche_run(front, 5e-4, scales, 5);  // no grain was a front at the end
+  EXPECT_EQ(outlived.front_speed.time.size(), 1u);
+  EXPECT_TRUE(std::isnan(outlived.front_speed_end));
+  EXPECT_TRUE(std::isnan(avalanche_run({}, 5e-4, scales, 5).front_speed_end));
+}
+
 TEST(AvalancheSummary, ListsWhatAppliesWithUnits) {
   for (const AvalancheView view : {AvalancheView::from_above, AvalancheView::from_the_side}) {
     const auto summary = avalanche_summary(synthetic(0, 1), view);

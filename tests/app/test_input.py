@@ -23,7 +23,7 @@ enabled = true
 snapshots = "0.1 ms"
 """
 
-POINTS = CASE.replace('shape = "circle"\ncount = 300\nsize = "0.135 m"', 'shape = "file"\nfile = "points.csv"')
+POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
 class BadCase(ProgramTest):
@@ -45,7 +45,7 @@ class BadCase(ProgramTest):
             (3, "motoin", "unknown key", "did you mean 'motion'?"),
             (5, "particles.shape", "circel", "did you mean 'circle'?"),
             (6, "particles.count", "2.5", "a whole number"),
-            (7, "particles.size", "0.135", "a length, at least 0 mm, such as \"5 mm\""),
+            (7, "particles.size", "0.135", "a length, above 0 mm, such as \"5 mm\""),
             (8, "particles.radius", "mn", "a length, above 0 mm"),
             (9, "particles.radius_spread", "2", "from 0 to 0.9"),
             (10, "particles.density", "20 kg/m", "a density, above 0 kg/m3"),
@@ -176,12 +176,22 @@ class ExistingFolder(ProgramTest):
         self.assertEqual(bits(self.folder / "r"), bits(self.folder / "at-once"))
         self.assertIn(r'end = \"0.0015 s\"', (self.folder / "r/manifest.json").read_text())
 
-    def test_overwriting_leaves_nothing_of_the_old_analysis(self):
-        self.talus("run", "case.toml", "--out", "r")
-        self.assertTrue((self.folder / "r/analysis/head_widths.csv").exists())
-        self.talus("run", "case.toml", "--out", "r", "--overwrite", "--set", "slope.enabled=false", "--set",
-                   "gravity.direction=[1, 0, 0]")
-        self.assertEqual([path.name for path in (self.folder / "r/analysis").iterdir()], [])
+    def test_overwriting_leaves_nothing_of_the_old_run_but_what_others_put_there(self):
+        self.talus("run", "case.toml", "--out", "r", "--set", "output.pictures=true")
+        for name in ("analysis/head_widths.csv", "pictures/frames.png", "pictures/front.png",
+                     "pictures/front_speed.png", "snapshots/particles_0010.vtkhdf"):
+            self.assertTrue((self.folder / "r" / name).exists(), name)
+        (self.folder / "r/snapshots/particles_0077.vtkhdf.part").touch()
+        for name in ("notes.txt", "analysis/mine.txt", "pictures/mine.svg"):
+            (self.folder / "r" / name).write_text("mine")
+        # Without a slope there is neither a head nor a front.
+        other = ("--set", "slope.enabled=false", "--set", "gravity.direction=[1, 0, 0]", "--set",
+                 "output.snapshots=0.5 ms")
+        self.talus("run", "case.toml", "--out", "r", "--overwrite", *other)
+        self.talus("run", "case.toml", "--out", "fresh", *other)
+        self.assertEqual(set(tree(self.folder / "r")) - set(tree(self.folder / "fresh")),
+                         {"notes.txt", "analysis/mine.txt", "pictures/mine.svg"})
+        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "fresh"))
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 #include "analysis/avalanche_quantities.hpp"
 #include "analysis/falling_cloud.hpp"
 #include "analysis/quantities.hpp"
+#include "base/error.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -88,6 +89,7 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
   const Series series = read_series(RunFolder(run_folder).series());
   const Curve front = front_of(series, frame);
   const auto overlap = series.column("overlap_max");
+  if (overlap.empty()) throw FileError(RunFolder(run_folder).series().string(), "holds no row: the run has not begun");
   const double end = series.column("time").back();
 
   std::optional<AvalancheRun> run;

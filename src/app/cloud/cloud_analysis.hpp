@@ -28,7 +28,8 @@ struct CloudFrame {
 /// The snapshots of a run in the order of their numbers.
 std::vector<std::filesystem::path> snapshot_paths(const std::filesystem::path& run_folder);
 
-/// Reads series.csv and all snapshots. Without a slope the run has no frames and no front.
+/// Reads series.csv and all snapshots. Without a slope the run has no frames and no front. The run's end is the time of
+/// its last row: that of its last snapshot, at most a step after run.end, and no more than there is of a run cut short.
 /// \throws FileError
 AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame);
 

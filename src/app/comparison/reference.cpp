@@ -133,9 +133,9 @@ Enumeration read_name(Reader& reader, const toml::table& row, const char* key,
   return names[0].second;
 }
 
-constexpr std::array<std::string_view, 13> row_keys{"id",        "number",    "quantity",  "case",   "radius",
-                                                    "estimator", "from",      "statistic", "window", "printed",
-                                                    "unit",      "criterion", "source"};
+constexpr auto row_keys =
+    std::to_array<std::string_view>({"id", "number", "quantity", "case", "radius", "variant", "needs_air", "estimator",
+                                     "from", "statistic", "window", "printed", "unit", "criterion", "source"});
 
 ComparisonRow read_row(Reader& reader, const toml::table& table) {
   ComparisonRow row;

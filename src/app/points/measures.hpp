@@ -55,6 +55,16 @@ Measured measure_head_tail(const PointsToMeasure& points, const std::string& col
 Measured measure_neighbours(const PointsToMeasure& points, const std::string& column, std::size_t bins);
 Measured measure_histogram(const PointsToMeasure& points, const std::string& column, std::size_t bins);
 
+// heap_measures.cpp: each point a sphere of the mean radius a, z up, on a floor under the lowest one, between walls
+// beside the outermost; y is averaged over.
+/// Height of the free surface in columns 2 a wide, where the packing, deposited by the kernel, is half of the median at
+/// the points; its greatest and mean height, its angle as a whole.
+Measured measure_surface(const PointsToMeasure& points, const std::string& column, std::size_t bins);
+/// The slopes of that surface longer than 20 a, and the angles of repose left and right of the middle.
+Measured measure_repose(const PointsToMeasure& points, const std::string& column, std::size_t bins);
+/// Packing fraction at the points (median, 99.9th percentile, largest), and its mean in layers a high.
+Measured measure_packing(const PointsToMeasure& points, const std::string& column, std::size_t bins);
+
 struct MeasureEntry {
   std::string_view name, text;
   Measure of;
@@ -66,6 +76,9 @@ inline constexpr auto measures = std::to_array<MeasureEntry>({
     {"frontal-angle", "angle of the front against the slope, seen from the side", measure_frontal_angle},
     {"head-tail", "thickness of head and rear, seen from the side; their velocities", measure_head_tail},
     {"neighbours", "numbers of neighbours within 4 a, n and n' of Niiya et al. 2020, Eq. 11", measure_neighbours},
+    {"repose", "angle of repose: slopes of a heap longer than 20 a, seen along y", measure_repose},
+    {"surface", "height of the free surface, seen along y", measure_surface},
+    {"packing", "packing fraction at the points, and in layers; spheres of radius a", measure_packing},
     {"histogram", "moments, normality and histogram of a column (--column, --bins)", measure_histogram},
 });
 

@@ -12,46 +12,17 @@ namespace {
 
 using namespace figure;
 
-constexpr const char* time_label = "*t̃* = *t* *v*_{s}/*a*_{p}";
+constexpr double tick_of_time = 5;  // a/v_s: the axis ends at a multiple of it
 
-std::string name_of(const StudiedEnsemble& ensemble) {
-  return "*a*_{p} = " + ensemble.radius;
-}
-
-Points error_bars(const StudiedEnsemble& ensemble, const MembersCurve& curve, std::size_t colour) {
-  return {.x = curve.time,
-          .y = curve.mean,
-          .y_error = curve.deviation,
-          .label = name_of(ensemble),
-          .colour = palette_colour(colour),
-          .size = 4};
-}
-
-MembersCurve in_radii(MembersCurve curve, double radius) {
-  for (double& value : curve.mean) value /= radius;
-  for (double& value : curve.deviation) value /= radius;
-  return curve;
-}
-
-/// The widths of the heads of all members at the end, in a.
-std::vector<double> widths_at_end(const StudiedEnsemble& ensemble) {
-  std::vector<double> widths;
-  for (const AvalancheRun& run : ensemble.runs)
-    for (const double width : run.frames.back().head_widths) widths.push_back(width / run.scales.mean_radius);
-  return widths;
-}
-
-double largest(const std::vector<double>& values) {
-  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
-}
-
-figure::Line straight(const std::string& label, double slope, double intercept, double to) {
-  return {.x = {0, to},
-          .y = {intercept, intercept + slope * to},
-          .label = label,
-          .colour = ink,
-          .dash = Dash::dashed,
-          .width = 1};
+/// The axis ends at a round time at or after the last one; the last snapshot is that after the end, by a step.
+Axis time_axis(const Radii& radii) {
+  double last = 0;
+  for (const StudiedEnsemble* ensemble : radii)
+    for (const AvalancheRun& run : ensemble->runs)
+      if (!run.frames.empty()) last = std::max(last, run.frames.back().time);
+  Axis axis{.label = "time *t̃* = *t* *v*_{s}/*a*_{p}", .low = 0};
+  if (last > 0) axis.high = tick_of_time * std::ceil((1 - 1e-3) * last / tick_of_time);
+  return axis;
 }
 
 }  // namespace
@@ -59,14 +30,15 @@ figure::Line straight(const std::string& label, double slope, double intercept, 
 Radii radii_of(const std::vector<StudiedEnsemble>& ensembles, const std::string& case_name) {
   Radii radii;
   for (const StudiedEnsemble& ensemble : ensembles)
-    if (ensemble.case_name == case_name && !ensemble.runs.empty()) radii.push_back(&ensemble);
+    if (ensemble.case_name == case_name && !ensemble.runs.empty() && !ensemble.runs.front().frames.empty())
+      radii.push_back(&ensemble);
   std::sort(radii.begin(), radii.end(), [](const StudiedEnsemble* a, const StudiedEnsemble* b) {
     return a->runs.front().scales.mean_radius < b->runs.front().scales.mean_radius;
   });
   return radii;
 }
 
-MembersCurve members_curve(const StudiedEnsemble& ensemble, double AvalancheFrame::*number, std::size_t first) {
+MembersCurve members_curve(const StudiedEnsemble& ensemble, const FrameNumber& number, std::size_t first) {
   MembersCurve curve;
   std::size_t frames = ensemble.runs.front().frames.size();
   for (const AvalancheRun& run : ensemble.runs) frames = std::min(frames, run.frames.size());
@@ -74,7 +46,7 @@ MembersCurve members_curve(const StudiedEnsemble& ensemble, double AvalancheFram
     std::vector<double> times, values;
     for (const AvalancheRun& run : ensemble.runs) {
       times.push_back(run.frames[n].time);
-      if (const double value = run.frames[n].*number; std::isfinite(value)) values.push_back(value);
+      if (const double value = number(run.frames[n]); std::isfinite(value)) values.push_back(value);
     }
     curve.time.push_back(mean(times));
     curve.mean.push_back(mean(values));
@@ -83,136 +55,122 @@ MembersCurve members_curve(const StudiedEnsemble& ensemble, double AvalancheFram
   return curve;
 }
 
+MembersCurve members_curve_in_radii(const StudiedEnsemble& ensemble, const FrameNumber& length, std::size_t first) {
+  const double radius = ensemble.runs.front().scales.mean_radius;
+  return members_curve(
+      ensemble, [&](const AvalancheFrame& frame) { return length(frame) / radius; }, first);
+}
+
+std::string label_of(const StudiedEnsemble& ensemble) {
+  return "*a*_{p} = " + ensemble.radius;
+}
+
+Points points_of_radius(const StudiedEnsemble& ensemble, std::size_t k, bool open) {
+  constexpr Symbol filled_symbols[] = {Symbol::disc, Symbol::square, Symbol::triangle};
+  constexpr Symbol open_symbols[] = {Symbol::circle, Symbol::open_square, Symbol::open_triangle};
+  return {.label = label_of(ensemble),
+          .colour = palette_colour(k),
+          .symbol = (open ? open_symbols : filled_symbols)[k % 3],
+          .size = 4.5};
+}
+
 Chart front_speeds(const Radii& radii, double printed_low, double printed_high) {
-  Chart chart{.x = {.label = time_label, .low = 0}, .y = {.label = "front speed *ṽ*_{f}"}};
+  Chart chart{.x = time_axis(radii), .y = {.label = "front speed *ṽ*_{f}"}};
   if (printed_low < printed_high)
     chart.series.push_back(figure::Reference{.low = printed_low, .high = printed_high, .label = "printed range"});
   for (std::size_t k = 0; k < radii.size(); ++k) {
     std::vector<Curve> curves;
     for (const AvalancheRun& run : radii[k]->runs) curves.push_back(run.front_speed);
     const CurveSpread members = spread(common_part(std::move(curves)));
+    // The third is dashed, so that one below it is seen.
     chart.series.push_back(figure::Line{.x = members.mean.time,
                                         .y = members.mean.value,
                                         .spread = members.deviation,
-                                        .label = name_of(*radii[k]),
-                                        .colour = palette_colour(k)});
+                                        .label = label_of(*radii[k]),
+                                        .colour = palette_colour(k),
+                                        .dash = k == 2 ? Dash::dashed : Dash::solid});
   }
+  return chart;
+}
+
+Chart over_time(const Radii& radii, Axis axis, const std::vector<DrawnNumber>& numbers, std::size_t first) {
+  Chart chart{.x = time_axis(radii), .y = std::move(axis)};
+  for (const DrawnNumber& drawn : numbers) {
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+      const MembersCurve curve = drawn.in_radii ? members_curve_in_radii(*radii[k], drawn.number, first)
+                                                : members_curve(*radii[k], drawn.number, first);
+      Points points = points_of_radius(*radii[k], k, drawn.open);
+      points.x = curve.time, points.y = curve.mean, points.y_error = curve.deviation;
+      if (&drawn != &numbers.front()) points.label.clear();
+      chart.series.push_back(std::move(points));
+    }
+  }
+  for (const DrawnNumber& drawn : numbers)
+    if (!drawn.label.empty())
+      chart.series.push_back(Points{
+          .label = drawn.label, .colour = ink, .symbol = drawn.open ? Symbol::circle : Symbol::disc, .size = 4.5});
   return chart;
 }
 
 Chart head_particles(const Radii& radii) {
-  Chart chart{.x = {.label = time_label, .low = 0}, .y = {.label = "grains in the head", .low = 0}};
-  for (std::size_t k = 0; k < radii.size(); ++k)
-    chart.series.push_back(error_bars(*radii[k], members_curve(*radii[k], &AvalancheFrame::head_particles), k));
-  return chart;
+  return over_time(radii, {.label = "grains in the head", .low = 0}, {{&AvalancheFrame::head_particles}});
 }
 
 Chart head_sizes(const Radii& radii) {
-  Chart chart{.x = {.label = time_label, .low = 0},
-              .y = {.label = "width *w̃*_{h} (open), thickness *l̃*_{h} (filled)", .low = 0}};
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    const double radius = radii[k]->runs.front().scales.mean_radius;
-    Points width = error_bars(*radii[k], in_radii(members_curve(*radii[k], &AvalancheFrame::head_width), radius), k);
-    width.symbol = Symbol::circle;
-    width.label.clear();
-    chart.series.push_back(std::move(width));
-    chart.series.push_back(
-        error_bars(*radii[k], in_radii(members_curve(*radii[k], &AvalancheFrame::head_thickness), radius), k));
-  }
+  return over_time(radii, {.label = "size of the head", .unit = "*a*_{p}", .low = 0},
+                   {{.number = &AvalancheFrame::head_thickness, .label = "thickness *l̃*_{h}", .in_radii = true},
+                    {.number = &AvalancheFrame::head_width, .label = "width *w̃*_{h}", .open = true, .in_radii = true}});
+}
+
+Chart head_aspect_ratios(const Radii& radii) {
+  Chart chart = over_time(radii, {.label = "*w̃*_{h} / *l̃*_{h}", .low = 0, .high = 6.5},
+                          {{[](const AvalancheFrame& frame) { return frame.head_width / frame.head_thickness; }}});
+  chart.series.push_back(figure::Reference{.low = 4, .high = 4, .label = "printed"});
   return chart;
 }
 
-Chart front_speed_of_head(const Radii& radii) {
-  Chart chart{.x = {.label = "grains in the head", .low = 0}, .y = {.label = "front speed *ṽ*_{f}", .low = 0}};
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    const MembersCurve particles = members_curve(*radii[k], &AvalancheFrame::head_particles);
-    const MembersCurve speed = members_curve(*radii[k], &AvalancheFrame::front_speed);
-    chart.series.push_back(Points{.x = particles.mean,
-                                  .y = speed.mean,
-                                  .x_error = particles.deviation,
-                                  .y_error = speed.deviation,
-                                  .label = name_of(*radii[k]),
-                                  .colour = palette_colour(k),
-                                  .size = 4});
-  }
-  return chart;
-}
-
-Chart width_against_thickness(const Radii& radii) {
-  Chart chart{.x = {.label = "thickness *l̃*_{h}", .low = 0}, .y = {.label = "width *w̃*_{h}", .low = 0}};
-  double most = 0;
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    const double radius = radii[k]->runs.front().scales.mean_radius;
-    const MembersCurve width = in_radii(members_curve(*radii[k], &AvalancheFrame::head_width), radius);
-    const MembersCurve thickness = in_radii(members_curve(*radii[k], &AvalancheFrame::head_thickness), radius);
-    most = std::max(most, largest(thickness.mean));
-    chart.series.push_back(Points{.x = thickness.mean,
-                                  .y = width.mean,
-                                  .x_error = thickness.deviation,
-                                  .y_error = width.deviation,
-                                  .label = name_of(*radii[k]),
-                                  .colour = palette_colour(k),
-                                  .size = 4});
-  }
-  chart.series.push_back(straight("*w̃*_{h} = 4 *l̃*_{h}, printed", 4, 0, most));
-  return chart;
-}
-
-Chart width_distributions(const Radii& radii) {
-  double most = 0;
-  for (const StudiedEnsemble* ensemble : radii) most = std::max(most, largest(widths_at_end(*ensemble)));
-  Chart chart{.x = {.label = "width *w̃*_{h}", .low = 0, .high = 1.6 * most + 1},  // the legend stands on the right
-              .y = {.label = "probability density", .low = 0}};
-  const double bin = 2;  // a_p
-  const auto bins = static_cast<std::size_t>(std::ceil(most / bin)) + 1;
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    const std::vector<double> widths = widths_at_end(*radii[k]);
-    if (widths.empty()) continue;
-    const Histogram h = histogram(widths, 0, bin * static_cast<double>(bins), bins);
-    figure::Line line{.label = name_of(*radii[k]), .colour = palette_colour(k)};
-    for (std::size_t b = 0; b < bins; ++b) {
-      line.x.push_back(h.middle(b));
-      line.y.push_back(h.density(b));
-    }
-    chart.series.push_back(std::move(line));
-    if (k + 1 < radii.size()) continue;
-    const Gaussian fit = gaussian_of_least_squares(h);
-    figure::Line gaussian{
-        .label = "Gaussian fitted to " + radii[k]->radius, .colour = ink, .dash = Dash::dashed, .width = 1};
-    for (int n = 0; n <= 120; ++n) {
-      gaussian.x.push_back(bin * static_cast<double>(bins) * n / 120);
-      gaussian.y.push_back(fit.density(gaussian.x.back()));
-    }
-    chart.series.push_back(std::move(gaussian));
-  }
-  return chart;
-}
-
-Chart width_against_radius(const Radii& radii) {
-  Chart chart{.x = {.label = "radius *a*_{p}", .unit = "mm", .low = 0},
-              .y = {.label = "width *w*_{h}", .unit = "mm", .low = 0}};
-  Points points{.label = "heads at the end", .colour = palette_colour(0)};
-  for (const StudiedEnsemble* ensemble : radii) {
-    const std::vector<double> widths = widths_at_end(*ensemble);
-    const double radius = 1000 * ensemble->runs.front().scales.mean_radius;
-    points.x.push_back(radius);
-    points.y.push_back(radius * mean(widths));
-    points.y_error.push_back(radius * standard_deviation(widths));
-  }
-  const talus::Line fit = fit_line_through_origin(points.x, points.y);
-  const double most = largest(points.x);
-  chart.series.push_back(std::move(points));
-  if (radii.size() > 1) chart.series.push_back(straight("line through the origin", fit.slope, 0, 1.1 * most));
+Chart thickness_ratios(const Radii& radii) {
+  Chart chart = over_time(radii, {.label = "thickness, head over rear", .low = 0},
+                          {{&AvalancheFrame::front_rear_thickness_ratio}});
+  chart.series.push_back(figure::Reference{.low = 2, .high = 2, .label = "printed: more than 2"});
   return chart;
 }
 
 Chart frontal_angles(const Radii& radii) {
-  Chart chart{.x = {.label = time_label, .low = 0},
-              .y = {.label = "frontal angle *φ*_{f}", .unit = "°", .low = 0, .high = 120}};
+  Chart chart = over_time(radii, {.label = "frontal angle *φ*_{f}", .unit = "°", .low = 30, .high = 120},
+                          {{&AvalancheFrame::frontal_angle}}, 0);
+  chart.x.low = -1;  // the start is seen whole
   chart.series.push_back(figure::Reference{.low = 60, .high = 60, .label = "printed at the end"});
-  for (std::size_t k = 0; k < radii.size(); ++k)
-    chart.series.push_back(error_bars(*radii[k], members_curve(*radii[k], &AvalancheFrame::frontal_angle, 0), k));
   return chart;
+}
+
+Chart head_curls(const Radii& radii) {
+  return over_time(radii, {.label = "mean curl", .unit = "*v*_{s}/*a*_{p}"},
+                   {{.number = &AvalancheFrame::head_curl_left, .label = "left half of the head"},
+                    {.number = &AvalancheFrame::head_curl_right, .label = "right half", .open = true}});
+}
+
+Chart head_motions(const Radii& radii) {
+  Chart chart =
+      over_time(radii, {.label = "relative velocity", .unit = "*v*_{s}"},
+                {{.number = &AvalancheFrame::head_rear_relative_velocity, .label = "rear, forwards"},
+                 {.number = &AvalancheFrame::head_front_outward_velocity, .label = "front, outwards", .open = true}});
+  chart.series.push_back(figure::Reference{});
+  return chart;
+}
+
+Chart layer_motions(const Radii& radii) {
+  Chart chart =
+      over_time(radii, {.label = "*ṽ*_{x} − *ṽ*_{f}", .low = -16, .high = 1},
+                {{.number = &AvalancheFrame::head_upper_relative_velocity, .label = "upper head"},
+                 {.number = &AvalancheFrame::head_lower_relative_velocity, .label = "lower head", .open = true}});
+  chart.series.push_back(figure::Reference{});
+  return chart;
+}
+
+Chart tail_motions(const Radii& radii) {
+  return over_time(radii, {.label = "*ṽ*_{x} − *ṽ*_{f} of the tail", .high = 0},
+                   {{&AvalancheFrame::tail_relative_velocity}});
 }
 
 }  // namespace talus::app

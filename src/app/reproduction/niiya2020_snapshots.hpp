@@ -22,13 +22,21 @@ class MemberSnapshots {
   /// All grains at the snapshot nearest to t, in a/v_s; plain. The title tells the time. \throws FileError
   figure::ParticlePicture at(double t, const figure::View& view);
 
+  /// Figure 3: the shapes at the start with their sizes R, W and D in radii, measured between the outermost centres.
+  figure::ParticlePicture circle_at_start();
+  figure::ParticlePicture rectangle_at_start();
+  figure::ParticlePicture triangle_at_start();
+
   /// Figures 4 and 6: the grains of heads blue.
   figure::ParticlePicture with_heads(double t, const figure::View& view);
+  /// The same from above, so far about the front that all frames of a series show grains at one scale.
+  figure::ParticlePicture front_with_heads(double t);
   /// Figure 5b: the largest head, with the velocities relative to the front.
   figure::ParticlePicture motion_in_head(double t);
   /// Figure 7a: coloured by the speed along the slope relative to the front's, in v_s, about the front.
   figure::ParticlePicture relative_speed(double t);
-  /// Figure 8: the front of the avalanche with its heads by n or n', width and thickness of the largest drawn in.
+  /// Figure 8: the front of the avalanche with its heads by n or n'; by n' also the width and thickness of the largest,
+  /// and the four grains between which they are measured.
   figure::ParticlePicture head_by(HeadRule::Measure measure, double t);
   /// Figure 11a: the front with the grains of its surface and the line through them.
   figure::ParticlePicture frontal_surface(double t);
@@ -44,8 +52,9 @@ class MemberSnapshots {
   Loaded& load(double t);
   figure::ParticlePicture plain(const Loaded& loaded, const figure::View& view) const;
   void mark(Loaded& loaded, const std::vector<GrainSet>& heads, figure::ParticlePicture& picture) const;
-  /// What lies up to `behind` radii behind the foremost grain; lengths in radii.
-  figure::Window about_front(std::span<const Vector3> position, double behind, double below, double above) const;
+  /// What lies about the foremost grain; lengths in radii.
+  figure::Window about_front(std::span<const Vector3> position, double behind, double ahead, double below,
+                             double above) const;
 
   const StudiedEnsemble& ensemble_;
   double radius_;              // a, m

@@ -80,8 +80,8 @@ std::string report_text(const Reference& reference, const StudyRequest& request,
   if (const auto gaps = project / "validation" / reference.study / "gaps.md"; std::filesystem::exists(gaps))
     report += read_whole_file(gaps) + "\n";
   for (const FigureOfStudy& figure : figures)
-    report +=
-        fmt::format("## {}\n\n![{}](figures/{})\n\n", figure.caption, figure.caption, figure.path.filename().string());
+    report += fmt::format("## {}\n\n![{}](figures/{})\n\n{}\n\n", figure.title, figure.title,
+                          figure.path.filename().string(), figure.caption);
   return report;
 }
 

@@ -55,6 +55,8 @@ void paint(ChartPage& page, const Reference& reference) {
   }
   set_pen(page.context, reference.colour, line ? reference_width : 0.6 * reference_width, Dash::dashed);
   for (const double at : {from, to}) {
+    const ChartPage::Place begin{on_x ? at : plot.x, on_x ? plot.y : at};
+    keep_clear(page, begin, {on_x ? at : plot.right(), on_x ? plot.bottom() : at});
     if (on_x) stroke_line(page.context, at, plot.y, at, plot.bottom());
     if (!on_x) stroke_line(page.context, plot.x, at, plot.right(), at);
     if (line) break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The layout: what stands around each plot is measured first, and what is left of the width is shared by the columns;
-/// the heights follow from the shapes of the plots. The numbers on an axis depend on its length, so that is repeated
-/// until nothing changes, at most ten times.
+/// The layout: what stands around each plot is measured first, and what is left of the width is shared by the columns,
+/// in the same way in all rows that have as many; the heights follow from the shapes of the plots. The numbers on an
+/// axis depend on its length, so that is repeated until nothing changes, at most ten times.
 #include "io/figure/figure.hpp"
 
 #include <fmt/format.h>
@@ -23,15 +23,39 @@ double aspect_of(const Chart& chart) {
   return chart.aspect;
 }
 
+struct Row {
+  std::size_t first = 0, panels = 0;
+  std::size_t columns = 1;
+};
+
+std::vector<Row> rows_of(const Figure& figure) {
+  const std::size_t count = figure.panels.size();
+  std::vector<Row> rows;
+  std::size_t placed = 0;
+  auto add = [&](std::size_t columns) {
+    rows.push_back({placed, std::min(columns, count - placed), columns});
+    placed += rows.back().panels;
+  };
+  for (const int columns : figure.rows) {
+    if (columns < 1 || placed == count) throw std::invalid_argument("a row without panels");
+    add(static_cast<std::size_t>(columns));
+  }
+  if (!figure.rows.empty() && placed < count) throw std::invalid_argument("more panels than the rows hold");
+  const std::size_t usual = std::min(count, std::size_t{count >= 5 ? 3u : 2u});
+  while (placed < count) add(figure.columns > 0 ? std::min(static_cast<std::size_t>(figure.columns), count) : usual);
+  return rows;
+}
+
 class Layout {
  public:
-  Layout(const Figure& figure, cairo_t* context) : figure_(figure) {
-    const auto count = static_cast<int>(figure.panels.size());
-    columns_ = figure.columns > 0 ? std::min(figure.columns, count) : std::min(count, count >= 5 ? 3 : 2);
-    rows_ = (count + columns_ - 1) / columns_;
+  Layout(const Figure& figure, cairo_t* context) : figure_(figure), rows_(rows_of(figure)) {
+    for (const Row& row : rows_) most_columns_ = std::max(most_columns_, row.columns);
     constexpr double widths[] = {480, 720, 860, 980};
-    width_ = figure.width > 0 ? figure.width : widths[std::min(columns_, 4) - 1];
-    plots_.assign(figure.panels.size(), {0, 0, width_ / columns_, 0.7 * width_ / columns_});
+    width_ = figure.width > 0 ? figure.width : widths[std::min(most_columns_, std::size_t{4}) - 1];
+    for (const Row& row : rows_) {
+      const double width = width_ / static_cast<double>(row.columns);
+      plots_.insert(plots_.end(), row.panels, {0, 0, width, 0.7 * width});
+    }
     for (int pass = 0; pass < 10; ++pass) {
       const std::vector<Rectangle> before = plots_;
       arrange(context);
@@ -51,35 +75,44 @@ class Layout {
 
  private:
   void arrange(cairo_t* context) {
-    std::vector<double> left(columns_), right(columns_), top(rows_), bottom(rows_), aspect(rows_);
-    for (std::size_t i = 0; i < plots_.size(); ++i) {
-      const std::size_t column = i % columns_, row = i / columns_;
-      const Margins m = std::visit([&](const auto& p) { return margins(context, p, plots_[i]); }, figure_.panels[i]);
-      left[column] = std::max(left[column], m.left), right[column] = std::max(right[column], m.right);
-      top[row] = std::max(top[row], m.top + (has_title(i) ? title_line : 0));
-      bottom[row] = std::max(bottom[row], m.bottom);
-      aspect[row] = std::max(aspect[row], std::visit([](const auto& p) { return aspect_of(p); }, figure_.panels[i]));
-    }
-    double room = width_ - 2 * edge - (columns_ - 1) * column_gap;
-    for (int c = 0; c < columns_; ++c) room -= left[c] + right[c];
-    const double plot_width = std::max(least_width, room / columns_);
-    double y = edge + (figure_.title.empty() ? 0 : 1.4 * title_line);
-    for (int row = 0; row < rows_; ++row) {
-      y += top[row];
-      double x = edge;
-      for (int column = 0; column < columns_; ++column) {
-        x += left[column];
-        const std::size_t panel = static_cast<std::size_t>(row * columns_ + column);
-        if (panel < plots_.size()) plots_[panel] = {x, y, plot_width, aspect[row] * plot_width};
-        x += plot_width + right[column] + column_gap;
+    // What stands left and right of the plots, by the number of columns and the column.
+    std::vector<std::vector<Margins>> sides(most_columns_ + 1, std::vector<Margins>(most_columns_));
+    std::vector<Margins> around(plots_.size());
+    for (const Row& row : rows_) {
+      for (std::size_t k = 0; k < row.panels; ++k) {
+        const std::size_t i = row.first + k;
+        around[i] = std::visit([&](const auto& p) { return margins(context, p, plots_[i]); }, figure_.panels[i]);
+        Margins& side = sides[row.columns][k];
+        side.left = std::max(side.left, around[i].left), side.right = std::max(side.right, around[i].right);
       }
-      y += aspect[row] * plot_width + bottom[row] + row_gap;
+    }
+    double y = edge + (figure_.title.empty() ? 0 : 1.4 * title_line);
+    for (const Row& row : rows_) {
+      double room = width_ - 2 * edge - static_cast<double>(row.columns - 1) * column_gap;
+      for (std::size_t k = 0; k < row.columns; ++k) room -= sides[row.columns][k].left + sides[row.columns][k].right;
+      const double plot_width = std::max(least_width, room / static_cast<double>(row.columns));
+      double top = 0, bottom = 0, aspect = 0;
+      for (std::size_t i = row.first; i < row.first + row.panels; ++i) {
+        top = std::max(top, around[i].top + (has_title(i) ? title_line : 0));
+        bottom = std::max(bottom, around[i].bottom);
+        aspect = std::max(aspect, std::visit([](const auto& p) { return aspect_of(p); }, figure_.panels[i]));
+      }
+      y += top;
+      double x = edge;
+      for (std::size_t k = 0; k < row.panels; ++k) {
+        const Margins& side = sides[row.columns][k];
+        x += side.left;
+        plots_[row.first + k] = {x, y, plot_width, aspect * plot_width};
+        x += plot_width + side.right + column_gap;
+      }
+      y += aspect * plot_width + bottom + row_gap;
     }
     height_ = y - row_gap + edge;
   }
 
   const Figure& figure_;
-  int columns_ = 1, rows_ = 1;
+  std::vector<Row> rows_;
+  std::size_t most_columns_ = 1;
   double width_ = 0, height_ = 0;
   std::vector<Rectangle> plots_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "io/figure/particle_layers.hpp"
 
@@ -85,20 +86,25 @@ void draw_plane(cairo_t* context, const ParticlePicture& picture, const Ground& 
   cairo_fill(context);
 }
 
-/// A patch for a label, on that side of the middle or of an end of a line where it covers the least.
-Rectangle place_beside(const Obstacle& from, const Obstacle& to, const TextExtent& label,
+/// A patch for a label, on that side of the middle or of an end of a line where it covers the least; within the plot if
+/// one of these places is.
+Rectangle place_beside(const Obstacle& from, const Obstacle& to, const TextExtent& label, const Rectangle& plot,
                        const std::vector<Obstacle>& obstacles) {
   const double width = label.width + 3, height = label.ascent + label.descent + 3, gap = 4;
-  const bool steep = std::abs(to.y - from.y) > std::abs(to.x - from.x);
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const double nx = (to.y - from.y) / length, ny = -(to.x - from.x) / length;  // across the line
+  const double distance = gap + 0.5 * (std::abs(nx) * width + std::abs(ny) * height);
   Rectangle best;
-  auto fewest = std::numeric_limits<std::ptrdiff_t>::max();
+  std::pair fewest{true, std::numeric_limits<std::ptrdiff_t>::max()};
   for (const double t : {0.5, 0.85, 0.15}) {
     const double x = from.x + t * (to.x - from.x), y = from.y + t * (to.y - from.y);
     for (const double side : {1.0, -1.0}) {
-      const Rectangle patch{x + (steep ? side * (gap + 0.5 * width) : 0) - 0.5 * width,
-                            y + (steep ? 0 : -side * (gap + 0.5 * height)) - 0.5 * height, width, height};
-      const auto covered = std::count_if(obstacles.begin(), obstacles.end(),
-                                         [&](const Obstacle& point) { return patch.contains(point.x, point.y); });
+      const Rectangle patch{x + side * distance * nx - 0.5 * width, y + side * distance * ny - 0.5 * height, width,
+                            height};
+      const bool cut = !plot.contains(patch.x, patch.y) || !plot.contains(patch.right(), patch.bottom());
+      const std::pair covered{cut, std::count_if(obstacles.begin(), obstacles.end(), [&](const Obstacle& point) {
+                                return patch.contains(point.x, point.y);
+                              })};
       if (covered < fewest) {
         fewest = covered;
         best = patch;
@@ -138,7 +144,7 @@ void draw_segments(cairo_t* context, const ParticlePicture& picture, const Proje
     }
     if (segment.label.empty()) continue;
     const TextExtent extent = text_extent(context, segment.label, label_style);
-    const Rectangle patch = place_beside(from, to, extent, obstacles);
+    const Rectangle patch = place_beside(from, to, extent, p.plot, obstacles);
     fill_rectangle(context, patch, with_alpha(white, 0.8));
     draw_text(context, segment.label, patch.x + 1.5, patch.bottom() - 1.5 - extent.descent,
               {label_style.size, segment.colour});

@@ -23,6 +23,7 @@ class Cloud {
 
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
+  double time_origin() const { return 0; }
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);

@@ -107,14 +107,17 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
         "a larger contact.stiffness (overlaps grow like the square root of the number of grains), or a larger "
         "integration.largest_overlap";
   } else {
-    const auto broken = std::find_if(work.trial_velocity.begin(), work.trial_velocity.end(),
-                                     [](const Vector3& v) { return !std::isfinite(v.x + v.y + v.z); });
+    // One force that is not finite leaves no velocity finite: it comes first.
+    const auto forces = work.velocities.contact_force();
+    const auto not_finite = [](const Vector3& v) { return !std::isfinite(v.x + v.y + v.z); };
+    const auto broken_force = std::find_if(forces.begin(), forces.end(), not_finite);
+    const bool contact = broken_force != forces.end();
+    const auto broken = contact ? work.trial_velocity.begin() + (broken_force - forces.begin())
+                                : std::find_if(work.trial_velocity.begin(), work.trial_velocity.end(), not_finite);
     const bool infinite = broken != work.trial_velocity.end();
     const auto fastest = std::max_element(work.trial_velocity.begin(), work.trial_velocity.end(),
                                           [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); });
     worst = static_cast<std::size_t>((infinite ? broken : fastest) - work.trial_velocity.begin());
-    const Vector3& f = work.velocities.contact_force()[worst];
-    const bool contact = !std::isfinite(f.x + f.y + f.z);
     report.what = infinite ? "the velocity is not finite"
                            : fmt::format("a grain moves by more than {:g} radii in the shortest step", farthest_move);
     report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
@@ -123,6 +126,22 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   const Vector3& x = state.position[worst];
   report.place = fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m", worst, x.x, x.y, x.z);
   throw NumericalError(report);
+}
+
+double longest_stable_step(const Parameters& p, double rate) {
+  return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, damping).stability / rate;
+}
+
+/// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
+void check_stiffness(const Parameters& p, const State& state, double largest_step) {
+  const double share = longest_stable_step(p, contact_rate(p)) / largest_step;  // infinite without contacts
+  if (share >= least_step_over_largest) return;
+  throw NumericalError({.what = fmt::format("the longest stable step is {:.2g} of the largest", share),
+                        .term = "contact force, Eq. 2",
+                        .place = "every contact",
+                        .step = state.step,
+                        .time = state.time,
+                        .advice = "a smaller contact.stiffness"});
 }
 
 }  // namespace
@@ -142,13 +161,15 @@ void derive(ThreadTeam& team, State& state, Workspace& work) {
 }
 
 void begin(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
+  const double largest_step = p.integration.largest_step * work.scales.stokes_time;
+  check_stiffness(p, state, largest_step);
   sort_for_packing(p, state, work);
   derive(team, state, work);
   ++state.evaluations;
   work.trial_velocity = state.velocity;
   if (!all_finite(team, state.velocity)) give_up(p, state, work, false, 0);
   state.increment.assign(state.position.size(), Vector3{});
-  state.next_step = 0.1 * p.integration.largest_step * work.scales.stokes_time;
+  state.next_step = 0.1 * largest_step;
   estimate_stiffness(team, p, state, work, 20);
 }
 
@@ -168,8 +189,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
   while (true) {
     const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
     const bool euler = p.integration.method == Method::euler;
-    const double stable = chebyshev_stages(euler ? 1 : most_stages, damping).stability / rate;
-    if (rate > 0) step = std::min(step, stable);
+    if (rate > 0) step = std::min(step, longest_stable_step(p, rate));
     const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, damping), damping);
 
     bool finite = take_stages(team, state, work, scheme, step, farthest_move * a);

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/material.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 namespace talus::continuum {
 
 namespace {
 
-std::variant<granular::LinearElastic> law_of(const Parameters& p) {
-  switch (p.law.name) {
-    case LawName::linear_elastic:
-      return granular::LinearElastic(p.law.lambda, p.law.shear_modulus);
-  }
-  throw std::invalid_argument("no such law");
+void set(std::array<std::vector<double>, 6>& s, std::size_t i, const SymmetricTensor3<>& t) {
+  s[0][i] = t.xx, s[1][i] = t.yy, s[2][i] = t.zz, s[3][i] = t.xy, s[4][i] = t.yz, s[5][i] = t.zx;
 }
 
 template <class Law>
 granular::MaterialPoint<Law> load(const MaterialColumns& columns, std::size_t i) {
-  granular::MaterialPoint<Law> point{stress_of(columns, i), {}};
+  granular::MaterialPoint<Law> point{tensor_at(columns.stress, i), {}};
   std::size_t slot = 0;
   Law::for_each_slot([&](granular::HistorySlot, double& value) { value = columns.history[slot++][i]; }, point.history);
   return point;
@@ -23,9 +22,7 @@ granular::MaterialPoint<Law> load(const MaterialColumns& columns, std::size_t i)
 
 template <class Law>
 void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::size_t i, bool keep_history) {
-  auto& s = columns.stress;
-  const SymmetricTensor3<>& t = point.stress;
-  s[0][i] = t.xx, s[1][i] = t.yy, s[2][i] = t.zz, s[3][i] = t.xy, s[4][i] = t.yz, s[5][i] = t.zx;
+  set(columns.stress, i, point.stress);
   if (!keep_history) return;
   std::size_t slot = 0;
   Law::for_each_slot([&](granular::HistorySlot, double& value) { columns.history[slot++][i] = value; }, point.history);
@@ -33,7 +30,13 @@ void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::s
 
 }  // namespace
 
-Material::Material(const Parameters& parameters) : law_(law_of(parameters)) {}
+Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grains.density)) {
+  const std::vector<granular::HistorySlot> remembered = slots();
+  for (std::size_t k = 0; k < remembered.size(); ++k)
+    if (remembered[k].name == std::string_view("strain_xx")) first_strain_slot_ = k;
+  if (p.law.collisions != granular::Collisions::none)
+    collisions_ = granular::collision_options(p.law, p.grains.diameter, p.gravity.acceleration);
+}
 
 std::vector<granular::HistorySlot> Material::slots() const {
   return std::visit(
@@ -58,14 +61,26 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, std::span<co
         for_each(team, density.size(), [&](std::size_t i) {
           auto point = law.update(load<Law>(old, i), velocity_gradient[i], density[i], time_step);
           store(point, next, i, keep_history);
+          if (!collisions_) return;
+          const double mean_stress = std::max(trace(point.stress) / 3, 0.0);
+          set(next.collisional, i, granular::collisional_stress(*collisions_, mean_stress, velocity_gradient[i]));
         });
       },
       law_);
 }
 
+double Material::strain(const MaterialColumns& columns, std::size_t i) const {
+  if (!first_strain_slot_) return 0;
+  const auto e = [&](std::size_t c) { return columns.history[*first_strain_slot_ + c][i]; };
+  return norm(SymmetricTensor3<>{e(0), e(1), e(2), e(3), e(4), e(5)});
+}
+
 void Material::mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const {
   constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-  for (std::size_t c = 0; c < 6; ++c) columns.stress[c][lump] *= sign[axes[c][0]] * sign[axes[c][1]];
+  for (std::size_t c = 0; c < 6; ++c) {
+    columns.stress[c][lump] *= sign[axes[c][0]] * sign[axes[c][1]];
+    columns.collisional[c][lump] *= sign[axes[c][0]] * sign[axes[c][1]];
+  }
   const auto remembered = slots();
   for (std::size_t k = 0; k < remembered.size(); ++k)
     columns.history[k][lump] *= sign[remembered[k].axis] * sign[remembered[k].other_axis];

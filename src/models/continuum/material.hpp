@@ -2,14 +2,14 @@
 /// The constitutive law of a case, applied to all lumps: the one place where the choice of the law is met.
 #pragma once
 
+#include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
-#include "physics/granular/linear_elastic.hpp"
+#include "physics/granular/law.hpp"
 
 namespace talus::continuum {
 
@@ -29,16 +29,25 @@ class Material {
   void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
               std::span<const double> density, double time_step, MaterialColumns& next, bool keep_history) const;
 
+  /// Norm of the strain that the law remembers of a lump; 0 if it remembers none.
+  double strain(const MaterialColumns& columns, std::size_t lump) const;
+
   /// Turns what the law knows of a lump as a mirror does. \param sign of vectors, per axis, as Image::vector_sign
   void mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const;
 
  private:
-  std::variant<granular::LinearElastic> law_;
+  granular::AnyLaw law_;
+  std::optional<std::size_t> first_strain_slot_;
+  std::optional<granular::CollisionOptions> collisions_;
 };
 
-inline SymmetricTensor3<> stress_of(const MaterialColumns& columns, std::size_t i) {
-  const auto& s = columns.stress;
+inline SymmetricTensor3<> tensor_at(const std::array<std::vector<double>, 6>& s, std::size_t i) {
   return {s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]};
+}
+
+/// The whole stress of a lump, Eq. 7: the law's and that by collisions, Pa.
+inline SymmetricTensor3<> stress_of(const MaterialColumns& columns, std::size_t i) {
+  return tensor_at(columns.stress, i) + tensor_at(columns.collisional, i);
 }
 
 }  // namespace talus::continuum

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus::continuum {
 
@@ -57,6 +58,10 @@ void Continuum::resume(ThreadTeam& team) {
 
 void Continuum::advance(ThreadTeam& team) {
   continuum::advance(team, parameters_, state_, *workspace_);
+}
+
+double Continuum::time_origin() const {
+  return state_.gate_time >= 0 ? state_.gate_time : std::numeric_limits<double>::infinity();
 }
 
 std::vector<NamedValue> Continuum::totals() const {

@@ -23,11 +23,14 @@ class Continuum {
 
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
+  /// When the gate opened, s.
+  double time_origin() const;
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
 
-  /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start: gate_time
+  /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start:
+  /// gate_time
   /// (-1: shut), the impulses of gravity and damping, and by wall what it received ("impulse_floor_z", N s).
   std::vector<NamedValue> totals() const;
 

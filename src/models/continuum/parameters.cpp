@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 
@@ -56,7 +56,8 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
         fmt::format("{:.4g} to {:.4g} mm: six spacings from both", room / millimetre,
                     (p.box.height - room) / millimetre));
   if (p.plate.slit_left.has_value() != p.plate.slit_right.has_value()) {
-    add(p.plate.slit_left ? "plate.slit_right" : "plate.slit_left", "missing: the slit needs both its ends", "a length");
+    add(p.plate.slit_left ? "plate.slit_right" : "plate.slit_left", "missing: the slit needs both its ends",
+        "a length");
   } else if (p.plate.slit_left && !(*p.plate.slit_left < *p.plate.slit_right && *p.plate.slit_right <= p.box.width)) {
     add("plate.slit_right", fmt::format("{:.4g} mm leaves no slit", *p.plate.slit_right / millimetre),
         "above plate.slit_left, at most box.width");
@@ -94,6 +95,15 @@ std::vector<Problem> check(const Parameters& p) {
   check_faces(p, problems);
   check_plate(p, problems);
   check_bed(p, problems);
+  for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
+  if (p.law.strain == granular::Strain::displacements)
+    problems.push_back({.key = "law.strain",
+                        .what = "lumps do not keep the places of their last reset yet",
+                        .allowed = "\"rate\"; talus law takes either"});
+  if (p.law.collisions != granular::Collisions::none && !(p.gravity.acceleration > 0))
+    problems.push_back({.key = "law.collisions",
+                        .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
+                        .allowed = "none without gravity"});
   if (p.gate.opens != GateOpens::at_time && p.gate.time > 0)
     problems.push_back({.key = "gate.time",
                         .what = fmt::format("given, but gate.opens is \"{}\"", choice_name(p.gate.opens)),
@@ -130,8 +140,7 @@ Lattice lattice_of(const Parameters& p) {
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }
-  lattice.mass =
-      p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
+  lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
   return lattice;
 }
 

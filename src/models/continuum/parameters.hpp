@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "physics/granular/law_options.hpp"
 #include "physics/sph/balance.hpp"
 
 namespace talus::continuum {
 
 enum class GateOpens { when_settled, at_time, from_the_start };
-enum class LawName { linear_elastic };
 enum class Smoothing { local, fixed };
 enum class Continuity { printed, corrected };
 enum class Friction { coulomb, printed, none };
@@ -50,11 +51,7 @@ struct Parameters {
     std::optional<double> bottom;
     std::optional<double> left, right;
   } bed;
-  struct Law {
-    LawName name = LawName::linear_elastic;
-    double lambda = 2.94e6;
-    double shear_modulus = 2.94e6;
-  } law;
+  granular::LawParameters law;
   struct Sph {
     Smoothing smoothing = Smoothing::local;
     Continuity continuity = Continuity::printed;
@@ -81,18 +78,19 @@ struct Parameters {
     double courant = 0.3;
     std::optional<double> step;
     double skin = 0.2;
+    InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
 };
 
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
-  visit(Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right",
-                  true},
-        p.box.width);
-  visit(Parameter{"box.depth", dimension::length, above(0), "extent along y, from the front face at 0 to the rear",
-                  true},
-        p.box.depth);
+  visit(
+      Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right", true},
+      p.box.width);
+  visit(
+      Parameter{"box.depth", dimension::length, above(0), "extent along y, from the front face at 0 to the rear", true},
+      p.box.depth);
   visit(Parameter{"box.height", dimension::length, above(0), "extent along z, from the floor at 0 to the top", true},
         p.box.height);
   visit(Parameter{"box.left",
@@ -133,10 +131,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"bed.right", dimension::length, above(0), "where the bed ends along x; left out: the right face"},
         p.bed.right);
 
-  visit(Parameter{"law.name", {}, {}, "constitutive law of the grains"}, p.law.name);
-  visit(Parameter{"law.lambda", dimension::pressure, above(0), "linear-elastic: Lame's first constant"}, p.law.lambda);
-  visit(Parameter{"law.shear_modulus", dimension::pressure, above(0), "linear-elastic: shear modulus"},
-        p.law.shear_modulus);
+  granular::for_each_parameter(visit, p.law);
 
   visit(Parameter{"sph.smoothing",
                   {},
@@ -190,6 +185,10 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.skin", dimension::none, at_least(0),
                   "skin of the neighbour lists, in lump spacings: wider lists last longer and cost more"},
         p.integration.skin);
+  visit(
+      Parameter{
+          "integration.instruction_set", {}, {}, "instruction set of the sums over neighbours; the bits depend on it"},
+      p.integration.instruction_set);
 }
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
@@ -200,10 +199,10 @@ Domain domain_of(const Parameters& parameters);
 
 /// The lattice on which the lumps stand at the start.
 struct Lattice {
-  Vector3 corner;                    ///< of the bed, m
-  Vector3 spacing;                   ///< m, close to bed.spacing
-  std::array<std::int64_t, 3> count; ///< lumps along x, y, z
-  double mass;                       ///< of a lump, kg: the bed's mass is its volume times packing and grain density
+  Vector3 corner;                     ///< of the bed, m
+  Vector3 spacing;                    ///< m, close to bed.spacing
+  std::array<std::int64_t, 3> count;  ///< lumps along x, y, z
+  double mass;                        ///< of a lump, kg: the bed's mass is its volume times packing and grain density
 };
 Lattice lattice_of(const Parameters& parameters);
 
@@ -211,17 +210,14 @@ Lattice lattice_of(const Parameters& parameters);
 
 namespace talus {
 template <>
-inline constexpr auto choices<continuum::GateOpens> =
-    std::to_array<std::string_view>({"when-settled", "at-time", "from-the-start"});
-template <>
-inline constexpr auto choices<continuum::LawName> = std::to_array<std::string_view>({"linear-elastic"});
+inline constexpr auto choices<continuum::GateOpens> = std::to_array<std::string_view>({"when-settled", "at-time",
+                                                                                       "from-the-start"});
 template <>
 inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
 template <>
 inline constexpr auto choices<continuum::Continuity> = std::to_array<std::string_view>({"printed", "corrected"});
 template <>
-inline constexpr auto choices<continuum::Friction> =
-    std::to_array<std::string_view>({"coulomb", "printed", "none"});
+inline constexpr auto choices<continuum::Friction> = std::to_array<std::string_view>({"coulomb", "printed", "none"});
 template <>
 inline constexpr auto choices<continuum::FrictionFrom> = std::to_array<std::string_view>({"gate", "start"});
 template <>

@@ -16,8 +16,9 @@ namespace talus::continuum {
 
 /// What the law knows of each lump, column by column.
 struct MaterialColumns {
-  std::array<std::vector<double>, 6> stress;  ///< Pa, compression positive: xx yy zz xy yz zx
-  std::vector<std::vector<double>> history;   ///< one column a slot of the law
+  std::array<std::vector<double>, 6> stress;       ///< the law's, Pa, compression positive: xx yy zz xy yz zx
+  std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order
+  std::vector<std::vector<double>> history;        ///< one column a slot of the law
 };
 
 /// The names of the walls that may bear load, and of the columns of their impulses.
@@ -37,6 +38,7 @@ struct State {
   double mass = 0;                           ///< of a lump, kg
 
   std::vector<double> packing;     ///< as the kernel deposits it: sum of m W over lumps and images, over rho_p; derived
+  std::vector<double> strain;      ///< |e|, norm of the strain that the law remembers; 0 if it remembers none; derived
   std::vector<double> shear_rate;  ///< (2 D':D')^(1/2), D' the deviator of the rate of deformation, last evaluated, 1/s
 
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
@@ -58,6 +60,9 @@ struct State {
 namespace detail {
 inline constexpr std::array<const char*, 6> stress_names = {"stress_xx", "stress_yy", "stress_zz",
                                                             "stress_xy", "stress_yz", "stress_zx"};
+inline constexpr std::array<const char*, 6> collisional_names = {"collisional_stress_xx", "collisional_stress_yy",
+                                                                 "collisional_stress_zz", "collisional_stress_xy",
+                                                                 "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
@@ -78,10 +83,13 @@ void for_each_field(Visit&& visit, S& s) {
   visit(Field{"density", "kg/m3"}, s.density);
   visit(Field{"identity", "1"}, s.identity);
   for (std::size_t c = 0; c < 6; ++c) visit(Field{detail::stress_names[c], "Pa"}, s.material.stress[c]);
+  for (std::size_t c = 0; c < 6; ++c)
+    visit(Field{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
   for (std::size_t k = 0; k < s.slots.size(); ++k)
     visit(Field{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
   visit(Field{"mass", "kg"}, s.mass);
   visit(Field{"packing", "1", FieldRole::derived}, s.packing);
+  visit(Field{"strain", "1", FieldRole::derived}, s.strain);
   visit(Field{"shear_rate", "1/s"}, s.shear_rate);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     for (int axis = 0; axis < 3; ++axis)

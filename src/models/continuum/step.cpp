@@ -14,7 +14,7 @@
 
 #include "models/continuum/sort.hpp"
 #include "models/continuum/walls.hpp"
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 
@@ -36,7 +36,7 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
     w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
   });
   w.material.update(team, s.material, w.rates.velocity_gradient, w.density, 0.5 * dt, w.columns, false);
-  w.sweep(team, {w.position, w.velocity, w.density, w.columns}, Sweep::Wanted::all, w.rates);
+  w.sweep(team, {w.position, w.velocity, w.density, w.columns}, Wanted::all, w.rates);
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i];
     s.position[i] += dt * w.velocity[i];
@@ -58,7 +58,7 @@ void leapfrog(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, dou
   s.gravity_impulse += (kick * s.mass * static_cast<double>(count)) * g;
   meet_walls(team, p, w.sweep.neighbourhood().domain(), w.rates, s.position, kick, s);
   for_each(team, count, [&](std::size_t i) { w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i]; });
-  w.sweep(team, {w.position, s.velocity, s.density, s.material}, Sweep::Wanted::gradients, w.rates);
+  w.sweep(team, {w.position, s.velocity, s.density, s.material}, Wanted::gradients, w.rates);
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i];
     s.position[i] += dt * s.velocity[i];
@@ -83,13 +83,13 @@ void damp(ThreadTeam& team, const Parameters& p, State& s, double dt) {
 [[noreturn]] void give_up(const State& s, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !(s.density[i] > 0) || !std::isfinite(s.density[i]);
-  throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
-                                        : "the velocity is not finite",
-                        .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
-                        .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
-                        .step = s.step,
-                        .time = s.time,
-                        .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
+  throw NumericalError(
+      {.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i]) : "the velocity is not finite",
+       .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+       .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
+       .step = s.step,
+       .time = s.time,
+       .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
 }
 
 void check_possible(ThreadTeam& team, const State& s) {
@@ -149,12 +149,13 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const bool all = p.integration.method == Method::runge_kutta;
-  w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? Sweep::Wanted::all : Sweep::Wanted::forces,
-          w.rates);
+  w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? Wanted::all : Wanted::forces, w.rates);
   s.packing.resize(s.position.size());
   s.shear_rate.resize(s.position.size());
+  s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
+    s.strain[i] = w.material.strain(s.material, i);
     const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
     s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
   });

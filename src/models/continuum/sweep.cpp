@@ -3,11 +3,29 @@
 
 #include <cmath>
 
+#include "base/instruction_set.hpp"
 #include "models/continuum/material.hpp"
-#include "physics/sph/cubic_spline.hpp"
-#include "physics/sph/velocity_gradient.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+#include "numerics/sph/velocity_gradient.hpp"
 
 namespace talus::continuum {
+
+namespace {
+
+SumNeighbours choose(InstructionSet set, Wanted wanted) {
+  switch (set) {
+#if defined(__x86_64__)
+    case InstructionSet::avx512:
+      return sum_neighbours_avx512(wanted);
+    case InstructionSet::avx2:
+      return sum_neighbours_avx2(wanted);
+#endif
+    default:
+      return sum_neighbours_portable(wanted);
+  }
+}
+
+}  // namespace
 
 void Rates::resize(std::size_t count) {
   acceleration.resize(count);
@@ -19,16 +37,18 @@ void Rates::resize(std::size_t count) {
 
 Sweep::Sweep(const Parameters& p, double mass, double sound_speed)
     : mass_(mass),
-      sound_speed_(sound_speed),
-      fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
-                                  ? sph::smoothing_length(mass, p.bed.packing * p.grains.density)
-                                  : 0.0),
+      fixed_smoothing_length_(
+          p.sph.smoothing == Smoothing::fixed ? sph::smoothing_length(mass, p.bed.packing * p.grains.density) : 0.0),
       grain_density_(p.grains.density),
       skin_(p.integration.skin * p.bed.spacing),
       stress_form_(p.sph.stress_form),
       corrected_continuity_(p.sph.continuity == Continuity::corrected),
-      viscosity_{p.sph.viscosity_alpha, p.sph.viscosity_beta},
-      around_(domain_of(p)) {}
+      constants_{mass, sound_speed, p.sph.viscosity_alpha, p.sph.viscosity_beta},
+      around_(domain_of(p)) {
+  const InstructionSet set = resolve(p.integration.instruction_set);
+  for (const Wanted wanted : {Wanted::all, Wanted::gradients, Wanted::forces})
+    sum_[static_cast<std::size_t>(wanted)] = choose(set, wanted);
+}
 
 double Sweep::smoothing_length(double density) const {
   return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_ : sph::smoothing_length(mass_, density);
@@ -49,120 +69,129 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
     }
     image_walls_.push_back(walls);
   }
+  find_groups();
+}
+
+/// Where each group of a lump's neighbours ends: lumps first, then images by mirror, as the lists are sorted.
+void Sweep::find_groups() {
+  const auto ghosts = around_.ghosts();
+  const std::size_t count = around_.particles();
+  groups_.clear();
+  first_group_.assign(1, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto neighbours = around_.of(i);
+    groups_.push_back({static_cast<std::uint32_t>(around_.first_ghost_of(i)), -1});
+    for (std::size_t n = around_.first_ghost_of(i); n < neighbours.size(); ++n) {
+      const auto image = static_cast<std::int32_t>(ghosts[neighbours[n] - count].image);
+      if (groups_.back().image != image) groups_.push_back({0, image});
+      groups_.back().end = static_cast<std::uint32_t>(n + 1);
+    }
+    first_group_.push_back(static_cast<std::uint32_t>(groups_.size()));
+  }
 }
 
 void Sweep::pack(ThreadTeam& team, const LumpView& lumps) {
   const std::size_t count = lumps.position.size();
   const auto ghosts = around_.ghosts();
-  records_.resize(count + ghosts.size());
+  records_.resize(count + ghosts.size() + 1);
   for_each(team, count, [&](std::size_t i) {
     const double density = lumps.density[i];
-    records_[i] = {lumps.position[i],
-                   lumps.velocity[i],
-                   sph::specific_stress(stress_of(lumps.material, i), density, density / grain_density_, stress_form_),
+    const Vector3 &x = lumps.position[i], &u = lumps.velocity[i];
+    const SymmetricTensor3<> s =
+        sph::specific_stress(stress_of(lumps.material, i), density, density / grain_density_, stress_form_);
+    records_[i] = {{x.x, x.y, x.z},
+                   {u.x, u.y, u.z},
                    smoothing_length(density),
+                   mass_ / density,
+                   {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx},
                    density,
-                   mass_ / density};
+                   0};
   });
   for_each(team, ghosts.size(), [&](std::size_t g) {
     const Image& image = around_.image(ghosts[g]);
-    const Vector3& s = image.vector_sign;
-    Record ghost = records_[ghosts[g].source];
-    ghost.position = image.position(ghost.position);
-    ghost.velocity = image.vector(ghost.velocity);
-    ghost.specific_stress.xy *= s.x * s.y;
-    ghost.specific_stress.yz *= s.y * s.z;
-    ghost.specific_stress.zx *= s.z * s.x;
+    LumpRecord ghost = records_[ghosts[g].source];
+    const Vector3 x = image.position({ghost.position[0], ghost.position[1], ghost.position[2]});
+    const Vector3 u = image.vector({ghost.velocity[0], ghost.velocity[1], ghost.velocity[2]});
+    const Vector3& sign = image.vector_sign;
+    for (int axis = 0; axis < 3; ++axis) ghost.position[axis] = x[axis], ghost.velocity[axis] = u[axis];
+    ghost.specific_stress[3] *= sign.x * sign.y;
+    ghost.specific_stress[4] *= sign.y * sign.z;
+    ghost.specific_stress[5] *= sign.z * sign.x;
     records_[count + g] = ghost;
   });
+  constexpr double far_away = 1e3;  // m
+  records_.back() = {.position = {far_away, far_away, far_away},
+                     .velocity = {},
+                     .smoothing_length = records_.front().smoothing_length,
+                     .volume = 0,
+                     .specific_stress = {},
+                     .density = records_.front().density,
+                     .unused = 0};
 }
 
-/// The sums over the neighbours of one lump.
-template <bool gradients, bool forces>
-struct Sweep::Gather {
-  const Sweep& sweep;
-  const Record& self;
-  sph::GradientSums gradient = {};
-  double density_rate = 0;
-  double kernel_density = 0;
-  Vector3 acceleration = {};
-
-  /// Adds a neighbour; \returns the acceleration that it causes
-  Vector3 add(const Record& other) {
-    const Vector3 d = other.position - self.position;
-    const double h = 0.5 * (self.smoothing_length + other.smoothing_length);
-    const double distance_squared = dot(d, d);
-    if (distance_squared >= sph::support * sph::support * h * h) return {};
-    const double distance = std::sqrt(distance_squared);
-    const double slope = sph::cubic_spline_slope(distance, h);
-    const Vector3 du = other.velocity - self.velocity;
-    if constexpr (gradients) {
-      gradient.add(other.volume, slope, d, du);
-      density_rate += sph::density_rate(sweep.mass_, slope, d, du);
+/// The neighbours of a lump that it sees. Near a plate they are picked into `record` and `end`.
+Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
+  const auto neighbours = around_.of(i);
+  const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
+  const bool near_plate = around_.is_near_plate(i);
+  record.clear();
+  end.clear();
+  std::uint32_t n = 0;
+  for (std::uint32_t g = first; g < last; ++g) {
+    if (near_plate) {
+      const auto place = [this](std::uint32_t r) {
+        const double* x = records_[r].position;
+        return Vector3{x[0], x[1], x[2]};
+      };
+      const int image = groups_[g].image;
+      const int plate = image < 0 ? -1 : around_.images()[static_cast<std::size_t>(image)].plate;
+      const Vector3 own = place(static_cast<std::uint32_t>(i));
+      for (; n < groups_[g].end; ++n)
+        if (around_.domain().sees(own, place(neighbours[n]), plate)) record.push_back(neighbours[n]);
+      end.push_back(static_cast<std::uint32_t>(record.size()));
+    } else {
+      end.push_back(groups_[g].end);
     }
-    if constexpr (forces) {
-      kernel_density += sweep.mass_ * sph::cubic_spline(distance, h);
-      const double viscosity = sph::viscosity(sweep.viscosity_, dot(du, d), distance_squared, h, sweep.sound_speed_,
-                                              0.5 * (self.density + other.density));
-      const Vector3 push =
-          sph::acceleration(sweep.mass_, slope, d, self.specific_stress + other.specific_stress, viscosity);
-      acceleration += push;
-      return push;
-    }
-    return {};
   }
-};
-
-template <bool gradients, bool forces>
-void Sweep::sweep(ThreadTeam& team, Rates& rates) const {
-  const std::size_t count = around_.particles();
-  const auto ghosts = around_.ghosts();
-  const Domain& domain = around_.domain();
-  for_each(team, count, [&](std::size_t i) {
-    Gather<gradients, forces> sums{.sweep = *this, .self = records_[i]};
-    const auto neighbours = around_.of(i);
-    const std::size_t first_ghost = around_.first_ghost_of(i);
-    const bool near_plate = around_.is_near_plate(i);
-    for (std::size_t n = 0; n < first_ghost; ++n) {
-      const Record& other = records_[neighbours[n]];
-      if (near_plate && !domain.sees(sums.self.position, other.position)) continue;
-      sums.add(other);
-    }
-    std::array<double, most_walls> push{};
-    for (std::size_t n = first_ghost; n < neighbours.size(); ++n) {
-      const Record& other = records_[neighbours[n]];
-      const std::uint32_t image = ghosts[neighbours[n] - count].image;
-      if (near_plate && !domain.sees(sums.self.position, other.position, around_.images()[image].plate)) continue;
-      const Vector3 a = sums.add(other);
-      if constexpr (forces)
-        for (int axis = 0; axis < 3; ++axis)
-          if (const int wall = image_walls_[image][static_cast<std::size_t>(axis)]; wall >= 0)
-            push[static_cast<std::size_t>(wall)] += a[axis];
-    }
-    if constexpr (gradients) {
-      const Tensor3<> gradient = sph::velocity_gradient(sums.gradient);
-      rates.velocity_gradient[i] = gradient;
-      rates.density_rate[i] = corrected_continuity_ ? -sums.self.density * trace(gradient) : sums.density_rate;
-    }
-    if constexpr (forces) {
-      rates.acceleration[i] = sums.acceleration;
-      rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, sums.self.smoothing_length);
-      rates.wall_push[i] = push;
-    }
-  });
+  return {near_plate ? record.data() : neighbours.data(), end.data(), static_cast<int>(end.size()),
+          static_cast<std::uint32_t>(records_.size() - 1)};
 }
 
 void Sweep::operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, Rates& rates) {
-  rates.resize(lumps.position.size());
+  const std::size_t count = lumps.position.size();
+  rates.resize(count);
   pack(team, lumps);
-  switch (wanted) {
-    case Wanted::all:
-      return sweep<true, true>(team, rates);
-    case Wanted::gradients:
-      return sweep<true, false>(team, rates);
-    case Wanted::forces:
-      return sweep<false, true>(team, rates);
-  }
+  const SumNeighbours sum = sum_[static_cast<std::size_t>(wanted)];
+  for_each(team, count, [&](std::size_t i) {
+    thread_local std::vector<std::uint32_t> record, end;
+    thread_local std::vector<std::array<double, 3>> acceleration;
+    const Neighbours neighbours = seen_from(i, record, end);
+    acceleration.resize(static_cast<std::size_t>(neighbours.groups));
+    PairSums sums;
+    sum(records_.data(), static_cast<std::uint32_t>(i), neighbours, constants_, sums,
+        reinterpret_cast<double(*)[3]>(acceleration.data()));
+    if (wanted != Wanted::forces) {
+      const double *m = sums.moment, *v = sums.velocity;
+      const Tensor3<> gradient = sph::velocity_gradient(
+          {{m[0], m[1], m[2], m[3], m[4], m[5]}, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
+      rates.velocity_gradient[i] = gradient;
+      rates.density_rate[i] = corrected_continuity_ ? -lumps.density[i] * trace(gradient) : sums.density_rate;
+    }
+    if (wanted == Wanted::gradients) return;
+    Vector3 all;
+    std::array<double, most_walls> push{};
+    for (std::size_t g = 0; g < acceleration.size(); ++g) {
+      all += Vector3{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
+      const std::int32_t image = groups_[first_group_[i] + g].image;
+      if (image < 0) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const int wall = image_walls_[static_cast<std::size_t>(image)][axis]; wall >= 0)
+          push[static_cast<std::size_t>(wall)] += acceleration[g][axis];
+    }
+    rates.acceleration[i] = all;
+    rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
+    rates.wall_push[i] = push;
+  });
 }
 
 }  // namespace talus::continuum

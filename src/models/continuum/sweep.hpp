@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sweep over pairs: what each lump feels from its neighbours and from their images behind the boundaries. Lumps are
-/// packed into records, one a lump; images exist only as records, made from those of their sources.
+/// The sweep over pairs: what each lump feels from its neighbours and from their images behind the boundaries. Lumps
+/// are packed into records, one a lump; images exist only as records, made from those of their sources. The loops
+/// themselves stand in pair_sweep/, compiled once for each instruction set.
 #pragma once
 
 #include <array>
@@ -10,19 +11,19 @@
 
 #include "base/parallel.hpp"
 #include "base/tensor.hpp"
+#include "models/continuum/pair_sweep/kernel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/neighbourhood.hpp"
-#include "physics/sph/artificial_viscosity.hpp"
 
 namespace talus::continuum {
 
 /// Rates of change of every lump, of one evaluation.
 struct Rates {
-  std::vector<Vector3> acceleration;           ///< from stress and viscosity, without gravity, m/s^2
-  std::vector<double> density_rate;            ///< Eq. 16, kg/(m^3 s)
-  std::vector<Tensor3<>> velocity_gradient;    ///< du_i/dx_j, 1/s
-  std::vector<double> kernel_density;          ///< sum of m W over lumps and images, kg/m^3
+  std::vector<Vector3> acceleration;         ///< from stress and viscosity, without gravity, m/s^2
+  std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
+  std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
+  std::vector<double> kernel_density;        ///< sum of m W over lumps and images, kg/m^3
   /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's axis, m/s^2. What
   /// images do along a wall cancels in the sum over all lumps.
   std::vector<std::array<double, most_walls>> wall_push;
@@ -41,6 +42,7 @@ struct LumpView {
 class Sweep {
  public:
   /// \param mass of a lump, kg; \param sound_speed of the viscosity, m/s
+  /// \throws InputError if the processor does not have the case's instruction set
   Sweep(const Parameters& parameters, double mass, double sound_speed);
 
   /// Smoothing length of a lump, m.
@@ -52,33 +54,31 @@ class Sweep {
   void open_gates() { around_.open_gates(); }
 
   /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
-  enum class Wanted { all, gradients, forces };
   void operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, Rates& rates);
 
  private:
-  struct alignas(128) Record {
-    Vector3 position, velocity;
-    SymmetricTensor3<> specific_stress;  // tau/rho^2, m^5/(kg s^2)
-    double smoothing_length, density, volume;
+  struct Group {
+    std::uint32_t end;   ///< within the lump's neighbours
+    std::int32_t image;  ///< of the group, -1: lumps
   };
-  template <bool gradients, bool forces>
-  struct Gather;
 
   void pack(ThreadTeam& team, const LumpView& lumps);
-  template <bool gradients, bool forces>
-  void sweep(ThreadTeam& team, Rates& rates) const;
+  void find_groups();
+  Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
 
   double mass_;
-  double sound_speed_;
   double fixed_smoothing_length_;  // 0: local
   double grain_density_;
   double skin_;
   sph::StressForm stress_form_;
   bool corrected_continuity_;
-  sph::ArtificialViscosity viscosity_;
+  PairConstants constants_;
+  std::array<SumNeighbours, 3> sum_;  // by what is wanted
   Neighbourhood around_;
   std::vector<std::array<std::int8_t, 3>> image_walls_;  // the wall that bears each component, -1: none; by image
-  std::vector<Record> records_;
+  std::vector<LumpRecord> records_;                      // lumps, images, nobody
+  std::vector<Group> groups_;                            // of every lump's neighbours, one lump after the other
+  std::vector<std::uint32_t> first_group_;               // of a lump; one more than lumps
 };
 
 }  // namespace talus::continuum

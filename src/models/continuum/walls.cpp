@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_friction.hpp"
 
 namespace talus::continuum {
@@ -73,8 +73,7 @@ Vector3 rubbed(const Parameters& p, const Wall& wall, const Domain& domain, cons
 }  // namespace
 
 bool is_rough(const Parameters& p, const State& state) {
-  return p.walls.friction != Friction::none &&
-         (p.walls.friction_from == FrictionFrom::start || state.gate_time >= 0);
+  return p.walls.friction != Friction::none && (p.walls.friction_from == FrictionFrom::start || state.gate_time >= 0);
 }
 
 void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,

@@ -19,8 +19,8 @@ enum class FaceKind {
 };
 
 template <>
-inline constexpr auto choices<FaceKind> =
-    std::to_array<std::string_view>({"wall", "symmetry", "periodic", "free-as-printed", "open"});
+inline constexpr auto choices<FaceKind> = std::to_array<std::string_view>({"wall", "symmetry", "periodic",
+                                                                           "free-as-printed", "open"});
 
 /// Number of a face: side 0 is the low one of an axis, 1 the high one.
 constexpr int face_number(int axis, int side) {

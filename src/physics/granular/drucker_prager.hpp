@@ -20,7 +20,7 @@
 
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
-#include "physics/granular/law_options.hpp"
+#include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
 #include "physics/granular/rotation.hpp"
 

@@ -11,6 +11,10 @@ std::vector<Problem> check(const LawParameters& p) {
     problems.push_back({.key = "law.largest_deviator",
                         .what = "the fitted functions end at 0.035",
                         .allowed = "at most 0.035; with law.form = \"printed\" any"});
+  if (p.strain == Strain::displacements && (p.name != LawName::yuu_umekage || p.form != Form::printed))
+    problems.push_back({.key = "law.strain",
+                        .what = "only the printed components take the strain from displacements",
+                        .allowed = "\"rate\", or law.form = \"printed\""});
   if (p.name != LawName::yuu_umekage) return problems;
   if (p.reset == Reset::strain && p.volume == Volume::density)
     problems.push_back({.key = "law.reset",
@@ -43,12 +47,14 @@ AnyLaw make_law(const LawParameters& p, double grain_density) {
   const YuuUmekageOptions options{.scale = p.scale,
                                   .grain_density = grain_density,
                                   .reference_packing = p.reference_packing,
+                                  .strain = p.strain,
                                   .volume = p.volume,
                                   .unloading = p.unloading,
                                   .unloading_stiffness = p.unloading_stiffness,
                                   .reset = p.reset,
                                   .main_strain = p.main_strain,
                                   .smoothing_time = p.smoothing_time,
+                                  .close_packing = p.close_packing,
                                   .largest_deviator = p.largest_deviator,
                                   .shear_sum = p.shear_sum,
                                   .gate_packing = p.gate_packing,

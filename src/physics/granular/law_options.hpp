@@ -1,69 +1,166 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The readings of the constitutive laws that a case chooses among (law.hpp has their names and texts).
+/// The table [law] of a case: which constitutive law, and every reading and coefficient of it. A model with grains
+/// embeds LawParameters and visits this list within its own.
 #pragma once
 
-#include "base/tensor.hpp"
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parameter.hpp"
+#include "physics/granular/law_readings.hpp"
 
 namespace talus::granular {
 
-/// What the volumetric strain is measured by.
-enum class Volume {
-  density,  ///< ln(rho_b/rho_ref)/3: tied to the packing, cannot drift from it
-  strain    ///< the trace of the strain since the last reset, as in the paper
-};
+enum class LawName { yuu_umekage, drucker_prager, linear_elastic };
+enum class Form { isotropic, printed };
+enum class Tables { repaired, printed };
+enum class Collisions { printed, isotropic, none };
 
-/// Which stresses fall along the initial stiffness times k_u when the strain falls, and rise again along the same line
-/// to the yield point; the others go back along the loading curve.
-enum class Unloading { none, pressure, shear, all };
-
-/// What is forgotten at the end of an unloading process: nothing, the deviator of the strain, or all of it (the paper
-/// sets X_i := x_i).
-enum class Reset { never, deviator, strain };
-
-/// The strain whose fall is an unloading process. The paper: "normal strain component in the main direction that is
-/// vertical".
-enum class MainStrain { x, y, z, volume };
-
-/// How shear strains enter the normal stresses of Eqs 1-3.
-enum class ShearSum {
-  absolute,   ///< |e_xy| + |e_xz|: keeps the mirror symmetry
-  with_signs  ///< e_xy + e_xz, as printed
-};
-
-/// Options that both forms of the law `yuu-umekage` share.
-struct YuuUmekageOptions {
-  double scale = 9.80;             ///< alpha, stress of the real field over that of the fits' (130 Pa at the bottom)
-  double grain_density = 2500;     ///< rho_p, kg/m^3
-  double reference_packing = 0.6;  ///< rho_ref/rho_p, at which the grains just touch
+/// The table [law] of a case.
+struct LawParameters {
+  LawName name = LawName::yuu_umekage;
+  Form form = Form::isotropic;
+  Tables tables = Tables::repaired;
+  double scale = 9.80;
+  double reference_packing = 0.6;
+  Strain strain = Strain::rate;
   Volume volume = Volume::density;
+  double close_packing = 0.64;
+  double largest_deviator = 0.014;
   Unloading unloading = Unloading::all;
-  double unloading_stiffness = 1.5;  ///< k_u
+  double unloading_stiffness = 1.5;
   Reset reset = Reset::never;
   MainStrain main_strain = MainStrain::z;
-  double smoothing_time = 2e-4;             ///< s, over which the rate of the main strain is averaged
-  double largest_deviator = 0.014;          ///< |e_dev| beyond which the deviator no longer grows
-  ShearSum shear_sum = ShearSum::absolute;  ///< printed components only
-  double gate_packing = 0.5;                ///< packing below which contacts are lost
-  int gate_power = 96;                      ///< of the factor by which stress then vanishes
+  double smoothing_time = 2e-4;
+  ShearSum shear_sum = ShearSum::absolute;
+  double gate_packing = 0.5;
+  std::int64_t gate_power = 96;
+  double friction = 0;
+  Collisions collisions = Collisions::printed;
+  double collision_normal = 1.67;
+  double collision_shear = 0.0175;
+  double collision_diagonal = 1;
+  double lambda = 2.94e6;
+  double shear_modulus = 2.94e6;
 };
 
-/// The component of a strain, a rate of strain or a stress along the main direction; a third of the trace for the
-/// volume.
-template <class Number>
-Number main_strain(MainStrain main, const SymmetricTensor3<Number>& strain) {
-  return main == MainStrain::x   ? strain.xx
-         : main == MainStrain::y ? strain.yy
-         : main == MainStrain::z ? strain.zz
-                                 : (1.0 / 3.0) * trace(strain);
+/// Every key, once.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_const_t<P>, LawParameters> {
+  visit(Parameter{"law.name", {}, {}, "constitutive law of the grains"}, p.name);
+  visit(Parameter{"law.form",
+                  {},
+                  {},
+                  "yuu-umekage: the isotropic form, the same in any axes, or the component formulas as printed"},
+        p.form);
+  visit(
+      Parameter{"law.tables",
+                {},
+                {},
+                "fitted functions A1 to A4: with coefficients that round to the printed ones and join, or as printed"},
+      p.tables);
+  visit(Parameter{"law.scale", dimension::none, above(0),
+                  "alpha: rho_b g h_m over 130 Pa, the stress at the bottom of the bed over that of the fits"},
+        p.scale);
+  visit(Parameter{"law.reference_packing", dimension::none, between(0.1, 0.74),
+                  "packing at which grains at rest just touch; denser, they bear pressure"},
+        p.reference_packing);
+  visit(Parameter{"law.strain",
+                  {},
+                  {},
+                  "printed form: the strain by its rate, or from displacements since the last reset (Appendix A)"},
+        p.strain);
+  visit(Parameter{"law.volume",
+                  {},
+                  {},
+                  "what the volumetric strain is measured by: the density, or the strain since the last reset"},
+        p.volume);
+  visit(
+      Parameter{
+          "law.close_packing", dimension::none, between(0.1, 1),
+          "isotropic form: packing beyond which grains cannot give way any more, random close packing: from there "
+          "on the pressure rises along its initial stiffness again; 1: never"},
+      p.close_packing);
+  visit(Parameter{"law.largest_deviator", dimension::none, above(0),
+                  "|e_dev| beyond which shear no longer hardens or softens the grains"},
+        p.largest_deviator);
+  visit(Parameter{"law.unloading",
+                  {},
+                  {},
+                  "stresses that fall along the initial stiffness times law.unloading_stiffness when the strain falls, "
+                  "and rise along the same line to the yield point; the others go back along the loading curve"},
+        p.unloading);
+  visit(Parameter{"law.unloading_stiffness", dimension::none, at_least(1), "k_u, over the initial stiffness"},
+        p.unloading_stiffness);
+  visit(Parameter{"law.reset",
+                  {},
+                  {},
+                  "what is forgotten at the end of an unloading process: nothing, the deviator of the strain, or all "
+                  "the strain"},
+        p.reset);
+  visit(Parameter{"law.main_strain", {}, {}, "the strain whose fall is an unloading process; volume: tr(e)/3"},
+        p.main_strain);
+  visit(Parameter{"law.smoothing_time", dimension::time, at_least(0),
+                  "time over which the rate of the main strain is averaged before its sign counts"},
+        p.smoothing_time);
+  visit(Parameter{"law.shear_sum",
+                  {},
+                  {},
+                  "printed form: how shear strains enter the normal stresses, |e_xy| + |e_xz| or with their signs"},
+        p.shear_sum);
+  visit(Parameter{"law.gate_packing", dimension::none, between(0, 0.74),
+                  "packing below which grains lose contact and stress vanishes by a power of the packing"},
+        p.gate_packing);
+  visit(Parameter{"law.gate_power", dimension::none, between(0, 1e6), "that power; 96 in the paper"}, p.gate_power);
+  visit(Parameter{"law.friction", dimension::none, at_least(0),
+                  "drucker-prager: friction coefficient in simple shear; 0: hardening with A4"},
+        p.friction);
+  visit(Parameter{"law.collisions",
+                  {},
+                  {},
+                  "stress by collisions, Eqs 13 and 14: component by component as printed, in isotropic form, or none"},
+        p.collisions);
+  visit(Parameter{"law.collision_normal", dimension::none, at_least(0), "B1 of Eq. 13"}, p.collision_normal);
+  visit(Parameter{"law.collision_shear", dimension::none, at_least(0), "B2 of Eq. 14"}, p.collision_shear);
+  visit(Parameter{"law.collision_diagonal", dimension::none, above(0),
+                  "gamma_ii over du_i/dx_i in Eq. 13, printed components: 1, or 2 as for i != j"},
+        p.collision_diagonal);
+  visit(Parameter{"law.lambda", dimension::pressure, above(0), "linear-elastic: Lame's first constant"}, p.lambda);
+  visit(Parameter{"law.shear_modulus", dimension::pressure, above(0), "linear-elastic: shear modulus"},
+        p.shear_modulus);
 }
 
-/// The rate of the main strain, averaged over the past: r' = (-D_main - r)/T, implicit in time.
-/// \param old_rate 1/s; \param smoothing_time T, s, >= 0
-template <class Number>
-Number smoothed_main_rate(const Number& old_rate, MainStrain main, const Tensor3<Number>& velocity_gradient,
-                          double time_step, double smoothing_time) {
-  const Number rate = -1.0 * main_strain(main, symmetric_part(velocity_gradient));
-  return old_rate + (time_step / (time_step + smoothing_time)) * (rate - old_rate);
-}
+/// Contradictions between keys that are each valid by themselves; empty if there are none.
+std::vector<Problem> check(const LawParameters& parameters);
 
 }  // namespace talus::granular
+
+namespace talus {
+template <>
+inline constexpr auto choices<granular::LawName> = std::to_array<std::string_view>({"yuu-umekage", "drucker-prager",
+                                                                                    "linear-elastic"});
+template <>
+inline constexpr auto choices<granular::Form> = std::to_array<std::string_view>({"isotropic", "printed"});
+template <>
+inline constexpr auto choices<granular::Tables> = std::to_array<std::string_view>({"repaired", "printed"});
+template <>
+inline constexpr auto choices<granular::Collisions> = std::to_array<std::string_view>({"printed", "isotropic", "none"});
+template <>
+inline constexpr auto choices<granular::Strain> = std::to_array<std::string_view>({"rate", "displacements"});
+template <>
+inline constexpr auto choices<granular::Volume> = std::to_array<std::string_view>({"density", "strain"});
+template <>
+inline constexpr auto choices<granular::Unloading> = std::to_array<std::string_view>({"none", "pressure", "shear",
+                                                                                      "all"});
+template <>
+inline constexpr auto choices<granular::Reset> = std::to_array<std::string_view>({"never", "deviator", "strain"});
+template <>
+inline constexpr auto choices<granular::MainStrain> = std::to_array<std::string_view>({"x", "y", "z", "volume"});
+template <>
+inline constexpr auto choices<granular::ShearSum> = std::to_array<std::string_view>({"absolute", "signed"});
+}  // namespace talus

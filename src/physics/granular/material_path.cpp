@@ -3,20 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
+
+#include "physics/granular/almansi_strain.hpp"
 
 namespace talus::granular {
 
 namespace {
 
 /// Steps between two recorded points, so that none deforms or turns the point too far.
-int steps_between(const PathStretch& stretch, const PathOptions& options) {
+double steps_between(const PathStretch& stretch, const PathOptions& options) {
   const Tensor3<> spin = antisymmetric_part(stretch.velocity_gradient);
   const double rate = norm(symmetric_part(stretch.velocity_gradient));
   const double turn = std::sqrt(spin.xy * spin.xy + spin.yz * spin.yz + spin.zx * spin.zx);
   const double steps = stretch.duration / options.points * std::max(rate, turn / 1000) / options.largest_increment;
-  return std::max(1, static_cast<int>(std::ceil(steps)));
+  return std::max(1.0, std::ceil(steps));
 }
 
 template <class Law>
@@ -26,21 +30,48 @@ PathPoint record(double time, double density, const SymmetricTensor3<>& strain, 
   return recorded;
 }
 
+/// F a time step later: exp(L dt) F, to the fourth order.
+Tensor3<> deformed(const Tensor3<>& deformation, const Tensor3<>& velocity_gradient, double time_step) {
+  Tensor3<> result = deformation, term = deformation;
+  for (int k = 1; k <= 4; ++k) {
+    term = (time_step / k) * (velocity_gradient * term);
+    result = result + term;
+  }
+  return result;
+}
+
+/// The law over a step, with the strain from displacements where it asks for that.
+template <class Law>
+MaterialPoint<Law> updated(const Law& law, const MaterialPoint<Law>& old, Tensor3<>& deformation,
+                           const Tensor3<>& velocity_gradient, double density, double step) {
+  if constexpr (std::is_same_v<Law, YuuUmekagePrinted>)
+    if (law.by_displacements()) {
+      const Tensor3<> unit = full(isotropic(1.0));
+      deformation = deformed(deformation, velocity_gradient, step);
+      const auto point =
+          law.update_at_strain(old, almansi_strain(deformation - unit), velocity_gradient, density, step);
+      if (point.history.resets > old.history.resets) deformation = unit;
+      return point;
+    }
+  return law.update(old, velocity_gradient, density, step);
+}
+
 template <class Law>
 std::vector<PathPoint> follow(const Law& law, std::span<const PathStretch> path, const PathOptions& options) {
   MaterialPoint<Law> point{};
   SymmetricTensor3<> strain;
+  Tensor3<> deformation = full(isotropic(1.0));  // since the last reset
   double time = 0, density = options.density;
   std::vector<PathPoint> points{record<Law>(time, density, strain, point)};
   for (const PathStretch& stretch : path) {
     const double start = time, start_density = density, rate = trace(stretch.velocity_gradient);
-    const int steps = steps_between(stretch, options);
-    const double step = stretch.duration / options.points / steps;
+    const auto steps = static_cast<std::int64_t>(steps_between(stretch, options));
+    const double step = stretch.duration / options.points / static_cast<double>(steps);
     for (int k = 1; k <= options.points; ++k) {
-      for (int n = 1; n <= steps; ++n) {
-        density = start_density * std::exp(-rate * step * ((k - 1) * static_cast<double>(steps) + n));
+      for (std::int64_t n = 1; n <= steps; ++n) {
+        density = start_density * std::exp(-rate * step * (static_cast<double>((k - 1) * steps + n)));
         strain = transported_strain(strain, stretch.velocity_gradient, step);
-        point = law.update(point, stretch.velocity_gradient, density, step);
+        point = updated(law, point, deformation, stretch.velocity_gradient, density, step);
       }
       time = start + stretch.duration * k / options.points;
       points.push_back(record<Law>(time, density, strain, point));
@@ -50,6 +81,12 @@ std::vector<PathPoint> follow(const Law& law, std::span<const PathStretch> path,
 }
 
 }  // namespace
+
+double steps_of_path(std::span<const PathStretch> path, const PathOptions& options) {
+  double steps = 0;
+  for (const PathStretch& stretch : path) steps += options.points * steps_between(stretch, options);
+  return steps;
+}
 
 std::vector<HistorySlot> history_of(const AnyLaw& law) {
   return std::visit(

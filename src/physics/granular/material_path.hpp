@@ -30,6 +30,9 @@ struct PathPoint {
   std::vector<double> history;  ///< in the order of history_of(law)
 };
 
+/// Steps that a path takes: as many as keep each below the largest increment.
+double steps_of_path(std::span<const PathStretch> path, const PathOptions& options);
+
 /// What a law remembers, in the order of PathPoint::history.
 std::vector<HistorySlot> history_of(const AnyLaw& law);
 

@@ -13,6 +13,7 @@ YuuUmekageIsotropic::YuuUmekageIsotropic(const YuuUmekageOptions& options, const
     : options_(options),
       pressure_(pressure_table(functions)),
       shear_(shear_table(functions)),
+      close_volume_(volumetric_strain(options.close_packing, options.reference_packing)),
       initial_pressure_(functions.a1.piece[0].c0 + 2 * functions.a2.piece[0].c0),
       line_ratio_(options.unloading_stiffness * functions.a4.piece[0].c0),
       inverse_line_ratio_(1 / line_ratio_),
@@ -31,6 +32,10 @@ YuuUmekageIsotropic::YuuUmekageIsotropic(const YuuUmekageOptions& options, const
                                      return pressure_(e / sqrt3) / sqrt3 * (1 + deviator * shear_(held) * held);
                                    },
                                    joints);
+  // Beyond close packing the stress ratio can be the largest one, and the pressure of the fits still rises a little.
+  const double most = options_.largest_deviator;
+  const double close = (initial_pressure_ + pressure_(largest_fitted_strain) / largest_fitted_strain) / 3;
+  steepest_ = std::max(steepest_, options_.scale * close * (1 + deviator * shear_(most) * most));
   if (options_.unloading != Unloading::none) steepest_ *= options_.unloading_stiffness;
 }
 

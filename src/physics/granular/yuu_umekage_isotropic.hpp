@@ -11,6 +11,9 @@
 /// total |e| the stiffness would fall by more than ten times in a shear zone. The pressure does not fall as the
 /// compression grows (fitted_table.hpp). The deviator is held at `largest_deviator`, by default the peak of A4 a.
 ///
+/// Close packing. The fits level off at 5 to 8 kPa; a stream that strikes the floor would be packed past 0.9. Grains at
+/// random are not packed denser than 0.64; from there on the pressure rises along its initial stiffness again (choice).
+///
 /// Unloading, which the paper omits ("similar to the initial elastic region"). The pressure falls along the line of the
 /// initial stiffness times k_u, rises along it again and never passes the loading curve. So does the stress ratio
 /// tau_dev/p, in any direction; its yield point is that of the largest deviator so far. The next increment decides
@@ -26,7 +29,7 @@
 #include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
-#include "physics/granular/law_options.hpp"
+#include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
 #include "physics/granular/rotation.hpp"
 
@@ -116,7 +119,9 @@ class YuuUmekageIsotropic {
     const Number packing = density * (1.0 / options_.grain_density);
     const Number stiffness =
         options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
-    const Number loading = stiffness * (1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0)));
+    const Number beyond = maximum(volume - close_volume_, Number(0.0));
+    const Number loading =
+        stiffness * ((1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0))) + initial_pressure_ * beyond);
     if (!unloads_pressure()) return {volume, loading, Number(0.0)};
     const Number compression = volume - (1.0 / 3.0) * trace(old.history.strain);
     const Number line =
@@ -160,6 +165,7 @@ class YuuUmekageIsotropic {
   YuuUmekageOptions options_;
   PressureTable pressure_;
   ShearTable shear_;
+  double close_volume_;      // e_v at close packing
   double initial_pressure_;  // A1 + 2 A2 at 0, Pa
   double line_ratio_;        // k_u A4(0): slope of the unloading line of the stress ratio
   double inverse_line_ratio_;

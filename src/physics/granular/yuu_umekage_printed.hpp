@@ -22,7 +22,7 @@
 #include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
-#include "physics/granular/law_options.hpp"
+#include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
 
 namespace talus::granular {
@@ -58,7 +58,10 @@ class YuuUmekagePrinted {
                             velocity_gradient, density, time_step);
   }
 
-  /// With the strain from displacements since the last reset (Appendix A); when `resets` grows the point's X_i is x_i.
+  /// Whether update_at_strain is what the options ask for.
+  bool by_displacements() const { return options_.strain == Strain::displacements; }
+  /// With the strain from displacements since the last reset (half_spheres.hpp); when `resets` grows X_i := x_i.
+  /// \param measured_strain almansi_strain of the displacement gradient
   template <class Number>
   MaterialPoint<YuuUmekagePrinted, Number> update_at_strain(const MaterialPoint<YuuUmekagePrinted, Number>& old,
                                                             const SymmetricTensor3<Number>& measured_strain,

@@ -250,6 +250,14 @@ TEST(Legend, StandsWhereItCoversNothing) {
   EXPECT_TRUE(next.x > box.right() || next.right() < box.x || next.y > box.bottom() || next.bottom() < box.y);
 }
 
+TEST(Legend, KeepsOffReferenceLines) {
+  Chart c = chart({Reference{.low = 9, .high = 9, .label = "here", .colour = purple}});
+  const int dashes = drawn(c, plot, 270, 150, scale).count(purple);
+  ASSERT_GT(dashes, 100);
+  c.legend = true;
+  EXPECT_GE(drawn(c, plot, 270, 150, scale).count(purple), dashes) << "a box on the line would pale it";
+}
+
 TEST(Legend, ShowsTheColoursOfTheSeries) {
   Chart c = chart({Line{.x = {0, 1}, .y = {0, 0}, .label = "one", .colour = purple, .width = 2}});
   const int without = drawn(c, plot, 270, 150, scale).count(purple);

@@ -52,6 +52,26 @@ TEST(Figure, PutsPanelsInAGrid) {
   EXPECT_NEAR(a.x, c.x, 1);
 }
 
+TEST(Figure, RowsMayDifferInTheirColumns) {
+  const Picture picture =
+      decode(png({.panels = {with_line(blue), with_line(vermillion), with_line(green)}, .rows = {1, 2}, .width = 400}));
+  const Rectangle a = where(picture, blue), b = where(picture, vermillion), c = where(picture, green);
+  EXPECT_LT(a.bottom(), b.y);
+  EXPECT_NEAR(b.y, c.y, 1);
+  EXPECT_LT(b.right(), c.x);
+  EXPECT_NEAR(a.x, b.x, 1);
+  EXPECT_NEAR(a.right(), c.right(), 2);
+  EXPECT_GT(a.width, 2 * b.width);
+  EXPECT_NEAR(b.width, c.width, 2);
+}
+
+TEST(Figure, TheLastRowMayHaveRoomLeft) {
+  const Picture picture = decode(png({.panels = {with_line(blue), with_line(green)}, .rows = {1, 2}, .width = 400}));
+  const Rectangle a = where(picture, blue), b = where(picture, green);
+  EXPECT_LT(a.bottom(), b.y);
+  EXPECT_LT(b.width, 0.5 * a.width);
+}
+
 TEST(Figure, MixesCurvesAndParticles) {
   const std::vector<Vector3> positions = {{0, 0, 0}, {2, 1, 0}};
   const std::vector<double> radii = {0.5, 0.5};
@@ -84,6 +104,9 @@ TEST(Figure, SameDescriptionSameBytes) {
 
 TEST(Figure, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(png({}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_line(blue)}, .rows = {0, 1}}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_line(blue)}, .rows = {1, 1}}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_line(blue), with_line(green)}, .rows = {1}}), std::invalid_argument);
   EXPECT_THROW(png({.panels = {with_line(blue)}, .scale = 0}), std::invalid_argument);
   EXPECT_THROW(png({.panels = {with_line(blue)}, .scale = 1e6}), std::invalid_argument);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -264,6 +265,34 @@ TEST(ParticlePicture, LabelsOfSegmentsCoverAsLittleAsTheyCan) {
   }
   EXPECT_GT(left, 20);
   EXPECT_EQ(right, 0);
+}
+
+TEST(ParticlePicture, LabelsOfSegmentsStandClearOfSlantingLines) {
+  Scene scene({}, {});
+  scene.picture.segments = {{.from = {0.3, 0.05, 0}, .to = {1.2, 0.95, 0}, .colour = vermillion}};
+  const int alone = scene.drawn().count(vermillion, 0.25);
+  scene.picture.segments[0].label = "HHHHHH";
+  EXPECT_GT(scene.drawn().count(vermillion, 0.25), alone + 20) << "the label's patch would pale the line";
+  const Picture picture = scene.drawn();
+  for (int k = 10; k < 80; ++k) {
+    double least = 1;  // the line is somewhere on each diagonal across it
+    for (int d = -1; d <= 1; ++d) least = std::min(least, difference(picture.at(30 + k + d, 94 - k), vermillion));
+    EXPECT_LT(least, 0.35) << k;
+  }
+}
+
+TEST(ParticlePicture, LabelsOfSegmentsStayInThePlot) {
+  // Discs left of an upright line at the right edge: beside it on the right there is nothing to cover, but no room.
+  std::vector<Vector3> positions;
+  for (int i = 0; i < 900; ++i) positions.push_back({1.35 + 0.02 * (i % 30), 1.0 / 30 * (i / 30), 0});
+  Scene scene(positions, std::vector<double>(positions.size(), 0.01));
+  scene.picture.colouring = Plain{blue};
+  scene.picture.segments = {{.from = {1.96, 0.1, 0}, .to = {1.96, 0.9, 0}, .label = "HHH", .colour = vermillion}};
+  const Picture picture = scene.drawn();
+  int label = 0;
+  for (int y = 5; y < 95; ++y)
+    for (int x = 0; x < 193; ++x) label += difference(picture.at(x, y), vermillion) < 0.25;
+  EXPECT_GT(label, 20);
 }
 
 TEST(ParticlePicture, ScaleBarIsAsLongAsItSays) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "models/continuum/model.hpp"
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 
@@ -21,6 +21,8 @@ inline Parameters column(double x, double y, double z, double room = 0) {
   p.bed.spacing = spacing;
   p.bed.height = z * spacing;
   p.bed.packing = 0.6;
+  p.law.name = granular::LawName::linear_elastic;
+  p.law.collisions = granular::Collisions::none;
   p.law.lambda = 0.8e6;
   p.law.shear_modulus = 0.6e6;
   p.sph.viscosity_alpha = 0;
@@ -75,6 +77,27 @@ inline Vector3 momentum_error(const State& s) {
   Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse;
   for (const Vector3& impulse : s.wall_impulse) error += impulse;
   return error;
+}
+
+/// A model at the start of its run.
+inline Continuum started(const Parameters& p, ThreadTeam& team) {
+  Continuum model(p);
+  model.begin(team);
+  return model;
+}
+
+/// A bed on a plate with a slit.
+inline Parameters small_hopper() {
+  Parameters p = column(12, 2, 10, 40);
+  p.plate.height = 15 * spacing;
+  p.plate.slit_left = 3.6 * spacing;
+  p.plate.slit_right = 8.3 * spacing;
+  p.sph.viscosity_alpha = 0.2;
+  p.sph.smoothing = Smoothing::local;
+  p.walls.friction = Friction::coulomb;
+  p.law.lambda = 4e5;
+  p.law.shear_modulus = 1e3;
+  return p;
 }
 
 }  // namespace talus::continuum

@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 #include "cases.hpp"
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 namespace {
@@ -38,7 +38,7 @@ struct Evaluation {
   void velocity(Field&& field) {
     for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
   }
-  void evaluate(Sweep::Wanted wanted = Sweep::Wanted::all) {
+  void evaluate(Wanted wanted = Wanted::all) {
     std::vector<double> h;
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
@@ -215,14 +215,16 @@ TEST(Sweep, TheDensityFollowsTheKernelsSum) {
   Parameters p = column(6, 1, 9, 3);
   Evaluation e(p);
   e.disturb(0.2);
-  e.velocity([](const Vector3& x) { return Vector3{std::sin(40 * x.z), std::sin(300 * x.x) * x.y, std::cos(50 * x.x)}; });
+  e.velocity([](const Vector3& x) {
+    return Vector3{std::sin(40 * x.z), std::sin(300 * x.x) * x.y, std::cos(50 * x.x)};
+  });
   const double dt = 1e-6;
   e.evaluate();
   const auto rate = e.rates.density_rate;
   const auto start = e.state.position;
   const auto at = [&](double time) {
     for (std::size_t i = 0; i < start.size(); ++i) e.state.position[i] = start[i] + time * e.state.velocity[i];
-    e.evaluate(Sweep::Wanted::forces);
+    e.evaluate(Wanted::forces);
     return e.rates.kernel_density;
   };
   const auto later = at(dt), earlier = at(-dt);

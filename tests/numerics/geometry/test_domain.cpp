@@ -35,9 +35,9 @@ TEST(Images, OfAParticleInTheMiddleOfALargeBoxThereAreNone) {
 TEST(Images, ACornerMakesSeven) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, symmetry, symmetry, wall, wall}};
   const auto found = images_of(Domain(box, {}), {1, 2, 9}, 3);
-  EXPECT_THAT(found, testing::UnorderedElementsAre(Vector3{-1, 2, 9}, Vector3{1, -2, 9}, Vector3{1, 2, 11},
-                                                   Vector3{-1, -2, 9}, Vector3{-1, 2, 11}, Vector3{1, -2, 11},
-                                                   Vector3{-1, -2, 11}));
+  EXPECT_THAT(found,
+              testing::UnorderedElementsAre(Vector3{-1, 2, 9}, Vector3{1, -2, 9}, Vector3{1, 2, 11}, Vector3{-1, -2, 9},
+                                            Vector3{-1, 2, 11}, Vector3{1, -2, 11}, Vector3{-1, -2, 11}));
 }
 
 TEST(Images, InAThinBoxAParticleMeetsAllImagesOfItselfWithinReach) {
@@ -69,8 +69,7 @@ TEST(Images, ReverseTheNormalVelocityExceptAtPrintedFaces) {
     // Copy 1 is mirrored at the symmetry face, -1 at the printed one, 2 and -2 once at each.
     EXPECT_EQ(v.y, (image.copy[1] == 1 || std::abs(image.copy[1]) == 2) ? -1 : 1) << int(image.copy[1]);
     EXPECT_EQ(v.z, 1);
-    for (std::size_t a = 0; a < 3; ++a)
-      EXPECT_EQ(image.side[a], image.copy[a] < 0 ? -1 : image.copy[a] > 0 ? 1 : 0);
+    for (std::size_t a = 0; a < 3; ++a) EXPECT_EQ(image.side[a], image.copy[a] < 0 ? -1 : image.copy[a] > 0 ? 1 : 0);
   }
 }
 
@@ -97,8 +96,8 @@ TEST(Sees, ThroughTheSlitButNotThroughThePlate) {
 
 TEST(Sees, AnImageInThePlateWhereThePlateIs) {
   const Domain domain = hopper();
-  EXPECT_TRUE(domain.sees({20, 2, 101}, {20, 2, 99}, 0));   // its own image
-  EXPECT_FALSE(domain.sees({50, 2, 101}, {50, 2, 99}, 0));  // over the slit there is no mirror
+  EXPECT_TRUE(domain.sees({20, 2, 101}, {20, 2, 99}, 0));    // its own image
+  EXPECT_FALSE(domain.sees({50, 2, 101}, {50, 2, 99}, 0));   // over the slit there is no mirror
   EXPECT_FALSE(domain.sees({20, 2, 99}, {20, 2, 99.5}, 0));  // an image of the other side
   EXPECT_TRUE(domain.sees({1, 2, 101}, {-1, 2, 99}, 0));     // mirrored by side wall and plate
 }
@@ -162,9 +161,8 @@ TEST(Domain, KnowsHowFarItsImagesReach) {
   const Domain two(box, {{.axis = 2, .position = 100, .openings = {}}, {.axis = 2, .position = 110, .openings = {}}});
   EXPECT_EQ(two.largest_reach(), 10);
   EXPECT_THROW(Domain(box, {{.axis = 2, .position = 300, .openings = {}}}), std::invalid_argument);
-  EXPECT_THROW(
-      Domain(box, {{.axis = 2, .position = 100, .openings = {}}, {.axis = 0, .position = 50, .openings = {}}}),
-      std::invalid_argument);
+  EXPECT_THROW(Domain(box, {{.axis = 2, .position = 100, .openings = {}}, {.axis = 0, .position = 50, .openings = {}}}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -154,6 +154,9 @@ TEST(Law, ContradictionsAreNamed) {
   EXPECT_THROW(make_law({.largest_deviator = 0.04}, 2500), std::invalid_argument);
   EXPECT_THROW(make_law({.name = LawName::drucker_prager, .largest_deviator = 0.04}, 2500), std::invalid_argument);
   EXPECT_TRUE(check({.form = Form::printed, .largest_deviator = 1}).empty());
+  EXPECT_EQ(check({.strain = Strain::displacements})[0].key, "law.strain");
+  EXPECT_EQ(check({.name = LawName::linear_elastic, .form = Form::printed, .strain = Strain::displacements}).size(), 1);
+  EXPECT_TRUE(check({.form = Form::printed, .strain = Strain::displacements}).empty());
 }
 
 TEST(Law, CollisionsCanBeLeftOut) {

@@ -248,6 +248,19 @@ TEST(YuuUmekageIsotropic, ContactGateTakesTheStressAwayBelowItsPacking) {
   EXPECT_NEAR(loose / dense, 0.45 / 0.6 * std::pow(0.9, 96) * std::pow(1.0002, 96), 1e-7);
 }
 
+TEST(YuuUmekageIsotropic, BeyondClosePackingThePressureRisesAlongItsInitialStiffness) {
+  const LawParameters parameters{.unloading = Unloading::none};
+  const YuuUmekageIsotropic law = std::get<YuuUmekageIsotropic>(make_law(parameters, 2500));
+  auto pressure = [&](double packing) {
+    return mean(law.update(MaterialPoint<YuuUmekageIsotropic>{}, Tensor3<>{}, 2500 * packing, 1e-6).stress);
+  };
+  EXPECT_LT(pressure(0.64) / pressure(0.62), 1.2) << "the fits level off";
+  const double steep = alpha * (repaired_2011.a1.piece[0].c0 + 2 * repaired_2011.a2.piece[0].c0);
+  const double volume = std::log(0.66 / 0.64) / 3;
+  EXPECT_NEAR(pressure(0.66) - pressure(0.64) * 0.66 / 0.64, 0.66 / 0.6 * steep * volume, 0.02 * steep * volume);
+  EXPECT_GT(pressure(0.66), 40e3) << "a stream at 1.5 m/s that is stopped at 77 m/s cannot go beyond";
+}
+
 TEST(YuuUmekageIsotropic, NoStateIsStifferThanTheSpeedOfSoundSays) {
   for (const Unloading unloading : {Unloading::none, Unloading::all}) {
     const LawParameters parameters{.unloading = unloading};

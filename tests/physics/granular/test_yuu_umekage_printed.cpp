@@ -169,6 +169,19 @@ TEST(YuuUmekagePrinted, TakesTheStrainOfDisplacementsAsItTakesTheRate) {
   expect_near(by_displacement.stress, by_rate.stress, 1e-5 * mean(by_rate.stress));
 }
 
+TEST(YuuUmekagePrinted, ForgetsDisplacementsAtAResetAsItForgetsTheStrain) {
+  LawParameters parameters = printed_route();
+  const std::vector<PathStretch> path = {
+      {1, Tensor3<>{.xz = 2e-4, .zz = -2.5e-4}}, {1, squash(-3e-4)}, {1, Tensor3<>{.xz = 1e-4, .zz = -1e-4}}};
+  const auto by_rate = follow_path(make_law(parameters, 2500), path, {.points = 50});
+  parameters.strain = Strain::displacements;
+  const auto by_displacements = follow_path(make_law(parameters, 2500), path, {.points = 50});
+  for (std::size_t k = 0; k < by_rate.size(); ++k)
+    expect_near(by_displacements[k].stress, by_rate[k].stress, 1e-3 * mean(by_rate[50].stress));
+  EXPECT_GT(by_displacements.back().history[9], 0);
+  EXPECT_GT(mean(by_displacements.back().stress), 100);
+}
+
 TEST(YuuUmekagePrinted, ShearFallsWithTheMeanStressAndStaysWithinTheLargestFriction) {
   const AnyLaw law = make_law(printed_route(), 2500);
   const std::vector<PathStretch> path = {{1, squash(2.5e-4)},

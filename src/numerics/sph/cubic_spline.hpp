@@ -18,12 +18,9 @@ inline double smoothing_length(double mass, double density) {
   return std::cbrt(mass / density);
 }
 
-/// W(r, h) = ((2-q)^3 - 4 (1-q)^3)/(4 pi h^3) with q = r/h, each cube counted where its base is positive.
-/// \param distance r, m; \param h smoothing length, m; \returns 1/m^3
+/// W(r, h) from q = r/h and 1/h. \returns 1/m^3
 template <class Number>
-TALUS_INLINE Number cubic_spline(Number distance, Number h) {
-  const Number inverse_h = 1.0 / h;
-  const Number q = distance * inverse_h;
+TALUS_INLINE Number cubic_spline_of(Number q, Number inverse_h) {
   const Number zero = 0.0;
   const Number outer = select(Number(2.0) > q, Number(2.0) - q, zero);
   const Number inner = select(Number(1.0) > q, Number(1.0) - q, zero);
@@ -31,17 +28,30 @@ TALUS_INLINE Number cubic_spline(Number distance, Number h) {
          (outer * outer * outer - 4.0 * (inner * inner * inner));
 }
 
+/// F(r, h) from q = r/h, 1/q and 1/h; 1/q may be anything where q = 0. \returns 1/m^5
+template <class Number>
+TALUS_INLINE Number cubic_spline_slope_of(Number q, Number inverse_q, Number inverse_h) {
+  const Number outer = select(Number(2.0) > q, Number(2.0) - q, Number(0.0));
+  // ((2-q)^2 - 4 (1-q)^2)/q is 4 - 3 q within q < 1.
+  const Number shape = select(q > Number(1.0), outer * outer * inverse_q, 4.0 - 3.0 * q);
+  const Number h2 = inverse_h * inverse_h;
+  return -3.0 / (4 * std::numbers::pi) * (h2 * h2 * inverse_h) * shape;
+}
+
+/// W(r, h) = ((2-q)^3 - 4 (1-q)^3)/(4 pi h^3) with q = r/h, each cube counted where its base is positive.
+/// \param distance r, m; \param h smoothing length, m; \returns 1/m^3
+template <class Number>
+TALUS_INLINE Number cubic_spline(Number distance, Number h) {
+  const Number inverse_h = 1.0 / h;
+  return cubic_spline_of(distance * inverse_h, inverse_h);
+}
+
 /// F(r, h) = (dW/dr)/r <= 0, so that the gradient of W at x_i is F (x_i - x_j). Finite at r = 0.
 /// \param distance r, m; \param h smoothing length, m; \returns 1/m^5
 template <class Number>
 TALUS_INLINE Number cubic_spline_slope(Number distance, Number h) {
   const Number inverse_h = 1.0 / h;
-  const Number q = distance * inverse_h;
-  const Number outer = select(Number(2.0) > q, Number(2.0) - q, Number(0.0));
-  // ((2-q)^2 - 4 (1-q)^2)/q is 4 - 3 q within q < 1.
-  const Number shape = select(q > Number(1.0), outer * outer / q, 4.0 - 3.0 * q);
-  const Number h2 = inverse_h * inverse_h;
-  return -3.0 / (4 * std::numbers::pi) * (h2 * h2 * inverse_h) * shape;
+  return cubic_spline_slope_of(distance * inverse_h, h / distance, inverse_h);
 }
 
 }  // namespace talus::sph

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Flow through a plane, from the mass beyond it: rates are means over a length of time, differences of a cumulative
+/// curve, so that no grain is lost between data. A curve of a rate is brought into that form by integral(). Where a
+/// curve does not cover a window the result is nan, or empty.
+#pragma once
+
+#include <span>
+
+#include "analysis/curve.hpp"
+#include "base/vector.hpp"
+
+namespace talus {
+
+/// Mass of the particles whose component along an axis is at or above a height. \param mass of a particle, kg
+double mass_above(std::span<const Vector3> position, double mass, double height, int axis = 2);
+
+/// Integral of a curve from its first time on, by trapezoids.
+Curve integral(const Curve& curve);
+
+/// The curve times a factor, plus a constant: mass passed = total - mass above.
+Curve scaled(const Curve& curve, double factor, double constant = 0);
+
+/// True if the curve has data from `from` to `to`, but for rounding.
+bool covers(const Curve& curve, double from, double to);
+
+/// Mean over from..to of what the curve is the integral of.
+double mean_rate(const Curve& cumulative, double from, double to);
+
+/// Means over `length`, one every `every`, each whole within from..to; their times are their centres.
+Curve mean_rates(const Curve& cumulative, double length, double every, double from, double to);
+
+/// Slope of the line through the consecutive means over `length` within from..to, times (to - from), over their mean:
+/// by how much of itself the rate changes.
+double drift(const Curve& cumulative, double length, double from, double to);
+
+/// Time of the first value that is larger than all within `reach` before it and not smaller than any within `reach`
+/// after it; nan if there is none. The curve has to cover the reach after it; before, it may begin later, as a rate
+/// does that begins from nothing. The first value of a curve is no maximum.
+double first_maximum_time(const Curve& values, double reach);
+
+/// Standard deviation of a curve about its own centred mean over `length`, of the data within from..to whose mean the
+/// curve covers.
+double fluctuation(const Curve& curve, double length, double from, double to);
+
+}  // namespace talus

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/granular_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/statistics.hpp"
+
+namespace talus {
+
+namespace {
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double quasistatic = 1e-2;  // Yuu & Umekage 2011, section 2.1
+constexpr double dense = 0.5;         // packing from which stresses act, section 5.1
+constexpr double nearly_all = 0.999;
+}  // namespace
+
+double inertial_number(double shear_rate, double pressure, double diameter, double grain_density) {
+  if (!(pressure > 0)) return std::numeric_limits<double>::infinity();
+  return shear_rate * diameter * std::sqrt(grain_density / pressure);
+}
+
+std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density) {
+  const auto rate = snapshot.scalars("shear_rate");
+  const auto xx = snapshot.scalars("stress_xx"), yy = snapshot.scalars("stress_yy"), zz = snapshot.scalars("stress_zz");
+  std::vector<double> numbers(snapshot.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    numbers[i] = inertial_number(rate[i], (xx[i] + yy[i] + zz[i]) / 3, diameter, grain_density);
+  return numbers;
+}
+
+double inertial_share(std::span<const Vector3> position, std::span<const double> inertial, double height) {
+  double all = 0, slow = 0;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (!(position[i].z >= height)) continue;
+    ++all;
+    slow += inertial[i] < quasistatic;
+  }
+  return all > 0 ? slow / all : none;
+}
+
+double stress_ratio(const Snapshot& snapshot, std::span<const double> inertial, const QuasistaticRule& rule) {
+  const auto xx = snapshot.scalars("stress_xx"), zz = snapshot.scalars("stress_zz");
+  const auto packing = snapshot.scalars("packing");
+  double horizontal = 0, vertical = 0;
+  for (std::size_t i = 0; i < xx.size(); ++i) {
+    if (!(packing[i] > rule.packing && inertial[i] < rule.inertial_number && zz[i] > rule.stress_zz)) continue;
+    horizontal += xx[i];
+    vertical += zz[i];
+  }
+  return vertical > 0 ? horizontal / vertical : none;
+}
+
+GradientSizes velocity_gradient_sizes(const LumpField& field, std::span<const Vector3> velocity,
+                                      std::span<const double> packing, double diameter, double gravity) {
+  std::vector<double> shear, normal;
+  const double unit = std::sqrt(diameter / gravity);
+  for (std::size_t i = 0; i < packing.size(); ++i) {
+    if (!(packing[i] > dense)) continue;
+    const Tensor3<> l = field.velocity_gradient(i, velocity);
+    const auto largest = [&](std::initializer_list<double> components) {
+      double size = 0;
+      for (const double c : components) size = std::max(size, unit * std::abs(c));
+      return size;
+    };
+    shear.push_back(largest({l.xy, l.xz, l.yx, l.yz, l.zx, l.zy}));
+    normal.push_back(largest({l.xx, l.yy, l.zz}));
+  }
+  return {quantile(shear, 1), quantile(normal, 1), quantile(shear, nearly_all), quantile(normal, nearly_all)};
+}
+
+double density_drift(std::span<const double> density, std::span<const double> packing, double grain_density,
+                     const std::vector<bool>& taken) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < density.size(); ++i)
+    if (taken[i]) differences.push_back(std::abs(density[i] / (packing[i] * grain_density) - 1));
+  return mean(differences);
+}
+
+double quantile_of(std::span<const double> values, const std::vector<bool>& taken, double probability) {
+  std::vector<double> chosen;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (taken[i]) chosen.push_back(values[i]);
+  return quantile(chosen, probability);
+}
+
+}  // namespace talus

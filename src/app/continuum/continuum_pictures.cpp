@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/continuum_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/curve.hpp"
+#include "io/figure/figure.hpp"
+#include "io/figure/lump_dots.hpp"
+#include "io/run_folder.hpp"
+#include "io/series.hpp"
+#include "io/vtkhdf.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using namespace figure;
+
+constexpr double printed_times[] = {0, 0.17, 0.2, 0.3, 0.4, 0.5, 1.0};  // s, Figure 4
+constexpr Colour dot_colour = rgb(0x5b4a33);
+constexpr int dots_of_lump = 50;
+constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
+const figure::Unit millimetre{1e-3, "mm"};
+
+struct Frames {
+  std::vector<std::filesystem::path> paths;
+  std::vector<double> time;  // from the gate's opening
+};
+
+Frames snapshots_of(const std::filesystem::path& run_folder) {
+  Frames frames{particle_snapshots(run_folder), {}};
+  const double gate = gate_time_of(read_series(RunFolder(run_folder).series()));
+  for (const auto& path : frames.paths) frames.time.push_back(read_points_time(path) - gate);
+  return frames;
+}
+
+/// Those nearest to the paper's times, each once; of a run that does not reach the third of them some of its own.
+std::vector<std::size_t> chosen_frames(const Frames& frames) {
+  std::vector<std::size_t> chosen;
+  const double end = frames.time.back();
+  const std::size_t last = frames.time.size() - 1;
+  if (end >= printed_times[2])
+    for (const double time : printed_times) {
+      if (time <= end + 0.01) chosen.push_back(nearest_point(frames.time, time));
+    }
+  else
+    chosen = {0, last / 5, last / 2, last};
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
+/// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
+Colour colour_of_dots(const HopperShape& s) {
+  const double dots = dots_of_lump * s.depth / std::pow(s.spacing, 3);  // 1/m^2
+  return with_alpha(dot_colour, std::clamp(0.25 * 18e6 / dots, 0.03, 1.0));
+}
+
+std::string title_of(double time) {
+  return fmt::format("*t* = {:.2f} s", std::abs(time) < 5e-3 ? 0.0 : time);
+}
+
+Window window_of(const HopperShape& shape, double top) {
+  return {0, shape.width, 0, std::min(shape.height, top)};
+}
+
+double highest(const Snapshot& snapshot) {
+  double z = 0;
+  for (const Vector3& x : snapshot.positions()) z = std::max(z, x.z);
+  return z;
+}
+
+/// Walls and plate, not covered by grains.
+std::vector<Segment> outline(const HopperShape& s, double top) {
+  const Colour colour = ink;
+  std::vector<Segment> lines = {{.from = {0, 0, 0}, .to = {s.width, 0, 0}, .colour = colour},
+                                {.from = {0, 0, 0}, .to = {0, 0, top}, .colour = colour},
+                                {.from = {s.width, 0, 0}, .to = {s.width, 0, top}, .colour = colour}};
+  if (s.plate) {
+    const double z = s.plate->height;
+    lines.push_back({.from = {0, 0, z}, .to = {s.plate->slit_left, 0, z}, .colour = colour});
+    lines.push_back({.from = {s.plate->slit_right, 0, z}, .to = {s.width, 0, z}, .colour = colour});
+  }
+  return lines;
+}
+
+void draw_dots(const Frames& frames, const HopperSetting& setting, const std::string& title,
+               const std::filesystem::path& path) {
+  const std::vector<std::size_t> chosen = chosen_frames(frames);
+  std::vector<std::vector<Vector3>> dots;
+  double top = 0;
+  for (const std::size_t n : chosen) {
+    const PointSet points = read_points(frames.paths[n]);
+    const Snapshot view = points.view();
+    const Lumps lumps = lumps_of_density(view.positions(), view.scalars("density"), setting.lump_mass,
+                                         setting.grain_density, setting.smoothing_length);
+    Domain domain = setting.domain;
+    if (frames.time[n] >= 0) domain.open_gates();
+    dots.push_back(
+        lump_dots(view.positions(), lumps.smoothing_length, view.integers("identity"), domain, dots_of_lump));
+    top = std::max(top, highest(view) + 4 * setting.shape.spacing);
+  }
+  Figure figure{.title = title};
+  std::vector<std::vector<double>> radii;
+  for (const auto& set : dots) radii.emplace_back(set.size(), 0.5 * dot_diameter);
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
+                            .positions = dots[n],
+                            .radii = radii[n],
+                            .view = view_xz,
+                            .colouring = Plain{colour_of_dots(setting.shape)},
+                            .segments = outline(setting.shape, top),
+                            .length = millimetre};
+    picture.window = window_of(setting.shape, top);
+    figure.panels.emplace_back(std::move(picture));
+  }
+  figure.columns = static_cast<int>(std::min<std::size_t>(4, chosen.size()));
+  write_png(figure, path);
+}
+
+void draw_packing(const Frames& frames, const HopperSetting& setting, const std::string& title,
+                  const std::filesystem::path& path) {
+  const PointSet points = read_points(frames.paths.back());
+  const Snapshot view = points.view();
+  const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
+  ParticlePicture picture{
+      .title = title_of(frames.time.back()),
+      .positions = view.positions(),
+      .radii = radii,
+      .view = view_xz,
+      .colouring = ByValue{.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7},
+      .segments = outline(setting.shape, highest(view)),
+      .length = millimetre};
+  picture.window = window_of(setting.shape, highest(view) + 4 * setting.shape.spacing);
+  write_png({.title = title, .panels = {picture}}, path);
+}
+
+bool draw_curve(const std::filesystem::path& table, const std::string& column, const Axis& y, const std::string& title,
+                const std::filesystem::path& path) {
+  if (!std::filesystem::exists(table)) return false;
+  const talus::Series series = read_series(table);
+  const auto time = series.column("time"), value = series.column(column);
+  Line line;
+  for (std::size_t n = 0; n < time.size(); ++n)
+    if (time[n] >= 0) {
+      line.x.push_back(time[n]);
+      line.y.push_back(value[n]);
+    }
+  if (line.x.empty()) return false;
+  write_png({.panels = {Chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}}}}, path);
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting,
+                                                  const std::string& title) {
+  const std::filesystem::path pictures = run_folder / "pictures", tables = run_folder / "analysis";
+  std::filesystem::create_directories(pictures);
+  std::vector<std::filesystem::path> drawn;
+  if (const Frames frames = snapshots_of(run_folder); !frames.paths.empty()) {
+    drawn.push_back(pictures / "frames.png");
+    draw_dots(frames, setting, title, drawn.back());
+    drawn.push_back(pictures / "packing.png");
+    draw_packing(frames, setting, title, drawn.back());
+  }
+  if (!setting.shape.plate) return drawn;
+  if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,
+                 pictures / "discharge.png"))
+    drawn.push_back(pictures / "discharge.png");
+  if (draw_curve(tables / "snapshots.csv", "surface_angle_hopper",
+                 {.label = "slope of the hopper's surface", .unit = "deg"}, title, pictures / "surface_angle.png"))
+    drawn.push_back(pictures / "surface_angle.png");
+  return drawn;
+}
+
+}  // namespace talus::app

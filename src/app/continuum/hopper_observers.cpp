@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/hopper_observers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/lump_field.hpp"
+
+namespace talus::app {
+
+namespace {
+
+constexpr double probe_above_slit = 5e-3;  // m: z = 105 mm in the paper's hopper
+
+/// The cubic spline of one dimension, support 2 h: 1/m.
+double spread_along_z(double distance, double h) {
+  const double q = std::abs(distance) / h;
+  const double outer = std::max(2 - q, 0.0), inner = std::max(1 - q, 0.0);
+  return (outer * outer * outer - 4 * inner * inner * inner) / (6 * h);
+}
+
+}  // namespace
+
+std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Parameters& p) {
+  const auto position = snapshot.positions();
+  const auto velocity = snapshot.vectors("velocity");
+  const auto density = snapshot.scalars("density");
+  const double mass = continuum::lattice_of(p).mass;
+
+  double passed = 0, rate = 0;
+  if (p.plate.height) {
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      const double above = position[i].z - *p.plate.height;
+      if (above < 0) passed += mass;
+      rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
+    }
+  }
+
+  double lowest = std::nan(""), near_floor = 0;
+  for (const Vector3& x : position) {
+    lowest = std::fmin(lowest, x.z);
+    if (x.z < p.bed.spacing) near_floor += mass;
+  }
+
+  double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
+         probe_stress = slit_velocity, probe_strain = slit_velocity;
+  if (p.plate.slit_left && p.plate.slit_right) {
+    const Vector3 slit{0.5 * (*p.plate.slit_left + *p.plate.slit_right), 0.5 * p.box.depth, *p.plate.height};
+    const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
+    // What is near both places is enough: the fields there know no other lumps.
+    const auto near = lumps_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
+    const auto pick = [&near](const auto& column) {
+      std::vector<std::decay_t<decltype(column[0])>> picked;
+      for (const std::size_t i : near) picked.push_back(column[i]);
+      return picked;
+    };
+    const auto places = pick(position);
+    const auto velocities = pick(velocity);
+    const auto densities = pick(density);
+    Domain domain = continuum::domain_of(p);
+    domain.open_gates();
+    const LumpField field(lumps_of_density(places, densities, mass, p.grains.density), domain);
+    slit_velocity = field.value(slit, velocities).z;
+    probe_velocity = field.value(probe, velocities).z;
+    probe_density = field.value(probe, densities);
+    probe_stress = field.value(probe, pick(snapshot.scalars("stress_zz")));
+    probe_strain = field.value(probe, pick(snapshot.scalars("strain")));
+  }
+  return {{"discharged_mass", "kg", passed},
+          {"discharge_rate", "kg/s", rate},
+          {"lowest_z", "m", lowest},
+          {"mass_near_floor", "kg", near_floor},
+          {"slit_velocity", "m/s", slit_velocity},
+          {"probe_density", "kg/m3", probe_density},
+          {"probe_velocity", "m/s", probe_velocity},
+          {"probe_stress", "Pa", probe_stress},
+          {"probe_strain", "1", probe_strain}};
+}
+
+}  // namespace talus::app

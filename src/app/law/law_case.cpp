@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/law/law_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "io/csv_table.hpp"
+#include "io/parameter_reader.hpp"
+
+namespace talus::app {
+
+LawCase read_law_case(const CaseFile& file) {
+  static constexpr std::array<std::string_view, 5> concerned{"law", "path", "grains.density", "grains.diameter",
+                                                             "gravity.acceleration"};
+  const CaseFile part = file.contains("model") ? file.part(concerned) : file;
+  LawCase parameters;
+  std::string title;
+  ParameterReader reader(part);
+  reader(Parameter{.key = "title", .text = "one line"}, title);
+  for_each_parameter(reader, parameters);
+  reader.check(granular::check(parameters.law));
+  reader.finish();
+  return parameters;
+}
+
+std::vector<granular::PathStretch> read_path(const std::filesystem::path& path) {
+  static constexpr Dimension rate{0, 0, -1, 0};
+  static constexpr KnownColumn known[] = {{"duration", dimension::time}, {"gradient_xx", rate}, {"gradient_xy", rate},
+                                          {"gradient_xz", rate},         {"gradient_yx", rate}, {"gradient_yy", rate},
+                                          {"gradient_yz", rate},         {"gradient_zx", rate}, {"gradient_zy", rate},
+                                          {"gradient_zz", rate}};
+  static constexpr std::string_view required[] = {"duration"};
+  const CsvTable table = read_csv_table(path, {.known = known,
+                                               .required = required,
+                                               .known_only = true,
+                                               .header = "duration [s], gradient_xz [1/s], gradient_zz [1/s], ..."});
+  std::vector<granular::PathStretch> stretches(table.lines.size());
+  std::vector<Problem> problems;
+  if (stretches.empty())
+    problems.push_back({.where = path.string(), .what = "holds no stretch", .allowed = "a line for each"});
+  const auto value = [&](std::string_view name, std::size_t row) {
+    const CsvColumn* const column = table.find(name);
+    return column ? column->values[row] : 0.0;
+  };
+  for (std::size_t row = 0; row < stretches.size(); ++row) {
+    Tensor3<>& l = stretches[row].velocity_gradient;
+    double* const component[] = {&l.xx, &l.xy, &l.xz, &l.yx, &l.yy, &l.yz, &l.zx, &l.zy, &l.zz};
+    for (std::size_t k = 0; k < 9; ++k) *component[k] = value(known[k + 1].name, row);
+    stretches[row].duration = value("duration", row);
+    if (stretches[row].duration < 0)
+      problems.push_back({.where = path.string(),
+                          .line = table.lines[row],
+                          .key = "duration",
+                          .what = fmt::format("{} s is negative", stretches[row].duration),
+                          .allowed = "at least 0 s"});
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return stretches;
+}
+
+granular::PathOptions path_options(const LawCase& parameters, std::size_t stretches) {
+  const auto& path = parameters.path;
+  constexpr std::size_t rows = 600;
+  return {.density = path.packing.value_or(parameters.law.reference_packing) * parameters.grains.density,
+          .largest_increment = path.largest_increment,
+          .points = path.points > 0 ? static_cast<int>(path.points)
+                                    : static_cast<int>((rows + stretches - 1) / std::max<std::size_t>(stretches, 1))};
+}
+
+}  // namespace talus::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What `talus law` reads: the law of a case, and the path that a lump of its grains is led through.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "base/parameter.hpp"
+#include "io/case_file.hpp"
+#include "physics/granular/law_options.hpp"
+#include "physics/granular/material_path.hpp"
+
+namespace talus::app {
+
+/// A case of a law alone, or that part of a whole case. Keys and defaults are those of the model `continuum`, but for
+/// the table [path].
+struct LawCase {
+  granular::LawParameters law;
+  struct Grains {
+    double density = 2500;
+    double diameter = 200e-6;
+  } grains;
+  struct Gravity {
+    double acceleration = 9.81;
+  } gravity;
+  struct Path {
+    std::optional<double> packing;
+    double largest_increment = 1e-6;
+    std::int64_t points = 0;
+  } path;
+};
+
+/// Every key, once.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_const_t<P>, LawCase> {
+  granular::for_each_parameter(visit, p.law);
+  visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
+        p.grains.density);
+  visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
+  visit(Parameter{"gravity.acceleration", dimension::acceleration, above(0), "g of Eqs 13 and 14"},
+        p.gravity.acceleration);
+  visit(Parameter{"path.packing", dimension::none, between(0.01, 0.74),
+                  "packing at the start, free of stress; left out: law.reference_packing"},
+        p.path.packing);
+  visit(Parameter{"path.largest_increment", dimension::none, between(1e-9, 1e-3), "largest strain within a step"},
+        p.path.largest_increment);
+  visit(Parameter{"path.points", dimension::none, between(0, 1e6),
+                  "rows recorded for each line of the path; 0: as many as make 600 rows in all, at least 1"},
+        p.path.points);
+}
+
+/// Of a case that names a model only what concerns the law is read and checked; one without is all the law's own.
+/// \throws InputError with every problem
+LawCase read_law_case(const CaseFile& file);
+
+/// Reads a path: a line a stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity
+/// gradient, of which those left out are zero. \throws FileError, InputError with every bad line
+std::vector<granular::PathStretch> read_path(const std::filesystem::path& path);
+
+/// How the case asks for a path of so many stretches to be followed.
+granular::PathOptions path_options(const LawCase& parameters, std::size_t stretches);
+
+}  // namespace talus::app

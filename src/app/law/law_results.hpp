@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What `talus law` leaves: the path as a table and as curves, and the fitted functions that the law is made of.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "app/law/law_case.hpp"
+#include "numerics/named_value.hpp"
+#include "physics/granular/law.hpp"
+
+namespace talus::app {
+
+/// A path that was followed.
+struct FollowedPath {
+  LawCase parameters;
+  granular::AnyLaw law;
+  std::vector<granular::PathStretch> stretches;
+  granular::PathOptions options;
+  std::vector<granular::PathPoint> points;  ///< as follow_path
+};
+
+/// Largest and last values of the path, for the screen.
+std::vector<NamedValue> quantities_of(const FollowedPath& path);
+
+/// A row a point: time, stretch, packing, pressure, shear stress (|tau_dev|/2^(1/2)), friction (their ratio), strain
+/// and stress, the stress by collisions unless there are none, and what the law remembers. Strain since the start.
+/// \throws FileError
+void write_path_table(const FollowedPath& path, const std::filesystem::path& file);
+
+/// Stresses against strains, friction, packing: of a path of shear with loops, the paper's Figure 2. \throws FileError
+void draw_path(const FollowedPath& path, const std::filesystem::path& file);
+
+/// A1 to A4 of the law over the printed ones (the paper's Figure 1), the friction and the pressure that follow.
+/// \throws FileError
+void draw_functions(const LawCase& parameters, const std::filesystem::path& file);
+
+}  // namespace talus::app

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// talus law: the constitutive law of a case, tried on one lump of grains.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+
+#include "app/case_options.hpp"
+#include "app/commands.hpp"
+#include "app/law/law_case.hpp"
+#include "app/law/law_results.hpp"
+
+namespace talus::app {
+
+namespace {
+
+struct LawOptions {
+  CaseOptions case_options;
+  std::string path, out;
+  bool overwrite = false;
+};
+
+constexpr double most_steps = 1e9;
+
+/// \throws InputError if the path would take all day
+void check_steps(const FollowedPath& path, const std::string& file) {
+  const double steps = granular::steps_of_path(path.stretches, path.options);
+  if (steps <= most_steps) return;
+  throw InputError({{.where = file,
+                     .what = fmt::format("takes {:.2g} steps of path.largest_increment = {:g}", steps,
+                                         path.options.largest_increment),
+                     .allowed = fmt::format("at most {:.0g} steps: less strain, or a larger increment", most_steps)}});
+}
+
+/// \throws NumericalError at the first point that is not finite
+void check_finite(const FollowedPath& path) {
+  for (std::size_t k = 0; k < path.points.size(); ++k) {
+    const granular::PathPoint& point = path.points[k];
+    if (std::isfinite(norm(point.stress)) && std::isfinite(norm(point.strain)) && std::isfinite(point.density))
+      continue;
+    throw NumericalError({.what = "the stress, strain or density is not finite",
+                          .term = "law " + std::string(choice_name(path.parameters.law.name)),
+                          .place = fmt::format("stretch {} of the path", 1 + (k - 1) / path.options.points),
+                          .step = k,
+                          .time = point.time,
+                          .advice = "less strain on the stretch"});
+  }
+}
+
+std::filesystem::path folder_of(const LawOptions& options) {
+  const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
+  const std::filesystem::path folder =
+      options.out.empty()
+          ? std::filesystem::path("results") / (stem(options.case_options.path) + "-" + stem(options.path))
+          : std::filesystem::path(options.out);
+  if (!options.overwrite && std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder))
+    throw InputError(
+        {{.where = folder.string(), .what = "is not empty", .allowed = "--overwrite, or another folder by --out"}});
+  return folder;
+}
+
+ExitStatus follow(const LawOptions& options) {
+  const LawCase parameters = read_law_case(options.case_options.read());
+  const std::vector<granular::PathStretch> stretches = read_path(options.path);
+  FollowedPath path{.parameters = parameters,
+                    .law = granular::make_law(parameters.law, parameters.grains.density),
+                    .stretches = stretches,
+                    .options = path_options(parameters, stretches.size()),
+                    .points = {}};
+  check_steps(path, options.path);
+  const std::filesystem::path folder = folder_of(options);
+  path.points = granular::follow_path(path.law, path.stretches, path.options);
+  check_finite(path);
+
+  std::filesystem::create_directories(folder);
+  write_path_table(path, folder / "path.csv");
+  draw_path(path, folder / "path.png");
+  const bool has_functions = parameters.law.name != granular::LawName::linear_elastic;
+  if (has_functions) draw_functions(parameters, folder / "functions.png");
+
+  for (const NamedValue& quantity : quantities_of(path))
+    fmt::print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
+  fmt::print("{}: path.csv, path.png{}\n", folder.string(), has_functions ? ", functions.png" : "");
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_law_command(CLI::App& app, Action& action) {
+  auto options = std::make_shared<LawOptions>();
+  CLI::App* command = app.add_subcommand("law", "lead one lump of grains through a path: its stress as table and plot");
+  options->case_options.add_to(*command);
+  command->add_option("--path", options->path, "the path (CSV); see below")->required();
+  command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");
+  command->add_flag("--overwrite", options->overwrite, "replace what an earlier path left in the folder");
+  command->footer(
+      "CASE holds a table [law], and if it likes grains.density, grains.diameter and gravity.acceleration, as a case\n"
+      "of the model continuum does; of such a case the rest is passed over. Its table [path] has packing, points and\n"
+      "largest_increment.\n\n"
+      "A line of the path is a stretch: how long it lasts, and the velocity gradient du_x/dz as gradient_xz, ...;\n"
+      "components left out are zero. The grains are squashed by 0.02 %, then sheared, back, and on:\n"
+      "  duration [s],gradient_zz [1/s],gradient_xz [1/s]\n"
+      "  1,-0.0002,0\n"
+      "  1,0,0.002\n"
+      "  1,0,-0.0001\n"
+      "  1,0,0.002\n\n"
+      "Stress and strain are positive in compression, and the law's answer does not depend on the durations but for\n"
+      "law.smoothing_time and the stress by collisions.");
+  command->callback([options, &action] { action = [options] { return follow(*options); }; });
+}
+
+}  // namespace talus::app

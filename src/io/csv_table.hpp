@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A table of numbers as comma-separated values: a header line that names the columns with their units, then lines.
+///
+///     duration [ms],gradient_zz [1/s]
+///     10,-0.02
+///
+/// Blank lines, blanks around entries, a byte order mark and line ends of either kind are taken.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/unit.hpp"
+
+namespace talus {
+
+/// A column that means a quantity of a known dimension; without a unit its entries are SI.
+struct KnownColumn {
+  std::string_view name;
+  Dimension dimension;
+};
+
+struct CsvFormat {
+  std::span<const KnownColumn> known = {};
+  std::span<const std::string_view> required = {};  ///< columns that must be there
+  bool known_only = false;                          ///< whether other columns are faults
+  std::string_view header = {};                     ///< an example of one, for messages
+};
+
+struct CsvColumn {
+  std::string name;
+  std::string unit;            ///< SI; "1" for numbers, "rad" for angles
+  std::vector<double> values;  ///< SI, each the double nearest to what is written
+};
+
+struct CsvTable {
+  std::vector<CsvColumn> columns;  ///< at least one, all of the same length
+  std::vector<int> lines;          ///< of each row in the file, 1-based
+
+  /// Null if there is none of that name.
+  const CsvColumn* find(std::string_view name) const;
+};
+
+/// \throws FileError if the file cannot be read
+/// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
+///         finite or too large, and columns that are missing, doubled, unknown or in a unit that does not fit
+CsvTable read_csv_table(const std::filesystem::path& path, const CsvFormat& format);
+
+}  // namespace talus

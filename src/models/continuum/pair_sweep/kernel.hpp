@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the sums over a lump's neighbours, compiled once for each instruction set, are handed and hand back: plain
+/// numbers only.
+#pragma once
+
+#include <cstdint>
+
+namespace talus::continuum {
+
+/// A lump or an image of one, as its neighbours see it.
+struct alignas(128) LumpRecord {
+  double position[3];         ///< m
+  double velocity[3];         ///< m/s
+  double smoothing_length;    ///< m
+  double volume;              ///< m^3
+  double specific_stress[6];  ///< tau/rho^2: xx yy zz xy yz zx, m^5/(kg s^2)
+  double density;             ///< kg/m^3
+  double unused;
+};
+
+/// What all pairs have in common.
+struct PairConstants {
+  double mass;                             ///< of a lump, kg
+  double sound_speed;                      ///< of the viscosity, m/s
+  double viscosity_alpha, viscosity_beta;  ///< Monaghan's
+};
+
+/// Neighbours of a lump, by number of their records. Groups follow each other; the first holds lumps, each other one
+/// the images by one mirror.
+struct Neighbours {
+  const std::uint32_t* record;
+  const std::uint32_t* group_end;  ///< one a group: where it ends in `record`
+  int groups;
+  std::uint32_t nobody;  ///< a record far away from all others, which fills up registers
+};
+
+/// Sums over the neighbours j of i, with d = x_j - x_i.
+struct PairSums {
+  double moment[6];       ///< GradientSums::moment: xx yy zz xy yz zx
+  double velocity[9];     ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
+  double density_rate;    ///< Eq. 16, kg/(m^3 s)
+  double kernel_density;  ///< sum of m W without the lump itself, kg/m^3
+};
+
+enum class Wanted { all, gradients, forces };
+
+/// \param acceleration one a group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
+/// wanted
+using SumNeighbours = void (*)(const LumpRecord* records, std::uint32_t self, const Neighbours& neighbours,
+                               const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
+
+using ChooseSumNeighbours = SumNeighbours(Wanted wanted);
+ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
+
+}  // namespace talus::continuum

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The sums over a lump's neighbours, a register of neighbours at a time: their records are loaded whole and turned
+/// into columns. Included by one file for each instruction set; its contents live in that set's namespace.
+#pragma once
+
+#include "base/lanes.hpp"
+#include "base/tensor.hpp"
+#include "models/continuum/pair_sweep/kernel.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+#include "numerics/sph/velocity_gradient.hpp"
+#include "physics/sph/artificial_viscosity.hpp"
+#include "physics/sph/pair_terms.hpp"
+
+namespace talus::continuum {
+inline namespace TALUS_INSTRUCTION_SET {
+
+using Number = Lanes<double>;
+
+struct LaneVector {
+  Number x, y, z;
+};
+
+TALUS_INLINE double total(const Number& x) {
+  return sum_lanes(x, 0);
+}
+
+template <bool gradients, bool forces>
+void sum_neighbours(const LumpRecord* records, std::uint32_t self, const Neighbours& neighbours,
+                    const PairConstants& constants, PairSums& sums, double (*acceleration)[3]) {
+  const LumpRecord& own = records[self];
+  const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
+  const Number zero = 0.0;
+  sph::GradientSums<Number> gradient{{zero, zero, zero, zero, zero, zero},
+                                     {zero, zero, zero, zero, zero, zero, zero, zero, zero}};
+  Number density_rate = zero, kernel_density = zero;
+  std::uint32_t begin = 0;
+  for (int group = 0; group < neighbours.groups; ++group) {
+    const std::uint32_t end = neighbours.group_end[group];
+    LaneVector push{zero, zero, zero};
+    for (std::uint32_t first = begin; first < end; first += Number::lanes) {
+      Number other[16];
+      load_columns(
+          [&](int lane) {
+            const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
+            return records[n < end ? neighbours.record[n] : neighbours.nobody].position;
+          },
+          other);
+      const LaneVector d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
+                         other[2] - Number(own.position[2])};
+      const LaneVector du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
+                          other[5] - Number(own.velocity[2])};
+      const Number h = 0.5 * (Number(own.smoothing_length) + other[6]);
+      const Number square = d.x * d.x + d.y * d.y + d.z * d.z;
+      const Number inverse_h = 1.0 / h;
+      const Number inverse_distance = reciprocal_sqrt(square + 1e-30);
+      const Number q = square * inverse_distance * inverse_h;
+      const Number slope = sph::cubic_spline_slope_of(q, h * inverse_distance, inverse_h);
+      if constexpr (gradients) {
+        gradient.add(other[7], slope, d, du);
+        density_rate = density_rate + sph::density_rate(constants.mass, slope, d, du);
+      }
+      if constexpr (forces) {
+        kernel_density = kernel_density + constants.mass * sph::cubic_spline_of(q, inverse_h);
+        const Number approach = du.x * d.x + du.y * d.y + du.z * d.z;
+        const Number viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed,
+                                                0.5 * (Number(own.density) + other[14]));
+        const double* s = own.specific_stress;
+        const SymmetricTensor3<Number> stress{other[8] + Number(s[0]),  other[9] + Number(s[1]),
+                                              other[10] + Number(s[2]), other[11] + Number(s[3]),
+                                              other[12] + Number(s[4]), other[13] + Number(s[5])};
+        const LaneVector a = sph::acceleration(constants.mass, slope, d, stress, viscosity);
+        push = {push.x + a.x, push.y + a.y, push.z + a.z};
+      }
+    }
+    if constexpr (forces)
+      acceleration[group][0] = total(push.x), acceleration[group][1] = total(push.y),
+      acceleration[group][2] = total(push.z);
+    begin = end;
+  }
+  if constexpr (gradients) {
+    const SymmetricTensor3<Number>& m = gradient.moment;
+    const Tensor3<Number>& v = gradient.velocity;
+    const Number* moments[6] = {&m.xx, &m.yy, &m.zz, &m.xy, &m.yz, &m.zx};
+    const Number* velocities[9] = {&v.xx, &v.xy, &v.xz, &v.yx, &v.yy, &v.yz, &v.zx, &v.zy, &v.zz};
+    for (int c = 0; c < 6; ++c) sums.moment[c] = total(*moments[c]);
+    for (int c = 0; c < 9; ++c) sums.velocity[c] = total(*velocities[c]);
+    sums.density_rate = total(density_rate);
+  }
+  if constexpr (forces) sums.kernel_density = total(kernel_density);
+}
+
+TALUS_INLINE SumNeighbours choose(Wanted wanted) {
+  return wanted == Wanted::all         ? sum_neighbours<true, true>
+         : wanted == Wanted::gradients ? sum_neighbours<true, false>
+                                       : sum_neighbours<false, true>;
+}
+
+}  // namespace TALUS_INSTRUCTION_SET
+}  // namespace talus::continuum

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The sums over neighbours, compiled for one instruction set.
+#include "models/continuum/pair_sweep/sum_neighbours.hpp"
+
+namespace talus::continuum {
+
+SumNeighbours sum_neighbours_avx512(Wanted wanted) {
+  return choose(wanted);
+}
+
+}  // namespace talus::continuum

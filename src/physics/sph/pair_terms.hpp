@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Conservation of mass and momentum between two lumps of the continuum: the terms of one neighbour.
+/// Source: Yuu & Umekage 2011, Eqs 16 and 17; Monaghan 1992, Eqs 2.17 and 3.3.
+#pragma once
+
+#include "base/tensor.hpp"
+
+namespace talus::sph {
+
+/// Eq. 16, d rho/dt = -div(rho u) + u . grad rho, in the form whose sum is the rate of the kernel density:
+/// the term of j is m_j (u_i - u_j) . grad W_ij.
+/// \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d x_j - x_i, m; \param du u_j - u_i, m/s; \returns kg/(m^3 s)
+template <class Number, class Vector>
+constexpr Number density_rate(double mass, const Number& slope, const Vector& d, const Vector& du) {
+  return mass * slope * (du.x * d.x + du.y * d.y + du.z * d.z);
+}
+
+/// Eq. 17, du/dt = -div(tau)/rho_b, symmetric: the term of j is -m_j (tau_i/rho_i^2 + tau_j/rho_j^2 + Pi I) . grad
+/// W_ij, equal and opposite to that of i on j for equal masses. \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d
+/// x_j - x_i, m \param s tau_i/rho_i^2 + tau_j/rho_j^2, compression positive; \param viscosity Pi_ij, both m^5/(kg s^2)
+/// \returns m/s^2
+template <class Number, class Vector>
+constexpr Vector acceleration(double mass, const Number& slope, const Vector& d, const SymmetricTensor3<Number>& s,
+                              const Number& viscosity) {
+  const Number factor = mass * slope;
+  return {factor * ((s.xx + viscosity) * d.x + s.xy * d.y + s.zx * d.z),
+          factor * (s.xy * d.x + (s.yy + viscosity) * d.y + s.yz * d.z),
+          factor * (s.zx * d.x + s.yz * d.y + (s.zz + viscosity) * d.z)};
+}
+
+}  // namespace talus::sph

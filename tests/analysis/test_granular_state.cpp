@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/granular_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/displacement.hpp"
+#include "analysis/lumps.hpp"
+
+namespace talus {
+namespace {
+
+TEST(InertialNumber, OfAState) {
+  EXPECT_DOUBLE_EQ(inertial_number(10, 2500, 200e-6, 2500), 2e-3);
+  EXPECT_EQ(inertial_number(0, 0, 1, 1), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(inertial_number(1, -3, 1, 1), std::numeric_limits<double>::infinity());
+}
+
+/// Lumps one above the other: two at rest under stress, one in shear, one free.
+test::GrainColumns four() {
+  test::GrainColumns c({{0, 0, 0.05}, {0, 0, 0.15}, {0, 0, 0.16}, {0, 0, 0.17}}, 1500, 2500);
+  c.stress_xx = {60, 140, 1000, 0};
+  c.stress_yy = {60, 140, 1000, 0};
+  c.stress_zz = {100, 200, 1000, 0};
+  c.shear_rate = {0, 0, 100, 0};
+  return c;
+}
+
+TEST(StressRatio, IsWeightedWithTheVerticalStressOfQuasistaticGrains) {
+  test::GrainColumns c = four();
+  const auto inertial = inertial_numbers(c.view(), 200e-6, 2500);
+  EXPECT_DOUBLE_EQ(inertial[2], 100 * 200e-6 * std::sqrt(2500.0 / 1000));
+  EXPECT_DOUBLE_EQ(stress_ratio(c.view(), inertial), 200.0 / 300);
+  c.packing[0] = 0.5;
+  EXPECT_DOUBLE_EQ(stress_ratio(c.view(), inertial), 0.7);
+  c.packing.assign(4, 0.5);
+  EXPECT_TRUE(std::isnan(stress_ratio(c.view(), inertial)));
+}
+
+TEST(InertialShare, CountsGrainsWithoutStressAsFast) {
+  const test::GrainColumns c = four();
+  const auto inertial = inertial_numbers(c.view(), 200e-6, 2500);
+  EXPECT_DOUBLE_EQ(inertial_share(c.position, inertial, 0.1), 1.0 / 3);
+  EXPECT_DOUBLE_EQ(inertial_share(c.position, inertial, 0), 0.5);
+  EXPECT_TRUE(std::isnan(inertial_share(c.position, inertial, 1)));
+}
+
+TEST(VelocityGradientSizes, OfSimpleShearAndCompression) {
+  constexpr double h = 1e-2;
+  const auto points = test::lattice(0.1, 0.05, 0, 0.1, h);
+  const Domain domain(
+      {{-1, -1, -1},
+       {1, 1, 1},
+       {FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open}},
+      {});
+  std::vector<Vector3> velocity;
+  for (const Vector3& x : points) velocity.push_back({7 * x.z - x.x, 0, 0});
+  std::vector<double> packing(points.size(), 0.6);
+  const LumpField field(test::lumps(points, h), domain);
+  const GradientSizes sizes = velocity_gradient_sizes(field, velocity, packing, 200e-6, 9.8);
+  const double unit = std::sqrt(200e-6 / 9.8);
+  EXPECT_NEAR(sizes.shear_max, 7 * unit, 1e-12);
+  EXPECT_NEAR(sizes.shear_percentile, 7 * unit, 1e-12);
+  EXPECT_NEAR(sizes.normal_max, 1 * unit, 1e-12);
+  packing.assign(points.size(), 0.4);
+  EXPECT_TRUE(std::isnan(velocity_gradient_sizes(field, velocity, packing, 200e-6, 9.8).shear_max));
+}
+
+TEST(DensityDrift, IsTheMeanOverThoseTaken) {
+  const std::vector<double> density = {1500, 1530, 1000}, packing = {0.6, 0.6, 0.6};
+  EXPECT_NEAR(density_drift(density, packing, 2500, {true, true, false}), 0.01, 1e-15);
+  EXPECT_TRUE(std::isnan(density_drift(density, packing, 2500, {false, false, false})));
+  EXPECT_EQ(quantile_of(density, {true, false, true}, 0), 1000);
+}
+
+TEST(MeanSpeeds, FollowGrainsByTheirIdentity) {
+  test::GrainColumns before({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 1500, 2500, 0.98);
+  test::GrainColumns now({{2, 0, 0.04}, {0, 0, 0.02}, {5, 5, 5}}, 1500, 2500, 1.0);
+  now.identity = {2, 0, 7};
+  const auto speed = mean_speeds(before.view(), now.view());
+  EXPECT_NEAR(speed[0], 2, 1e-12);
+  EXPECT_NEAR(speed[1], 1, 1e-12);
+  EXPECT_TRUE(std::isnan(speed[2]));
+  EXPECT_THROW(mean_speeds(now.view(), before.view()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace talus

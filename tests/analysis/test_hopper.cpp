@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A run from a hopper made by hand, whose numbers are known.
+#include "analysis/hopper.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "analysis/hopper_quantities.hpp"
+#include "analysis/lumps.hpp"
+#include "analysis/quantities.hpp"
+
+namespace talus {
+namespace {
+
+using std::numbers::pi;
+
+// The paper's box: 100 x 5 x 250 mm, the plate at 100 mm, its slit from 30 to 70 mm; h = 5/3 mm.
+constexpr double width = 0.1, depth = 5e-3, height = 0.25, plate = 0.1, h = 5e-3 / 3;
+constexpr double grain_density = 2500, bulk_density = 1500;
+constexpr double lump_mass = bulk_density * h * h * h;
+constexpr double gate = 0.25;  // s, in the run's time
+
+HopperSetting setting() {
+  return {.shape = {width, depth, height, HopperShape::Plate{plate, 0.03, 0.07}, h},
+          .domain = test::box(width, depth, height, {test::plate(plate, 0.03, 0.07, depth)}),
+          .lump_mass = lump_mass,
+          .lumps = 9000,
+          .grain_density = grain_density,
+          .grain_diameter = 200e-6,
+          .gravity = 9.8};
+}
+
+/// The end as it might be: two wedges of 30 degrees left in the hopper, a roof of 25 degrees in the bin.
+std::vector<Vector3> heaps() {
+  const double steep = std::tan(pi / 6), gentle = std::tan(25 * pi / 180);
+  auto points = test::lattice(width, depth, 0, plate, h,
+                              [&](double x, double z) { return z < 0.03 + gentle * (0.05 - std::abs(x - 0.05)); });
+  const auto above = test::lattice(width, depth, plate, height, h,
+                                   [&](double x, double z) { return z - plate < steep * (std::abs(x - 0.05) - 0.02); });
+  points.insert(points.end(), above.begin(), above.end());
+  return points;
+}
+
+TEST(Hopper, FrameOfTwoHeaps) {
+  test::GrainColumns now(heaps(), bulk_density, grain_density, gate + 1);
+  test::GrainColumns before = now;
+  before.time -= 0.02;
+  for (Vector3& x : before.position) x.x += 2e-6;  // 0.1 mm/s
+  for (std::size_t i = 0; i < now.position.size(); ++i) {
+    now.stress_zz[i] = 600;
+    now.stress_xx[i] = now.stress_yy[i] = 400;
+  }
+  now.density.assign(now.density.size(), 1.02 * bulk_density);
+  const Snapshot earlier = before.view();
+  const HopperFrame frame = hopper_frame(now.view(), &earlier, setting(), gate);
+  EXPECT_NEAR(frame.time, 1, 1e-12);
+  EXPECT_NEAR(frame.repose_angle_bin, 25, 1);
+  EXPECT_NEAR(frame.repose_angle_bin_steepest, 25, 1.5);
+  EXPECT_NEAR(frame.repose_angle_hopper, 30, 1);
+  EXPECT_NEAR(frame.surface_angle_hopper, 30, 1);
+  EXPECT_NEAR(frame.surface_angle_bin, 25, 1);
+  EXPECT_NEAR(frame.quiescent_speed, 1e-4, 1e-12);
+  EXPECT_NEAR(frame.stress_ratio, 2.0 / 3, 1e-12);
+  EXPECT_EQ(frame.inertial_share, 1);
+  EXPECT_NEAR(frame.density_drift, 0.02, 1e-12);
+  EXPECT_NEAR(frame.packing_max, 0.6, 1e-12);
+  EXPECT_NEAR(frame.left_right_imbalance, 0, 1e-12);
+  EXPECT_NEAR(frame.corner_packing_ratio_bin, 1, 0.01);
+  EXPECT_EQ(frame.velocity_gradient_shear_max, 0);
+  EXPECT_TRUE(std::isnan(frame.stream_packing)) << "the heap has grown into it";
+  EXPECT_DOUBLE_EQ(frame.mass, lump_mass * double(now.position.size()));
+  EXPECT_TRUE(std::isnan(hopper_frame(now.view(), nullptr, setting(), gate).quiescent_speed));
+}
+
+/// A full hopper over an empty bin with a stream of half the slit's width, that narrows to a quarter half-way down.
+TEST(Hopper, FrameOfAStream) {
+  auto points = test::lattice(width, depth, plate, plate + 50 * h, h);
+  const std::size_t bed = points.size();
+  const auto stream = test::lattice(width, depth, 30e-3, 60 * h, h,
+                                    [&](double x, double z) { return std::abs(x - 0.05) < (z > 0.075 ? 10 : 5) * h; });
+  points.insert(points.end(), stream.begin(), stream.end());
+  test::GrainColumns now(points, bulk_density, grain_density, gate + 0.2);
+  for (std::size_t i = bed; i < points.size(); ++i) now.packing[i] = 0.4;
+  for (std::size_t i = 0; i < points.size(); ++i) now.velocity[i].z = i < bed ? -0.2 : -1;
+  now.packing[bed - 1] = 0.9;  // one lump is no percentile
+  const HopperFrame frame = hopper_frame(now.view(), nullptr, setting(), gate);
+  EXPECT_NEAR(frame.stream_width_below / frame.stream_width_above, 0.5, 0.1);
+  EXPECT_NEAR(frame.stream_packing, 0.4, 1e-12);
+  EXPECT_LT(frame.stream_stripes, 0.02);
+  EXPECT_NEAR(frame.hopper_velocity, -0.2, 1e-9);
+  EXPECT_NEAR(frame.hopper_packing, 0.6, 0.012);
+  EXPECT_NEAR(frame.packing_max, 0.6, 1e-12);
+  EXPECT_NEAR(frame.surface_angle_hopper, 0, 0.01);
+  EXPECT_TRUE(std::isnan(frame.repose_angle_hopper));
+  EXPECT_NEAR(frame.surface_swelling, 0, 1e-9);
+  EXPECT_EQ(frame.inertial_share, 0) << "without stress nothing is quasi-static";
+}
+
+/// Mass leaves at 0.2 kg/s, which swings with a period of 6 ms, from 0.02 s after the opening to 0.3 s; at 0.04 s a
+/// bump.
+HopperRun run_of_a_steady_flow() {
+  HopperRun run{.setting = setting(), .series = {}, .gate_time = gate};
+  const double total = run.setting.mass(), weight = total * 9.8;
+  const auto column = [&](const char* name, auto&& value) {
+    run.series.names.push_back(name);
+    run.series.units.push_back("1");
+    run.series.columns.emplace_back();
+    for (int n = 0; n <= 62500; ++n) run.series.columns.back().push_back(value(2e-5 * n));
+  };
+  constexpr double bump = 0.05, bump_width = 3e-3;
+  const auto passed = [](double t) {
+    t = std::clamp(t, 0.02, 0.3) - 0.02;
+    return 0.2 * t + 0.02 * 0.006 / (2 * pi) * (1 - std::cos(2 * pi * t / 0.006)) +
+           bump * bump_width * std::sqrt(pi) / 2 * (1 + std::erf((t - 0.02) / bump_width));
+  };
+  column("time", [](double t) { return t; });
+  column("gate_time", [](double t) { return t < gate ? -1 : gate; });
+  column("discharged_mass", [&](double t) { return passed(t - gate); });
+  column("discharge_rate", [&](double t) {
+    const double flowing = t - gate - 0.02;
+    return flowing < 0 || flowing > 0.28 ? 0
+                                         : 0.2 + 0.02 * std::sin(2 * pi * flowing / 0.006) +
+                                               bump * std::exp(-std::pow((flowing - 0.02) / bump_width, 2));
+  });
+  column("lowest_z", [&](double t) { return 0.1 - 4.9 * std::pow(std::max(0.0, t - gate), 2); });
+  column("mass_near_floor", [&](double t) { return t - gate < 0.15 ? 0 : total; });
+  column("slit_velocity", [&](double t) { return -0.5 - 0.3 * std::exp(-std::pow((t - gate - 0.03) / 5e-3, 2)); });
+  column("probe_density", [&](double t) { return 1400 + std::sin(2 * pi * t / 0.0066); });
+  column("momentum_x", [](double) { return 0; });
+  column("momentum_y", [](double) { return 0; });
+  column("momentum_z", [](double) { return 0; });
+  column("impulse_gravity_x", [](double) { return 0; });
+  column("impulse_gravity_y", [](double) { return 0; });
+  column("impulse_gravity_z", [&](double t) { return -weight * t; });
+  column("impulse_plate_x", [](double) { return 0; });
+  column("impulse_plate_y", [](double) { return 0; });
+  column("impulse_plate_z", [&](double t) { return -weight * t; });
+  for (int n = 0; n <= 20; ++n) {
+    HopperFrame frame{.time = 0.05 * n};
+    frame.surface_angle_hopper = n < 2 ? 0.5 : n == 10 ? 12 : std::min(30, 3 * n);
+    frame.surface_angle_bin = n;
+    frame.packing_max = n == 3 ? 0.7 : 0.6;
+    frame.repose_angle_bin = 28;
+    frame.repose_angle_hopper = 33;
+    frame.stream_width_above = 0.04;
+    frame.stream_width_below = n == 5 ? 0.02 : 0.03;
+    frame.stress_ratio = n == 0 ? 0.6 : 0.7;
+    frame.mass = total;
+    run.frames.push_back(frame);
+  }
+  return run;
+}
+
+TEST(Hopper, QuantitiesOfARun) {
+  const HopperRun run = run_of_a_steady_flow();
+  const auto is = [&](std::string_view name, const Window& window) { return hopper_quantity(name, run, window); };
+  const Window plateau{.at = {}, .from = 0.05, .to = 0.2}, early{.at = {}, .from = 0, .to = 0.1};
+  EXPECT_NEAR(is("discharge_rate_plateau", plateau), 0.2, 2e-4);
+  EXPECT_NEAR(is("discharge_rate_drift", plateau), 0, 0.01);
+  EXPECT_NEAR(is("discharge_rate_fall", {.at = {}, .from = 0.3, .to = 0.4}), -0.2, 2e-3);
+  EXPECT_NEAR(is("discharge_rate_extreme_time", early), 0.04, 3e-4) << "means over a period do not swing";
+  EXPECT_NEAR(is("slit_velocity_extreme_time", early), 0.03, 3e-4);
+  EXPECT_NEAR(is("discharge_rate_max", {.at = {}, .from = 0.03, .to = 0.4}), 0.2 + 0.05 * 3e-3 * std::sqrt(pi) / 0.02,
+              0.004);
+  EXPECT_NEAR(is("discharge_rate_max_time", {.at = {}, .from = 0.03, .to = 0.4}), 0.04, 6e-3);
+  EXPECT_NEAR(is("discharged_fraction_400ms", {.at = 0.4}), 0.2 * 0.28 / run.setting.mass(), 0.01);
+  EXPECT_NEAR(is("residual_fraction", {}), 1 - 0.2 * 0.28 / run.setting.mass(), 0.01);
+  EXPECT_NEAR(is("floor_arrival_first_time", {}), std::sqrt(0.099 / 4.9), 1e-5);
+  EXPECT_NEAR(is("floor_arrival_time", {}), 0.15, 1e-4);
+  EXPECT_NEAR(is("period_discharge", {.at = {}, .from = 0.05, .to = 0.3}), 6e-3, 5e-5);
+  EXPECT_NEAR(is("period_density", {.at = {}, .from = 0.05, .to = 0.3}), 6.6e-3, 5e-5);
+  EXPECT_TRUE(std::isnan(is("period_strain", {.at = {}, .from = 0.05, .to = 0.3}))) << "there is no such column";
+  EXPECT_NEAR(is("weight_balance_error", {.at = 1}), 0, 1e-9);
+  EXPECT_NEAR(is("floor_stress_settled", {}), run.setting.mass() * 9.8 / (width * depth), 1e-6);
+  EXPECT_NEAR(is("floor_stress_error", {}), 0, 1e-9);
+  EXPECT_NEAR(is("momentum_error", {}), 0, 1e-12);
+  EXPECT_EQ(is("packing_max", {}), 0.7);
+  EXPECT_EQ(is("packing_max", {.at = {}, .from = 0.2}), 0.6);
+  EXPECT_EQ(is("surface_slope_500ms", {.at = 0.5}), 10);
+  EXPECT_NEAR(is("surface_angle_largest_fall", {}), 27 - 12, 1e-12);
+  EXPECT_NEAR(is("surface_angle_end_difference", {}), -3, 1e-12);
+  EXPECT_EQ(is("repose_angle_nearer", {}), 28);
+  EXPECT_EQ(is("repose_angle_other", {}), 33);
+  EXPECT_NEAR(is("stream_narrowing", {.at = {}, .from = 0.2, .to = 0.3}), 0.025 / 0.04, 1e-12);
+  EXPECT_EQ(is("stress_ratio_settled", {}), 0.6);
+  EXPECT_EQ(is("stress_ratio_flow", {.at = 0.2}), 0.7);
+  EXPECT_NEAR(is("mass_error", {}), 0, 1e-12);
+  EXPECT_TRUE(std::isnan(is("stress_ratio_flow", {.at = 1.5}))) << "after the end";
+  EXPECT_TRUE(std::isnan(is("discharged_fraction_400ms", {.at = 1.5})));
+  EXPECT_THROW(is("head_count", {}), std::out_of_range);
+}
+
+TEST(Hopper, APeriodIsTakenAsLongAsThereAreGrains) {
+  HopperRun run = run_of_a_steady_flow();
+  const Window window{.at = {}, .from = 0.05, .to = 0.3};
+  auto& density = run.series.columns[7];
+  ASSERT_EQ(run.series.names[7], "probe_density");
+  const auto empty_from = [&](double t) {
+    for (std::size_t n = 0; n < density.size(); ++n)
+      if (run.series.columns[0][n] - gate > t) density[n] = std::nan("");
+  };
+  empty_from(0.25);
+  EXPECT_NEAR(hopper_quantity("period_density", run, window), 6.6e-3, 1e-4);
+  empty_from(0.15);
+  EXPECT_TRUE(std::isnan(hopper_quantity("period_density", run, window)));
+}
+
+TEST(Hopper, QuantitiesOfTwoRuns) {
+  const HopperRun slow = run_of_a_steady_flow();
+  HopperRun fast = slow;
+  for (const std::size_t column : {2, 3})
+    for (double& value : fast.series.columns[column]) value *= 1.5;
+  for (HopperFrame& frame : fast.frames) frame.surface_angle_bin += 5;
+  const Window window{.at = {}, .from = 0.03, .to = 0.28};
+  const auto of = [&](std::string_view name) { return hopper_pair_quantity(name, fast, slow, window); };
+  EXPECT_NEAR(of("discharge_rate_max_ratio"), 1.5, 1e-9);
+  EXPECT_NEAR(of("discharge_rate_ratio_at_max"), 1.5, 1e-9);
+  EXPECT_EQ(of("discharge_rate_share_larger"), 1);
+  EXPECT_NEAR(of("slit_velocity_fluctuation_ratio"), 1, 1e-12);
+  EXPECT_NEAR(of("period_stiffness_ratio"), 1, 1e-12);
+  EXPECT_NEAR(hopper_pair_quantity("surface_slope_500ms_difference", fast, slow, {.at = 0.5}), 5, 1e-12);
+  EXPECT_NEAR(hopper_pair_quantity("discharge_resolution_difference", fast, slow, {}),
+              0.5 * (0.2 * 0.28 + 1.5 * 0.02 * 0.006 / (2 * pi) + 0.05 * 3e-3 * std::sqrt(pi)) / slow.setting.mass(),
+              1e-6)
+      << "the ripple ends two thirds through a period";
+  EXPECT_THROW(of("discharge_rate_max"), std::out_of_range);
+}
+
+TEST(Hopper, SummaryKeepsToTheNames) {
+  HopperRun run = run_of_a_steady_flow();
+  const auto summary = hopper_summary(run);
+  EXPECT_EQ(summary.size(), 30u);
+  for (const NamedValue& value : summary) {
+    ASSERT_NE(find_quantity(value.name), nullptr) << value.name;
+    EXPECT_EQ(find_quantity(value.name)->unit, value.unit);
+  }
+  run.setting.shape.plate.reset();
+  for (const NamedValue& value : hopper_summary(run)) {
+    EXPECT_NE(value.name, "discharge_rate_plateau");
+    EXPECT_NE(value.name, "stream_narrowing");
+  }
+}
+
+TEST(Hopper, TheGatesTime) {
+  Series series{.names = {"time", "gate_time"}, .units = {"s", "s"}, .columns = {{0, 1, 2, 3}, {-1, -1, 1.5, 1.5}}};
+  EXPECT_EQ(gate_time_of(series), 1.5);
+  series.columns[1].assign(4, -1);
+  EXPECT_EQ(gate_time_of(series), 3) << "it never opened";
+}
+
+}  // namespace
+}  // namespace talus

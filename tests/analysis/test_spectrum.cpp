@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/spectrum.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace talus {
+namespace {
+
+using std::numbers::pi;
+
+template <class Function>
+Curve sampled(double rate, double length, Function&& f) {
+  Curve curve;
+  for (int n = 0; n <= length * rate; ++n) {
+    curve.time.push_back(n / rate);
+    curve.value.push_back(f(n / rate));
+  }
+  return curve;
+}
+
+TEST(Spectrum, FindsThePeriodOfASinusoidOnATrend) {
+  for (const double period : {0.0030, 0.0058, 0.0066, 0.0071, 0.0131}) {
+    const Curve curve = sampled(
+        5000, 0.25, [&](double t) { return 1500 - 200 * t + 3 * std::sin(2 * pi * t / period + 0.7) + 1e-3 * t * t; });
+    // Frequencies are 1 Hz apart.
+    EXPECT_NEAR(1 / dominant_period(curve, 2e-3, 20e-3), 1 / period, 0.6) << period;
+  }
+}
+
+TEST(Spectrum, PeakIsAQuarterOfTheAmplitudesSquare) {
+  const Curve curve = sampled(1000, 0.999, [](double t) { return 3 * std::cos(2 * pi * 50 * t); });
+  const Curve power = power_spectrum(curve, 40, 60);
+  EXPECT_NEAR(extremes(power).largest, 9.0 / 4, 1e-3);
+  EXPECT_NEAR(extremes(power).largest_time, 50, 1e-9);
+}
+
+TEST(Spectrum, TakesTheHigherOfTwoPeaksWithinTheBand) {
+  const auto two = [](double weight) {
+    return sampled(5000, 0.25, [weight](double t) {
+      return std::sin(2 * pi * t / 0.005) + weight * std::sin(2 * pi * t / 0.012) + 50 * std::sin(2 * pi * t / 0.1);
+    });
+  };
+  EXPECT_NEAR(dominant_period(two(0.7), 2e-3, 20e-3), 0.005, 5e-5);
+  EXPECT_NEAR(dominant_period(two(1.4), 2e-3, 20e-3), 0.012, 1.5e-4);
+  EXPECT_NEAR(dominant_period(two(1.4), 2e-3, 9e-3), 0.005, 5e-5);
+}
+
+TEST(Spectrum, WithoutAPeakThereIsNoPeriod) {
+  EXPECT_TRUE(std::isnan(dominant_period(sampled(5000, 0.25, [](double) { return 2.0; }), 2e-3, 20e-3)));
+  EXPECT_TRUE(std::isnan(dominant_period({}, 2e-3, 20e-3)));
+}
+
+TEST(Spectrum, EqualTimesAreInterpolated) {
+  const Curve curve{{0, 0.1, 0.4, 1.0}, {0, 1, 4, 10}};
+  const Curve equal = at_equal_times(curve, 10, 0.2, 0.8);
+  ASSERT_EQ(equal.time.size(), 7u);
+  for (std::size_t n = 0; n < 7; ++n) EXPECT_NEAR(equal.value[n], 10 * equal.time[n], 1e-12);
+  EXPECT_TRUE(at_equal_times(curve, 10, 0.2, 1.2).time.empty());
+}
+
+}  // namespace
+}  // namespace talus

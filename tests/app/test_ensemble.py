@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ensembles: members do not depend on each other, nor on how many run at a time; killed ones go on; failures are told."""
+import csv
+import json
+import shutil
+import signal
+import unittest
+
+from program import ProgramTest, bits, rows, state, tree
+
+VARIED = ("--members", 3, "--vary", "slope.angle=30 deg,50 deg")
+# A member takes a few tenths of a second.
+UNHURRIED = ("--members", 3, "--set", "integration.largest_step=0.001", "--set", "output.checkpoint_interval=20 ms")
+GROUPS = ("angle=30deg", "angle=50deg")
+
+
+class Ensemble(ProgramTest):
+    def members(self, out):
+        return sorted((self.folder / out).glob("*/seed_????"))
+
+    def bits_of_members(self, out):
+        return {f"{path.parent.name}/{path.name}": (bits(path), state(path)) for path in self.members(out)}
+
+    def tables(self, out):
+        """The statistics, byte by byte."""
+        return {str(path.relative_to(self.folder / out)): path.read_bytes()
+                for path in sorted((self.folder / out).glob("*/*.csv"))}
+
+    def assert_same(self, out, other):
+        self.assertEqual(self.bits_of_members(out), self.bits_of_members(other))
+        self.assertEqual(self.tables(out), self.tables(other))
+
+    def test_members_depend_on_neither_jobs_nor_company(self):
+        self.talus("ensemble", "case.toml", "--out", "e1", "--jobs", 1, *VARIED)
+        self.talus("ensemble", "case.toml", "--out", "e2", "--jobs", 3, *VARIED)
+        self.assertEqual([f"{p.parent.name}/{p.name}" for p in self.members("e1")],
+                         [f"{group}/seed_{seed:04}" for group in GROUPS for seed in (3, 4, 5)])
+        self.assert_same("e1", "e2")
+        self.talus("run", "case.toml", "--out", "alone", "--set", "slope.angle=50 deg", "--set", "seed=5")
+        self.assertEqual(bits(self.folder / "alone"), bits(self.folder / "e1/angle=50deg/seed_0005"))
+        self.assertNotEqual(bits(self.folder / "alone"), bits(self.folder / "e1/angle=50deg/seed_0004"))
+        # The statistics are those of the members' own summaries.
+        values = [json.loads((path / "summary.json").read_text())["quantities"]["front_speed_max"]["value"]
+                  for path in self.members("e1") if path.parent.name == GROUPS[0]]
+        [row] = [row for row in rows(self.folder / "e1" / GROUPS[0] / "quantities.csv")
+                 if row["quantity"] == "front_speed_max"]
+        mean = sum(values) / 3
+        self.assertAlmostEqual(float(row["mean"]), mean, delta=1e-12 * mean)
+        self.assertAlmostEqual(float(row["standard_deviation"]),
+                               (sum((value - mean) ** 2 for value in values) / 2) ** 0.5, delta=1e-9 * mean)
+        self.assertEqual((float(row["least"]), float(row["largest"])), (min(values), max(values)))
+
+    def test_more_members_leave_the_first_ones_alone(self):
+        self.talus("ensemble", "case.toml", "--out", "e", "--members", 2)
+        before = {path.name: (path / "log.txt").read_bytes() for path in self.members("e")}
+        said = self.talus("ensemble", "case.toml", "--out", "e", "--members", 3, "--resume").stdout
+        self.assertIn("3 of 3 runs done", said)
+        for path in self.members("e")[:2]:
+            self.assertEqual((path / "log.txt").read_bytes(), before[path.name])
+        self.talus("ensemble", "case.toml", "--out", "at-once", "--members", 3)
+        self.assert_same("e", "at-once")
+
+    def test_stopped_and_resumed(self):
+        self.talus("ensemble", "case.toml", "--out", "whole", "--jobs", 2, *UNHURRIED)
+        for number, status in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGTERM, 130)):
+            with self.subTest(number.name):
+                process = self.start("ensemble", "case.toml", "--out", "e", "--jobs", 1, *UNHURRIED)
+                # The first member is done, the second has begun.
+                self.wait_until((self.folder / "e/all/seed_0004/series.csv").exists, process)
+                process.send_signal(number)
+                self.assertEqual(process.wait(), status)
+                self.assertFalse((self.folder / "e/all/seed_0005").exists())
+                self.talus("ensemble", "case.toml", "--out", "e", "--jobs", 2, "--resume", *UNHURRIED)
+                self.assert_same("e", "whole")
+            shutil.rmtree(self.folder / "e")
+
+    def test_failed_members_are_listed_and_the_others_counted(self):
+        said = self.talus("ensemble", "case.toml", "--out", "e", "--members", 2, "--vary",
+                          "contact.stiffness=10 N/m,1 mN/m", status=3).stdout
+        failed = [line for line in said.splitlines() if line.startswith("Failed")]
+        self.assertEqual(len(failed), 2)
+        for line, seed in zip(sorted(failed), (3, 4)):
+            self.assertTrue(line.startswith(f"Failed (exit status 3): e/stiffness=1mNm/seed_{seed:04}: talus: the largest "
+                                            "overlap is 0.5"), line)
+        self.assertIn("2 of 4 runs done", said)
+        with open(self.folder / "e/stiffness=1mNm/members.csv", encoding="utf-8") as file:
+            self.assertEqual([row[:2] for row in csv.reader(file)],
+                             [["seed", "status"], ["3", "not done"], ["4", "not done"]])
+        with open(self.folder / "e/stiffness=10Nm/members.csv", encoding="utf-8") as file:
+            self.assertEqual([row[1] for row in csv.reader(file)], ["status", "done", "done"])
+
+    def test_existing_folder_and_changed_case(self):
+        self.talus("ensemble", "case.toml", "--out", "e", "--members", 1)
+        before = tree(self.folder)
+        self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, status=2)
+        said = self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, "--resume", "--set",
+                          "slope.angle=40 deg", status=2).stderr
+        self.assertIn("e/all/seed_0003: holds a run of another case", said)
+        self.assertEqual(tree(self.folder), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

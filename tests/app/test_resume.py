@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The same bits on any number of threads, and from any interruption on: kills, signals, the stop file, the wall time."""
+import json
+import resource
+import shutil
+import signal
+import subprocess
+import unittest
+
+from program import CASE, PROGRAM, ProgramTest, bits, checkpoints, rows, scratch_folder, state
+
+# 700 grains are three chunks of work, one for each of three threads.
+LARGE = ("--set", "particles.count=700", "--set", "particles.size=206 mm", "--set", "run.end=0.2 ms")
+
+
+class Threads(ProgramTest):
+    def assert_same_on_1_2_3_threads(self, *settings):
+        self.talus("run", "case.toml", "--out", "1", "--threads", 1, *LARGE, *settings)
+        self.assertGreater(len(rows(self.folder / "1/series.csv")), 15)
+        for threads in (2, 3):
+            out = self.folder / str(threads)
+            self.talus("run", "case.toml", "--out", out, "--threads", threads, *LARGE, *settings)
+            self.assertEqual(json.loads((out / "manifest.json").read_text())["threads"], threads)
+            self.assertEqual(bits(out), bits(self.folder / "1"))
+            self.assertEqual(state(out), state(self.folder / "1"))
+
+    def test_in_the_plane(self):
+        self.assert_same_on_1_2_3_threads()
+
+    def test_in_space_in_single_precision(self):
+        self.assert_same_on_1_2_3_threads("--set", "motion=xyz", "--set", "particles.shape=ball", "--set",
+                                          "particles.size=90 mm", "--set", "fluid.precision=single")
+
+    def test_another_seed_has_other_bits(self):
+        self.talus("run", "case.toml", "--out", "a")
+        self.talus("run", "case.toml", "--out", "b", "--set", "seed=4")
+        differing = [name for name, content in bits(self.folder / "a").items()
+                     if bits(self.folder / "b").get(name) == content]
+        self.assertEqual(differing, [])
+
+
+# More than a second: long enough to be stopped within, also by a test that has to wait for a processor.
+LONG = ("--set", "integration.largest_step=0.0002", "--set", "output.checkpoint_interval=20 ms")
+
+
+class Resumed(ProgramTest):
+    settings = ()  # of every run
+
+    @classmethod
+    def setUpClass(cls):
+        """The same run undisturbed, for all tests of the class."""
+        folder = scratch_folder()
+        cls.addClassCleanup(shutil.rmtree, folder)
+        (folder / "case.toml").write_text(CASE)
+        cls.whole = folder / "whole"
+        subprocess.run([PROGRAM, "run", "case.toml", "--out", "whole", *cls.settings], cwd=folder, check=True,
+                       capture_output=True)
+        cls.steps = len(rows(cls.whole / "series.csv")) - 1
+
+    def assert_goes_on_to_the_same_bits(self, threads=1):
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--threads", threads, *self.settings)
+        self.assertEqual(bits(self.folder / "r"), bits(self.whole))
+        self.assertEqual(state(self.folder / "r"), state(self.whole))
+        for table in sorted((self.whole / "analysis").iterdir()):
+            self.assertEqual((self.folder / "r/analysis" / table.name).read_bytes(), table.read_bytes())
+        self.assertEqual(list((self.folder / "r").rglob("*.part")), [])
+
+    def assert_resumes_from_newest_checkpoint(self):
+        """A session without time for a step leaves a checkpoint where it began."""
+        newest = max(checkpoints(self.folder / "r").values())
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "1e-9", *self.settings, status=130)
+        self.assertEqual(max(checkpoints(self.folder / "r").values()), newest)
+        self.assertEqual(len(rows(self.folder / "r/series.csv")), newest + 1)
+        return newest
+
+
+class Interrupted(Resumed):
+    """A run that is stopped from outside while it goes on."""
+
+    settings = LONG
+
+    def begin(self, part, *arguments):
+        """Starts the run and waits until it has written this part of the series."""
+        process = self.start("run", "case.toml", "--out", "r", *self.settings, *arguments)
+        series, whole = self.folder / "r/series.csv", self.whole / "series.csv"
+        self.wait_until(lambda: series.exists() and series.stat().st_size > part * whole.stat().st_size, process)
+        return process
+
+    def assert_left_with_a_checkpoint(self, reason):
+        summary = json.loads((self.folder / "r/summary.json").read_text())
+        self.assertEqual(summary["status"], "interrupted")
+        step = summary["quantities"]["steps"]["value"]
+        self.assertTrue(0 < step < self.steps, step)
+        self.assertEqual(max(checkpoints(self.folder / "r").values()), step)
+        self.assertEqual(len(rows(self.folder / "r/series.csv")), step + 1)
+        self.assertIn(f"interrupted by {reason}", (self.folder / "r/log.txt").read_text())
+
+    def test_killed_twice(self):
+        self.kill(self.begin(0.1))
+        first = self.assert_resumes_from_newest_checkpoint()
+        self.kill(self.begin(0.4, "--resume", "--threads", 3))
+        self.assertGreater(self.assert_resumes_from_newest_checkpoint(), first)
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_signals(self):
+        for number, name in ((signal.SIGINT, "SIGINT"), (signal.SIGTERM, "SIGTERM")):
+            with self.subTest(name):
+                process = self.begin(0.2)
+                process.send_signal(number)
+                self.assertEqual(process.wait(), 130)
+                self.assert_left_with_a_checkpoint(name)
+                self.assert_goes_on_to_the_same_bits(threads=2)
+            shutil.rmtree(self.folder / "r")
+
+    def test_stop_file(self):
+        process = self.begin(0.01)  # it is looked for ten times a second
+        (self.folder / "r/stop").touch()
+        self.assertEqual(process.wait(), 130)
+        self.assert_left_with_a_checkpoint("the file r/stop")
+        self.assert_goes_on_to_the_same_bits()
+        self.assertFalse((self.folder / "r/stop").exists())
+
+    def test_walltime(self):
+        self.talus("run", "case.toml", "--out", "r", "--walltime", "0.1", *LONG, status=130)
+        self.assert_left_with_a_checkpoint("the wall-time limit")
+        seconds = json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"]
+        self.assertGreaterEqual(seconds, 0.1)
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "0.1", *LONG, status=130)
+        self.assertGreaterEqual(json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"], seconds + 0.1)
+        self.assert_goes_on_to_the_same_bits(threads=3)
+
+    def test_damaged_newest_checkpoint_is_passed_over(self):
+        process = self.begin(0.3)
+        self.wait_until(lambda: len(list((self.folder / "r").glob("checkpoint_?.h5"))) == 2, process)
+        self.kill(process)
+        steps = checkpoints(self.folder / "r")
+        newest = max(steps, key=steps.get)
+        content = bytearray((self.folder / "r" / newest).read_bytes())
+        content[-100] ^= 1
+        (self.folder / "r" / newest).write_bytes(content)
+        said = self.talus("run", "case.toml", "--out", "r", "--resume", *LONG).stderr
+        self.assertRegex(said, f"passed over: r/{newest}: does not have the checksum")
+        self.assertEqual(bits(self.folder / "r"), bits(self.whole))
+
+
+class KilledWhileItWrites(Resumed):
+    """A limit on the size of files makes the system kill the run in the middle of the write that would pass it."""
+
+    settings = ("--set", "output.checkpoint_interval=1 us", "--set", "output.snapshots=1 s", "--set",
+                "integration.largest_step=0.02")
+
+    def setUp(self):
+        super().setUp()
+        self.size = (self.whole / "checkpoint_a.h5").stat().st_size
+        self.series = (self.whole / "series.csv").read_bytes()
+
+    def killed_by(self, limit, *arguments):
+        def limits():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+        process = self.start("run", "case.toml", "--out", "r", *self.settings, *arguments, preexec_fn=limits)
+        self.assertEqual(process.wait(), -signal.SIGXFSZ)
+
+    def leave_at_start(self):
+        self.talus("run", "case.toml", "--out", "r", "--walltime", "1e-9", *self.settings, status=130)
+        self.assertEqual(set(checkpoints(self.folder / "r").values()), {0})
+
+    def test_manifest(self):
+        self.killed_by(500)
+        self.assertEqual(len((self.folder / "r/manifest.json.part").read_bytes()), 500)
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_first_snapshot(self):
+        self.killed_by(10000)
+        self.assertEqual(list((self.folder / "r/snapshots").glob("*.vtkhdf")), [])
+        self.assertTrue((self.folder / "r/snapshots/particles_0000.vtkhdf.part").exists())
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_checkpoint(self):
+        self.leave_at_start()
+        self.killed_by(self.size - 1000, "--resume")
+        [part] = (self.folder / "r").glob("checkpoint_?.h5.part")
+        self.assertEqual(part.stat().st_size, self.size - 1000)
+        self.assertEqual(self.assert_resumes_from_newest_checkpoint(), 0)
+        self.assert_goes_on_to_the_same_bits()
+
+    def test_row(self):
+        limit = self.series.index(b"\n", self.size + 10000) + 30
+        self.killed_by(limit)
+        self.assertEqual((self.folder / "r/series.csv").read_bytes(), self.series[:limit])
+        self.assertEqual(self.assert_resumes_from_newest_checkpoint(), self.series[:limit].count(b"\n") - 2)
+        self.assert_goes_on_to_the_same_bits()
+
+
+if __name__ == "__main__":
+    unittest.main()
