@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "physics/sph/cubic_spline.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::coupling {
 
