@@ -222,8 +222,12 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
            std::abs(rate_[2][c]) * grid.face_area(2);
   });
   const double rounding = 1e-15 * flow * std::sqrt(static_cast<double>(grid.cells()));
-  iterations_ +=
-      solver_.solve(team, source_, pressure, {.tolerance = parameters_.tolerance, .absolute = rounding}).iterations;
+  iterations_ += solver_
+                     .solve(team, source_, pressure,
+                            {.tolerance = parameters_.tolerance,
+                             .absolute = rounding,
+                             .most_iterations = static_cast<int>(parameters_.most_iterations)})
+                     .iterations;
 
   press(1, stream.velocity);
   for (int axis = 0; axis < 3; ++axis) {
@@ -236,31 +240,34 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
 
 /// What the air lost to drag, and what the pressure does to the solid, over the solid's volume: first on the faces,
 /// then as the cells' means, so that it is handed out with the weights by which the solids were gathered.
-void AirFlow::hand_over(ThreadTeam& team, double dt, const AirState& start, const FaceField& velocity,
-                        const CellField& pressure, FaceField& impulse) {
+/// \param velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
+void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse) {
   const Grid& grid = passages_.grid;
   const double rho = parameters_.density();
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
       const int place = axis == 0 ? i : axis == 1 ? j : k;
-      double received = 0;
+      double received = 0, drag = 0;
       if (passages_.open[a][f] > 0) {
-        received = -dt * pressure_step(axis, place, f, pressure);
+        received = -dt * pressure_step(axis, place, f, state.pressure);
         if (solid_[a][f] > 0) {
           const double mass = rho * void_fraction_[a][f];
           // All but drag, as an acceleration times dt: what makes the slip's decay end at the velocity found.
           const double push = (velocity[a][f] - base_[a][f]) / pull_[a][f];
-          const double slip = start.momentum[a][f] / mass - grain_velocity_[a][f];
-          const double lost = slip * (1 - decay_[a][f]) + (1 - pull_[a][f]) * push;
-          received += mass * lost / solid_[a][f];
+          const double slip = state.momentum[a][f] / mass - grain_velocity_[a][f];
+          drag = mass * (slip * (1 - decay_[a][f]) + (1 - pull_[a][f]) * push);
+          received += drag / solid_[a][f];
         }
       }
-      rate_[a][f] = received;
+      rate_[a][f] = received, stress_[a][f] = drag / dt;
     });
     passages_.wrap(rate_[a]);
+    passages_.wrap(stress_[a]);
     for_each_cell(team, grid, [&](int, int, int, std::size_t c) {
-      impulse[a][c] = 0.5 * (rate_[a][c] + rate_[a][plus(c, grid.stride(axis))]);
+      const std::size_t above = plus(c, grid.stride(axis));
+      impulse[a][c] = 0.5 * (rate_[a][c] + rate_[a][above]);
+      state.drag[a][c] = 0.5 * (stress_[a][c] + stress_[a][above]);
     });
   }
 }
@@ -307,7 +314,10 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
     measure_drag(team, solids, state.velocity);
     for_each_cell(team, grid, [&](int, int, int, std::size_t c) {
       const double s = solids.fraction[c];
-      for (std::size_t a = 0; a < 3; ++a) impulse[a][c] = s > 0 ? -dt * drag_[c] * solids.flux[a][c] / (s * s) : 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        state.drag[a][c] = s > 0 ? -drag_[c] * solids.flux[a][c] / s : 0;
+        impulse[a][c] = s > 0 ? dt * state.drag[a][c] / s : 0;
+      }
     });
     return;
   }
@@ -325,7 +335,7 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   measure_drag(team, solids, stream_.velocity);
   state.pressure = guess_;
   stage(team, dt, stream_, state, state.pressure);
-  hand_over(team, dt, state, stream_.velocity, state.pressure, impulse);
+  hand_over(team, dt, stream_.velocity, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
     passages_.wrap(stream_.velocity[a]), passages_.wrap(stream_.mass[a]);
     state.velocity[a] = stream_.velocity[a], state.momentum[a] = stream_.mass[a];

@@ -15,29 +15,12 @@
 
 #include "base/parallel.hpp"
 #include "models/air/parameters.hpp"
+#include "models/air/state.hpp"
 #include "models/air/transport.hpp"
 #include "numerics/grid/passages.hpp"
 #include "numerics/grid/poisson.hpp"
 
 namespace talus::air {
-
-/// What stands in the air, cell by cell.
-struct Solids {
-  CellField fraction;  ///< solid volume over volume, 0 to below 1
-  FaceField flux;      ///< by component, of every cell: fraction times the solid's velocity, m/s
-
-  explicit Solids(const Grid& grid) : fraction(grid.cell_field()), flux(grid.face_field()) {}
-};
-
-/// What the air remembers between steps.
-struct AirState {
-  FaceField velocity;  ///< m/s
-  FaceField momentum;  ///< rho Phi u, kg/(m^2 s)
-  CellField pressure;  ///< against the boundaries' reference, Pa; mean of the last step
-
-  explicit AirState(const Grid& grid)
-      : velocity(grid.face_field()), momentum(grid.face_field()), pressure(grid.cell_field()) {}
-};
 
 class AirFlow {
  public:
@@ -76,8 +59,7 @@ class AirFlow {
   void take_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
-  void hand_over(ThreadTeam& team, double dt, const AirState& start, const FaceField& velocity,
-                 const CellField& pressure, FaceField& impulse);
+  void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
   double pressure_step(int axis, int place, std::size_t face, const CellField& pressure) const;
 
   Parameters parameters_;
