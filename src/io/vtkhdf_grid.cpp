@@ -14,7 +14,7 @@ namespace talus {
 namespace {
 
 const std::string root = "VTKHDF";
-const std::string cell_data = root + "/CellData/";
+const std::string point_data = root + "/PointData";
 
 std::vector<double> numbers(const Vector3& v) {
   return {v.x, v.y, v.z};
@@ -28,12 +28,14 @@ void write_grid(const std::filesystem::path& path, const GridSnapshot& snapshot)
   file.attribute(root, "Type", "ImageData");
   file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
   const auto& n = snapshot.count;
-  file.attribute(root, "WholeExtent", std::vector<std::int64_t>{0, n[0], 0, n[1], 0, n[2]});
-  file.attribute(root, "Origin", numbers(snapshot.low));
+  file.attribute(root, "WholeExtent", std::vector<std::int64_t>{0, n[0] - 1, 0, n[1] - 1, 0, n[2] - 1});
+  file.attribute(root, "Origin", numbers(snapshot.centre(0, 0, 0)));
   file.attribute(root, "Spacing", numbers(snapshot.spacing));
   file.attribute(root, "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  file.attribute(root, "time", std::vector<double>{snapshot.time});
+  file.attribute(root, "step", std::vector<std::int64_t>{static_cast<std::int64_t>(snapshot.step)});
 
-  file.group(root + "/CellData");
+  file.group(point_data);
   const std::array<std::size_t, 3> shape{static_cast<std::size_t>(n[2]), static_cast<std::size_t>(n[1]),
                                          static_cast<std::size_t>(n[0])};
   for (const GridSnapshot::Column& column : snapshot.columns)
@@ -42,13 +44,9 @@ void write_grid(const std::filesystem::path& path, const GridSnapshot& snapshot)
           if (values.size() != snapshot.cells())
             throw std::invalid_argument(fmt::format("snapshot: column '{}' has {} entries for {} cells", column.name,
                                                     values.size(), snapshot.cells()));
-          file.write_grid(cell_data + column.name, shape, values, column.unit);
+          file.write_grid(point_data + "/" + column.name, shape, values, column.unit);
         },
         column.values);
-
-  file.write(root + "/FieldData/time", std::vector<double>{snapshot.time}, "s");
-  file.write(root + "/FieldData/TimeValue", std::vector<double>{snapshot.time}, "s");
-  file.write(root + "/FieldData/step", std::vector<std::int64_t>{static_cast<std::int64_t>(snapshot.step)}, "1");
   write_atomically(path, file.image());
 }
 
@@ -61,11 +59,11 @@ GridSnapshot read_grid(const std::filesystem::path& path) {
   const std::vector<double> spacing = file.real_attribute(root, "Spacing");
   if (extent.size() != 6 || origin.size() != 3 || spacing.size() != 3) refuse("lacks extent, origin or spacing");
   GridSnapshot snapshot;
-  for (std::size_t a = 0; a < 3; ++a) snapshot.count[a] = static_cast<int>(extent[2 * a + 1] - extent[2 * a]);
-  snapshot.low = {origin[0], origin[1], origin[2]};
+  for (std::size_t a = 0; a < 3; ++a) snapshot.count[a] = static_cast<int>(extent[2 * a + 1] - extent[2 * a]) + 1;
   snapshot.spacing = {spacing[0], spacing[1], spacing[2]};
-  for (const std::string& name : file.names(root + "/CellData")) {
-    const std::string data = cell_data + name;
+  snapshot.low = Vector3{origin[0], origin[1], origin[2]} - 0.5 * snapshot.spacing;
+  for (const std::string& name : file.names(point_data)) {
+    const std::string data = point_data + "/" + name;
     const hdf5::Description description = file.describe(data);
     GridSnapshot::Column column{name, file.text_attribute(data, "units"), {}};
     if (description.shape.size() == 4 && description.shape[3] == 3) {
@@ -80,8 +78,8 @@ GridSnapshot read_grid(const std::filesystem::path& path) {
     if (entries != snapshot.cells()) refuse("has a column that does not fit its cells");
     snapshot.columns.push_back(std::move(column));
   }
-  const std::vector<double> time = file.doubles(root + "/FieldData/time");
-  const std::vector<std::int64_t> step = file.integers(root + "/FieldData/step");
+  const std::vector<double> time = file.real_attribute(root, "time");
+  const std::vector<std::int64_t> step = file.integer_attribute(root, "step");
   if (time.size() != 1 || step.size() != 1) refuse("holds no single time");
   snapshot.time = time[0], snapshot.step = static_cast<std::uint64_t>(step[0]);
   return snapshot;

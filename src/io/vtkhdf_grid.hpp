@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A regular grid as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
+/// Values in the cells of a regular grid as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
 ///
-///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction
-///       CellData/NAME        columns in single precision: nz x ny x nx, or nz x ny x nx x 3
-///       FieldData/time, step, TimeValue
+///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction; time (s), step
+///       PointData/NAME       columns in single precision: nz x ny x nx, or nz x ny x nx x 3
 ///
-/// Every data set with a unit carries it in the attribute "units".
+/// The points of the image are the centres of the cells: VTK 9.1 asks data of an image's cells, and its field data, for
+/// the wrong shape. Every column carries its unit in the attribute "units".
 /// Source: VTK File Formats, "VTKHDF file format", https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/
 #pragma once
 

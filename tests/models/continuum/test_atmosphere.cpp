@@ -170,10 +170,10 @@ TEST(CheckAir, NamesWhatDoesNotFit) {
   Parameters p = small_hopper_in_air();
   EXPECT_TRUE(check(p).empty());
   p.air.cell = 0.7 * spacing;  // of which no faces lie in the plate
-  p.air.gas.boundaries.kind[0] = FlowBoundary::periodic;
+  p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
   std::vector<std::string> keys;
   for (const Problem& problem : check(p)) keys.push_back(problem.key);
-  EXPECT_THAT(keys, testing::UnorderedElementsAre("air.left", "air.cell"));
+  EXPECT_THAT(keys, testing::UnorderedElementsAre("air.right", "air.cell"));
   p.air.enabled = false;
   EXPECT_TRUE(check(p).empty());
 }
