@@ -50,7 +50,7 @@ AvalancheRun member(double mean_radius, double shift) {
   return run;
 }
 
-StudiedEnsemble ensemble(const std::string& case_name, const std::string& label, double mean_radius) {
+AvalancheEnsemble ensemble(const std::string& case_name, const std::string& label, double mean_radius) {
   return {.case_name = case_name,
           .radius = label,
           .contact_weight_ratio = 5,
@@ -98,10 +98,10 @@ const figure::Line* line_of(const figure::Chart& chart, std::size_t n) {
 }
 
 TEST(Niiya2020Curves, RadiiComeInTheirOrderAndOtherCasesStayOut) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", 5e-3),
-                                                  ensemble("rectangle", "1 mm", 1e-3),
-                                                  ensemble("circle", "1 mm", 1e-3),
-                                                  {"circle", "2.5 mm", 0, {}, {}}};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", 5e-3),
+                                                    ensemble("rectangle", "1 mm", 1e-3),
+                                                    ensemble("circle", "1 mm", 1e-3),
+                                                    {"circle", "2.5 mm", 0, {}, {}}};
   const Radii radii = radii_of(ensembles, "circle");
   ASSERT_EQ(radii.size(), 2u) << "an ensemble without a finished run is left out";
   EXPECT_EQ(radii[0]->radius, "1 mm");
@@ -109,7 +109,7 @@ TEST(Niiya2020Curves, RadiiComeInTheirOrderAndOtherCasesStayOut) {
 }
 
 TEST(Niiya2020Curves, MembersThatLackANumberAreLeftOut) {
-  StudiedEnsemble circle = ensemble("circle", "5 mm", radius);
+  AvalancheEnsemble circle = ensemble("circle", "5 mm", radius);
   circle.runs[2].frames[1].frontal_angle = AvalancheFrame::none;
   const MembersCurve curve = members_curve(circle, &AvalancheFrame::frontal_angle, 0);
   EXPECT_THAT(curve.time, testing::ElementsAre(0, 10, 20));
@@ -120,7 +120,7 @@ TEST(Niiya2020Curves, MembersThatLackANumberAreLeftOut) {
 }
 
 TEST(Niiya2020Curves, FrontSpeedsAreMeansWithBandsOverThePrintedRange) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
   const figure::Chart chart = front_speeds(radii_of(ensembles, "circle"), 30, 70);
   ASSERT_EQ(chart.series.size(), 2u);
   const auto* printed = std::get_if<figure::Reference>(&chart.series[0]);
@@ -140,7 +140,7 @@ const figure::Points& points_of(const figure::Chart& chart, std::size_t n) {
 }
 
 TEST(Niiya2020Curves, LengthsAreInRadiiAndRatiosThoseOfTheMembers) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "1 mm", 1e-3), ensemble("circle", "5 mm", 5e-3)};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "1 mm", 1e-3), ensemble("circle", "5 mm", 5e-3)};
   const Radii radii = radii_of(ensembles, "circle");
   const figure::Chart sizes = head_sizes(radii);
   ASSERT_EQ(sizes.series.size(), 6u) << "two numbers at two radii, and what filled and open symbols mean";
@@ -156,7 +156,7 @@ TEST(Niiya2020Curves, LengthsAreInRadiiAndRatiosThoseOfTheMembers) {
 }
 
 TEST(Niiya2020Curves, TheTimeAxisEndsRoundAndMotionsHaveTheirSigns) {
-  std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
+  std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
   const Radii radii = radii_of(ensembles, "circle");
   EXPECT_DOUBLE_EQ(*head_curls(radii).x.high, 20);
   for (AvalancheRun& run : ensembles[0].runs) run.frames.back().time = 20.3;
@@ -172,8 +172,8 @@ TEST(Niiya2020Curves, TheTimeAxisEndsRoundAndMotionsHaveTheirSigns) {
 }
 
 TEST(Niiya2020Heads, WidthsAreDensitiesAndProportionalToTheRadius) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("rectangle", "1 mm", 1e-3),
-                                                  ensemble("rectangle", "5 mm", 5e-3)};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("rectangle", "1 mm", 1e-3),
+                                                    ensemble("rectangle", "5 mm", 5e-3)};
   const Radii radii = radii_of(ensembles, "rectangle");
   const figure::Chart densities = width_distributions(radii);
   ASSERT_EQ(densities.series.size(), 5u) << "lines and points of two radii, and the Gaussian";
@@ -205,7 +205,7 @@ TEST(Niiya2020Heads, WidthsAreDensitiesAndProportionalToTheRadius) {
 }
 
 TEST(Niiya2020Snapshots, MeasuresTheShapesAndTheHeadOnTheirGrains) {
-  StudiedEnsemble circle = ensemble("circle", "5 mm", radius);
+  AvalancheEnsemble circle = ensemble("circle", "5 mm", radius);
   circle.folders[0] = write_run("measured", false);
   MemberSnapshots member(circle);
   const figure::ParticlePicture band = member.rectangle_at_start();
@@ -229,10 +229,10 @@ TEST(Niiya2020Snapshots, MeasuresTheShapesAndTheHeadOnTheirGrains) {
   EXPECT_NEAR(norm(width->to - width->from), left - right, 1e-12);
 }
 
-std::vector<StudiedEnsemble> whole_study() {
-  std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", radius), ensemble("rectangle", "5 mm", radius),
-                                            ensemble("triangle", "5 mm", radius)};
-  for (StudiedEnsemble& e : ensembles) e.folders[0] = write_run(e.case_name, e.case_name == "triangle");
+std::vector<AvalancheEnsemble> whole_study() {
+  std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", radius), ensemble("rectangle", "5 mm", radius),
+                                              ensemble("triangle", "5 mm", radius)};
+  for (AvalancheEnsemble& e : ensembles) e.folders[0] = write_run(e.case_name, e.case_name == "triangle");
   return ensembles;
 }
 
@@ -272,8 +272,8 @@ TEST(Niiya2020Figures, SaysWhatOneRadiusLacks) {
 }
 
 TEST(Niiya2020Figures, DrawsWhatFailedMembersLeave) {
-  std::vector<StudiedEnsemble> ensembles = whole_study();
-  StudiedEnsemble fewer = ensemble("circle", "1 mm", 1e-3);
+  std::vector<AvalancheEnsemble> ensembles = whole_study();
+  AvalancheEnsemble fewer = ensemble("circle", "1 mm", 1e-3);
   fewer.folders = {"none"};
   fewer.runs.resize(1);
   ensembles.push_back(fewer);
@@ -284,7 +284,7 @@ TEST(Niiya2020Figures, DrawsWhatFailedMembersLeave) {
 }
 
 TEST(Niiya2020Figures, LeavesOutWhatIsNotThere) {
-  std::vector<StudiedEnsemble> ensembles = {ensemble("triangle", "5 mm", radius)};
+  std::vector<AvalancheEnsemble> ensembles = {ensemble("triangle", "5 mm", radius)};
   ensembles[0].folders[0] = write_run("alone", true);
   const std::vector<FigureOfStudy> drawn = draw_niiya2020(ensembles, figures_folder("few"));
   std::vector<std::string> names;
