@@ -2,6 +2,7 @@
 #include "app/continuum/hopper_ensembles.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/hopper_quantities.hpp"
 #include "app/continuum/continuum_analysis.hpp"
@@ -13,6 +14,8 @@
 namespace talus::app {
 
 namespace {
+
+constexpr double tolerance_of_end = 1e-3;  // s; a run ends with the step that reaches its end, or just before
 
 class HopperEnsembles : public StudiedRuns {
  public:
@@ -29,7 +32,7 @@ class HopperEnsembles : public StudiedRuns {
     if (row.from == From::variants) return {of_pair(row, of_variants)};
     std::vector<std::optional<double>> values;
     for (const HopperEnsemble* ensemble : of_variants)
-      values.push_back(ensemble ? std::optional(of_members(row, *ensemble)) : std::nullopt);
+      values.push_back(ensemble ? of_members(row, *ensemble) : std::nullopt);
     return values;
   }
 
@@ -38,14 +41,24 @@ class HopperEnsembles : public StudiedRuns {
   }
 
  private:
-  static double of_members(const ComparisonRow& row, const HopperEnsemble& ensemble) {
+  /// Nothing if a run ends before the row's window does.
+  static std::optional<double> of_members(const ComparisonRow& row, const HopperEnsemble& ensemble) {
     std::vector<double> numbers;
-    for (const HopperRun& run : ensemble.runs) numbers.push_back(hopper_quantity(row.quantity, run, row.window));
+    for (const HopperRun& run : ensemble.runs) {
+      if (!reaches(run, row.window)) return std::nullopt;
+      numbers.push_back(hopper_quantity(row.quantity, run, row.window));
+    }
     return evaluate(row.statistic, numbers);
+  }
+
+  static bool reaches(const HopperRun& run, const Window& window) {
+    const double last = window.at.value_or(std::isfinite(window.to) ? window.to : 0);
+    return run.end() >= last - tolerance_of_end;
   }
 
   static std::optional<double> of_pair(const ComparisonRow& row, const std::vector<const HopperEnsemble*>& pair) {
     if (pair.size() != 2 || !pair[0] || !pair[1]) return std::nullopt;
+    if (!reaches(pair[0]->runs.front(), row.window) || !reaches(pair[1]->runs.front(), row.window)) return std::nullopt;
     return hopper_pair_quantity(row.quantity, pair[0]->runs.front(), pair[1]->runs.front(), row.window);
   }
 
