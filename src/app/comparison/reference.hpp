@@ -18,14 +18,14 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// One of the paper's cases, and what each of its variants changes in it. The file may call the variants radii.
 struct ReferenceCase {
   std::string name;
-  std::string file;  ///< in cases/
-  Settings where;    ///< what a run of this case has
+  std::string file = {};  ///< in cases/
+  Settings where = {};    ///< what a run of this case has
   struct Variant {
-    std::string label;  ///< "2.5 mm"
-    Settings settings;  ///< what it changes in the file
-    Settings told_by;   ///< those of them by which a run is known to be of this variant
+    std::string label;       ///< "2.5 mm"
+    Settings settings = {};  ///< what it changes in the file
+    Settings told_by = {};   ///< those of them by which a run is known to be of this variant
   };
-  std::vector<Variant> variants;
+  std::vector<Variant> variants = {};
 };
 
 /// What `reproduce --quick` runs in place of everything.
@@ -37,11 +37,11 @@ struct QuickStudy {
 
 struct Reference {
   std::string path;
-  std::string study, title, source;
+  std::string study = {}, title = {}, source = {};
   int members = 0;
-  QuickStudy quick;
-  std::vector<ReferenceCase> cases;
-  std::vector<ComparisonRow> rows;
+  QuickStudy quick = {};
+  std::vector<ReferenceCase> cases = {};
+  std::vector<ComparisonRow> rows = {};
 
   /// \returns null if there is none
   const ReferenceCase* find_case(const std::string& name) const;
