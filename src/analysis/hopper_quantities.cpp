@@ -283,6 +283,7 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
        [](Run r, In w) { return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1); }},
       {"mass_error", [](Run r, In w) { return std::abs(at_frame(&HopperFrame::mass, r, w) / r.setting.mass() - 1); }},
       {"momentum_error", [](Run r, In) { return momentum_error(r.series); }},
+      {"wall_seconds", [](Run r, In) { return r.wall_seconds; }},
   };
   return all;
 }
