@@ -13,8 +13,8 @@ using std::numbers::pi;
 
 /// Air at rest without grains in the paper's box, cells of 1.25 mm.
 struct Air {
-  GridSnapshot grid{.time = 0.2, .step = 0, .count = {80, 2, 200}, .low = {}, .spacing = {1.25e-3, 2.5e-3, 1.25e-3},
-                    .columns = {}};
+  GridSnapshot grid{
+      .time = 0.2, .step = 0, .count = {80, 2, 200}, .low = {}, .spacing = {1.25e-3, 2.5e-3, 1.25e-3}, .columns = {}};
   std::vector<Vector3> velocity, grains, drag;
   std::vector<double> pressure, fraction;
 
