@@ -149,6 +149,29 @@ TEST(Atmosphere, ABeadFallsThroughAirAtRestWithItsTerminalVelocity) {
   EXPECT_NEAR(model.state().velocity[0].z, -1.413, 0.005);
 }
 
+/// What the bin's air can do decides how fast grains leave: into a bin whose floor lets the air go, against air that
+/// stays where it is, into a closed box whose air has to come up through them.
+TEST(Atmosphere, DischargeIsFasterVentedThanAgainstAirAtRestThanSealed) {
+  const auto discharged = [](auto&& change) {
+    Parameters p = small_hopper_in_air();
+    p.integration.method = Method::leapfrog;
+    change(p.air);
+    ThreadTeam team(1);
+    Continuum model = started(p, team);
+    while (model.state().time < 0.1) model.advance(team);
+    double fallen = 0;  // of the bed's centre of mass
+    for (const Vector3& x : model.state().position) fallen -= x.z;
+    return fallen / static_cast<double>(model.state().position.size());
+  };
+  const double start = -(15 + 5) * spacing;
+  const double vented = discharged([](auto& air) { air.gas.boundaries.kind[4] = FlowBoundary::open; }) - start;
+  const double at_rest = discharged([](auto& air) { air.gas.motion = air::Motion::frozen; }) - start;
+  const double sealed = discharged([](auto& air) { air.gas.boundaries.kind[5] = FlowBoundary::no_slip; }) - start;
+  EXPECT_GT(vented, 1.2 * at_rest);
+  EXPECT_GT(at_rest, 1.2 * sealed);
+  EXPECT_GT(sealed, 0);
+}
+
 TEST(Atmosphere, APressureThatDoesNotConvergeNamesCellAndResidual) {
   Parameters p = small_hopper_in_air();
   p.air.gas.most_iterations = 1;
