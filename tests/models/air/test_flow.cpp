@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "base/error.hpp"
@@ -120,10 +121,12 @@ TEST(AirFlow, LetsTaylorGreenVorticesDecayAsTheyShouldWithSecondOrder) {
   EXPECT_NEAR(std::log2(coarse.error / fine.error), 2, 0.2);
 }
 
-/// A cavity of side 1 whose lid moves with velocity 1 at Re 100, at rest in the end: velocities on the middle lines of
-/// Ghia, Ghia & Shin 1982.
-TEST(AirFlow, DrivenCavityComesNearGhiasOnACoarseGrid) {
-  const int n = 20;
+/// A cavity of side 1 whose lid moves with velocity 1 at Re 100, at rest in the end: extreme velocities on its middle
+/// lines over those of Ghia, Ghia & Shin 1982, Tables I and II.
+struct Cavity {
+  double least_u, least_w, largest_w;
+};
+Cavity cavity(int n, double dt, double end) {
   Parameters p;
   p.boundaries = all(FlowBoundary::no_slip);
   p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::periodic;
@@ -132,17 +135,32 @@ TEST(AirFlow, DrivenCavityComesNearGhiasOnACoarseGrid) {
   p.upwind = 0;
   Case c({.count = {n, 1, n}, .low = {}, .spacing = {1.0 / n, 1.0 / n, 1.0 / n}}, p);
   c.begin();
-  c.advance(0.025, 500);
-  double least = 0;
-  for (int k = 0; k < n; ++k) least = std::min(least, c.state.velocity[0][c.grid.index(n / 2, 0, k)]);
-  EXPECT_NEAR(least, -0.21090, 0.01);
-  double lowest = 0, highest = 0;
-  for (int i = 0; i < n; ++i) {
-    lowest = std::min(lowest, c.state.velocity[2][c.grid.index(i, 0, n / 2)]);
-    highest = std::max(highest, c.state.velocity[2][c.grid.index(i, 0, n / 2)]);
+  c.advance(dt, static_cast<int>(std::lround(end / dt)));
+  Cavity extremes{0, 0, 0};
+  for (int m = 0; m < n; ++m) {
+    const double w = c.state.velocity[2][c.grid.index(m, 0, n / 2)];
+    extremes.least_u = std::min(extremes.least_u, c.state.velocity[0][c.grid.index(n / 2, 0, m)]);
+    extremes.least_w = std::min(extremes.least_w, w);
+    extremes.largest_w = std::max(extremes.largest_w, w);
   }
-  EXPECT_NEAR(lowest, -0.24533, 0.012);
-  EXPECT_NEAR(highest, 0.17527, 0.009);
+  return {extremes.least_u / -0.21090, extremes.least_w / -0.24533, extremes.largest_w / 0.17527};
+}
+
+TEST(AirFlow, DrivenCavityComesNearGhiasOnACoarseGrid) {
+  const Cavity coarse = cavity(20, 0.025, 12.5);
+  EXPECT_NEAR(coarse.least_u, 1, 0.05);
+  EXPECT_NEAR(coarse.least_w, 1, 0.05);
+  EXPECT_NEAR(coarse.largest_w, 1, 0.05);
+}
+
+/// validation/air: minutes, so by command only.
+TEST(AirFlow, DISABLED_DrivenCavityIsGhiasWithin1PercentOn128Cells) {
+  const Cavity fine = cavity(128, 0.00375, 15);
+  std::printf("over Ghia, Ghia & Shin: least u %.4f, least w %.4f, largest w %.4f\n", fine.least_u, fine.least_w,
+              fine.largest_w);
+  EXPECT_NEAR(fine.least_u, 1, 0.01);
+  EXPECT_NEAR(fine.least_w, 1, 0.01);
+  EXPECT_NEAR(fine.largest_w, 1, 0.01);
 }
 
 /// Mean of a plane Poiseuille flow along x between rough walls over the exact one. It creeps: what open ends take from
