@@ -191,12 +191,13 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
     press(-1, stream.velocity);
   }
 
-  // The mixture's volume flow without this step's pressure.
+  // The volume flow without this step's pressure: that of the mixture, or of the air.
+  const double carried = parameters_.continuity == Continuity::mixture;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) {
-      rate_[a][f] =
-          passages_.open[a][f] * (void_fraction_[a][f] * stream.velocity[a][f] + solid_[a][f] * grain_velocity_[a][f]);
+      rate_[a][f] = passages_.open[a][f] *
+                    (void_fraction_[a][f] * stream.velocity[a][f] + carried * solid_[a][f] * grain_velocity_[a][f]);
     });
     passages_.wrap(rate_[a]);
     passages_.wrap(conductance_[a]);
@@ -360,11 +361,12 @@ double AirFlow::largest_divergence(const Solids& solids, const AirState& state) 
   ThreadTeam alone;
   const Grid& grid = passages_.grid;
   take_solids(alone, solids);
+  const double carried = parameters_.continuity == Continuity::mixture;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     for_each_face(alone, passages_, axis, [&](int, int, int, std::size_t f) {
-      rate_[a][f] =
-          passages_.open[a][f] * (void_fraction_[a][f] * state.velocity[a][f] + solid_[a][f] * grain_velocity_[a][f]);
+      rate_[a][f] = passages_.open[a][f] *
+                    (void_fraction_[a][f] * state.velocity[a][f] + carried * solid_[a][f] * grain_velocity_[a][f]);
     });
     passages_.wrap(rate_[a]);
   }

@@ -14,6 +14,13 @@
 
 namespace talus::air {
 
+/// What has no divergence.
+enum class Continuity {
+  mixture,   ///< Phi u + (1-Phi) u_p: Eq. 19 and the grains' own continuity; grains that leave a vessel change places
+             ///< with air
+  air_alone  ///< Phi u: Eq. 19 without the change of Phi with time; air need not make room for grains
+};
+
 enum class Motion {
   flowing,  ///< Eqs 18 and 19
   frozen    ///< at rest and everywhere at one pressure: it only drags
@@ -24,6 +31,7 @@ struct Parameters {
   double temperature = 293.15;  ///< K; not a key
   double viscosity = 1.82e-5;   ///< Pa s
   Motion motion = Motion::flowing;
+  Continuity continuity = Continuity::mixture;
   coupling::DragLaw drag = coupling::DragLaw::schiller_naumann_umekage_yuu;
   double grain_diameter = 200e-6;  ///< m
   double grain_density = 2500;     ///< kg/m^3
@@ -57,6 +65,12 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"air.viscosity", dimension::viscosity, above(0), "viscosity of the air"}, p.viscosity);
   visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest and of one pressure, so that it only drags"},
         p.motion);
+  visit(Parameter{"air.continuity",
+                  {},
+                  {},
+                  "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
+                  "if the void fraction did not change with time"},
+        p.continuity);
   visit(Parameter{"air.drag",
                   {},
                   {},
@@ -106,6 +120,8 @@ void for_each_parameter(Visit&& visit, P& p) {
 namespace talus {
 template <>
 inline constexpr auto choices<air::Motion> = std::to_array<std::string_view>({"flowing", "frozen"});
+template <>
+inline constexpr auto choices<air::Continuity> = std::to_array<std::string_view>({"mixture", "air-alone"});
 template <>
 inline constexpr auto choices<coupling::DragLaw> = std::to_array<std::string_view>({"schiller-naumann+umekage-yuu",
                                                                                     "ergun-wen-yu"});

@@ -132,6 +132,35 @@ TEST(AirFlow, MixtureHasNoDivergence) {
   EXPECT_LT(c.flow.largest_divergence(c.solids, c.state), 1e-4 * before);
 }
 
+/// Grains fall from one half of a closed box into the other, through an opening beside them.
+TEST(AirFlow, ChangesPlacesWithGrainsOrIsBoundByItselfAlone) {
+  for (const Continuity continuity : {Continuity::mixture, Continuity::air_alone}) {
+    Parameters p;
+    p.boundaries = all(FlowBoundary::no_slip);
+    p.continuity = continuity;
+    p.tolerance = 1e-10;
+    Case c({.count = {8, 4, 12}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+    for_each_cell(c.grid, [&](int i, int, int k, std::size_t n) {
+      if (i >= 4 || k < 2 || k >= 10) return;
+      c.solids.fraction[n] = 0.4;
+      c.solids.flux[2][n] = 0.4 * -0.5;
+    });
+    c.begin();
+    c.advance(50e-6, 3);
+    EXPECT_LT(c.flow.largest_divergence(c.solids, c.state), 1e-4);
+    double air = 0, grains = 0, upwards_beside = 0;
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 8; ++i) {
+        const std::size_t f = c.grid.index(i, j, 6);
+        air += (1 - c.solids.fraction[f]) * c.state.velocity[2][f];
+        grains += c.solids.flux[2][f];
+        if (i >= 4) upwards_beside += c.state.velocity[2][f];
+      }
+    EXPECT_NEAR(air, continuity == Continuity::mixture ? -grains : 0, 1e-6 * std::abs(grains));
+    EXPECT_GT(upwards_beside, 0);
+  }
+}
+
 TEST(AirFlow, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const double viscosity : {1.82e-5, 1e-2}) {  // explicit and implicit
     Parameters p;
