@@ -37,7 +37,7 @@ Layer middle_layer(const GridSnapshot& air) {
       layer.centre.push_back(air.centre(i, j, k));
       layer.velocity.push_back(air.vectors("velocity")[c]);
       layer.pressure.push_back(air.scalars("pressure")[c]);
-      layer.radius.push_back(0.6 * std::max(air.spacing.x, air.spacing.z));  // without gaps
+      layer.radius.push_back(0.75 * std::max(air.spacing.x, air.spacing.z));  // without gaps
     }
   return layer;
 }
@@ -68,9 +68,8 @@ bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& sett
   Figure figure{.title = title};
   for (std::size_t n = 0; n < frames.size(); ++n) {
     const Layer& layer = layers[n];
-    ParticlePicture picture = lump_picture(
-        setting.shape, layer.centre, layer.radius,
-        {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}, .map = ColourMap::cool_warm});
+    ParticlePicture picture = lump_picture(setting.shape, layer.centre, layer.radius,
+                                           {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}});
     picture.title = fmt::format("*t* = {:.2f} s", times[frames[n]]);
     picture.arrows = Arrows{.values = layer.velocity, .spacing = between_arrows};
     figure.panels.emplace_back(std::move(picture));
