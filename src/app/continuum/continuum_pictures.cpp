@@ -73,12 +73,26 @@ double highest(const Snapshot& snapshot) {
 }
 
 /// Walls and plate, not covered by grains.
-std::vector<Segment> outline(const HopperShape& s, double top) {
+std::vector<Segment> outline(const HopperSetting& setting, double top) {
+  const HopperShape& s = setting.shape;
   const Colour colour = ink;
   std::vector<Segment> lines = {{.from = {0, 0, 0}, .to = {s.width, 0, 0}, .colour = colour},
                                 {.from = {0, 0, 0}, .to = {0, 0, top}, .colour = colour},
                                 {.from = {s.width, 0, 0}, .to = {s.width, 0, top}, .colour = colour}};
-  if (s.plate) {
+  for (const Panel& panel : setting.domain.panels()) {
+    double begin = 0;
+    const auto draw = [&](double end) {
+      if (end > begin)
+        lines.push_back(
+            {.from = panel.from + begin * panel.along(), .to = panel.from + end * panel.along(), .colour = colour});
+    };
+    for (const Panel::Opening& opening : panel.openings) {
+      draw(opening.begin);
+      begin = opening.end;
+    }
+    draw(panel.length());
+  }
+  if (s.plate && !setting.domain.plates().empty()) {
     const double z = s.plate->height;
     lines.push_back({.from = {0, 0, z}, .to = {s.plate->slit_left, 0, z}, .colour = colour});
     lines.push_back({.from = {s.plate->slit_right, 0, z}, .to = {s.width, 0, z}, .colour = colour});
@@ -97,7 +111,7 @@ void draw_dots(const Frames& frames, const HopperSetting& setting, const std::st
     const Lumps lumps = lumps_of_density(view.positions(), view.scalars("density"), setting.lump_mass,
                                          setting.grain_density, setting.smoothing_length);
     Domain domain = setting.domain;
-    if (frames.time[n] >= 0) domain.open_gates();
+    if (frames.time[n] >= 0) domain.open_gates(frames.time[n]);
     dots.push_back(
         lump_dots(view.positions(), lumps.smoothing_length, view.integers("identity"), domain, dots_of_lump));
     top = std::max(top, highest(view) + 4 * setting.shape.spacing);
@@ -111,7 +125,7 @@ void draw_dots(const Frames& frames, const HopperSetting& setting, const std::st
                             .radii = radii[n],
                             .view = view_xz,
                             .colouring = Plain{colour_of_dots(setting.shape)},
-                            .segments = outline(setting.shape, top),
+                            .segments = outline(setting, top),
                             .length = millimetre};
     picture.window = window_of(setting.shape, top);
     figure.panels.emplace_back(std::move(picture));
@@ -131,7 +145,7 @@ void draw_packing(const Frames& frames, const HopperSetting& setting, const std:
       .radii = radii,
       .view = view_xz,
       .colouring = ByValue{.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7},
-      .segments = outline(setting.shape, highest(view)),
+      .segments = outline(setting, highest(view)),
       .length = millimetre};
   picture.window = window_of(setting.shape, highest(view) + 4 * setting.shape.spacing);
   write_png({.title = title, .panels = {picture}}, path);

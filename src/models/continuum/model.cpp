@@ -25,7 +25,11 @@ Vector3 momentum(const State& s) {
 
 bool bears_load(const Domain& domain, std::size_t wall) {
   if (wall < 6) return is_mirror(domain.box().faces[wall]);
-  return wall - 6 < domain.plates().size();
+  return wall - 6 < domain.plates().size() + domain.panels().size();
+}
+
+std::string wall_name(const Domain& domain, std::size_t wall) {
+  return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
 
 /// Share of the lumps under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
@@ -82,7 +86,7 @@ std::vector<NamedValue> Continuum::totals() const {
   add("impulse_damping", s.damping_impulse);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     if (bears_load(workspace_->sweep.neighbourhood().domain(), wall))
-      add(std::string("impulse_") + wall_names[wall], s.wall_impulse[wall]);
+      add("impulse_" + wall_name(workspace_->sweep.neighbourhood().domain(), wall), s.wall_impulse[wall]);
   return values;
 }
 

@@ -24,7 +24,7 @@ Extent bed_along_x(const Parameters& p) {
 }
 
 double bed_bottom(const Parameters& p) {
-  return p.bed.bottom.value_or(p.plate.height.value_or(0));
+  return p.bed.bottom.value_or(p.wedge.half_angle ? p.wedge.height : p.plate.height.value_or(0));
 }
 
 void check_faces(const Parameters& p, std::vector<Problem>& problems) {
@@ -88,12 +88,122 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
           "a spacing that divides the bed's width, the box's depth and the bed's height nearly evenly");
 }
 
+void check_wedge(const Parameters& p, std::vector<Problem>& problems) {
+  if (!p.wedge.half_angle) {
+    if (p.wedge.outlet > 0 || p.wedge.height > 0)
+      problems.push_back({.key = p.wedge.outlet > 0 ? "wedge.outlet" : "wedge.height",
+                          .what = "given, but there is no wedge",
+                          .allowed = "wedge.half_angle"});
+    return;
+  }
+  if (!(p.wedge.outlet < p.box.width))
+    problems.push_back({.key = "wedge.outlet",
+                        .what = fmt::format("{:.4g} mm leaves no walls", p.wedge.outlet / millimetre),
+                        .allowed = fmt::format("below {:.4g} mm, box.width", p.box.width / millimetre)});
+  const double rise = 0.5 * (p.box.width - p.wedge.outlet) / std::tan(*p.wedge.half_angle);
+  if (p.wedge.height + rise > p.box.height)
+    problems.push_back(
+        {.key = "wedge.height",
+         .what = fmt::format("the walls would reach {:.4g} mm, past the top", (p.wedge.height + rise) / millimetre),
+         .allowed = "walls that end within the box"});
+  if (p.plate.height)
+    problems.push_back({.key = "plate.height", .what = "a plate and a wedge together", .allowed = "one of them"});
+}
+
+void check_inclined_plates(const Parameters& p, std::vector<Problem>& problems) {
+  const std::size_t taken = (p.plate.height ? 1 : 0) + (p.wedge.half_angle ? 3 : 0);
+  if (taken + p.plates.size() > most_plates)
+    problems.push_back({.key = "plates",
+                        .what = fmt::format("{} plates, gate and walls of a wedge counted", taken + p.plates.size()),
+                        .allowed = fmt::format("at most {}", most_plates)});
+  for (std::size_t n = 0; n < p.plates.size(); ++n) {
+    const auto& plate = p.plates[n];
+    const auto add = [&](int key, std::string what, std::string allowed) {
+      problems.push_back(
+          {.key = std::string(plate_key(n, key)), .what = std::move(what), .allowed = std::move(allowed)});
+    };
+    if (plate.from.size() != 2 || plate.to.size() != 2) {
+      add(plate.from.size() != 2 ? 0 : 1, "is no place", "two lengths, x and z: [\"10 mm\", \"50 mm\"]");
+      continue;
+    }
+    const double length = std::hypot(plate.to[0] - plate.from[0], plate.to[1] - plate.from[1]);
+    if (!(length > p.bed.spacing)) add(1, "leaves a plate shorter than bed.spacing", "another place");
+    double end = 0;
+    bool in_order = plate.openings.size() % 2 == 0;
+    for (const double place : plate.openings) in_order = in_order && place >= end && place <= length, end = place;
+    if (!in_order)
+      add(2, "are no pairs of places along the plate",
+          fmt::format("an even number of lengths, rising, up to {:.4g} mm", length / millimetre));
+    if (plate.opens_after && plate.openings.empty()) add(3, "given, but there are no openings", "openings");
+  }
+}
+
+Panel panel_between(std::string name, double x0, double z0, double x1, double z1) {
+  return {.name = std::move(name), .from = {x0, 0, z0}, .to = {x1, 0, z1}, .openings = {}};
+}
+
+std::vector<Panel> panels_of(const Parameters& p) {
+  std::vector<Panel> panels;
+  const bool gated = p.gate.opens != GateOpens::from_the_start;
+  if (const auto outlet = outlet_of(p); outlet && p.wedge.half_angle) {
+    const double top = outlet->height + outlet->left / std::tan(*p.wedge.half_angle);
+    panels.push_back(panel_between("wedge_left", outlet->left, outlet->height, 0, top));
+    panels.push_back(panel_between("wedge_right", outlet->right, outlet->height, p.box.width, top));
+    if (gated && p.wedge.outlet > 0) {
+      panels.push_back(panel_between("wedge_gate", outlet->left, outlet->height, outlet->right, outlet->height));
+      // Its ends are the ends of the walls: all of it goes.
+      panels.back().openings.push_back({.begin = -p.box.width, .end = 2 * p.box.width, .shut = true});
+    }
+  }
+  if (p.plates.empty()) return panels;
+  if (p.plate.height) {
+    Panel plate = panel_between("plate", 0, *p.plate.height, p.box.width, *p.plate.height);
+    if (const auto slit = outlet_of(p))
+      plate.openings.push_back({.begin = slit->left, .end = slit->right, .shut = gated});
+    panels.insert(panels.begin(), std::move(plate));
+  }
+  for (std::size_t n = 0; n < p.plates.size(); ++n) {
+    const auto& given = p.plates[n];
+    Panel plate =
+        panel_between(fmt::format("plates_{}", n + 1), given.from[0], given.from[1], given.to[0], given.to[1]);
+    for (std::size_t k = 0; k + 1 < given.openings.size(); k += 2)
+      plate.openings.push_back({.begin = given.openings[k],
+                                .end = given.openings[k + 1],
+                                .shut = given.opens_after && (gated || *given.opens_after > 0),
+                                .opens_after = given.opens_after.value_or(0)});
+    panels.push_back(std::move(plate));
+  }
+  return panels;
+}
+
 }  // namespace
+
+std::string_view plate_key(std::size_t n, int key) {
+  constexpr std::size_t most = most_plates + 1;  // one more than allowed, for the message
+  static const auto keys = [] {
+    std::array<std::array<std::string, 4>, most> all;
+    constexpr const char* names[4] = {"from", "to", "openings", "opens_after"};
+    for (std::size_t k = 0; k < most; ++k)
+      for (std::size_t name = 0; name < 4; ++name) all[k][name] = fmt::format("plates.{}.{}", k + 1, names[name]);
+    return all;
+  }();
+  return keys.at(n)[static_cast<std::size_t>(key)];
+}
+
+std::optional<Outlet> outlet_of(const Parameters& p) {
+  if (p.wedge.half_angle)
+    return Outlet{p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet)};
+  if (p.plate.height && p.plate.slit_left && p.plate.slit_right)
+    return Outlet{*p.plate.height, *p.plate.slit_left, *p.plate.slit_right};
+  return std::nullopt;
+}
 
 std::vector<Problem> check(const Parameters& p) {
   std::vector<Problem> problems;
   check_faces(p, problems);
   check_plate(p, problems);
+  check_wedge(p, problems);
+  check_inclined_plates(p, problems);
   check_bed(p, problems);
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   if (p.law.strain == granular::Strain::displacements)
@@ -115,6 +225,7 @@ Domain domain_of(const Parameters& p) {
   const Box box{.low = {0, 0, 0},
                 .high = {p.box.width, p.box.depth, p.box.height},
                 .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
+  if (std::vector<Panel> panels = panels_of(p); !panels.empty()) return {box, {}, std::move(panels)};
   std::vector<Plate> plates;
   if (p.plate.height) {
     Plate plate{.axis = 2, .position = *p.plate.height, .openings = {}};
@@ -142,6 +253,25 @@ Lattice lattice_of(const Parameters& p) {
   }
   lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
   return lattice;
+}
+
+std::vector<Vector3> bed_positions(const Parameters& p) {
+  const Lattice lattice = lattice_of(p);
+  const Domain domain = domain_of(p);
+  const auto at = [&](double i, double j, double k) {
+    return lattice.corner +
+           Vector3{(i + 0.5) * lattice.spacing.x, (j + 0.5) * lattice.spacing.y, (k + 0.5) * lattice.spacing.z};
+  };
+  const Vector3 top = at(0.5 * static_cast<double>(lattice.count[0] - 1), 0, static_cast<double>(lattice.count[2] - 1));
+  std::vector<Vector3> positions;
+  for (std::int64_t k = 0; k < lattice.count[2]; ++k)
+    for (std::int64_t j = 0; j < lattice.count[1]; ++j)
+      for (std::int64_t i = 0; i < lattice.count[0]; ++i) {
+        const Vector3 x = at(double(i), double(j), double(k));
+        if (domain.panels().empty() || (!domain.is_near_panel(x, 0.25 * p.bed.spacing) && !domain.blocks(x, top)))
+          positions.push_back(x);
+      }
+  return positions;
 }
 
 }  // namespace talus::continuum
