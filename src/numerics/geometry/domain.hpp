@@ -12,7 +12,7 @@
 /// straight line to an image is followed, turned at each panel or face that it meets, and ends where the source is if
 /// the image is seen. So every place around a particle holds one image at most, whatever the angles, and where two see
 /// each other's images their forces are each other's mirror images. Images of up to three turns are made: corners of
-/// 52 degrees and more are filled all around.
+/// 60 degrees and more are filled all around.
 #pragma once
 
 #include <array>
