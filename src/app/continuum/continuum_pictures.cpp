@@ -79,14 +79,14 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
   std::vector<Segment> lines = {{.from = {0, 0, 0}, .to = {s.width, 0, 0}, .colour = colour},
                                 {.from = {0, 0, 0}, .to = {0, 0, top}, .colour = colour},
                                 {.from = {s.width, 0, 0}, .to = {s.width, 0, top}, .colour = colour}};
-  for (const Panel& panel : setting.domain.panels()) {
+  for (const auto& panel : setting.domain.panels()) {
     double begin = 0;
     const auto draw = [&](double end) {
       if (end > begin)
         lines.push_back(
             {.from = panel.from + begin * panel.along(), .to = panel.from + end * panel.along(), .colour = colour});
     };
-    for (const Panel::Opening& opening : panel.openings) {
+    for (const auto& opening : panel.openings) {
       draw(opening.begin);
       begin = opening.end;
     }

@@ -28,6 +28,15 @@ bool bears_load(const Domain& domain, std::size_t wall) {
   return wall - 6 < domain.plates().size() + domain.panels().size();
 }
 
+/// Mass beyond the open faces of the box, kg: what has left.
+double mass_outside(const Box& box, const State& s) {
+  std::size_t outside = 0;
+  for (const Vector3& x : s.position)
+    outside += x.x < box.low.x || x.x > box.high.x || x.y < box.low.y || x.y > box.high.y || x.z < box.low.z ||
+               x.z > box.high.z;
+  return s.mass * static_cast<double>(outside);
+}
+
 std::string wall_name(const Domain& domain, std::size_t wall) {
   return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
@@ -72,12 +81,14 @@ std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
   const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
   const Vector3 p = momentum(s);
-  std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
-                                    {"speed_max", "m/s", largest_speed(s)},
-                                    {"density_min", "kg/m3", *least},
-                                    {"density_max", "kg/m3", *most},
-                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
-                                    {"gate_time", "s", s.gate_time}};
+  std::vector<NamedValue> values = {
+      {"step_size", "s", s.last_step},
+      {"speed_max", "m/s", largest_speed(s)},
+      {"density_min", "kg/m3", *least},
+      {"density_max", "kg/m3", *most},
+      {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+      {"gate_time", "s", s.gate_time},
+      {"mass_outside", "kg", mass_outside(workspace_->sweep.neighbourhood().domain().box(), s)}};
   const auto add = [&](const std::string& name, const Vector3& v) {
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };

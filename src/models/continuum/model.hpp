@@ -30,8 +30,8 @@ class Continuum {
   void advance(ThreadTeam& team);
 
   /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start:
-  /// gate_time
-  /// (-1: shut), the impulses of gravity and damping, and by wall what it received ("impulse_floor_z", N s).
+  /// gate_time (-1: shut), mass_outside (beyond open faces: what has left), the impulses of gravity and damping, and by
+  /// wall what it received ("impulse_floor_z", N s).
   std::vector<NamedValue> totals() const;
 
   /// How far the run is from what the model assumes: Courant and Mach numbers, packing range, inertial numbers.
