@@ -22,8 +22,8 @@ double run_quantity(std::string_view name, const AvalancheRun& run, const Window
 /// \throws std::out_of_range for an unknown name
 std::optional<double> ensemble_quantity(const ComparisonRow& row, std::span<const AvalancheRun> members);
 
-/// A quantity of several radii together (From::radii), one ensemble a radius. Nothing for fewer than three ensembles.
-/// \throws std::out_of_range for an unknown name
+/// A quantity of several radii together (From::variants), one ensemble a radius. Nothing for fewer than three
+/// ensembles. \throws std::out_of_range for an unknown name
 std::optional<double> radii_quantity(const ComparisonRow& row, std::span<const std::vector<AvalancheRun>> ensembles);
 
 /// What summary.json lists of a run: front speeds over the whole run, sizes of the largest head and frontal angle at

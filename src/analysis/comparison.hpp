@@ -33,8 +33,8 @@ enum class Verdict { met, not_met, reported, not_evaluated };
 /// met)
 Verdict judge(const Criterion& criterion, std::optional<double> value);
 
-/// A row that is to hold at several radii is judged at those that are there: not met if it is not met at one, met if it
-/// is met at all of them, not evaluated if there are none.
+/// A row that is to hold in several variants is judged in those that are there: not met if it is not met in one, met if
+/// it is met in all of them, not evaluated if there are none.
 Verdict judge(const Criterion& criterion, std::span<const std::optional<double>> values);
 
 /// "30 to 70", "17.2 ± 2", "> 0.9", "positive", "reported".
@@ -56,7 +56,7 @@ enum class From {
   each,       ///< the number of each member, then a statistic over the members
   curves,     ///< the members' series together
   values,     ///< the values of all members in one sample
-  radii,      ///< all radii together
+  variants,   ///< several variants of the case together
   parameters  ///< the case alone ("case" in the file)
 };
 
@@ -70,7 +70,7 @@ struct ComparisonRow {
   int number = 0;  ///< the group of rows it belongs to
   std::string quantity = {};
   std::string case_name = {};
-  std::vector<std::string> radius = {};
+  std::vector<std::string> variants = {};
   std::string estimator = {};
   From from = From::each;
   Statistic statistic = Statistic::mean;

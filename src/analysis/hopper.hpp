@@ -109,8 +109,9 @@ struct HopperRun {
   HopperSetting setting;
   /// In the run's time: the columns of app/continuum/hopper_observers.hpp and the model's impulses.
   Series series;
-  double gate_time = 0;                  ///< in the run's time, s; its end if the gate never opened
-  std::vector<HopperFrame> frames = {};  ///< rising in time
+  double gate_time = 0;                     ///< in the run's time, s; its end if the gate never opened
+  std::vector<HopperFrame> frames = {};     ///< rising in time
+  double wall_seconds = HopperFrame::none;  ///< of the whole run
 
   double end() const;  ///< from the opening of the gate, s
   /// A column of the series against the time from the gate's opening; without points if there is none.

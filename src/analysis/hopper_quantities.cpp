@@ -250,6 +250,7 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
       {"density_drift", largest(&HopperFrame::density_drift)},
       {"mass_error", [](Run r, In w) { return std::abs(at_frame(&HopperFrame::mass, r, w) / r.setting.mass() - 1); }},
       {"momentum_error", [](Run r, In) { return momentum_error(r.series); }},
+      {"wall_seconds", [](Run r, In) { return r.wall_seconds; }},
   };
   return all;
 }

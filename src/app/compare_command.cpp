@@ -16,7 +16,7 @@ namespace {
 
 ExitStatus compare_with_reference(const std::string& folder, const std::string& path, const std::string& json) {
   const Reference reference = read_reference(path);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, find_ensembles(folder, reference));
+  const std::vector<EvaluatedRow> rows = evaluate(reference, *read_studied_runs(folder, reference));
   fmt::print("{}\n", reference.source);
   fmt::print("{}", to_text(rows));
   if (!json.empty()) write_atomically(json, to_json(reference, rows));

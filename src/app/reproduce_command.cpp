@@ -18,13 +18,15 @@ void add_reproduce_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   options->request.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand("reproduce", "all runs of a paper, and every number it prints beside ours");
-  command->add_option("STUDY", options->request.study, "niiya2020")
+  command->add_option("STUDY", options->request.study, "whose paper: niiya2020, yuu2011")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(study_names), std::end(study_names))));
-  command->add_flag("--quick", options->request.quick, "3 members of one radius: under two minutes on two cores");
+  command->add_flag("--quick", options->request.quick, "a small part of it: the [quick] of the study's reference.toml");
   command
       ->add_option("--members", options->request.members, "members of each case and radius; the paper's if not given")
       ->check(CLI::Range(1, 100000));
+  command->add_option("--variant", options->request.variants,
+                      "only these of the reference's variants (radii); may stand several times");
   command
       ->add_option("--jobs", options->request.jobs,
                    "runs at a time, each on one thread; the results do not depend on it")

@@ -21,7 +21,7 @@ struct Summary {
   std::string status;                  ///< "running", "done", "interrupted" or "failed"
   double wall_seconds = 0;             ///< s
   std::string instruction_set = {};    ///< of the sum over pairs: the bits belong to it
-  std::vector<NamedValue> quantities;  ///< names unique
+  std::vector<NamedValue> quantities = {};  ///< names unique
 
   /// \returns null if there is none
   const NamedValue* find(std::string_view name) const;

@@ -19,7 +19,7 @@ inline std::vector<ComparisonRow> reference_rows() {
   const std::map<std::string, From> from = {{"each", From::each},
                                             {"curves", From::curves},
                                             {"values", From::values},
-                                            {"radii", From::radii},
+                                            {"radii", From::variants},
                                             {"case", From::parameters}};
   const std::map<std::string, Statistic> statistic = {
       {"mean", Statistic::mean}, {"median", Statistic::median}, {"standard_deviation", Statistic::standard_deviation}};

@@ -217,7 +217,7 @@ TEST(RadiiQuantity, WidthsProportionalToTheRadius) {
   std::vector<std::vector<AvalancheRun>> ensembles = {
       {synthetic(0, 0.001), synthetic(1, 0.001)}, {synthetic(0, 0.0025)}, {synthetic(0, 0.005)}};
   auto of = [&](std::string quantity) {
-    return radii_quantity({.quantity = std::move(quantity), .from = From::radii}, ensembles);
+    return radii_quantity({.quantity = std::move(quantity), .from = From::variants}, ensembles);
   };
   EXPECT_NEAR(*of("head_width_line_r_squared"), 1, 1e-12);
   EXPECT_NEAR(*of("head_width_line_origin_r_squared"), 1, 1e-12);
@@ -293,7 +293,7 @@ TEST(Reference, EveryRowOfThePaperCanBeEvaluated) {
     if (row.from == From::parameters) continue;
     EXPECT_NO_THROW({
       const auto value =
-          row.from == From::radii ? radii_quantity(row, ensembles) : ensemble_quantity(row, ensembles[0]);
+          row.from == From::variants ? radii_quantity(row, ensembles) : ensemble_quantity(row, ensembles[0]);
       EXPECT_TRUE(value) << row.id;
     }) << row.id;
   }

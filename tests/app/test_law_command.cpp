@@ -13,6 +13,7 @@
 #include "app/commands.hpp"
 #include "app/law/law_case.hpp"
 #include "base/error.hpp"
+#include "io/scratch_folder.hpp"
 #include "io/series.hpp"
 
 namespace talus::app {
@@ -23,14 +24,6 @@ using ::testing::HasSubstr;
 
 class LawCommand : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("law_command_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string file(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return (folder_ / name).string();
@@ -64,14 +57,14 @@ class LawCommand : public testing::Test {
     } catch (const InputError& error) {
       for (const Problem& problem : error.problems()) {
         std::string line = to_string(problem);
-        if (line.starts_with(folder_.string())) line.erase(0, folder_.string().size() + 1);
+        if (line.starts_with(folder_.path().string())) line.erase(0, folder_.path().string().size() + 1);
         lines.push_back(line);
       }
     }
     return lines;
   }
 
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
 };
 
 const char* const elastic = R"([law]

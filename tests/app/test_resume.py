@@ -7,7 +7,7 @@ import signal
 import subprocess
 import unittest
 
-from program import CASE, PROGRAM, ProgramTest, bits, checkpoints, rows, scratch_folder, state
+from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, checkpoints, rows, scratch_folder, state
 
 # 700 grains are three chunks of work, one for each of three threads.
 LARGE = ("--set", "particles.count=700", "--set", "particles.size=206 mm", "--set", "run.end=0.2 ms")
@@ -72,6 +72,26 @@ class Resumed(ProgramTest):
         self.assertEqual(max(checkpoints(self.folder / "r").values()), newest)
         self.assertEqual(len(rows(self.folder / "r/series.csv")), newest + 1)
         return newest
+
+
+class Hopper(ProgramTest):
+    """Grains that have just begun to leave a hopper: lumps of 5 mm, settled, 20 ms after the opening."""
+    settings = ("--set", "bed.spacing=5 mm", "--set", "run.end=20 ms", "--set", "output.snapshots=5 ms", "--set",
+                "output.pictures=false")
+    case = PROJECT / "cases/yuu2011-hopper-vacuum.toml"
+
+    def test_same_on_1_and_2_threads_and_after_interruptions(self):
+        self.talus("run", self.case, "--out", "1", "--threads", 1, *self.settings)
+        self.talus("run", self.case, "--out", "2", "--threads", 2, *self.settings)
+        self.assertEqual(bits(self.folder / "2"), bits(self.folder / "1"))
+        self.assertEqual(state(self.folder / "2"), state(self.folder / "1"))
+        resume = ()
+        for _ in range(3):
+            self.talus("run", self.case, "--out", "r", "--walltime", "0.2", *resume, *self.settings, status=130)
+            resume = ("--resume",)
+        self.talus("run", self.case, "--out", "r", "--threads", 2, "--resume", *self.settings)
+        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "1"))
+        self.assertEqual(state(self.folder / "r"), state(self.folder / "1"))
 
 
 class Interrupted(Resumed):

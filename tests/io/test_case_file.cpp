@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "io/scratch_folder.hpp"
+
 namespace talus {
 namespace {
 
@@ -93,8 +95,7 @@ TEST(CaseFile, AdvisesQuotesWhereTheyAreForgotten) {
 }
 
 TEST(CaseFile, ReadsAFileAndSaysWhyItCannot) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "talus_case_file";
-  std::filesystem::create_directories(folder);
+  const ScratchFolder folder;
   const std::string path = (folder / "case.toml").string();
   std::ofstream(path) << "a = 1\n" << std::string(40000, '#') << "\nb = 2\n";
   const CaseFile file = CaseFile::read(path);
@@ -103,16 +104,15 @@ TEST(CaseFile, ReadsAFileAndSaysWhyItCannot) {
   std::ofstream(path) << "";
   EXPECT_TRUE(CaseFile::read(path).entries().empty());
 
-  for (const std::string& bad : {(folder / "missing.toml").string(), folder.string()}) {
+  for (const std::string& bad : {(folder / "missing.toml").string(), folder.path().string()}) {
     try {
       CaseFile::read(bad);
       FAIL() << bad;
     } catch (const FileError& error) {
       EXPECT_EQ(error.path(), bad);
-      EXPECT_THAT(error.what(), HasSubstr(bad == folder.string() ? "Is a directory" : "No such file"));
+      EXPECT_THAT(error.what(), HasSubstr(bad == folder.path().string() ? "Is a directory" : "No such file"));
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(CaseFile, OptionsOverrideAndAdd) {

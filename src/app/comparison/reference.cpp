@@ -64,19 +64,42 @@ std::string setting_text(const toml::node& value) {
   return number_text(value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
+Settings read_settings(const toml::table* table) {
+  Settings settings;
+  if (table)
+    for (const auto& [key, value] : *table) settings.emplace_back(key.str(), setting_text(value));
+  return settings;
+}
+
 ReferenceCase read_case(Reader& reader, const std::string& name, const toml::table& table) {
-  ReferenceCase c{.name = name, .file = reader.text(table, "file"), .where = {}, .radii = {}};
-  if (const toml::table* where = table["where"].as_table())
-    for (const auto& [key, value] : *where) c.where.emplace_back(key.str(), value.value_or(std::string()));
-  if (const toml::table* radii = table[table.contains("variant") ? "variant" : "radius"].as_table())
-    for (const auto& [label, settings] : *radii) {
-      ReferenceCase::Radius radius{.label = std::string(label.str()), .settings = {}};
-      if (const toml::table* keys = settings.as_table())
-        for (const auto& [key, value] : *keys)
-          radius.settings.push_back(std::string(key.str()) + "=" + setting_text(value));
-      c.radii.push_back(std::move(radius));
+  ReferenceCase c{.name = name, .file = reader.text(table, "file"), .where = {}, .variants = {}};
+  c.where = read_settings(table["where"].as_table());
+  const toml::array* told_by = table["told_by"].as_array();
+  const auto tells = [&](std::string_view key) {
+    return !told_by || std::any_of(told_by->begin(), told_by->end(),
+                                   [&](const toml::node& name) { return name.value<std::string_view>() == key; });
+  };
+  if (const toml::table* variants = table[table.contains("variant") ? "variant" : "radius"].as_table())
+    for (const auto& [label, settings] : *variants) {
+      ReferenceCase::Variant variant{.label = std::string(label.str()), .settings = {}, .told_by = {}};
+      variant.settings = read_settings(settings.as_table());
+      for (const auto& setting : variant.settings)
+        if (tells(setting.first)) variant.told_by.push_back(setting);
+      c.variants.push_back(std::move(variant));
     }
   return c;
+}
+
+QuickStudy read_quick(Reader& reader, const toml::table& file) {
+  QuickStudy quick;
+  const toml::table* table = file["quick"].as_table();
+  if (!table) return quick;
+  quick.members = static_cast<int>((*table)["members"].value_or(std::int64_t{1}));
+  if (const toml::array* variants = (*table)["variants"].as_array())
+    for (const toml::node& label : *variants) quick.variants.push_back(label.value_or(std::string()));
+  if (quick.variants.empty()) reader.fault(*table, "quick", "has no variants", "labels of variants");
+  quick.settings = read_settings((*table)["settings"].as_table());
+  return quick;
 }
 
 Criterion read_criterion(Reader& reader, const toml::table& row) {
@@ -146,16 +169,16 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
   row.number = static_cast<int>(reader.get<std::int64_t>(table, "number", "a whole number"));
   row.quantity = reader.text(table, "quantity");
   row.case_name = reader.text(table, "case");
-  if (const toml::array* radii = table[table.contains("variant") ? "variant" : "radius"].as_array())
-    for (const toml::node& radius : *radii) row.radius.push_back(radius.value_or(std::string()));
+  if (const toml::array* variants = table[table.contains("variant") ? "variant" : "radius"].as_array())
+    for (const toml::node& label : *variants) row.variants.push_back(label.value_or(std::string()));
   row.estimator = reader.text(table, "estimator");
   if (table.contains("from"))
     row.from = read_name<From>(reader, table, "from",
                                {{"each", From::each},
                                 {"curves", From::curves},
                                 {"values", From::values},
-                                {"radii", From::radii},
-                                {"variants", From::radii},
+                                {"radii", From::variants},
+                                {"variants", From::variants},
                                 {"case", From::parameters}});
   if (table.contains("statistic"))
     row.statistic = read_name<Statistic>(reader, table, "statistic",
@@ -199,6 +222,7 @@ Reference read_reference(const std::string& path) {
                       .title = reader.text(file, "title"),
                       .source = reader.text(file, "source"),
                       .members = static_cast<int>(file["members"].value_or(std::int64_t{1})),
+                      .quick = read_quick(reader, file),
                       .cases = {},
                       .rows = {}};
   if (const toml::table* cases = file["case"].as_table())
@@ -216,11 +240,11 @@ Reference read_reference(const std::string& path) {
                      nearest_quantity(row.quantity));
       const ReferenceCase* c = reference.find_case(row.case_name);
       if (!c) reader.fault(node, "case", "there is no [case." + row.case_name + "]");
-      for (const std::string& label : row.radius)
-        if (c &&
-            std::none_of(c->radii.begin(), c->radii.end(), [&](const auto& radius) { return radius.label == label; }))
-          reader.fault(node, "radius", "[case." + row.case_name + ".radius] has no \"" + label + "\"");
-      if (row.radius.empty()) reader.fault(node, "radius", "missing", "labels of the case's radii");
+      for (const std::string& label : row.variants)
+        if (c && std::none_of(c->variants.begin(), c->variants.end(),
+                              [&](const auto& variant) { return variant.label == label; }))
+          reader.fault(node, "variant", "[case." + row.case_name + "] has no variant \"" + label + "\"");
+      if (row.variants.empty()) reader.fault(node, "variant", "missing", "labels of the case's variants");
     }
   if (reference.rows.empty()) reader.fault(file, "row", "there are no rows", "[[row]] tables");
   reader.raise();

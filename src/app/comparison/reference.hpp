@@ -12,25 +12,36 @@
 
 namespace talus::app {
 
-/// One of the paper's cases, and what each of its variants changes in it; where the radius of the grains is what varies
-/// the file calls them radii.
+/// Keys of a case with their values as TOML.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// One of the paper's cases, and what each of its variants changes in it. The file may call the variants radii.
 struct ReferenceCase {
   std::string name;
-  std::string file;                                        ///< in cases/
-  std::vector<std::pair<std::string, std::string>> where;  ///< keys and values that a run of this case has
-  struct Radius {
-    std::string label;                  ///< "2.5 mm"
-    std::vector<std::string> settings;  ///< as --set
+  std::string file = {};  ///< in cases/
+  Settings where = {};    ///< what a run of this case has
+  struct Variant {
+    std::string label;       ///< "2.5 mm"
+    Settings settings = {};  ///< what it changes in the file
+    Settings told_by = {};   ///< those of them by which a run is known to be of this variant
   };
-  std::vector<Radius> radii;
+  std::vector<Variant> variants = {};
+};
+
+/// What `reproduce --quick` runs in place of everything.
+struct QuickStudy {
+  std::vector<std::string> variants;  ///< labels; empty: there is no quick study
+  int members = 1;
+  Settings settings;  ///< on top of the variants'
 };
 
 struct Reference {
   std::string path;
-  std::string study, title, source;
+  std::string study = {}, title = {}, source = {};
   int members = 0;
-  std::vector<ReferenceCase> cases;
-  std::vector<ComparisonRow> rows;
+  QuickStudy quick = {};
+  std::vector<ReferenceCase> cases = {};
+  std::vector<ComparisonRow> rows = {};
 
   /// \returns null if there is none
   const ReferenceCase* find_case(const std::string& name) const;

@@ -107,6 +107,16 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   return prepared;
 }
 
+HopperSetting hopper_setting_of(const CaseFile& resolved) {
+  Parameters p;
+  run::RunParameters run;
+  ParameterReader reader(resolved);
+  run::for_each_parameter(reader, run);
+  continuum::for_each_parameter(reader, p);
+  reader.finish();
+  return hopper_setting(p);
+}
+
 std::vector<NamedValue> analyze_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
   const PreparedCase prepared = prepare_continuum(resolved);
   std::vector<NamedValue> quantities = prepared.analyze(folder);

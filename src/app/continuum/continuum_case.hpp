@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "analysis/hopper.hpp"
 #include "app/prepared_case.hpp"
 
 namespace talus::app {
@@ -14,6 +15,10 @@ PreparedCase prepare_continuum(const CaseFile& file);
 
 /// All parameters of a case of this model, with their defaults.
 ParameterList continuum_parameters();
+
+/// What the analysis of a run needs to know of its case. \param resolved the manifest's case
+/// \throws InputError
+HopperSetting hopper_setting_of(const CaseFile& resolved);
 
 /// Analyses the run in a folder and draws its pictures once more. \param resolved the manifest's case
 /// \throws FileError, InputError

@@ -100,8 +100,40 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
   return lines;
 }
 
-void draw_dots(const Frames& frames, const HopperSetting& setting, const std::string& title,
-               const std::filesystem::path& path) {
+void draw_packing(const std::filesystem::path& snapshot, double time, const HopperSetting& setting,
+                  const std::string& title, const std::filesystem::path& path) {
+  const PointSet points = read_points(snapshot);
+  const Snapshot view = points.view();
+  const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
+  ParticlePicture picture =
+      lump_picture(setting, view.positions(), radii,
+                   {.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7});
+  picture.title = title_of(time);
+  write_png({.title = title, .panels = {picture}}, path);
+}
+
+bool draw_curve(const std::filesystem::path& table, const std::string& column, const Axis& y, const std::string& title,
+                const std::filesystem::path& path) {
+  if (!std::filesystem::exists(table)) return false;
+  const talus::Series series = read_series(table);
+  const auto time = series.column("time"), value = series.column(column);
+  Line line;
+  for (std::size_t n = 0; n < time.size(); ++n)
+    if (time[n] >= 0) {
+      line.x.push_back(time[n]);
+      line.y.push_back(value[n]);
+    }
+  if (line.x.empty()) return false;
+  write_png({.panels = {Chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}}}}, path);
+  return true;
+}
+
+}  // namespace
+
+void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
+                 const std::filesystem::path& path) {
+  const Frames frames = snapshots_of(run_folder);
+  if (frames.paths.empty()) throw FileError(run_folder.string(), "holds no snapshots");
   const std::vector<std::size_t> chosen = chosen_frames(frames);
   std::vector<std::vector<Vector3>> dots;
   double top = 0;
@@ -134,40 +166,19 @@ void draw_dots(const Frames& frames, const HopperSetting& setting, const std::st
   write_png(figure, path);
 }
 
-void draw_packing(const Frames& frames, const HopperSetting& setting, const std::string& title,
-                  const std::filesystem::path& path) {
-  const PointSet points = read_points(frames.paths.back());
-  const Snapshot view = points.view();
-  const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
-  ParticlePicture picture{
-      .title = title_of(frames.time.back()),
-      .positions = view.positions(),
-      .radii = radii,
-      .view = view_xz,
-      .colouring = ByValue{.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7},
-      .segments = outline(setting, highest(view)),
-      .length = millimetre};
-  picture.window = window_of(setting.shape, highest(view) + 4 * setting.shape.spacing);
-  write_png({.title = title, .panels = {picture}}, path);
+figure::ParticlePicture lump_picture(const HopperSetting& setting, std::span<const Vector3> positions,
+                                     std::span<const double> radii, figure::ByValue values) {
+  double top = 0;
+  for (const Vector3& x : positions) top = std::max(top, x.z);
+  ParticlePicture picture{.positions = positions,
+                          .radii = radii,
+                          .view = view_xz,
+                          .colouring = std::move(values),
+                          .segments = outline(setting, top),
+                          .length = millimetre};
+  picture.window = window_of(setting.shape, top + 4 * setting.shape.spacing);
+  return picture;
 }
-
-bool draw_curve(const std::filesystem::path& table, const std::string& column, const Axis& y, const std::string& title,
-                const std::filesystem::path& path) {
-  if (!std::filesystem::exists(table)) return false;
-  const talus::Series series = read_series(table);
-  const auto time = series.column("time"), value = series.column(column);
-  Line line;
-  for (std::size_t n = 0; n < time.size(); ++n)
-    if (time[n] >= 0) {
-      line.x.push_back(time[n]);
-      line.y.push_back(value[n]);
-    }
-  if (line.x.empty()) return false;
-  write_png({.panels = {Chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}}}}, path);
-  return true;
-}
-
-}  // namespace
 
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting,
                                                   const std::string& title) {
@@ -176,9 +187,9 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
   std::vector<std::filesystem::path> drawn;
   if (const Frames frames = snapshots_of(run_folder); !frames.paths.empty()) {
     drawn.push_back(pictures / "frames.png");
-    draw_dots(frames, setting, title, drawn.back());
+    draw_grains(run_folder, setting, title, drawn.back());
     drawn.push_back(pictures / "packing.png");
-    draw_packing(frames, setting, title, drawn.back());
+    draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
   if (!setting.shape.plate) return drawn;
   if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,

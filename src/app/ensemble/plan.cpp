@@ -53,20 +53,30 @@ std::string folder_name(const std::string& text) {
   return name;
 }
 
+bool has_seed(const PreparedCase& prepared) {
+  return std::any_of(prepared.defaults.begin(), prepared.defaults.end(),
+                     [](const DescribedParameter& item) { return item.parameter.key == "seed"; });
+}
+
 void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
   CaseFile file = CaseFile::read(request.case_path);
   for (const std::string& setting : request.settings) file.set(setting);
   for (const std::string& setting : group.settings) file.set(setting, "--vary");
-  const std::int64_t first_seed = prepare_case(file).seed;
-  for (int k = 0; k < request.members; ++k) {
+  const PreparedCase first = prepare_case(file);
+  const bool random = has_seed(first);
+  const std::int64_t first_seed = first.seed;
+  for (int k = 0; k < (random ? request.members : 1); ++k) {
     EnsembleMember member{.seed = first_seed + k, .settings = request.settings, .folder = {}, .fingerprint = {}};
     member.settings.insert(member.settings.end(), group.settings.begin(), group.settings.end());
-    member.settings.push_back(fmt::format("seed={}", member.seed));
-    file.set(member.settings.back());
+    if (random) {
+      member.settings.push_back(fmt::format("seed={}", member.seed));
+      file.set(member.settings.back());
+    }
     const PreparedCase prepared = prepare_case(file);
     member.fingerprint = case_fingerprint(prepared);
     member.end = prepared.run.end;
-    member.folder = request.folder / group.name / fmt::format("seed_{:04}", member.seed);
+    member.folder = request.folder / group.name;
+    if (random) member.folder /= fmt::format("seed_{:04}", member.seed);
     group.members.push_back(std::move(member));
   }
 }

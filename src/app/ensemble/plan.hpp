@@ -37,7 +37,8 @@ struct EnsemblePlan {
   std::vector<EnsembleGroup> groups;
 };
 
-/// Reads and checks the case of every group. Member k has the case's seed + k. Folders: FOLDER/GROUP/seed_0001.
+/// Reads and checks the case of every group. Member k has the case's seed + k. Folders: FOLDER/GROUP/seed_0001; of a
+/// model in which nothing is random each group has one member, in FOLDER/GROUP.
 /// \throws InputError with every problem of the case and of --vary
 EnsemblePlan plan_ensemble(const EnsembleRequest& request);
 

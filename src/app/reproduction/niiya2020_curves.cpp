@@ -17,7 +17,7 @@ constexpr double tick_of_time = 5;  // a/v_s: the axis ends at a multiple of it
 /// The axis ends at a round time at or after the last one; the last snapshot is that after the end, by a step.
 Axis time_axis(const Radii& radii) {
   double last = 0;
-  for (const StudiedEnsemble* ensemble : radii)
+  for (const AvalancheEnsemble* ensemble : radii)
     for (const AvalancheRun& run : ensemble->runs)
       if (!run.frames.empty()) last = std::max(last, run.frames.back().time);
   Axis axis{.label = "time *t̃* = *t* *v*_{s}/*a*_{p}", .low = 0};
@@ -27,18 +27,18 @@ Axis time_axis(const Radii& radii) {
 
 }  // namespace
 
-Radii radii_of(const std::vector<StudiedEnsemble>& ensembles, const std::string& case_name) {
+Radii radii_of(const std::vector<AvalancheEnsemble>& ensembles, const std::string& case_name) {
   Radii radii;
-  for (const StudiedEnsemble& ensemble : ensembles)
+  for (const AvalancheEnsemble& ensemble : ensembles)
     if (ensemble.case_name == case_name && !ensemble.runs.empty() && !ensemble.runs.front().frames.empty())
       radii.push_back(&ensemble);
-  std::sort(radii.begin(), radii.end(), [](const StudiedEnsemble* a, const StudiedEnsemble* b) {
+  std::sort(radii.begin(), radii.end(), [](const AvalancheEnsemble* a, const AvalancheEnsemble* b) {
     return a->runs.front().scales.mean_radius < b->runs.front().scales.mean_radius;
   });
   return radii;
 }
 
-MembersCurve members_curve(const StudiedEnsemble& ensemble, const FrameNumber& number, std::size_t first) {
+MembersCurve members_curve(const AvalancheEnsemble& ensemble, const FrameNumber& number, std::size_t first) {
   MembersCurve curve;
   std::size_t frames = ensemble.runs.front().frames.size();
   for (const AvalancheRun& run : ensemble.runs) frames = std::min(frames, run.frames.size());
@@ -55,17 +55,17 @@ MembersCurve members_curve(const StudiedEnsemble& ensemble, const FrameNumber& n
   return curve;
 }
 
-MembersCurve members_curve_in_radii(const StudiedEnsemble& ensemble, const FrameNumber& length, std::size_t first) {
+MembersCurve members_curve_in_radii(const AvalancheEnsemble& ensemble, const FrameNumber& length, std::size_t first) {
   const double radius = ensemble.runs.front().scales.mean_radius;
   return members_curve(
       ensemble, [&](const AvalancheFrame& frame) { return length(frame) / radius; }, first);
 }
 
-std::string label_of(const StudiedEnsemble& ensemble) {
+std::string label_of(const AvalancheEnsemble& ensemble) {
   return "*a*_{p} = " + ensemble.radius;
 }
 
-Points points_of_radius(const StudiedEnsemble& ensemble, std::size_t k, bool open) {
+Points points_of_radius(const AvalancheEnsemble& ensemble, std::size_t k, bool open) {
   constexpr Symbol filled_symbols[] = {Symbol::disc, Symbol::square, Symbol::triangle};
   constexpr Symbol open_symbols[] = {Symbol::circle, Symbol::open_square, Symbol::open_triangle};
   return {.label = label_of(ensemble),

@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "app/comparison/evaluation.hpp"
+#include "app/cloud/avalanche_ensembles.hpp"
 #include "io/figure/chart.hpp"
 
 namespace talus::app {
 
 /// The ensembles of one case that have a run with snapshots, in the order of their radii.
-using Radii = std::vector<const StudiedEnsemble*>;
-Radii radii_of(const std::vector<StudiedEnsemble>& ensembles, const std::string& case_name);
+using Radii = std::vector<const AvalancheEnsemble*>;
+Radii radii_of(const std::vector<AvalancheEnsemble>& ensembles, const std::string& case_name);
 
 /// A number of the snapshots at each of their times: mean and standard deviation over the members that have it.
 struct MembersCurve {
@@ -23,14 +23,15 @@ struct MembersCurve {
 };
 using FrameNumber = std::function<double(const AvalancheFrame&)>;
 /// \param first 1: without the start
-MembersCurve members_curve(const StudiedEnsemble& ensemble, const FrameNumber& number, std::size_t first = 1);
+MembersCurve members_curve(const AvalancheEnsemble& ensemble, const FrameNumber& number, std::size_t first = 1);
 /// The same of a length in m, in a.
-MembersCurve members_curve_in_radii(const StudiedEnsemble& ensemble, const FrameNumber& length, std::size_t first = 1);
+MembersCurve members_curve_in_radii(const AvalancheEnsemble& ensemble, const FrameNumber& length,
+                                    std::size_t first = 1);
 
 /// "a_p = 5 mm".
-std::string label_of(const StudiedEnsemble& ensemble);
+std::string label_of(const AvalancheEnsemble& ensemble);
 /// Points of one colour and symbol a radius, x and y with what error bars there are. \param k number of the radius
-figure::Points points_of_radius(const StudiedEnsemble& ensemble, std::size_t k, bool open = false);
+figure::Points points_of_radius(const AvalancheEnsemble& ensemble, std::size_t k, bool open = false);
 
 /// Figures 5a, 6d, 7c. \param printed the range that the text names, low == high: none
 figure::Chart front_speeds(const Radii& radii, double printed_low, double printed_high);

@@ -54,7 +54,7 @@ Chart with_aspect(Chart chart, double aspect) {
 /// The figures as they are described, and the particles that they look at.
 class Album {
  public:
-  explicit Album(const std::vector<StudiedEnsemble>& ensembles)
+  explicit Album(const std::vector<AvalancheEnsemble>& ensembles)
       : circles_(radii_of(ensembles, "circle")),
         rectangles_(radii_of(ensembles, "rectangle")),
         triangles_(radii_of(ensembles, "triangle")) {}
@@ -241,7 +241,7 @@ class Album {
 
 }  // namespace
 
-std::vector<FigureOfStudy> draw_niiya2020(const std::vector<StudiedEnsemble>& ensembles,
+std::vector<FigureOfStudy> draw_niiya2020(const std::vector<AvalancheEnsemble>& ensembles,
                                           const std::filesystem::path& folder) {
   Album album(ensembles);
   album.describe();

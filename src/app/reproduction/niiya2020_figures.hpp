@@ -6,21 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/comparison/evaluation.hpp"
+#include "app/cloud/avalanche_ensembles.hpp"
 
 namespace talus::app {
-
-struct FigureOfStudy {
-  std::filesystem::path path;
-  std::string title;
-  std::string
-      caption;  ///< one line: each panel by its letter, how many members it is made of, what is left out and why
-};
 
 /// Draws what the ensembles that are there allow; the first caption says which figures are left out for want of a
 /// finished run. Particles are those of the first member at the largest radius.
 /// \param folder made if needed; \throws FileError
-std::vector<FigureOfStudy> draw_niiya2020(const std::vector<StudiedEnsemble>& ensembles,
+std::vector<FigureOfStudy> draw_niiya2020(const std::vector<AvalancheEnsemble>& ensembles,
                                           const std::filesystem::path& folder);
 
 }  // namespace talus::app

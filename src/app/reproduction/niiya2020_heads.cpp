@@ -17,7 +17,7 @@ using namespace figure;
 constexpr double bin = 2;  // a
 
 /// The widths of the heads of all members at the end, in a.
-std::vector<double> widths_at_end(const StudiedEnsemble& ensemble) {
+std::vector<double> widths_at_end(const AvalancheEnsemble& ensemble) {
   std::vector<double> widths;
   for (const AvalancheRun& run : ensemble.runs)
     if (!run.frames.empty())
@@ -34,7 +34,7 @@ figure::Line dashed(std::vector<double> x, std::vector<double> y, const std::str
 }
 
 /// One number of the snapshots against another.
-Points phase_points(const StudiedEnsemble& ensemble, std::size_t k, const MembersCurve& x, const MembersCurve& y) {
+Points phase_points(const AvalancheEnsemble& ensemble, std::size_t k, const MembersCurve& x, const MembersCurve& y) {
   Points points = points_of_radius(ensemble, k);
   points.x = x.mean, points.x_error = x.deviation;
   points.y = y.mean, points.y_error = y.deviation;
@@ -66,7 +66,7 @@ Chart width_against_thickness(const Radii& radii) {
 
 Chart width_distributions(const Radii& radii) {
   double most = 0;
-  for (const StudiedEnsemble* ensemble : radii) most = std::max(most, largest(widths_at_end(*ensemble)));
+  for (const AvalancheEnsemble* ensemble : radii) most = std::max(most, largest(widths_at_end(*ensemble)));
   const auto bins = static_cast<std::size_t>(std::ceil(most / bin)) + 1;
   const double end = bin * static_cast<double>(bins);
   Chart chart{.x = {.label = "width *w̃*_{h}", .low = 0, .high = 1.7 * end},  // the legend stands on the right
@@ -99,7 +99,7 @@ Chart width_against_radius(const Radii& radii) {
   Chart chart{.x = {.label = "radius *a*_{p}", .unit = "mm", .low = 0},
               .y = {.label = "width *w*_{h}", .unit = "mm", .low = 0}};
   Points points{.label = "all heads at the end", .colour = palette_colour(0)};
-  for (const StudiedEnsemble* ensemble : radii) {
+  for (const AvalancheEnsemble* ensemble : radii) {
     const std::vector<double> widths = widths_at_end(*ensemble);
     const double radius = 1000 * ensemble->runs.front().scales.mean_radius;
     points.x.push_back(radius);
@@ -114,7 +114,7 @@ Chart width_against_radius(const Radii& radii) {
 
 Chart head_counts(const Radii& radii) {
   Points computed{.label = "computed", .colour = palette_colour(0)};
-  for (const StudiedEnsemble* ensemble : radii) {
+  for (const AvalancheEnsemble* ensemble : radii) {
     std::vector<double> counts;
     for (const AvalancheRun& run : ensemble->runs)
       if (!run.frames.empty()) counts.push_back(run.frames.back().head_count);

@@ -72,7 +72,7 @@ double foremost(std::span<const Vector3> position) {
 
 }  // namespace
 
-MemberSnapshots::MemberSnapshots(const StudiedEnsemble& ensemble)
+MemberSnapshots::MemberSnapshots(const AvalancheEnsemble& ensemble)
     : ensemble_(ensemble), radius_(ensemble.runs.front().scales.mean_radius) {}
 
 MemberSnapshots::Loaded& MemberSnapshots::load(double t) {

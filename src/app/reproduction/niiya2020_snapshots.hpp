@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/heads.hpp"
-#include "app/comparison/evaluation.hpp"
+#include "app/cloud/avalanche_ensembles.hpp"
 #include "io/figure/particle_picture.hpp"
 #include "numerics/snapshot.hpp"
 
@@ -17,7 +17,7 @@ namespace talus::app {
 class MemberSnapshots {
  public:
   /// The first member of an ensemble that has a run.
-  explicit MemberSnapshots(const StudiedEnsemble& ensemble);
+  explicit MemberSnapshots(const AvalancheEnsemble& ensemble);
 
   /// All grains at the snapshot nearest to t, in a/v_s; plain. The title tells the time. \throws FileError
   figure::ParticlePicture at(double t, const figure::View& view);
@@ -56,7 +56,7 @@ class MemberSnapshots {
   figure::Window about_front(std::span<const Vector3> position, double behind, double ahead, double below,
                              double above) const;
 
-  const StudiedEnsemble& ensemble_;
+  const AvalancheEnsemble& ensemble_;
   double radius_;              // a, m
   std::deque<Loaded> loaded_;  // their addresses stay
 };

@@ -6,9 +6,10 @@
 #include <algorithm>
 
 #include "app/comparison/evaluation.hpp"
+#include "app/comparison/studied_runs.hpp"
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
-#include "app/reproduction/niiya2020_figures.hpp"
+#include "base/nearest.hpp"
 #include "base/version.hpp"
 #include "io/atomic_file.hpp"
 #include "io/manifest.hpp"
@@ -22,9 +23,6 @@ namespace talus::app {
 
 namespace {
 
-constexpr const char* quick_radius = "5 mm";
-constexpr int quick_members = 3;
-
 /// The folder with cases/ and validation/: here, or where the program was built.
 std::filesystem::path project_folder(const std::string& study) {
   const std::filesystem::path program = run::own_program();
@@ -35,22 +33,53 @@ std::filesystem::path project_folder(const std::string& study) {
                   "is neither here nor beside the program's build folder; run the command in the project's folder");
 }
 
-std::string folder_of(const std::string& case_name, std::string radius) {
-  radius.erase(std::remove(radius.begin(), radius.end(), ' '), radius.end());
-  return case_name + "-" + radius;
+std::string folder_of(const std::string& case_name, std::string variant) {
+  variant.erase(std::remove(variant.begin(), variant.end(), ' '), variant.end());
+  return case_name + "-" + variant;
+}
+
+bool is_one_of(const std::vector<std::string>& labels, const std::string& label) {
+  return std::find(labels.begin(), labels.end(), label) != labels.end();
+}
+
+/// Which of a reference's variants a request asks for.
+bool is_wanted(const Reference& reference, const StudyRequest& request, const std::string& variant) {
+  if (!request.variants.empty()) return is_one_of(request.variants, variant);
+  return !request.quick || is_one_of(reference.quick.variants, variant);
+}
+
+/// \throws InputError for labels that the study does not have
+void check_variants(const Reference& reference, const StudyRequest& request) {
+  std::vector<std::string> known;
+  for (const ReferenceCase& c : reference.cases)
+    for (const ReferenceCase::Variant& variant : c.variants)
+      if (!is_one_of(known, variant.label)) known.push_back(variant.label);
+  const std::vector<std::string_view> labels(known.begin(), known.end());
+  std::vector<Problem> problems;
+  for (const std::string& label : request.variants)
+    if (!is_one_of(known, label))
+      problems.push_back({.where = "--variant",
+                          .what = "\"" + label + "\" is no variant of " + reference.study,
+                          .allowed = fmt::format("{}", fmt::join(labels, ", ")),
+                          .nearest = std::string(nearest(label, labels))});
+  if (!problems.empty()) throw InputError(problems);
 }
 
 std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyRequest& request,
                                    const std::filesystem::path& project, int members) {
   std::vector<ScheduledRun> runs;
   for (const ReferenceCase& c : reference.cases)
-    for (const ReferenceCase::Radius& radius : c.radii) {
-      if (request.quick && radius.label != quick_radius) continue;
+    for (const ReferenceCase::Variant& variant : c.variants) {
+      if (!is_wanted(reference, request, variant.label)) continue;
+      std::vector<std::string> settings;
+      for (const auto& [key, value] : variant.settings) settings.push_back(key + "=" + value);
+      if (request.quick)
+        for (const auto& [key, value] : reference.quick.settings) settings.push_back(key + "=" + value);
       const EnsembleRequest ensemble{.case_path = (project / "cases" / c.file).string(),
-                                     .settings = radius.settings,
+                                     .settings = std::move(settings),
                                      .vary = {},
                                      .members = members,
-                                     .folder = request.folder / folder_of(c.name, radius.label)};
+                                     .folder = request.folder / folder_of(c.name, variant.label)};
       const EnsemblePlan plan = plan_ensemble(ensemble);
       for (EnsembleMember member : plan.groups.front().members) runs.push_back({ensemble.case_path, std::move(member)});
     }
@@ -92,13 +121,14 @@ ExitStatus reproduce(const StudyRequest& request) {
   const std::filesystem::path project = project_folder(request.study);
   const Reference reference =
       read_reference((project / "validation" / request.study / "reference.toml").lexically_normal().string());
+  check_variants(reference, request);
   std::error_code none;
   if (!request.resume && std::filesystem::exists(request.folder) && !std::filesystem::is_empty(request.folder, none))
     throw InputError({{.where = request.folder.string(),
                        .what = "the folder is there and not empty",
                        .allowed = "--resume to go on with what is in it, or another --out"}});
 
-  const int members = request.members ? request.members : request.quick ? quick_members : reference.members;
+  const int members = request.members ? request.members : request.quick ? reference.quick.members : reference.members;
   const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
   fmt::print("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(),
              members, request.jobs, request.folder.string());
@@ -110,8 +140,8 @@ ExitStatus reproduce(const StudyRequest& request) {
     return ExitStatus::interrupted;
   }
 
-  const std::vector<StudiedEnsemble> ensembles = find_ensembles(request.folder, reference);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, ensembles);
+  const std::unique_ptr<StudiedRuns> studied = read_studied_runs(request.folder, reference);
+  const std::vector<EvaluatedRow> rows = evaluate(reference, *studied);
   const std::string counts =
       fmt::format("{} met, {} not met, {} reported, {} not evaluated", count(rows, Verdict::met),
                   count(rows, Verdict::not_met), count(rows, Verdict::reported), count(rows, Verdict::not_evaluated));
@@ -119,7 +149,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   write_atomically(request.folder / "comparison.txt", text + counts + "\n");
   write_atomically(request.folder / "comparison.json", to_json(reference, rows));
 
-  const std::vector<FigureOfStudy> figures = draw_niiya2020(ensembles, request.folder / "figures");
+  const std::vector<FigureOfStudy> figures = studied->draw(request.folder / "figures");
   const std::filesystem::path report_path = request.folder / (reference.study + ".md");
   write_atomically(report_path, report_text(reference, request, project, runs, rows, counts, figures));
 

@@ -14,12 +14,13 @@ struct StudyRequest {
   bool quick = false;
   bool resume = false;
   int jobs = 1;
-  int members = 0;  ///< 0: as many as the paper has (3 with quick)
+  int members = 0;                         ///< 0: as many as the paper has (fewer with quick)
+  std::vector<std::string> variants = {};  ///< labels of the reference's variants; empty: all (fewer with quick)
   std::filesystem::path folder;
 };
 
 /// The studies there are.
-inline constexpr const char* study_names[] = {"niiya2020"};
+inline constexpr const char* study_names[] = {"niiya2020", "yuu2011"};
 
 /// Runs every member of every case and radius of validation/STUDY/reference.toml that is not done yet, evaluates all
 /// rows, and writes comparison.txt, comparison.json, the report STUDY.md and its figures into the folder.

@@ -16,6 +16,7 @@
 #include "app/reproduction/niiya2020_heads.hpp"
 #include "app/reproduction/niiya2020_snapshots.hpp"
 #include "io/run_folder.hpp"
+#include "io/scratch_folder.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace talus::app {
@@ -50,7 +51,7 @@ AvalancheRun member(double mean_radius, double shift) {
   return run;
 }
 
-StudiedEnsemble ensemble(const std::string& case_name, const std::string& label, double mean_radius) {
+AvalancheEnsemble ensemble(const std::string& case_name, const std::string& label, double mean_radius) {
   return {.case_name = case_name,
           .radius = label,
           .contact_weight_ratio = 5,
@@ -59,9 +60,7 @@ StudiedEnsemble ensemble(const std::string& case_name, const std::string& label,
 }
 
 /// The run's folder with three snapshots: 400 grains in a bow that runs along x.
-std::filesystem::path write_run(const std::string& name, bool from_the_side) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("talus_figures_" + name);
-  std::filesystem::remove_all(folder);
+std::filesystem::path write_run(const std::filesystem::path& folder, bool from_the_side) {
   std::filesystem::create_directories(folder / "snapshots");
   for (int n = 0; n <= 2; ++n) {
     PointSet points{.time = 10 * n * radius / stokes_speed, .step = static_cast<std::uint64_t>(n), .columns = {}};
@@ -98,10 +97,10 @@ const figure::Line* line_of(const figure::Chart& chart, std::size_t n) {
 }
 
 TEST(Niiya2020Curves, RadiiComeInTheirOrderAndOtherCasesStayOut) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", 5e-3),
-                                                  ensemble("rectangle", "1 mm", 1e-3),
-                                                  ensemble("circle", "1 mm", 1e-3),
-                                                  {"circle", "2.5 mm", 0, {}, {}}};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", 5e-3),
+                                                    ensemble("rectangle", "1 mm", 1e-3),
+                                                    ensemble("circle", "1 mm", 1e-3),
+                                                    {"circle", "2.5 mm", 0, {}, {}}};
   const Radii radii = radii_of(ensembles, "circle");
   ASSERT_EQ(radii.size(), 2u) << "an ensemble without a finished run is left out";
   EXPECT_EQ(radii[0]->radius, "1 mm");
@@ -109,7 +108,7 @@ TEST(Niiya2020Curves, RadiiComeInTheirOrderAndOtherCasesStayOut) {
 }
 
 TEST(Niiya2020Curves, MembersThatLackANumberAreLeftOut) {
-  StudiedEnsemble circle = ensemble("circle", "5 mm", radius);
+  AvalancheEnsemble circle = ensemble("circle", "5 mm", radius);
   circle.runs[2].frames[1].frontal_angle = AvalancheFrame::none;
   const MembersCurve curve = members_curve(circle, &AvalancheFrame::frontal_angle, 0);
   EXPECT_THAT(curve.time, testing::ElementsAre(0, 10, 20));
@@ -120,7 +119,7 @@ TEST(Niiya2020Curves, MembersThatLackANumberAreLeftOut) {
 }
 
 TEST(Niiya2020Curves, FrontSpeedsAreMeansWithBandsOverThePrintedRange) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
   const figure::Chart chart = front_speeds(radii_of(ensembles, "circle"), 30, 70);
   ASSERT_EQ(chart.series.size(), 2u);
   const auto* printed = std::get_if<figure::Reference>(&chart.series[0]);
@@ -140,7 +139,7 @@ const figure::Points& points_of(const figure::Chart& chart, std::size_t n) {
 }
 
 TEST(Niiya2020Curves, LengthsAreInRadiiAndRatiosThoseOfTheMembers) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "1 mm", 1e-3), ensemble("circle", "5 mm", 5e-3)};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "1 mm", 1e-3), ensemble("circle", "5 mm", 5e-3)};
   const Radii radii = radii_of(ensembles, "circle");
   const figure::Chart sizes = head_sizes(radii);
   ASSERT_EQ(sizes.series.size(), 6u) << "two numbers at two radii, and what filled and open symbols mean";
@@ -156,7 +155,7 @@ TEST(Niiya2020Curves, LengthsAreInRadiiAndRatiosThoseOfTheMembers) {
 }
 
 TEST(Niiya2020Curves, TheTimeAxisEndsRoundAndMotionsHaveTheirSigns) {
-  std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
+  std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", radius)};
   const Radii radii = radii_of(ensembles, "circle");
   EXPECT_DOUBLE_EQ(*head_curls(radii).x.high, 20);
   for (AvalancheRun& run : ensembles[0].runs) run.frames.back().time = 20.3;
@@ -172,8 +171,8 @@ TEST(Niiya2020Curves, TheTimeAxisEndsRoundAndMotionsHaveTheirSigns) {
 }
 
 TEST(Niiya2020Heads, WidthsAreDensitiesAndProportionalToTheRadius) {
-  const std::vector<StudiedEnsemble> ensembles = {ensemble("rectangle", "1 mm", 1e-3),
-                                                  ensemble("rectangle", "5 mm", 5e-3)};
+  const std::vector<AvalancheEnsemble> ensembles = {ensemble("rectangle", "1 mm", 1e-3),
+                                                    ensemble("rectangle", "5 mm", 5e-3)};
   const Radii radii = radii_of(ensembles, "rectangle");
   const figure::Chart densities = width_distributions(radii);
   ASSERT_EQ(densities.series.size(), 5u) << "lines and points of two radii, and the Gaussian";
@@ -205,8 +204,9 @@ TEST(Niiya2020Heads, WidthsAreDensitiesAndProportionalToTheRadius) {
 }
 
 TEST(Niiya2020Snapshots, MeasuresTheShapesAndTheHeadOnTheirGrains) {
-  StudiedEnsemble circle = ensemble("circle", "5 mm", radius);
-  circle.folders[0] = write_run("measured", false);
+  AvalancheEnsemble circle = ensemble("circle", "5 mm", radius);
+  const ScratchFolder scratch;
+  circle.folders[0] = write_run(scratch / "measured", false);
   MemberSnapshots member(circle);
   const figure::ParticlePicture band = member.rectangle_at_start();
   ASSERT_EQ(band.segments.size(), 1u);
@@ -229,21 +229,21 @@ TEST(Niiya2020Snapshots, MeasuresTheShapesAndTheHeadOnTheirGrains) {
   EXPECT_NEAR(norm(width->to - width->from), left - right, 1e-12);
 }
 
-std::vector<StudiedEnsemble> whole_study() {
-  std::vector<StudiedEnsemble> ensembles = {ensemble("circle", "5 mm", radius), ensemble("rectangle", "5 mm", radius),
-                                            ensemble("triangle", "5 mm", radius)};
-  for (StudiedEnsemble& e : ensembles) e.folders[0] = write_run(e.case_name, e.case_name == "triangle");
+class Niiya2020Figures : public testing::Test {
+ protected:
+  std::vector<AvalancheEnsemble> whole_study() const;
+  ScratchFolder scratch_;
+};
+
+std::vector<AvalancheEnsemble> Niiya2020Figures::whole_study() const {
+  std::vector<AvalancheEnsemble> ensembles = {ensemble("circle", "5 mm", radius), ensemble("rectangle", "5 mm", radius),
+                                              ensemble("triangle", "5 mm", radius)};
+  for (AvalancheEnsemble& e : ensembles) e.folders[0] = write_run(scratch_ / e.case_name, e.case_name == "triangle");
   return ensembles;
 }
 
-std::filesystem::path figures_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("talus_figures_of_" + name);
-  std::filesystem::remove_all(folder);
-  return folder;
-}
-
-TEST(Niiya2020Figures, DrawsEveryFigureOfAStudy) {
-  const std::vector<FigureOfStudy> drawn = draw_niiya2020(whole_study(), figures_folder("all"));
+TEST_F(Niiya2020Figures, DrawsEveryFigureOfAStudy) {
+  const std::vector<FigureOfStudy> drawn = draw_niiya2020(whole_study(), scratch_ / "all");
   ASSERT_EQ(drawn.size(), 10u) << "Figures 3 to 11, and the motions";
   std::uintmax_t bytes = 0;
   for (const FigureOfStudy& figure : drawn) {
@@ -261,8 +261,8 @@ TEST(Niiya2020Figures, DrawsEveryFigureOfAStudy) {
   EXPECT_THAT(drawn[2].caption, testing::HasSubstr("3 members"));
 }
 
-TEST(Niiya2020Figures, SaysWhatOneRadiusLacks) {
-  const std::vector<FigureOfStudy> drawn = draw_niiya2020(whole_study(), figures_folder("one_radius"));
+TEST_F(Niiya2020Figures, SaysWhatOneRadiusLacks) {
+  const std::vector<FigureOfStudy> drawn = draw_niiya2020(whole_study(), scratch_ / "one_radius");
   const auto sizes = std::find_if(drawn.begin(), drawn.end(),
                                   [](const FigureOfStudy& f) { return f.path.filename() == "figure_10.png"; });
   ASSERT_NE(sizes, drawn.end());
@@ -271,29 +271,29 @@ TEST(Niiya2020Figures, SaysWhatOneRadiusLacks) {
   EXPECT_THAT(sizes->caption, testing::Not(testing::HasSubstr("(d)")));
 }
 
-TEST(Niiya2020Figures, DrawsWhatFailedMembersLeave) {
-  std::vector<StudiedEnsemble> ensembles = whole_study();
-  StudiedEnsemble fewer = ensemble("circle", "1 mm", 1e-3);
+TEST_F(Niiya2020Figures, DrawsWhatFailedMembersLeave) {
+  std::vector<AvalancheEnsemble> ensembles = whole_study();
+  AvalancheEnsemble fewer = ensemble("circle", "1 mm", 1e-3);
   fewer.folders = {"none"};
   fewer.runs.resize(1);
   ensembles.push_back(fewer);
   ensembles[2].runs[1].frames[2].frontal_angle = AvalancheFrame::none;
-  const std::vector<FigureOfStudy> drawn = draw_niiya2020(ensembles, figures_folder("fewer"));
+  const std::vector<FigureOfStudy> drawn = draw_niiya2020(ensembles, scratch_ / "fewer");
   ASSERT_EQ(drawn.size(), 10u);
   EXPECT_THAT(drawn[2].caption, testing::HasSubstr("1 to 3 members"));
 }
 
-TEST(Niiya2020Figures, LeavesOutWhatIsNotThere) {
-  std::vector<StudiedEnsemble> ensembles = {ensemble("triangle", "5 mm", radius)};
-  ensembles[0].folders[0] = write_run("alone", true);
-  const std::vector<FigureOfStudy> drawn = draw_niiya2020(ensembles, figures_folder("few"));
+TEST_F(Niiya2020Figures, LeavesOutWhatIsNotThere) {
+  std::vector<AvalancheEnsemble> ensembles = {ensemble("triangle", "5 mm", radius)};
+  ensembles[0].folders[0] = write_run(scratch_ / "alone", true);
+  const std::vector<FigureOfStudy> drawn = draw_niiya2020(ensembles, scratch_ / "few");
   std::vector<std::string> names;
   for (const FigureOfStudy& figure : drawn) names.push_back(figure.path.filename());
   EXPECT_THAT(names, testing::ElementsAre("figure_03.png", "figure_07.png", "figure_11.png", "figure_motions.png"));
   EXPECT_THAT(drawn[0].caption,
               testing::HasSubstr("Left out for want of finished runs: Figures 4, 5, 8 and 9 (circle), "
                                  "Figure 6 (rectangle)."));
-  EXPECT_TRUE(draw_niiya2020({}, figures_folder("none")).empty());
+  EXPECT_TRUE(draw_niiya2020({}, scratch_ / "none").empty());
 }
 
 }  // namespace
