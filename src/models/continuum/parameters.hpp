@@ -249,6 +249,13 @@ struct Outlet {
 };
 std::optional<Outlet> outlet_of(const Parameters& parameters);
 
+/// Where the bed begins and ends along x, and its bottom, m.
+struct Extent {
+  double low, high;
+};
+Extent bed_along_x(const Parameters& parameters);
+double bed_bottom(const Parameters& parameters);
+
 /// The box, and the plates with their gates shut unless there are none.
 Domain domain_of(const Parameters& parameters);
 
