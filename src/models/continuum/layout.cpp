@@ -40,9 +40,11 @@ std::vector<Panel> panels_of(const Parameters& p) {
     const auto& given = p.plates[n];
     Panel plate =
         panel_between(fmt::format("plates_{}", n + 1), given.from[0], given.from[1], given.to[0], given.to[1]);
+    // The rim of an opening is solid: one that ends where the plate does has none there.
+    const double length = plate.length();
     for (std::size_t k = 0; k + 1 < given.openings.size(); k += 2)
-      plate.openings.push_back({.begin = given.openings[k],
-                                .end = given.openings[k + 1],
+      plate.openings.push_back({.begin = given.openings[k] > 0 ? given.openings[k] : -length,
+                                .end = given.openings[k + 1] < length ? given.openings[k + 1] : 2 * length,
                                 .shut = given.opens_after && (gated || *given.opens_after > 0),
                                 .opens_after = given.opens_after.value_or(0)});
     panels.push_back(std::move(plate));
