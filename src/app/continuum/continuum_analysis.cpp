@@ -77,13 +77,15 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                                   .spacing = p.bed.spacing},
                         .domain = continuum::domain_of(p),
                         .lump_mass = lattice.mass,
-                        .lumps = static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2]),
+                        .lumps = static_cast<double>(continuum::bed_positions(p).size()),
                         .grain_density = p.grains.density,
                         .grain_diameter = p.grains.diameter,
                         .gravity = p.gravity.acceleration,
                         .smoothing_length = {},
                         .air = p.air.enabled};
-  if (p.plate.height)
+  if (const auto outlet = continuum::outlet_of(p))
+    setting.shape.plate = {outlet->height, outlet->left, outlet->right};
+  else if (p.plate.height)
     setting.shape.plate = {*p.plate.height, p.plate.slit_left.value_or(0.5 * p.box.width),
                            p.plate.slit_right.value_or(0.5 * p.box.width)};
   if (p.sph.smoothing == continuum::Smoothing::fixed)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_case.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -22,24 +23,21 @@ using continuum::Continuum;
 using continuum::Parameters;
 
 double bed_mass(const Parameters& p) {
-  const continuum::Lattice lattice = continuum::lattice_of(p);
-  return lattice.mass * static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2]);
+  return continuum::lattice_of(p).mass * static_cast<double>(continuum::bed_positions(p).size());
 }
 
 std::vector<NamedValue> groups(const Parameters& p) {
-  const continuum::Lattice lattice = continuum::lattice_of(p);
   const double density = p.bed.packing * p.grains.density;
   const double sound = continuum::Material(p).sound_speed(density);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
-  std::vector<NamedValue> groups = {
-      {"lumps", "1", static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2])},
-      {"mass", "kg", bed_mass(p)},
-      {"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height},
-      {"sound_speed", "m/s", sound},
-      {"mach_number_of_fall", "1", fall / sound},
-      {"lumps_across_grain", "1", p.grains.diameter / p.bed.spacing}};
-  if (p.plate.slit_left && p.plate.slit_right)
-    groups.push_back({"slit_over_spacing", "1", (*p.plate.slit_right - *p.plate.slit_left) / p.bed.spacing});
+  std::vector<NamedValue> groups = {{"lumps", "1", static_cast<double>(continuum::bed_positions(p).size())},
+                                    {"mass", "kg", bed_mass(p)},
+                                    {"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height},
+                                    {"sound_speed", "m/s", sound},
+                                    {"mach_number_of_fall", "1", fall / sound},
+                                    {"lumps_across_grain", "1", p.grains.diameter / p.bed.spacing}};
+  if (const auto outlet = continuum::outlet_of(p))
+    groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;
 }
 
@@ -75,7 +73,8 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
 ParameterList continuum_parameters() {
   ParameterList list;
   const run::RunParameters run;
-  const Parameters parameters;
+  Parameters parameters;
+  parameters.plates.resize(1);  // whose keys stand for those of all
   for_each_parameter(list, run);
   for_each_parameter(list, parameters);
   return list;
@@ -84,6 +83,7 @@ ParameterList continuum_parameters() {
 PreparedCase prepare_continuum(const CaseFile& file) {
   Parameters p;
   run::RunParameters run;
+  p.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
   ParameterReader reader(file);
   run::for_each_parameter(reader, run);
   continuum::for_each_parameter(reader, p);

@@ -46,6 +46,8 @@ std::vector<Problem> check_air(const Parameters& p) {
   const auto add = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
+  if (p.wedge.half_angle || !p.plates.empty())
+    add("air.enabled", "the air does not meet walls at an angle yet", "false with [wedge] and [[plates]]");
   const Grid grid = air_grid(p);
   const FaceKind grains[6] = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top};
   constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};

@@ -25,7 +25,20 @@ Vector3 momentum(const State& s) {
 
 bool bears_load(const Domain& domain, std::size_t wall) {
   if (wall < 6) return is_mirror(domain.box().faces[wall]);
-  return wall - 6 < domain.plates().size();
+  return wall - 6 < domain.plates().size() + domain.panels().size();
+}
+
+/// Mass beyond the open faces of the box, kg: what has left.
+double mass_outside(const Box& box, const State& s) {
+  std::size_t outside = 0;
+  for (const Vector3& x : s.position)
+    outside += x.x < box.low.x || x.x > box.high.x || x.y < box.low.y || x.y > box.high.y || x.z < box.low.z ||
+               x.z > box.high.z;
+  return s.mass * static_cast<double>(outside);
+}
+
+std::string wall_name(const Domain& domain, std::size_t wall) {
+  return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
 
 /// Share of the lumps under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
@@ -107,12 +120,14 @@ std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
   const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
   const Vector3 p = momentum(s);
-  std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
-                                    {"speed_max", "m/s", largest_speed(s)},
-                                    {"density_min", "kg/m3", *least},
-                                    {"density_max", "kg/m3", *most},
-                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
-                                    {"gate_time", "s", s.gate_time}};
+  std::vector<NamedValue> values = {
+      {"step_size", "s", s.last_step},
+      {"speed_max", "m/s", largest_speed(s)},
+      {"density_min", "kg/m3", *least},
+      {"density_max", "kg/m3", *most},
+      {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+      {"gate_time", "s", s.gate_time},
+      {"mass_outside", "kg", mass_outside(workspace_->sweep.neighbourhood().domain().box(), s)}};
   const auto add = [&](const std::string& name, const Vector3& v) {
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };
@@ -121,7 +136,7 @@ std::vector<NamedValue> Continuum::totals() const {
   add("impulse_damping", s.damping_impulse);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     if (bears_load(workspace_->sweep.neighbourhood().domain(), wall))
-      add(std::string("impulse_") + wall_names[wall], s.wall_impulse[wall]);
+      add("impulse_" + wall_name(workspace_->sweep.neighbourhood().domain(), wall), s.wall_impulse[wall]);
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
     const PressureRange pressure = pressure_range(air);

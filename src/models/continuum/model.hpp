@@ -31,8 +31,8 @@ class Continuum {
   void advance(ThreadTeam& team);
 
   /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start:
-  /// gate_time
-  /// (-1: shut), the impulses of gravity and damping, and by wall what it received ("impulse_floor_z", N s).
+  /// gate_time (-1: shut), mass_outside (beyond open faces: what has left), the impulses of gravity and damping, and by
+  /// wall what it received ("impulse_floor_z", N s).
   /// With air: impulse_air since the start; of the air's last step its force on the grains, size, largest speed,
   /// extreme pressures (against the surroundings) and iterations of the pressure; its steps and a grain's largest
   /// Reynolds number since the start.

@@ -23,8 +23,9 @@ struct MaterialColumns {
 };
 
 /// The names of the walls that may bear load, and of the columns of their impulses.
-inline constexpr std::array<const char*, most_walls> wall_names = {"left",  "right", "front", "rear",
-                                                                   "floor", "top",   "plate", "plate_2"};
+inline constexpr std::array<const char*, most_walls> wall_names = {
+    "left",    "right",   "front",   "rear",    "floor",   "top",     "plate",   "plate_2",
+    "plate_3", "plate_4", "plate_5", "plate_6", "plate_7", "plate_8", "plate_9", "plate_10"};
 
 /// The air around the lumps, and what it does to them until its next step.
 struct AirAround {

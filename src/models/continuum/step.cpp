@@ -122,11 +122,14 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
   const bool quiet = 100 * moving <= s.velocity.size();
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
-  if (s.gate_time >= 0) return;
+  if (s.gate_time >= 0) {
+    w.sweep.open_gates(s.time - s.gate_time);
+    return;
+  }
   const bool settled = quiet && s.time - s.quiet_time >= p.settle.duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
-    w.sweep.open_gates();
+    w.sweep.open_gates(0);
     if (w.air) w.air->open_gates();
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
     throw NumericalError({.what = "the bed has not settled",
@@ -193,7 +196,7 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (s.gate_time >= 0) {
-    w.sweep.open_gates();
+    w.sweep.open_gates(s.time - s.gate_time);
     if (w.air) w.air->open_gates();
   }
   measure(team, s, w);
