@@ -52,10 +52,10 @@ void for_each(ThreadTeam& team, std::size_t count, Body&& body) {
   });
 }
 
-/// Combines value(i) over all i: within chunks of `chunk_size` in order, then the chunks in order.
-/// \param combine (T, T) -> T, e.g. sum or maximum
-template <class T, class Value, class Combine>
-T reduce(ThreadTeam& team, std::size_t count, T initial, Value&& value, Combine&& combine) {
+/// Gathers all i into one T: add(i, T&) within chunks of `chunk_size` in order, then the chunks combined in order.
+/// \param combine (T, T) -> T, e.g. sum
+template <class T, class Add, class Combine>
+T accumulate(ThreadTeam& team, std::size_t count, T initial, Add&& add, Combine&& combine) {
   const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
   struct Slot {  // so that flags are not packed into bits that threads would share
     T value;
@@ -63,13 +63,21 @@ T reduce(ThreadTeam& team, std::size_t count, T initial, Value&& value, Combine&
   std::vector<Slot> partial(chunks, Slot{initial});
   team.run(chunks, [&](std::size_t chunk) {
     const std::size_t end = (chunk + 1) * chunk_size < count ? (chunk + 1) * chunk_size : count;
-    T sum = initial;
-    for (std::size_t i = chunk * chunk_size; i < end; ++i) sum = combine(sum, value(i));
-    partial[chunk].value = sum;
+    T gathered = initial;
+    for (std::size_t i = chunk * chunk_size; i < end; ++i) add(i, gathered);
+    partial[chunk].value = gathered;
   });
   T total = initial;
   for (const Slot& part : partial) total = combine(total, part.value);
   return total;
+}
+
+/// Combines value(i) over all i: within chunks of `chunk_size` in order, then the chunks in order.
+/// \param combine (T, T) -> T, e.g. sum or maximum
+template <class T, class Value, class Combine>
+T reduce(ThreadTeam& team, std::size_t count, T initial, Value&& value, Combine&& combine) {
+  return accumulate(
+      team, count, initial, [&](std::size_t i, T& sum) { sum = combine(sum, value(i)); }, combine);
 }
 
 }  // namespace talus

@@ -81,28 +81,26 @@ bool is_rough(const Parameters& p, const State& state) {
 void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
                 std::span<const Vector3> position, double duration, State& state) {
   const std::vector<Wall> rough = is_rough(p, state) ? rough_walls(domain) : std::vector<Wall>{};
-  const auto meet = [&](std::size_t i) {
-    Impulses received{};
+  const auto meet = [&](std::size_t i, Impulses& received) {
     const std::array<double, most_walls>& push = rates.wall_push[i];
     for (std::size_t wall = 0; wall < most_walls; ++wall)
       if (push[wall] != 0) received[wall] -= (state.mass * duration * push[wall]) * domain.normal(int(wall));
     for (const Wall& wall : rough) {
       const auto number = static_cast<std::size_t>(wall.number);
+      if (p.walls.friction == Friction::coulomb && push[number] == 0) continue;
       const Vector3 after = rubbed(p, wall, domain, position[i], state.velocity[i], push[number],
                                    stress_of(state.material, i), state.mass, state.density[i], duration);
       received[number] += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
     }
-    return received;
   };
-  state.wall_impulse = sum(state.wall_impulse, reduce(team, position.size(), Impulses{}, meet, sum));
+  state.wall_impulse = sum(state.wall_impulse, accumulate(team, position.size(), Impulses{}, meet, sum));
 }
 
 void turn_back(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
                State& state) {
   constexpr int most_bounces = 8;
-  const auto turn = [&](std::size_t i) {
-    Impulses received{};
+  const auto turn = [&](std::size_t i, Impulses& received) {
     const auto become = [&](int wall, const Vector3& position, const Vector3& velocity) {
       received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - velocity);
       state.velocity[i] = velocity;
@@ -118,9 +116,8 @@ void turn_back(ThreadTeam& team, const Material& material, const Domain& domain,
       become(bounce->wall, bounce->image.position(state.position[i]), bounce->image.vector(state.velocity[i]));
       material.mirror(state.material, i, bounce->image);
     }
-    return received;
   };
-  state.wall_impulse = sum(state.wall_impulse, reduce(team, before.size(), Impulses{}, turn, sum));
+  state.wall_impulse = sum(state.wall_impulse, accumulate(team, before.size(), Impulses{}, turn, sum));
 }
 
 }  // namespace talus::continuum
