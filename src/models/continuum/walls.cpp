@@ -12,9 +12,13 @@ namespace {
 
 using Impulses = std::array<Vector3, most_walls>;
 
-Impulses sum(Impulses a, const Impulses& b) {
-  for (std::size_t w = 0; w < most_walls; ++w) a[w] += b[w];
-  return a;
+/// Adds up, in place, what the walls that there are received.
+auto sum_of_walls(const Domain& domain) {
+  const std::size_t walls = 6 + domain.plates().size() + domain.panels().size();
+  return [walls](Impulses& a, const Impulses& b) -> Impulses& {
+    for (std::size_t w = 0; w < walls; ++w) a[w] += b[w];
+    return a;
+  };
 }
 
 struct Wall {
@@ -81,10 +85,11 @@ bool is_rough(const Parameters& p, const State& state) {
 void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
                 std::span<const Vector3> position, double duration, State& state) {
   const std::vector<Wall> rough = is_rough(p, state) ? rough_walls(domain) : std::vector<Wall>{};
+  const std::size_t walls = 6 + domain.plates().size() + domain.panels().size();
   const auto meet = [&](std::size_t i) {
     Impulses received{};
     const std::array<double, most_walls>& push = rates.wall_push[i];
-    for (std::size_t wall = 0; wall < most_walls; ++wall)
+    for (std::size_t wall = 0; wall < walls; ++wall)
       if (push[wall] != 0) received[wall] -= (state.mass * duration * push[wall]) * domain.normal(int(wall));
     for (const Wall& wall : rough) {
       const auto number = static_cast<std::size_t>(wall.number);
@@ -95,7 +100,8 @@ void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, con
     }
     return received;
   };
-  state.wall_impulse = sum(state.wall_impulse, reduce(team, position.size(), Impulses{}, meet, sum));
+  const auto sum = sum_of_walls(domain);
+  sum(state.wall_impulse, reduce(team, position.size(), Impulses{}, meet, sum));
 }
 
 void turn_back(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
@@ -120,7 +126,8 @@ void turn_back(ThreadTeam& team, const Material& material, const Domain& domain,
     }
     return received;
   };
-  state.wall_impulse = sum(state.wall_impulse, reduce(team, before.size(), Impulses{}, turn, sum));
+  const auto sum = sum_of_walls(domain);
+  sum(state.wall_impulse, reduce(team, before.size(), Impulses{}, turn, sum));
 }
 
 }  // namespace talus::continuum
