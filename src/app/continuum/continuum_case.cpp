@@ -11,6 +11,7 @@
 #include "base/instruction_set.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
+#include "models/continuum/atmosphere.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
 
@@ -60,8 +61,9 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   f.steps = std::ceil((run.end + settling) / model.state().last_step);
   f.evaluations = f.steps;
   f.seconds_per_evaluation = elapsed / steps;
-  f.memory_bytes = 20e6 + 3500 * n;  // libraries; columns, records and lists of a lump and its images
-  f.disk_bytes = (run.end / run.snapshots + 1) * (150 * n + 20e3) + 2 * (350 * n + 20e3) +
+  const double cells = p.air.enabled ? static_cast<double>(continuum::air_grid(p).cells()) : 0;
+  f.memory_bytes = 20e6 + 3500 * n + 900 * cells;  // libraries; columns, records and lists of a lump and its images
+  f.disk_bytes = (run.end / run.snapshots + 1) * (150 * n + 45 * cells + 20e3) + 2 * (350 * n + 250 * cells + 20e3) +
                  (run.series > 0 ? run.end / run.series : f.steps) * 600;
   return f;
 }

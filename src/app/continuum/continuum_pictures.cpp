@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/curve.hpp"
+#include "app/continuum/air_pictures.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/lump_dots.hpp"
 #include "io/run_folder.hpp"
@@ -191,6 +192,7 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
     drawn.push_back(pictures / "packing.png");
     draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
+  if (draw_air(run_folder, setting, title, pictures / "air.png")) drawn.push_back(pictures / "air.png");
   if (!setting.shape.plate) return drawn;
   if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,
                  pictures / "discharge.png"))

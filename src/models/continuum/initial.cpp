@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/initial.hpp"
 
+#include "models/continuum/atmosphere.hpp"
+
 namespace talus::continuum {
 
 State initial_state(const Parameters& parameters, const Material& material) {
@@ -15,6 +17,12 @@ State initial_state(const Parameters& parameters, const Material& material) {
   for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));
+  if (parameters.air.enabled) {
+    state.air.grid = air_grid(parameters);
+    state.air.flow = air::AirState(state.air.grid);
+    state.air.solids = air::Solids(state.air.grid);
+    state.air.acceleration.assign(count, Vector3{});
+  }
   return state;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "models/continuum/atmosphere.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -148,6 +149,7 @@ std::vector<Problem> check(const Parameters& p) {
   check_inclined_plates(p, problems);
   check_bed(p, problems);
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
+  for (const Problem& problem : check_air(p)) problems.push_back(problem);
   if (p.law.strain == granular::Strain::displacements)
     problems.push_back({.key = "law.strain",
                         .what = "lumps do not keep the places of their last reset yet",

@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
+#include "models/air/parameters.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/law_options.hpp"
 #include "physics/sph/balance.hpp"
@@ -85,6 +86,11 @@ struct Parameters {
   struct Gravity {
     double acceleration = 9.81;
   } gravity;
+  struct Air {
+    bool enabled = false;
+    std::optional<double> cell;
+    air::Parameters gas;  ///< of which the grains' size and density stand in `grains`
+  } air;
   struct Settle {
     double speed = 0.5e-3;
     double duration = 20e-3;
@@ -213,6 +219,14 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
+
+  visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it the other keys of the air mean nothing"},
+        p.air.enabled);
+  visit(Parameter{"air.cell", dimension::length, above(0),
+                  "size of the air's cells, fitted to whole numbers along each side of the box; left out: three "
+                  "quarters of bed.spacing"},
+        p.air.cell);
+  air::for_each_parameter(visit, p.air.gas);
 
   visit(Parameter{"settle.speed", dimension::velocity, above(0),
                   "the bed has settled when 99 of 100 lumps are slower than this"},

@@ -160,7 +160,7 @@ TEST(Panels, HideTheirTwoSidesFromEachOther) {
   const Vector3 inside{42, 2, 56}, outside{34, 2, 56};
   ASSERT_TRUE(domain.blocks(inside, outside));
   for (const Image& image : domain.images(12))
-    if (domain.is_near(image, image.position(outside), 12)) EXPECT_FALSE(domain.sees(inside, outside, image));
+    EXPECT_FALSE(domain.is_near(image, image.position(outside), 12) && domain.sees(inside, outside, image));
   EXPECT_FALSE(domain.sees(inside, outside, Image{}));
 }
 
