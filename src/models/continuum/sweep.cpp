@@ -212,8 +212,10 @@ void Sweep::operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, R
       const std::int32_t image = groups_[first_group_[i] + g].image;
       if (image < 0) continue;
       const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
-      for (const Bearing& bearing : bearings_[static_cast<std::size_t>(image)])
-        if (bearing.wall >= 0) push[static_cast<std::size_t>(bearing.wall)] += dot(bearing.part, a);
+      for (const Bearing& bearing : bearings_[static_cast<std::size_t>(image)]) {
+        if (bearing.wall < 0) break;
+        push[static_cast<std::size_t>(bearing.wall)] += dot(bearing.part, a);
+      }
     }
     rates.acceleration[i] = all;
     rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);

@@ -81,9 +81,10 @@ bool is_rough(const Parameters& p, const State& state) {
 void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
                 std::span<const Vector3> position, double duration, State& state) {
   const std::vector<Wall> rough = is_rough(p, state) ? rough_walls(domain) : std::vector<Wall>{};
+  const std::size_t walls = 6 + domain.plates().size() + domain.panels().size();
   const auto meet = [&](std::size_t i, Impulses& received) {
     const std::array<double, most_walls>& push = rates.wall_push[i];
-    for (std::size_t wall = 0; wall < most_walls; ++wall)
+    for (std::size_t wall = 0; wall < walls; ++wall)
       if (push[wall] != 0) received[wall] -= (state.mass * duration * push[wall]) * domain.normal(int(wall));
     for (const Wall& wall : rough) {
       const auto number = static_cast<std::size_t>(wall.number);

@@ -30,7 +30,7 @@ void make_granular(Parameters& p) {
 
 TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   // A trough with one vertical wall and one inclined by 45 degrees, 12 spacings deep.
-  Parameters p = column(30, 2, 24, 10);
+  Parameters p = column(30, 1, 24, 10);
   make_liquid(p);
   p.bed.height = 12 * spacing;
   p.plates = {{.from = {10 * spacing, 0}, .to = {30 * spacing, 20 * spacing}, .openings = {}, .opens_after = {}}};
@@ -47,7 +47,7 @@ TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   for (std::size_t w = 0; w < most_walls; ++w) force[w] = (1 / (s.time - begin)) * (s.wall_impulse[w] - before[w]);
   const double weight = s.mass * 9.81 * double(s.position.size());
   // Exact: the level of as much liquid, A = 10 H + H^2/2 spacings squared, H its depth.
-  const double area = double(s.position.size()) / 2 * spacing * spacing;
+  const double area = double(s.position.size()) * spacing * spacing;
   const double depth = -10 * spacing + std::sqrt(100 * spacing * spacing + 2 * area);
   const double sideways = 0.5 * bulk_density(p) * 9.81 * depth * depth * p.box.depth;
   const double upper = -(force[6].z + force[4].z);
