@@ -107,7 +107,10 @@ void turn_back(ThreadTeam& team, const Material& material, const Domain& domain,
       const Vector3 after = bounce->image.vector(state.velocity[i]);
       received[static_cast<std::size_t>(bounce->wall)] += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
-      state.position[i] = bounce->image.position(state.position[i]);
+      const Vector3 place = bounce->image.position(state.position[i]);
+      if (!state.reset_position.empty())
+        state.reset_position[i] = place - bounce->image.vector(state.position[i] - state.reset_position[i]);
+      state.position[i] = place;
       material.mirror(state.material, i, bounce->image.vector_sign);
     }
     return received;
