@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The strain of the printed route: not by its rate but from the displacements of the lumps since each one's last reset,
-/// x_i - X_i, over half spheres (Appendix A). Where neighbours were reset at different times their displacements are of
-/// different histories, and their differences are no strain: the paper's route has it so.
+/// The strain of the printed route: not by its rate but from the displacements of the lumps since each one's last
+/// reset, x_i - X_i, over half spheres (Appendix A). Where neighbours were reset at different times their displacements
+/// are of different histories, and their differences are no strain: the paper's route has it so.
 #pragma once
 
 #include <span>

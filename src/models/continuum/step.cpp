@@ -123,15 +123,15 @@ struct Possible {
   const Vector3& x = s.position[i];
   const bool density = !possible.density(s.density[i]);
   const double speed = norm(s.velocity[i]);
-  throw NumericalError(
-      {.what = density                ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
-               : std::isfinite(speed) ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
-                                      : "the velocity is not finite",
-       .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
-       .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
-       .step = s.step,
-       .time = s.time,
-       .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
+  throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
+                                : std::isfinite(speed)
+                                    ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
+                                    : "the velocity is not finite",
+                        .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+                        .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
+                        .step = s.step,
+                        .time = s.time,
+                        .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
 }
 
 void check_possible(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w, double dt) {
