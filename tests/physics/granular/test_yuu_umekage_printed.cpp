@@ -128,7 +128,7 @@ TEST(YuuUmekagePrinted, UnloadedPastTheEndOfStressAtOnceItBearsNone) {
     const auto loaded = law.update({}, squash, 1500 * (1 + 3e-4), 1);
     EXPECT_GT(mean(loaded.stress), 100);
     for (const double back : {-0.8, -0.9, -1.0, -1.1, -2.0, -30.0}) {
-      const auto point = law.update(loaded, back * squash, 1500, 1);
+      const auto point = law.update(loaded, back * squash, 1500.0, 1);
       EXPECT_GE(mean(point.stress), 0) << back;
       EXPECT_LE(mean(point.stress), mean(loaded.stress)) << back;
       if (back <= -1) EXPECT_EQ(norm(point.stress), 0) << back;
