@@ -72,7 +72,7 @@ TEST(PrintedRoute, FreeFallStrainsNothingAndKeepsItsReference) {
   p.law = printed_route();
   ThreadTeam team(1);
   Continuum model = started(p, team);
-  const std::vector<Vector3> start = model.state().reset_position;
+  const std::vector<Vector3> start = by_identity(model.state(), model.state().reset_position);
   for (int n = 0; n < 50; ++n) model.advance(team);
   EXPECT_LT(by_identity(model.state(), model.state().position)[0].z, start[0].z);
   EXPECT_EQ(by_identity(model.state(), model.state().reset_position), start);

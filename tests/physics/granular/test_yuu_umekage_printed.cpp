@@ -131,7 +131,9 @@ TEST(YuuUmekagePrinted, UnloadedPastTheEndOfStressAtOnceItBearsNone) {
       const auto point = law.update(loaded, back * squash, 1500.0, 1);
       EXPECT_GE(mean(point.stress), 0) << back;
       EXPECT_LE(mean(point.stress), mean(loaded.stress)) << back;
-      if (back <= -1) EXPECT_EQ(norm(point.stress), 0) << back;
+      if (back <= -1) {
+        EXPECT_EQ(norm(point.stress), 0) << back;
+      }
     }
   }
 }
