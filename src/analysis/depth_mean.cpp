@@ -50,7 +50,7 @@ Section packing_section(const Lumps& lumps, const Domain& domain, double width, 
     const double h = lumps.smoothing_length[i], support = sph::support * h;
     const Vector3 source{lumps.position[i].x, middle, lumps.position[i].z};
     for (const Image& image : images) {
-      if (!domain.is_near(image, source, support)) continue;
+      if (!domain.is_near(image, image.position(source), support)) continue;
       const Vector3 lump = image.position(source);
       const Cells along_x = cells_within(lump.x, support, section.x0, section.width, section.columns);
       const Cells along_z = cells_within(lump.z, support, section.z0, section.height, section.rows);
@@ -58,7 +58,7 @@ Section packing_section(const Lumps& lumps, const Domain& domain, double width, 
         for (std::size_t column = along_x.first; column < along_x.last; ++column) {
           const Vector3 cell{section.x(column), middle, section.z(row)};
           const double distance = std::hypot(cell.x - lump.x, cell.z - lump.z);
-          if (distance < support && domain.sees(cell, lump, image.plate))
+          if (distance < support && domain.sees(cell, source, image))
             section.value[row * section.columns + column] +=
                 lumps.solid_volume / depth * sph::cubic_spline_line(distance, h);
         }

@@ -55,6 +55,12 @@ struct HopperFrame {
   double hopper_velocity = none, hopper_packing = none;  ///< u_z in m/s
   double left_right_imbalance = none;
   double mass = none;  ///< of all lumps, kg
+  // Of the air, hopper_air.hpp; velocities along z.
+  double drag_to_weight = none;
+  double air_pressure_drop_height = none, air_pressure_outside_inside = none;
+  double air_velocity_within_plug = none, air_velocity_beside_plug = none, air_velocity_slowness = none;
+  double air_circulation_bin_left = none, air_circulation_bin_right = none;  ///< m^2/s
+  double air_circulation_hopper_left = none, air_circulation_hopper_right = none;
 };
 
 /// The numbers of a frame by name; those that quantities.hpp lists mean what it says there.
@@ -90,6 +96,16 @@ inline constexpr struct {
     {"hopper_packing", "1", &HopperFrame::hopper_packing},
     {"left_right_imbalance", "1", &HopperFrame::left_right_imbalance},
     {"mass", "kg", &HopperFrame::mass},
+    {"drag_to_weight", "1", &HopperFrame::drag_to_weight},
+    {"air_pressure_drop_height", "m", &HopperFrame::air_pressure_drop_height},
+    {"air_pressure_outside_inside", "Pa", &HopperFrame::air_pressure_outside_inside},
+    {"air_velocity_within_plug", "m/s", &HopperFrame::air_velocity_within_plug},
+    {"air_velocity_beside_plug", "m/s", &HopperFrame::air_velocity_beside_plug},
+    {"air_velocity_slowness", "1", &HopperFrame::air_velocity_slowness},
+    {"air_circulation_bin_left", "m2/s", &HopperFrame::air_circulation_bin_left},
+    {"air_circulation_bin_right", "m2/s", &HopperFrame::air_circulation_bin_right},
+    {"air_circulation_hopper_left", "m2/s", &HopperFrame::air_circulation_hopper_left},
+    {"air_circulation_hopper_right", "m2/s", &HopperFrame::air_circulation_hopper_right},
 };
 
 /// The packing section of a snapshot, cells of h by h/2, and the free surfaces in it.

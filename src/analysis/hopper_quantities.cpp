@@ -175,6 +175,21 @@ double narrowing(const HopperRun& run, const Window& window) {
          mean_of_frames(&HopperFrame::stream_width_above, run, window);
 }
 
+/// Product of the circulations left and right over the sum of their squares: below 0 for a pair that turns against each
+/// other.
+double vortex_product(double HopperFrame::*left, double HopperFrame::*right, const HopperRun& run,
+                      const Window& window) {
+  const double a = at_frame(left, run, window), b = at_frame(right, run, window);
+  return a * b / (a * a + b * b);
+}
+
+/// Sign of the product of the left half of the hopper's circulation at the window's ends: below 0 where it has turned.
+double vortex_reversal(const HopperRun& run, const Window& window) {
+  const auto at = [&](double time) { return at_frame(&HopperFrame::air_circulation_hopper_left, run, {.at = time}); };
+  const double product = at(window.from) * at(window.to);
+  return product / std::abs(product);
+}
+
 using OfRun = std::function<double(const HopperRun&, const Window&)>;
 
 OfRun at(double HopperFrame::*number) {
@@ -248,6 +263,24 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
       {"packing_max", largest(&HopperFrame::packing_max)},
       {"packing_max_outside_impact", largest(&HopperFrame::packing_max_outside_impact)},
       {"density_drift", largest(&HopperFrame::density_drift)},
+      {"drag_to_weight", at(&HopperFrame::drag_to_weight)},
+      {"air_pressure_drop_height", at(&HopperFrame::air_pressure_drop_height)},
+      {"air_pressure_outside_inside", at(&HopperFrame::air_pressure_outside_inside)},
+      {"air_velocity_within_plug", at(&HopperFrame::air_velocity_within_plug)},
+      {"air_velocity_beside_plug", at(&HopperFrame::air_velocity_beside_plug)},
+      {"air_velocity_slowness", at(&HopperFrame::air_velocity_slowness)},
+      {"air_vortex_product_bin",
+       [](Run r, In w) {
+         return vortex_product(&HopperFrame::air_circulation_bin_left, &HopperFrame::air_circulation_bin_right, r, w);
+       }},
+      {"air_vortex_product_hopper",
+       [](Run r, In w) {
+         return vortex_product(&HopperFrame::air_circulation_hopper_left, &HopperFrame::air_circulation_hopper_right, r,
+                               w);
+       }},
+      {"air_vortex_reversal_hopper", vortex_reversal},
+      {"particle_reynolds_max",
+       [](Run r, In w) { return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1); }},
       {"mass_error", [](Run r, In w) { return std::abs(at_frame(&HopperFrame::mass, r, w) / r.setting.mass() - 1); }},
       {"momentum_error", [](Run r, In) { return momentum_error(r.series); }},
       {"wall_seconds", [](Run r, In) { return r.wall_seconds; }},

@@ -10,6 +10,7 @@ std::vector<NamedValue> hopper_summary(const HopperRun& run) {
     std::string_view name;
     Window window = {};
     bool of_slit = true;
+    bool of_air = false;
   };
   const Window periods{.at = {}, .from = 0.05, .to = 0.3};
   const std::vector<Entry> entries = {
@@ -41,12 +42,23 @@ std::vector<NamedValue> hopper_summary(const HopperRun& run) {
       {"period_strain", periods},
       {"inertial_share", {.at = 0.2}, false},
       {"stream_narrowing", {.at = {}, .from = 0.2, .to = 0.3}},
+      {"drag_to_weight", {.at = 0.2}, true, true},
+      {"air_pressure_drop_height", {.at = 0.2}, true, true},
+      {"air_pressure_outside_inside", {.at = 0.2}, true, true},
+      {"air_velocity_within_plug", {.at = 0.2}, true, true},
+      {"air_velocity_beside_plug", {.at = 0.2}, true, true},
+      {"air_velocity_slowness", {.at = 0.2}, true, true},
+      {"air_vortex_product_bin", {.at = 0.17}, true, true},
+      {"air_vortex_product_hopper", {.at = 0.17}, true, true},
+      {"air_vortex_reversal_hopper", {.at = {}, .from = 0.17, .to = 1}, true, true},
+      {"particle_reynolds_max", {}, false, true},
       {"momentum_error", {}, false},
       {"mass_error", {.at = end}, false},
   };
   std::vector<NamedValue> summary;
   for (const Entry& entry : entries) {
     if (entry.of_slit && !run.setting.shape.plate) continue;
+    if (entry.of_air && !run.setting.air) continue;
     summary.push_back({std::string(entry.name), std::string(find_quantity(entry.name)->unit),
                        hopper_quantity(entry.name, run, entry.window)});
   }

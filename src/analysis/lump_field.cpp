@@ -25,12 +25,6 @@ std::vector<Image> identity_and_images(const Domain& domain, double reach) {
   return images;
 }
 
-/// The place whose image is at x.
-Vector3 source_of(const Image& image, const Vector3& x) {
-  return {image.sign.x * (x.x - image.offset.x), image.sign.y * (x.y - image.offset.y),
-          image.sign.z * (x.z - image.offset.z)};
-}
-
 }  // namespace
 
 Lumps lumps_of_density(std::span<const Vector3> position, std::span<const double> density, double mass,
@@ -69,14 +63,14 @@ template <class Visit>
 void LumpField::for_each_near(const Vector3& x, double reach, Visit&& visit) const {
   if (lumps_.position.empty()) return;
   for (const Image& image : images_) {
-    const Vector3 source = source_of(image, x);
+    const Vector3 source = image.source(x);
     bool within = true;
     for (int axis = 0; axis < 3; ++axis)
       within = within && source[axis] > low_[axis] - reach && source[axis] < high_[axis] + reach;
     if (!within) continue;
     grid_.for_each_candidate(source, [&](std::uint32_t j) {
       const Vector3 place = image.position(lumps_.position[j]), d = place - x;
-      if (dot(d, d) < reach * reach && domain_.sees(x, place, image.plate)) visit(j, image, d);
+      if (dot(d, d) < reach * reach && domain_.sees(x, lumps_.position[j], image)) visit(j, image, d);
     });
   }
 }

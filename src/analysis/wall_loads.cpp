@@ -26,7 +26,7 @@ std::vector<std::string> walls_of(const Series& series) {
   for (const std::string& name : series.names) {
     if (!name.starts_with(prefix) || !name.ends_with("_x")) continue;
     const std::string wall = name.substr(prefix.size(), name.size() - prefix.size() - 2);
-    if (wall != "gravity" && wall != "damping") walls.push_back(wall);
+    if (wall != "gravity" && wall != "damping" && wall != "air") walls.push_back(wall);
   }
   return walls;
 }
@@ -52,6 +52,7 @@ double momentum_error(const Series& series) {
   const Vector3 gravity = change(series, "impulse_gravity");
   Vector3 given = gravity;
   if (series.has("impulse_damping_x")) given -= change(series, "impulse_damping");
+  if (series.has("impulse_air_x")) given += change(series, "impulse_air");
   for (const std::string& wall : walls_of(series)) given -= change(series, std::string(prefix) + wall);
   return norm(change(series, "momentum") - given) / norm(gravity);
 }

@@ -65,7 +65,9 @@ void add_ensemble_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("ensemble", "run many members of a case: seeds and varied keys");
   options->case_options.add_to(*command);
-  command->add_option("--members", options->request.members, "members of each group; member k has the case's seed + k; one where nothing is random")
+  command
+      ->add_option("--members", options->request.members,
+                   "members of each group; member k has the case's seed + k; one where nothing is random")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--vary", options->request.vary, "one group for each value; several --vary: all combinations")

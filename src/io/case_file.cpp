@@ -56,8 +56,17 @@ void flatten(const toml::table& table, std::string_view prefix, std::vector<Case
   for (const auto& [key, node] : table) {
     CaseEntry entry{.key = child(prefix, key.str()), .value = convert(node), .where = {}};
     entry.line = static_cast<int>(key.source().begin.line);
+    const toml::array* array = node.as_array();
+    const bool of_tables = array && !array->empty() && array->is_homogeneous<toml::table>();
+    if (of_tables) entry.value = {CaseTable{}};
     entries.push_back(entry);
     if (const toml::table* inner = node.as_table()) flatten(*inner, entry.key, entries);
+    for (std::size_t n = 0; of_tables && n < array->size(); ++n) {
+      CaseEntry element{.key = fmt::format("{}.{}", entry.key, n + 1), .value = {CaseTable{}}, .where = {}};
+      element.line = static_cast<int>((*array)[n].source().begin.line);
+      entries.push_back(element);
+      flatten(*(*array)[n].as_table(), element.key, entries);
+    }
   }
 }
 
@@ -175,6 +184,16 @@ const CaseEntry* CaseFile::find(std::string_view key) const {
   const auto entry =
       std::find_if(entries_.begin(), entries_.end(), [&](const CaseEntry& candidate) { return candidate.key == key; });
   return entry == entries_.end() ? nullptr : &*entry;
+}
+
+std::size_t CaseFile::tables(std::string_view key) const {
+  std::size_t count = 0;
+  const auto has = [&](const std::string& table) {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [&](const CaseEntry& entry) { return entry.key == table || lies_in(entry.key, table); });
+  };
+  while (has(fmt::format("{}.{}", key, count + 1))) ++count;
+  return count;
 }
 
 bool lies_in(std::string_view key, std::string_view table) {

@@ -27,7 +27,9 @@ struct CaseValue {
 };
 
 struct CaseEntry {
-  std::string key;  ///< dotted: "particles.radius"; parts that are no bare keys stand in quotes
+  /// Dotted: "particles.radius"; parts that are no bare keys stand in quotes; an array of tables has its numbers from
+  /// 1: "plates.1.from"
+  std::string key;
   CaseValue value;
   std::string where;       ///< file name, or the option
   int line = 0;            ///< 1-based; 0 for an option
@@ -60,6 +62,9 @@ class CaseFile {
   /// Null if the key is not there.
   const CaseEntry* find(std::string_view key) const;
   bool contains(std::string_view key) const { return find(key) != nullptr; }
+
+  /// Number of tables of an array of tables: those under "plates.1", "plates.2", ...
+  std::size_t tables(std::string_view key) const;
 
   /// Faults of options that name no key or no value.
   const std::vector<Problem>& problems() const { return problems_; }

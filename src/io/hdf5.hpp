@@ -10,6 +10,7 @@
 
 #include <hdf5.h>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -57,6 +58,11 @@ class Writer {
   void write(const std::string& name, std::span<const Vector3> values, std::string_view unit = {});
   void write(const std::string& name, std::span<const std::int64_t> values, std::string_view unit = {});
   void write(const std::string& name, std::span<const std::uint8_t> values);
+  /// Cells of a grid, in single precision: nz x ny x nx, or nz x ny x nx x 3. \param shape nz, ny, nx
+  void write_grid(const std::string& name, const std::array<std::size_t, 3>& shape, std::span<const double> values,
+                  std::string_view unit);
+  void write_grid(const std::string& name, const std::array<std::size_t, 3>& shape, std::span<const Vector3> values,
+                  std::string_view unit);
   /// Single numbers (no dimensions).
   void write(const std::string& name, double value, std::string_view unit = {});
   void write(const std::string& name, std::uint64_t value, std::string_view unit = {});
@@ -64,12 +70,14 @@ class Writer {
 
   void attribute(const std::string& object, const char* name, std::string_view text);
   void attribute(const std::string& object, const char* name, std::span<const std::int64_t> values);
+  void attribute(const std::string& object, const char* name, std::span<const double> values);
 
   /// The finished file.
   /// \param front bytes left free before it (they hold '\0')
   std::string image(std::size_t front = 0) const;
 
  private:
+  void attribute_raw(const std::string& object, const char* name, hid_t type, std::size_t count, const void* values);
   void write_raw(const std::string& name, hid_t type, std::span<const hsize_t> shape, const void* values,
                  std::string_view unit);
 
@@ -114,8 +122,11 @@ class Reader {
   std::string text_attribute(const std::string& object, const char* name) const;
   /// \returns nothing if there is no such attribute
   std::vector<std::int64_t> integer_attribute(const std::string& object, const char* name) const;
+  std::vector<double> real_attribute(const std::string& object, const char* name) const;
 
  private:
+  template <class Number>
+  std::vector<Number> attribute(const std::string& object, const char* name, hid_t type) const;
   void read_raw(const std::string& name, hid_t type, void* values) const;
   Handle open(const std::string& name) const;
 

@@ -165,16 +165,24 @@ std::string Reader::text_attribute(const std::string& object, const char* name) 
   return text;
 }
 
-std::vector<std::int64_t> Reader::integer_attribute(const std::string& object, const char* name) const {
+template <class Number>
+std::vector<Number> Reader::attribute(const std::string& object, const char* name, hid_t type) const {
   silence();
   if (H5Aexists_by_name(file_.id(), object.c_str(), name, H5P_DEFAULT) <= 0) return {};
   const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Handle space(H5Aget_space(attribute.id()), H5Sclose);
-  std::vector<std::int64_t> values(
-      static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0)));
-  if (H5Aread(attribute.id(), H5T_NATIVE_INT64, values.data()) < 0)
+  std::vector<Number> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.id()), 0)));
+  if (H5Aread(attribute.id(), type, values.data()) < 0)
     fail(path_, "cannot read attribute '" + std::string(name) + "' of '" + object + "'");
   return values;
+}
+
+std::vector<std::int64_t> Reader::integer_attribute(const std::string& object, const char* name) const {
+  return attribute<std::int64_t>(object, name, H5T_NATIVE_INT64);
+}
+
+std::vector<double> Reader::real_attribute(const std::string& object, const char* name) const {
+  return attribute<double>(object, name, H5T_NATIVE_DOUBLE);
 }
 
 }  // namespace talus::hdf5

@@ -70,6 +70,18 @@ void Writer::write(const std::string& name, std::span<const std::int64_t> values
 void Writer::write(const std::string& name, std::span<const std::uint8_t> values) {
   write_raw(name, H5T_NATIVE_UINT8, std::array<hsize_t, 1>{values.size()}, values.data(), {});
 }
+void Writer::write_grid(const std::string& name, const std::array<std::size_t, 3>& shape,
+                        std::span<const double> values, std::string_view unit) {
+  const std::vector<float> single(values.begin(), values.end());
+  write_raw(name, H5T_NATIVE_FLOAT, std::array<hsize_t, 3>{shape[0], shape[1], shape[2]}, single.data(), unit);
+}
+void Writer::write_grid(const std::string& name, const std::array<std::size_t, 3>& shape,
+                        std::span<const Vector3> values, std::string_view unit) {
+  std::vector<float> single;
+  for (const Vector3& v : values)
+    for (int axis = 0; axis < 3; ++axis) single.push_back(static_cast<float>(v[axis]));
+  write_raw(name, H5T_NATIVE_FLOAT, std::array<hsize_t, 4>{shape[0], shape[1], shape[2], 3}, single.data(), unit);
+}
 void Writer::write(const std::string& name, double value, std::string_view unit) {
   write_raw(name, H5T_NATIVE_DOUBLE, {}, &value, unit);
 }
@@ -92,14 +104,21 @@ void Writer::attribute(const std::string& object, const char* name, std::string_
     fail(path_, "cannot write attribute '" + std::string(name) + "' of '" + object + "'");
 }
 
-void Writer::attribute(const std::string& object, const char* name, std::span<const std::int64_t> values) {
+void Writer::attribute_raw(const std::string& object, const char* name, hid_t type, std::size_t count,
+                           const void* values) {
   silence();
-  const Handle space = dataspace(std::array<hsize_t, 1>{values.size()});
-  const Handle attribute(H5Acreate_by_name(file_.id(), object.c_str(), name, H5T_NATIVE_INT64, space.id(), H5P_DEFAULT,
-                                           H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
-  if (attribute.id() < 0 || H5Awrite(attribute.id(), H5T_NATIVE_INT64, values.data()) < 0)
+  const Handle space = dataspace(std::array<hsize_t, 1>{count});
+  const Handle attribute(
+      H5Acreate_by_name(file_.id(), object.c_str(), name, type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  if (attribute.id() < 0 || H5Awrite(attribute.id(), type, values) < 0)
     fail(path_, "cannot write attribute '" + std::string(name) + "' of '" + object + "'");
+}
+void Writer::attribute(const std::string& object, const char* name, std::span<const std::int64_t> values) {
+  attribute_raw(object, name, H5T_NATIVE_INT64, values.size(), values.data());
+}
+void Writer::attribute(const std::string& object, const char* name, std::span<const double> values) {
+  attribute_raw(object, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
 }
 
 std::string Writer::image(std::size_t front) const {

@@ -88,9 +88,20 @@ Json object() {
   return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
 }
 
+/// Whether it stands for the tables of an array: "plates.1".
+bool is_of_array(std::string_view table) {
+  return !table_of(table).empty() && last_part(table) == "1";
+}
+
 /// The schema of a table, made with the tables around it where it is not there yet.
 Json& schema_of_table(Json& schema, std::string_view table) {
   if (table.empty()) return schema;
+  if (is_of_array(table)) {
+    Json& array =
+        schema_of_table(schema, table_of(table_of(table)))["properties"][std::string(last_part(table_of(table)))];
+    if (array.is_null()) array = {{"type", "array"}, {"items", object()}};
+    return array["items"];
+  }
   Json& inner = schema_of_table(schema, table_of(table))["properties"][std::string(last_part(table))];
   if (inner.is_null()) inner = object();
   return inner;
@@ -100,7 +111,8 @@ void require(Json& root, std::string_view key) {
   Json& required = schema_of_table(root, table_of(key))["required"];
   const std::string name(last_part(key));
   if (std::find(required.begin(), required.end(), name) == required.end()) required.push_back(name);
-  if (!table_of(key).empty()) require(root, table_of(key));  // a table with a required key is required
+  if (!table_of(key).empty() && !is_of_array(table_of(key)))
+    require(root, table_of(key));  // a table with a required key is required
 }
 
 std::string in_cell(std::string_view text) {
@@ -146,8 +158,10 @@ std::string json_schema(const ParameterList& defaults, std::string_view title) {
 std::string reference_page(const ParameterList& defaults) {
   std::string page;
   for (const std::string_view table : defaults.tables()) {
-    page +=
-        fmt::format("{}## {}\n\n", page.empty() ? "" : "\n", table.empty() ? "Top level" : fmt::format("[{}]", table));
+    const std::string head = table.empty()        ? "Top level"
+                             : is_of_array(table) ? fmt::format("[[{}]]", table_of(table))
+                                                  : fmt::format("[{}]", table);
+    page += fmt::format("{}## {}\n\n", page.empty() ? "" : "\n", head);
     page += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
     for (const DescribedParameter& item : defaults)
       if (table_of(item.parameter.key) == table)

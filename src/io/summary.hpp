@@ -18,9 +18,9 @@
 namespace talus {
 
 struct Summary {
-  std::string status;                  ///< "running", "done", "interrupted" or "failed"
-  double wall_seconds = 0;             ///< s
-  std::string instruction_set = {};    ///< of the sum over pairs: the bits belong to it
+  std::string status;                       ///< "running", "done", "interrupted" or "failed"
+  double wall_seconds = 0;                  ///< s
+  std::string instruction_set = {};         ///< of the sum over pairs: the bits belong to it
   std::vector<NamedValue> quantities = {};  ///< names unique
 
   /// \returns null if there is none

@@ -180,7 +180,9 @@ PointSet read_points(const std::filesystem::path& path) {
 }
 
 double read_points_time(const std::filesystem::path& path) {
-  const std::vector<double> time = hdf5::Reader(path).doubles(root + "/FieldData/TimeValue");
+  const hdf5::Reader file(path);
+  std::vector<double> time = file.real_attribute(root, "time");
+  if (time.empty()) time = file.doubles(root + "/FieldData/TimeValue");
   if (time.size() != 1) throw FileError(path.string(), "holds no single 'TimeValue'");
   return time[0];
 }

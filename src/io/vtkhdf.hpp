@@ -29,7 +29,7 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot);
 /// \throws InputError if it is no such file: all that is wrong with it
 PointSet read_points(const std::filesystem::path& path);
 
-/// The time of one of our files, s. \throws FileError
+/// The time of one of our files, of points or of a grid, s. \throws FileError
 double read_points_time(const std::filesystem::path& path);
 
 }  // namespace talus

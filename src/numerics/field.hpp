@@ -7,7 +7,7 @@
 ///     }
 ///
 /// and snapshots and checkpoints follow from that one list. A member is a column (std::vector of double, Vector3 or
-/// std::int64_t, one entry a particle) or a number of the whole state (double or std::uint64_t).
+/// std::int64_t, one entry a particle unless said) or a number of the whole state (double or std::uint64_t).
 #pragma once
 
 #include <string_view>
@@ -24,6 +24,7 @@ struct Field {
   std::string_view unit;  ///< SI; "1" for numbers
   FieldRole role = FieldRole::kept;
   bool in_snapshots = true;
+  bool of_particles = true;  ///< a column: one entry a particle, in their order
 };
 
 }  // namespace talus

@@ -31,16 +31,22 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     points.push_back(image(ghost).position(position[ghost.source]));
     radii.push_back(radius[ghost.source]);
   }
-  // An image in a plate is seen from the other side only. Pairs of which neither can change sides are left out.
+  near_panel_.assign(count, 0);
+  if (!domain_.panels().empty())
+    for_each(team, count, [&](std::size_t i) { near_panel_[i] = domain_.is_near_panel(position[i], reach_ + skin); });
+  // An image in a plate is seen from the other side only. Pairs of which neither can change sides are left out. Images
+  // in panels are seen from near them only.
   const NeighbourList::Keep may_see = [&](std::size_t i, std::uint32_t j) {
     if (j < count) return true;
+    if (image(ghosts_[j - count]).is_in_panels()) return near_panel_[i] != 0;
     const int plate = image(ghosts_[j - count]).plate;
     if (plate < 0) return true;
     const Plate& wall = domain_.plates()[static_cast<std::size_t>(plate)];
     const double above_i = points[i][wall.axis] - wall.position, above_j = points[j][wall.axis] - wall.position;
     return (above_i > 0) != (above_j > 0) || std::min(std::abs(above_i), std::abs(above_j)) <= skin;
   };
-  list_.build(team, points, radii, skin, count, domain_.plates().empty() ? nullptr : may_see);
+  list_.build(team, points, radii, skin, count,
+              domain_.plates().empty() && domain_.panels().empty() ? nullptr : may_see);
 
   first_ghost_.resize(count);
   near_plate_.resize(count);
@@ -48,7 +54,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     const auto neighbours = list_.of(i);
     const auto first = std::lower_bound(neighbours.begin(), neighbours.end(), count);
     first_ghost_[i] = static_cast<std::uint32_t>(first - neighbours.begin());
-    near_plate_[i] = domain_.is_near_plate(position[i], reach_ + skin);
+    near_plate_[i] = near_panel_[i] || domain_.is_near_plate(position[i], reach_ + skin);
   });
 }
 

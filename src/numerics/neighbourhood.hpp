@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,7 @@ class Neighbourhood {
   explicit Neighbourhood(Domain domain) : domain_(std::move(domain)) {}
 
   const Domain& domain() const { return domain_; }
-  void open_gates() { domain_.open_gates(); }
+  void open_gates(double time = std::numeric_limits<double>::infinity()) { domain_.open_gates(time); }
 
   /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + a_j + skin.
   /// \param position inside the domain, m; \param radius m; one entry a particle; \param skin >= 0, m
@@ -45,7 +46,7 @@ class Neighbourhood {
   /// particles() on. Whether i sees them is not decided here: where is_near_plate(i), ask the domain.
   std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
-  bool is_near_plate(std::size_t i) const { return near_plate_[i]; }
+  bool is_near_plate(std::size_t i) const { return near_plate_[i]; }           ///< or a panel
 
  private:
   Domain domain_;
@@ -57,7 +58,7 @@ class Neighbourhood {
   std::vector<Ghost> ghosts_;
   NeighbourList list_;
   std::vector<std::uint32_t> first_ghost_;
-  std::vector<char> near_plate_;
+  std::vector<char> near_plate_, near_panel_;
 };
 
 }  // namespace talus

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
+#include "numerics/grid_snapshot.hpp"
 #include "numerics/named_value.hpp"
 #include "numerics/snapshot.hpp"
 #include "numerics/snapshot_of.hpp"
@@ -22,7 +24,8 @@ class AnyModel {
   virtual double time_origin() const = 0;  ///< from which run.end counts, s; infinite while it has not come
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
-  virtual Snapshot snapshot() const = 0;  ///< valid until the next step
+  virtual Snapshot snapshot() const = 0;                 ///< valid until the next step
+  virtual std::optional<GridSnapshot> grid() const = 0;  ///< of the air; nothing where there is none
   virtual std::vector<NamedValue> totals() const = 0;
   virtual std::vector<RegimeLine> regime() const = 0;
   virtual void save(CheckpointWriter& checkpoint) const = 0;
@@ -41,6 +44,10 @@ class ModelAdapter final : public AnyModel {
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }
   Snapshot snapshot() const override { return snapshot_of(model_.state()); }
+  std::optional<GridSnapshot> grid() const override {
+    if constexpr (requires { model_.grid(); }) return model_.grid();
+    return std::nullopt;
+  }
   std::vector<NamedValue> totals() const override { return model_.totals(); }
   std::vector<RegimeLine> regime() const override { return model_.regime(); }
   void save(CheckpointWriter& checkpoint) const override { for_each_field(checkpoint, model_.state()); }

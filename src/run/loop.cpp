@@ -14,6 +14,7 @@
 #include "io/series.hpp"
 #include "io/snapshot_index.hpp"
 #include "io/vtkhdf.hpp"
+#include "io/vtkhdf_grid.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
 
@@ -76,6 +77,10 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     const auto n = static_cast<int>(number);
     write_points(RunFolder(folder).snapshot(n), model.snapshot());
     index_snapshots(RunFolder(folder), n);
+    if (const std::optional<GridSnapshot> air = model.grid()) {
+      write_grid(RunFolder(folder).snapshot(n, "air"), *air);
+      index_snapshots(RunFolder(folder), n, "air");
+    }
   };
   auto take_snapshot = [&] {
     write_snapshot(snapshots);

@@ -94,6 +94,12 @@ class Hopper(ProgramTest):
         self.assertEqual(state(self.folder / "r"), state(self.folder / "1"))
 
 
+class HopperInAir(Hopper):
+    """The same with air in cells of 5 mm."""
+    settings = (*Hopper.settings, "--set", "box.depth=5 mm", "--set", "air.cell=5 mm")
+    case = PROJECT / "cases/yuu2011-section-air.toml"
+
+
 class Interrupted(Resumed):
     """A run that is stopped from outside while it goes on."""
 

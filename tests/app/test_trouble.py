@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from program import CASE, ProgramTest, bits, checkpoints, rows, state, tree
+from program import CASE, PROJECT, ProgramTest, bits, checkpoints, rows, state, tree
 
 # Snapshots of 15 kB after every step, 160 of them.
 FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", "--set",
@@ -121,6 +121,14 @@ class Numbers(ProgramTest):
                            status=3).stderr
         self.assertIn(found.group(0), again)
         self.assertEqual(state(self.folder / "r"), before)
+
+    def test_pressure_of_the_air_that_does_not_converge(self):
+        said = self.talus("run", PROJECT / "cases/yuu2011-section-air.toml", "--out", "r", "--set", "bed.spacing=5 mm",
+                          "--set", "box.depth=5 mm", "--set", "air.cell=5 mm", "--set", "air.most_iterations=1",
+                          "--set", "air.tolerance=1e-12", status=3).stderr.splitlines()[-1]
+        self.assertRegex(said, r"the pressure equation has not converged \(largest residual of a cell \S+\) at cell "
+                               r"\(\d+, \d+, \d+\) at \(.+\) m, step \d+, t = \S+ s; try: ")
+        self.assertTrue(checkpoints(self.folder / "r"))
 
     def test_hard_spring(self):
         found = self.blow_up("--set", "contact.stiffness=1e12 N/m")

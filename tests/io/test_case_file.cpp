@@ -41,6 +41,19 @@ Problem syntax_problem(std::string_view text) {
   return {};
 }
 
+TEST(CaseFile, NumbersTheTablesOfAnArray) {
+  const CaseFile file =
+      CaseFile::from_text("[[plates]]\nfrom = [1, 2]\n\n[[plates]]\nfrom = [3]\nx.y = 4\n", "case.toml");
+  EXPECT_THAT(keys(file), ElementsAre("plates", "plates.1", "plates.1.from", "plates.2", "plates.2.from", "plates.2.x",
+                                      "plates.2.x.y"));
+  EXPECT_EQ(file.tables("plates"), 2u);
+  EXPECT_EQ(file.tables("plate"), 0u);
+  EXPECT_EQ(file.find("plates.2.from")->line, 5);
+  // As a resolved case has it.
+  EXPECT_EQ(CaseFile::from_text("[plates.1]\nfrom = [1]\n[plates.2]\nfrom = [2]\n", "case.toml").tables("plates"), 2u);
+  EXPECT_EQ(CaseFile::from_text("numbers = [1, 2]\n", "case.toml").tables("numbers"), 0u);
+}
+
 TEST(CaseFile, HoldsValuesByDottedKeyWithTheirLines) {
   const CaseFile file = CaseFile::from_text(
       "flag = true\n"

@@ -177,7 +177,8 @@ TEST(ParameterReader, ATableIsATable) {
             std::vector<std::string>{"c:1: particles: 5 is not a table; allowed: a table: [particles]"})
       << "that its required keys are missing is a consequence";
   EXPECT_EQ(read(std::string(example::smallest_case) + "[[numerics]]\nporosity = 3").problems,
-            std::vector<std::string>{"c:5: numerics: an array of tables is not a table; allowed: a table: [numerics]"});
+            std::vector<std::string>{"c:6: numerics.1.porosity: unknown key; did you mean 'numerics.porosity'?"})
+      << "keys of an array of tables have its number";
   EXPECT_TRUE(read(std::string(example::smallest_case) + "[numerics]\n").problems.empty()) << "may be empty";
 }
 

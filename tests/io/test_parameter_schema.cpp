@@ -139,6 +139,19 @@ void expect_well_formed(const json& schema, const std::string& place) {
     EXPECT_TRUE(schema["properties"].contains(key.get<std::string>())) << place << key;
 }
 
+TEST(Schema, OfAnArrayOfTablesIsThatOfEachOfThem) {
+  ParameterList list;
+  list({"plates.1.thick", {}, {}, "thickness", true}, 1.0);
+  list({"plates.1.note", {}, {}, "a note"}, std::string("none"));
+  const json root = json::parse(json_schema(list, "a case"));
+  const json& plates = root["properties"]["plates"];
+  EXPECT_EQ(plates["type"], "array");
+  EXPECT_EQ(plates["items"]["required"], json::array({"thick"}));
+  EXPECT_TRUE(plates["items"]["properties"].contains("note"));
+  EXPECT_FALSE(root.contains("required")) << "there may be none";
+  EXPECT_NE(reference_page(list).find("## [[plates]]\n"), std::string::npos);
+}
+
 TEST(JsonSchema, IsWellFormed) {
   EXPECT_EQ(schema().at("$schema"), "https://json-schema.org/draft/2020-12/schema");
   EXPECT_EQ(schema().at("title"), "a case");

@@ -96,6 +96,27 @@ class Files(unittest.TestCase):
                 self.assertEqual(root["FieldData/time"].attrs["units"], b"s")
                 self.assertEqual(root["FieldData/step"][0], 1000 * frame)
 
+    def test_vtk_and_h5py_see_the_cells_of_the_air(self):
+        cells = np.arange(24)
+        for frame in (0, 1):
+            file = self.files[0].parent / f"air_000{frame}.vtkhdf"
+            velocity = np.stack([cells, -2.0 * cells, np.full(24, frame)], axis=1)
+            grid = self.read_with_vtk(file)
+            self.assertEqual(grid.GetClassName(), "vtkImageData")
+            self.assertEqual(grid.GetDimensions(), (4, 3, 2))  # centres of cells
+            self.assertEqual(grid.GetOrigin(), (1.25, 2.125, 3.0625))
+            self.assertEqual(grid.GetSpacing(), (0.5, 0.25, 0.125))
+            data = grid.GetPointData()
+            self.assertEqual({data.GetArrayName(k) for k in range(data.GetNumberOfArrays())}, {"velocity", "pressure"})
+            np.testing.assert_array_equal(vtk_to_numpy(data.GetArray("velocity")), velocity)
+            np.testing.assert_array_equal(vtk_to_numpy(data.GetArray("pressure")), 10.0 + cells)
+            with h5py.File(file, "r") as opened:
+                root = opened["VTKHDF"]
+                self.assertEqual(root["PointData/velocity"].shape, (2, 3, 4, 3))
+                self.assertEqual(root["PointData/velocity"].attrs["units"], b"m/s")
+                self.assertEqual(root.attrs["time"], 0.25 * frame)
+                np.testing.assert_array_equal(root["PointData/pressure"][()].ravel(), 10.0 + cells)
+
     def test_h5py_sees_checkpoints(self):
         for frame, letter in enumerate("ab"):
             with h5py.File(self.files[0].parent / f"checkpoint_{letter}.h5", "r") as opened:

@@ -3,6 +3,7 @@
 /// formulas that stand there too. Usage: write_sample_files FOLDER
 #include "io/checkpoint.hpp"
 #include "io/vtkhdf.hpp"
+#include "io/vtkhdf_grid.hpp"
 
 int main(int, char** arguments) {
   for (int frame = 0; frame < 2; ++frame) {
@@ -23,6 +24,17 @@ int main(int, char** arguments) {
                                              {"packing_order", "1", order}}};
     talus::write_points(std::string(arguments[1]) + "/particles_000" + std::to_string(frame) + ".vtkhdf",
                         points.view());
+    talus::GridSnapshot grid{.time = 0.25 * frame,
+                             .step = points.step,
+                             .count = {4, 3, 2},
+                             .low = {1, 2, 3},
+                             .spacing = {0.5, 0.25, 0.125},
+                             .columns = {}};
+    std::vector<talus::Vector3> wind;
+    std::vector<double> pressure;
+    for (int c = 0; c < 24; ++c) wind.push_back({1.0 * c, -2.0 * c, 1.0 * frame}), pressure.push_back(10.0 + c);
+    grid.columns = {{"velocity", "m/s", wind}, {"pressure", "Pa", pressure}};
+    talus::write_grid(std::string(arguments[1]) + "/air_000" + std::to_string(frame) + ".vtkhdf", grid);
     talus::CheckpointWriter checkpoint("f00d");
     checkpoint(talus::Field{"position", "m"}, position);
     checkpoint(talus::Field{"step", "1"}, points.step);

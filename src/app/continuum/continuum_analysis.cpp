@@ -5,10 +5,12 @@
 #include <deque>
 
 #include "analysis/discharge.hpp"
+#include "analysis/hopper_air.hpp"
 #include "analysis/hopper_quantities.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
+#include "io/vtkhdf_grid.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::app {
@@ -23,6 +25,12 @@ const PointSet* nearest_to(const std::deque<PointSet>& earlier, double at) {
   for (const PointSet& points : earlier)
     if (!nearest || std::abs(points.time - at) < std::abs(nearest->time - at)) nearest = &points;
   return nearest;
+}
+
+/// The snapshot of the air taken with one of the particles.
+std::filesystem::path air_beside(const std::filesystem::path& particles) {
+  std::string name = particles.filename();
+  return particles.parent_path() / name.replace(0, name.find('_'), "air");
 }
 
 void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
@@ -69,11 +77,15 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                                   .spacing = p.bed.spacing},
                         .domain = continuum::domain_of(p),
                         .lump_mass = lattice.mass,
-                        .lumps = static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2]),
+                        .lumps = static_cast<double>(continuum::bed_positions(p).size()),
                         .grain_density = p.grains.density,
                         .grain_diameter = p.grains.diameter,
-                        .gravity = p.gravity.acceleration};
-  if (p.plate.height)
+                        .gravity = p.gravity.acceleration,
+                        .smoothing_length = {},
+                        .air = p.air.enabled};
+  if (const auto outlet = continuum::outlet_of(p))
+    setting.shape.plate = {outlet->height, outlet->left, outlet->right};
+  else if (p.plate.height)
     setting.shape.plate = {*p.plate.height, p.plate.slit_left.value_or(0.5 * p.box.width),
                            p.plate.slit_right.value_or(0.5 * p.box.width)};
   if (p.sph.smoothing == continuum::Smoothing::fixed)
@@ -99,7 +111,9 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
     while (earlier.size() > 1 && earlier[1].time <= then) earlier.pop_front();
     const PointSet* before = nearest_to(earlier, then);
     const Snapshot earlier_view = before ? before->view() : Snapshot{};
-    run.frames.push_back(hopper_frame(points.view(), before ? &earlier_view : nullptr, setting, run.gate_time));
+    HopperFrame frame = hopper_frame(points.view(), before ? &earlier_view : nullptr, setting, run.gate_time);
+    if (const auto air = air_beside(path); std::filesystem::exists(air)) measure_air(frame, read_grid(air), setting);
+    run.frames.push_back(frame);
     earlier.push_back(std::move(points));
   }
   return run;

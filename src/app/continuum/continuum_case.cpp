@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_case.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -10,6 +11,7 @@
 #include "base/instruction_set.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
+#include "models/continuum/atmosphere.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
 
@@ -21,24 +23,21 @@ using continuum::Continuum;
 using continuum::Parameters;
 
 double bed_mass(const Parameters& p) {
-  const continuum::Lattice lattice = continuum::lattice_of(p);
-  return lattice.mass * static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2]);
+  return continuum::lattice_of(p).mass * static_cast<double>(continuum::bed_positions(p).size());
 }
 
 std::vector<NamedValue> groups(const Parameters& p) {
-  const continuum::Lattice lattice = continuum::lattice_of(p);
   const double density = p.bed.packing * p.grains.density;
   const double sound = continuum::Material(p).sound_speed(density);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
-  std::vector<NamedValue> groups = {
-      {"lumps", "1", static_cast<double>(lattice.count[0] * lattice.count[1] * lattice.count[2])},
-      {"mass", "kg", bed_mass(p)},
-      {"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height},
-      {"sound_speed", "m/s", sound},
-      {"mach_number_of_fall", "1", fall / sound},
-      {"lumps_across_grain", "1", p.grains.diameter / p.bed.spacing}};
-  if (p.plate.slit_left && p.plate.slit_right)
-    groups.push_back({"slit_over_spacing", "1", (*p.plate.slit_right - *p.plate.slit_left) / p.bed.spacing});
+  std::vector<NamedValue> groups = {{"lumps", "1", static_cast<double>(continuum::bed_positions(p).size())},
+                                    {"mass", "kg", bed_mass(p)},
+                                    {"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height},
+                                    {"sound_speed", "m/s", sound},
+                                    {"mach_number_of_fall", "1", fall / sound},
+                                    {"lumps_across_grain", "1", p.grains.diameter / p.bed.spacing}};
+  if (const auto outlet = continuum::outlet_of(p))
+    groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;
 }
 
@@ -62,8 +61,9 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   f.steps = std::ceil((run.end + settling) / model.state().last_step);
   f.evaluations = f.steps;
   f.seconds_per_evaluation = elapsed / steps;
-  f.memory_bytes = 20e6 + 3500 * n;  // libraries; columns, records and lists of a lump and its images
-  f.disk_bytes = (run.end / run.snapshots + 1) * (150 * n + 20e3) + 2 * (350 * n + 20e3) +
+  const double cells = p.air.enabled ? static_cast<double>(continuum::air_grid(p).cells()) : 0;
+  f.memory_bytes = 20e6 + 3500 * n + 900 * cells;  // libraries; columns, records and lists of a lump and its images
+  f.disk_bytes = (run.end / run.snapshots + 1) * (150 * n + 45 * cells + 20e3) + 2 * (350 * n + 250 * cells + 20e3) +
                  (run.series > 0 ? run.end / run.series : f.steps) * 600;
   return f;
 }
@@ -73,7 +73,8 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
 ParameterList continuum_parameters() {
   ParameterList list;
   const run::RunParameters run;
-  const Parameters parameters;
+  Parameters parameters;
+  parameters.plates.resize(1);  // whose keys stand for those of all
   for_each_parameter(list, run);
   for_each_parameter(list, parameters);
   return list;
@@ -82,6 +83,7 @@ ParameterList continuum_parameters() {
 PreparedCase prepare_continuum(const CaseFile& file) {
   Parameters p;
   run::RunParameters run;
+  p.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
   ParameterReader reader(file);
   run::for_each_parameter(reader, run);
   continuum::for_each_parameter(reader, p);

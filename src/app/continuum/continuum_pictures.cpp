@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/curve.hpp"
+#include "app/continuum/air_pictures.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/lump_dots.hpp"
 #include "io/run_folder.hpp"
@@ -73,12 +74,26 @@ double highest(const Snapshot& snapshot) {
 }
 
 /// Walls and plate, not covered by grains.
-std::vector<Segment> outline(const HopperShape& s, double top) {
+std::vector<Segment> outline(const HopperSetting& setting, double top) {
+  const HopperShape& s = setting.shape;
   const Colour colour = ink;
   std::vector<Segment> lines = {{.from = {0, 0, 0}, .to = {s.width, 0, 0}, .colour = colour},
                                 {.from = {0, 0, 0}, .to = {0, 0, top}, .colour = colour},
                                 {.from = {s.width, 0, 0}, .to = {s.width, 0, top}, .colour = colour}};
-  if (s.plate) {
+  for (const auto& panel : setting.domain.panels()) {
+    double begin = 0;
+    const auto draw = [&](double end) {
+      if (end > begin)
+        lines.push_back(
+            {.from = panel.from + begin * panel.along(), .to = panel.from + end * panel.along(), .colour = colour});
+    };
+    for (const auto& opening : panel.openings) {
+      draw(opening.begin);
+      begin = opening.end;
+    }
+    draw(panel.length());
+  }
+  if (s.plate && !setting.domain.plates().empty()) {
     const double z = s.plate->height;
     lines.push_back({.from = {0, 0, z}, .to = {s.plate->slit_left, 0, z}, .colour = colour});
     lines.push_back({.from = {s.plate->slit_right, 0, z}, .to = {s.width, 0, z}, .colour = colour});
@@ -92,7 +107,7 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
   const Snapshot view = points.view();
   const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
   ParticlePicture picture =
-      lump_picture(setting.shape, view.positions(), radii,
+      lump_picture(setting, view.positions(), radii,
                    {.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7});
   picture.title = title_of(time);
   write_png({.title = title, .panels = {picture}}, path);
@@ -129,7 +144,7 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
     const Lumps lumps = lumps_of_density(view.positions(), view.scalars("density"), setting.lump_mass,
                                          setting.grain_density, setting.smoothing_length);
     Domain domain = setting.domain;
-    if (frames.time[n] >= 0) domain.open_gates();
+    if (frames.time[n] >= 0) domain.open_gates(frames.time[n]);
     dots.push_back(
         lump_dots(view.positions(), lumps.smoothing_length, view.integers("identity"), domain, dots_of_lump));
     top = std::max(top, highest(view) + 4 * setting.shape.spacing);
@@ -143,7 +158,7 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
                             .radii = radii[n],
                             .view = view_xz,
                             .colouring = Plain{colour_of_dots(setting.shape)},
-                            .segments = outline(setting.shape, top),
+                            .segments = outline(setting, top),
                             .length = millimetre};
     picture.window = window_of(setting.shape, top);
     figure.panels.emplace_back(std::move(picture));
@@ -152,7 +167,7 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   write_png(figure, path);
 }
 
-figure::ParticlePicture lump_picture(const HopperShape& shape, std::span<const Vector3> positions,
+figure::ParticlePicture lump_picture(const HopperSetting& setting, std::span<const Vector3> positions,
                                      std::span<const double> radii, figure::ByValue values) {
   double top = 0;
   for (const Vector3& x : positions) top = std::max(top, x.z);
@@ -160,9 +175,9 @@ figure::ParticlePicture lump_picture(const HopperShape& shape, std::span<const V
                           .radii = radii,
                           .view = view_xz,
                           .colouring = std::move(values),
-                          .segments = outline(shape, top),
+                          .segments = outline(setting, top),
                           .length = millimetre};
-  picture.window = window_of(shape, top + 4 * shape.spacing);
+  picture.window = window_of(setting.shape, top + 4 * setting.shape.spacing);
   return picture;
 }
 
@@ -177,6 +192,7 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
     drawn.push_back(pictures / "packing.png");
     draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
+  if (draw_air(run_folder, setting, title, pictures / "air.png")) drawn.push_back(pictures / "air.png");
   if (!setting.shape.plate) return drawn;
   if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,
                  pictures / "discharge.png"))

@@ -19,12 +19,12 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
 
 /// Lumps of one snapshot from the side, coloured by values, within walls and plate.
 /// \param positions, radii, values must outlive the picture
-figure::ParticlePicture lump_picture(const HopperShape& shape, std::span<const Vector3> positions,
+figure::ParticlePicture lump_picture(const HopperSetting& setting, std::span<const Vector3> positions,
                                      std::span<const double> radii, figure::ByValue values);
 
 /// Draws, and returns the paths: pictures/frames.png, the grains; pictures/packing.png, the last snapshot coloured by
-/// packing; with a plate pictures/discharge.png and pictures/surface_angle.png. The tables of analyze_continuum() must
-/// be there. \throws FileError
+/// packing; with air pictures/air.png; with a plate pictures/discharge.png and pictures/surface_angle.png. The tables
+/// of analyze_continuum() must be there. \throws FileError
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting,
                                                   const std::string& title);
 

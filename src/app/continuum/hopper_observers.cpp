@@ -28,9 +28,11 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
   const double mass = continuum::lattice_of(p).mass;
 
   double passed = 0, rate = 0;
-  if (p.plate.height) {
+  const auto outlet = continuum::outlet_of(p);
+  const std::optional<double> plate = outlet ? outlet->height : p.plate.height;
+  if (plate) {
     for (std::size_t i = 0; i < position.size(); ++i) {
-      const double above = position[i].z - *p.plate.height;
+      const double above = position[i].z - *plate;
       if (above < 0) passed += mass;
       rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
     }
@@ -44,8 +46,8 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
 
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
-  if (p.plate.slit_left && p.plate.slit_right) {
-    const Vector3 slit{0.5 * (*p.plate.slit_left + *p.plate.slit_right), 0.5 * p.box.depth, *p.plate.height};
+  if (outlet) {
+    const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
     // What is near both places is enough: the fields there know no other lumps.
     const auto near = lumps_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);

@@ -138,7 +138,7 @@ class Album {
         ByValue coloured = colours;
         coloured.values = view.scalars(column);
         ParticlePicture picture =
-            lump_picture(run_of(ensemble).setting.shape, view.positions(), shown.back().radii, coloured);
+            lump_picture(run_of(ensemble).setting, view.positions(), shown.back().radii, coloured);
         picture.title = fmt::format("{}, *t* = {:.2f} s", ensemble.variant, shown.back().time);
         figure.panels.emplace_back(std::move(picture));
       }

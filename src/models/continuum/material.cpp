@@ -98,15 +98,23 @@ double Material::strain(const MaterialColumns& columns, std::size_t i) const {
   return norm(SymmetricTensor3<>{e(0), e(1), e(2), e(3), e(4), e(5)});
 }
 
-void Material::mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const {
-  constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
-  for (std::size_t c = 0; c < 6; ++c) {
-    columns.stress[c][lump] *= sign[axes[c][0]] * sign[axes[c][1]];
-    columns.collisional[c][lump] *= sign[axes[c][0]] * sign[axes[c][1]];
-  }
+void Material::mirror(MaterialColumns& columns, std::size_t lump, const Image& image) const {
+  set(columns.stress, lump, image.tensor(tensor_at(columns.stress, lump)));
+  set(columns.collisional, lump, image.tensor(tensor_at(columns.collisional, lump)));
   const auto remembered = slots();
-  for (std::size_t k = 0; k < remembered.size(); ++k)
-    columns.history[k][lump] *= sign[remembered[k].axis] * sign[remembered[k].other_axis];
+  constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+  const auto begins_tensor = [&](std::size_t k) {
+    if (k + 6 > remembered.size()) return false;
+    for (std::size_t c = 0; c < 6; ++c)
+      if (remembered[k + c].axis != axes[c][0] || remembered[k + c].other_axis != axes[c][1]) return false;
+    return true;
+  };
+  for (std::size_t k = 0; k < remembered.size(); ++k) {
+    if (!begins_tensor(k)) continue;
+    const auto at = [&](std::size_t c) -> double& { return columns.history[k + c][lump]; };
+    const SymmetricTensor3<> t = image.tensor({at(0), at(1), at(2), at(3), at(4), at(5)});
+    at(0) = t.xx, at(1) = t.yy, at(2) = t.zz, at(3) = t.xy, at(4) = t.yz, at(5) = t.zx;
+  }
 }
 
 }  // namespace talus::continuum

@@ -40,8 +40,8 @@ class Material {
   /// Norm of the strain that the law remembers of a lump; 0 if it remembers none.
   double strain(const MaterialColumns& columns, std::size_t lump) const;
 
-  /// Turns what the law knows of a lump as a mirror does. \param sign of vectors, per axis, as Image::vector_sign
-  void mirror(MaterialColumns& columns, std::size_t lump, const Vector3& sign) const;
+  /// Turns what the law knows of a lump as a mirror does.
+  void mirror(MaterialColumns& columns, std::size_t lump, const Image& image) const;
 
  private:
   granular::AnyLaw law_;

@@ -25,7 +25,20 @@ Vector3 momentum(const State& s) {
 
 bool bears_load(const Domain& domain, std::size_t wall) {
   if (wall < 6) return is_mirror(domain.box().faces[wall]);
-  return wall - 6 < domain.plates().size();
+  return wall - 6 < domain.plates().size() + domain.panels().size();
+}
+
+/// Mass beyond the open faces of the box, kg: what has left.
+double mass_outside(const Box& box, const State& s) {
+  std::size_t outside = 0;
+  for (const Vector3& x : s.position)
+    outside += x.x < box.low.x || x.x > box.high.x || x.y < box.low.y || x.y > box.high.y || x.z < box.low.z ||
+               x.z > box.high.z;
+  return s.mass * static_cast<double>(outside);
+}
+
+std::string wall_name(const Domain& domain, std::size_t wall) {
+  return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
 
 /// Share of the lumps under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
@@ -39,6 +52,45 @@ double quasistatic_share(const Parameters& p, const State& s) {
     quasistatic += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) < 1e-2;
   }
   return pressed == 0 ? 0 : static_cast<double>(quasistatic) / static_cast<double>(pressed);
+}
+
+template <class Body>
+void for_each_air_cell(const AirAround& air, Body&& body) {
+  for (int k = 0; k < air.grid.count[2]; ++k)
+    for (int j = 0; j < air.grid.count[1]; ++j)
+      for (int i = 0; i < air.grid.count[0]; ++i) body(air.grid.index(i, j, k));
+}
+
+double largest_air_speed(const AirAround& air) {
+  double square = 0;
+  for_each_air_cell(air, [&](std::size_t c) {
+    Vector3 u;
+    for (int axis = 0; axis < 3; ++axis) u[axis] = air.flow.cell_velocity(air.grid, axis, c);
+    square = std::max(square, dot(u, u));
+  });
+  return std::sqrt(square);
+}
+
+struct PressureRange {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+};
+PressureRange pressure_range(const AirAround& air) {
+  PressureRange range;
+  for_each_air_cell(air, [&](std::size_t c) {
+    range.least = std::min(range.least, air.flow.pressure[c]);
+    range.most = std::max(range.most, air.flow.pressure[c]);
+  });
+  return range;
+}
+
+std::vector<RegimeLine> regime_of_air(const Parameters& p, const AirAround& air) {
+  const PressureRange range = pressure_range(air);
+  const double swing = std::max(std::abs(range.least), std::abs(range.most)) / p.air.gas.pressure;
+  return {{"air's pressure swing", fmt::format("{:.3g}", swing),
+           "largest difference from air.pressure over it; the air is taken for incompressible, up to about 0.1",
+           swing > 0.1},
+          {"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
+           "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000}};
 }
 
 }  // namespace
@@ -68,12 +120,14 @@ std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
   const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
   const Vector3 p = momentum(s);
-  std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
-                                    {"speed_max", "m/s", largest_speed(s)},
-                                    {"density_min", "kg/m3", *least},
-                                    {"density_max", "kg/m3", *most},
-                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
-                                    {"gate_time", "s", s.gate_time}};
+  std::vector<NamedValue> values = {
+      {"step_size", "s", s.last_step},
+      {"speed_max", "m/s", largest_speed(s)},
+      {"density_min", "kg/m3", *least},
+      {"density_max", "kg/m3", *most},
+      {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+      {"gate_time", "s", s.gate_time},
+      {"mass_outside", "kg", mass_outside(workspace_->sweep.neighbourhood().domain().box(), s)}};
   const auto add = [&](const std::string& name, const Vector3& v) {
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };
@@ -82,8 +136,52 @@ std::vector<NamedValue> Continuum::totals() const {
   add("impulse_damping", s.damping_impulse);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     if (bears_load(workspace_->sweep.neighbourhood().domain(), wall))
-      add(std::string("impulse_") + wall_names[wall], s.wall_impulse[wall]);
+      add("impulse_" + wall_name(workspace_->sweep.neighbourhood().domain(), wall), s.wall_impulse[wall]);
+  if (parameters_.air.enabled) {
+    const AirAround& air = s.air;
+    const PressureRange pressure = pressure_range(air);
+    add("impulse_air", air.impulse);
+    values.insert(values.end(), {{"air_force_z", "N", air.force.z},
+                                 {"air_speed_max", "m/s", largest_air_speed(air)},
+                                 {"air_pressure_min", "Pa", pressure.least},
+                                 {"air_pressure_max", "Pa", pressure.most},
+                                 {"air_step_size", "s", air.last_step},
+                                 {"air_steps", "1", static_cast<double>(air.steps)},
+                                 {"air_iterations", "1", static_cast<double>(air.iterations)},
+                                 {"particle_reynolds_max", "1", air.reynolds_max}});
+  }
   return values;
+}
+
+std::optional<GridSnapshot> Continuum::grid() const {
+  const AirAround& air = state_.air;
+  if (!parameters_.air.enabled) return std::nullopt;
+  GridSnapshot snapshot{.time = state_.time,
+                        .step = state_.step,
+                        .count = air.grid.count,
+                        .low = air.grid.low,
+                        .spacing = air.grid.spacing,
+                        .columns = {}};
+  std::vector<Vector3> velocity, grains, drag;
+  std::vector<double> pressure, fraction;
+  for_each_air_cell(air, [&](std::size_t c) {
+    const double solid = air.solids.fraction[c];
+    Vector3 u, v, s;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      u[axis] = air.flow.cell_velocity(air.grid, axis, c);
+      v[axis] = solid > 0 ? air.solids.flux[a][c] / solid : 0;
+      s[axis] = air.flow.drag[a][c];
+    }
+    velocity.push_back(u), grains.push_back(v), drag.push_back(s);
+    pressure.push_back(air.flow.pressure[c]), fraction.push_back(solid);
+  });
+  snapshot.columns = {{"velocity", "m/s", std::move(velocity)},
+                      {"pressure", "Pa", std::move(pressure)},
+                      {"solid_fraction", "1", std::move(fraction)},
+                      {"grain_velocity", "m/s", std::move(grains)},
+                      {"drag", "N/m3", std::move(drag)}};
+  return snapshot;
 }
 
 std::vector<RegimeLine> Continuum::regime() const {
@@ -94,7 +192,7 @@ std::vector<RegimeLine> Continuum::regime() const {
   const double mach = largest_speed(s) / c;
   const auto [least, most] = std::minmax_element(s.packing.begin(), s.packing.end());
   const double quasistatic = quasistatic_share(parameters_, s);
-  return {
+  std::vector<RegimeLine> lines = {
       {"Courant number", fmt::format("{:.3g}", courant),
        "time step times the speed of pressure waves over the least smoothing length; stable below about 0.5 "
        "(Runge-Kutta), 1 (leapfrog)",
@@ -107,6 +205,9 @@ std::vector<RegimeLine> Continuum::regime() const {
        "lumps under pressure with an inertial number below 0.01, where the stress does not depend on the rate",
        quasistatic < 0.5},
   };
+  if (parameters_.air.enabled)
+    for (RegimeLine& line : regime_of_air(parameters_, s.air)) lines.push_back(std::move(line));
+  return lines;
 }
 
 }  // namespace talus::continuum

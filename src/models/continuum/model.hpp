@@ -10,6 +10,7 @@
 #include "models/continuum/state.hpp"
 #include "models/continuum/step.hpp"
 #include "models/model.hpp"
+#include "numerics/grid_snapshot.hpp"
 
 namespace talus::continuum {
 
@@ -30,9 +31,16 @@ class Continuum {
   void advance(ThreadTeam& team);
 
   /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start:
-  /// gate_time
-  /// (-1: shut), the impulses of gravity and damping, and by wall what it received ("impulse_floor_z", N s).
+  /// gate_time (-1: shut), mass_outside (beyond open faces: what has left), the impulses of gravity and damping, and by
+  /// wall what it received ("impulse_floor_z", N s).
+  /// With air: impulse_air since the start; of the air's last step its force on the grains, size, largest speed,
+  /// extreme pressures (against the surroundings) and iterations of the pressure; its steps and a grain's largest
+  /// Reynolds number since the start.
   std::vector<NamedValue> totals() const;
+
+  /// The air's cells as its last step left them: velocity and pressure (against air.pressure), solid_fraction, velocity
+  /// of the grains (0 where there are none), drag on the grains in a unit volume (N/m3). Nothing in a vacuum.
+  std::optional<GridSnapshot> grid() const;
 
   /// How far the run is from what the model assumes: Courant and Mach numbers, packing range, inertial numbers.
   std::vector<RegimeLine> regime() const;

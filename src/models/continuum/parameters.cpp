@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "models/continuum/atmosphere.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -14,18 +15,6 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-
-struct Extent {
-  double low, high;
-};
-
-Extent bed_along_x(const Parameters& p) {
-  return {p.bed.left.value_or(0), p.bed.right.value_or(p.box.width)};
-}
-
-double bed_bottom(const Parameters& p) {
-  return p.bed.bottom.value_or(p.plate.height.value_or(0));
-}
 
 void check_faces(const Parameters& p, std::vector<Problem>& problems) {
   const auto pair = [&](const char* first, FaceKind a, const char* second, FaceKind b) {
@@ -88,14 +77,79 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
           "a spacing that divides the bed's width, the box's depth and the bed's height nearly evenly");
 }
 
+void check_wedge(const Parameters& p, std::vector<Problem>& problems) {
+  if (!p.wedge.half_angle) {
+    if (p.wedge.outlet > 0 || p.wedge.height > 0)
+      problems.push_back({.key = p.wedge.outlet > 0 ? "wedge.outlet" : "wedge.height",
+                          .what = "given, but there is no wedge",
+                          .allowed = "wedge.half_angle"});
+    return;
+  }
+  if (!(p.wedge.outlet < p.box.width))
+    problems.push_back({.key = "wedge.outlet",
+                        .what = fmt::format("{:.4g} mm leaves no walls", p.wedge.outlet / millimetre),
+                        .allowed = fmt::format("below {:.4g} mm, box.width", p.box.width / millimetre)});
+  const double rise = 0.5 * (p.box.width - p.wedge.outlet) / std::tan(*p.wedge.half_angle);
+  if (p.wedge.height + rise > p.box.height)
+    problems.push_back(
+        {.key = "wedge.height",
+         .what = fmt::format("the walls would reach {:.4g} mm, past the top", (p.wedge.height + rise) / millimetre),
+         .allowed = "walls that end within the box"});
+  if (p.plate.height)
+    problems.push_back({.key = "plate.height", .what = "a plate and a wedge together", .allowed = "one of them"});
+}
+
+void check_inclined_plates(const Parameters& p, std::vector<Problem>& problems) {
+  const std::size_t taken = (p.plate.height ? 1 : 0) + (p.wedge.half_angle ? 3 : 0);
+  if (taken + p.plates.size() > most_plates)
+    problems.push_back({.key = "plates",
+                        .what = fmt::format("{} plates, gate and walls of a wedge counted", taken + p.plates.size()),
+                        .allowed = fmt::format("at most {}", most_plates)});
+  for (std::size_t n = 0; n < p.plates.size(); ++n) {
+    const auto& plate = p.plates[n];
+    const auto add = [&](int key, std::string what, std::string allowed) {
+      problems.push_back(
+          {.key = std::string(plate_key(n, key)), .what = std::move(what), .allowed = std::move(allowed)});
+    };
+    if (plate.from.size() != 2 || plate.to.size() != 2) {
+      add(plate.from.size() != 2 ? 0 : 1, "is no place", "two lengths, x and z: [\"10 mm\", \"50 mm\"]");
+      continue;
+    }
+    const double length = std::hypot(plate.to[0] - plate.from[0], plate.to[1] - plate.from[1]);
+    if (!(length > p.bed.spacing)) add(1, "leaves a plate shorter than bed.spacing", "another place");
+    double end = 0;
+    bool in_order = plate.openings.size() % 2 == 0;
+    for (const double place : plate.openings) in_order = in_order && place >= end && place <= length, end = place;
+    if (!in_order)
+      add(2, "are no pairs of places along the plate",
+          fmt::format("an even number of lengths, rising, up to {:.4g} mm", length / millimetre));
+    if (plate.opens_after && plate.openings.empty()) add(3, "given, but there are no openings", "openings");
+  }
+}
+
 }  // namespace
+
+std::string_view plate_key(std::size_t n, int key) {
+  constexpr std::size_t most = most_plates + 1;  // one more than allowed, for the message
+  static const auto keys = [] {
+    std::array<std::array<std::string, 4>, most> all;
+    constexpr const char* names[4] = {"from", "to", "openings", "opens_after"};
+    for (std::size_t k = 0; k < most; ++k)
+      for (std::size_t name = 0; name < 4; ++name) all[k][name] = fmt::format("plates.{}.{}", k + 1, names[name]);
+    return all;
+  }();
+  return keys.at(n)[static_cast<std::size_t>(key)];
+}
 
 std::vector<Problem> check(const Parameters& p) {
   std::vector<Problem> problems;
   check_faces(p, problems);
   check_plate(p, problems);
+  check_wedge(p, problems);
+  check_inclined_plates(p, problems);
   check_bed(p, problems);
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
+  for (const Problem& problem : check_air(p)) problems.push_back(problem);
   if (p.law.collisions != granular::Collisions::none && !(p.gravity.acceleration > 0))
     problems.push_back({.key = "law.collisions",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
@@ -105,39 +159,6 @@ std::vector<Problem> check(const Parameters& p) {
                         .what = fmt::format("given, but gate.opens is \"{}\"", choice_name(p.gate.opens)),
                         .allowed = "gate.opens = \"at-time\""});
   return problems;
-}
-
-Domain domain_of(const Parameters& p) {
-  const Box box{.low = {0, 0, 0},
-                .high = {p.box.width, p.box.depth, p.box.height},
-                .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
-  std::vector<Plate> plates;
-  if (p.plate.height) {
-    Plate plate{.axis = 2, .position = *p.plate.height, .openings = {}};
-    if (p.plate.slit_left && p.plate.slit_right) {
-      // The rim of an opening is solid: one that ends at a face has none there, nor at front and rear.
-      const double left = *p.plate.slit_left > 0 ? *p.plate.slit_left : -p.box.width;
-      const double right = *p.plate.slit_right < p.box.width ? *p.plate.slit_right : 2 * p.box.width;
-      plate.openings.push_back({.low = {left, -p.box.depth, 0},
-                                .high = {right, 2 * p.box.depth, 0},
-                                .shut = p.gate.opens != GateOpens::from_the_start});
-    }
-    plates.push_back(std::move(plate));
-  }
-  return {box, std::move(plates)};
-}
-
-Lattice lattice_of(const Parameters& p) {
-  const Extent x = bed_along_x(p);
-  const Vector3 extent{x.high - x.low, p.box.depth, p.bed.height};
-  Lattice lattice{.corner = {x.low, 0, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto count = std::max<std::int64_t>(1, std::llround(extent[axis] / p.bed.spacing));
-    lattice.count[static_cast<std::size_t>(axis)] = count;
-    lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
-  }
-  lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
-  return lattice;
 }
 
 }  // namespace talus::continuum

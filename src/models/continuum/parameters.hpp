@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
+#include "models/air/parameters.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/law_options.hpp"
 #include "physics/sph/balance.hpp"
@@ -25,6 +27,11 @@ enum class Friction { coulomb, printed, none };
 enum class FrictionFrom { gate, start };
 enum class Method { runge_kutta, leapfrog };
 
+inline constexpr double half_turn = std::numbers::pi;
+
+/// The keys of the nth of [[plates]]: 0 from, 1 to, 2 openings, 3 opens_after.
+std::string_view plate_key(std::size_t n, int key);
+
 struct Parameters {
   struct BoxSize {
     double width = 0, depth = 0, height = 0;
@@ -36,6 +43,18 @@ struct Parameters {
     std::optional<double> height;
     std::optional<double> slit_left, slit_right;
   } plate;
+  struct Wedge {
+    std::optional<double> half_angle;
+    double outlet = 0;
+    double height = 0;
+  } wedge;
+  /// Of [[plates]].
+  struct InclinedPlate {
+    std::vector<double> from, to;  ///< x and z, m
+    std::vector<double> openings;  ///< where each begins and ends, in pairs, from `from` along the plate, m
+    std::optional<double> opens_after;
+  };
+  std::vector<InclinedPlate> plates;
   struct Gate {
     GateOpens opens = GateOpens::when_settled;
     double time = 0;
@@ -67,6 +86,11 @@ struct Parameters {
   struct Gravity {
     double acceleration = 9.81;
   } gravity;
+  struct Air {
+    bool enabled = false;
+    std::optional<double> cell;
+    air::Parameters gas;  ///< of which the grains' size and density stand in `grains`
+  } air;
   struct Settle {
     double speed = 0.5e-3;
     double duration = 20e-3;
@@ -112,7 +136,33 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.plate.slit_left);
   visit(Parameter{"plate.slit_right", dimension::length, above(0), "where the slit in the plate ends"},
         p.plate.slit_right);
-  visit(Parameter{"gate.opens", {}, {}, "when the gate that shuts the slit goes"}, p.gate.opens);
+  visit(
+      Parameter{"wedge.half_angle",
+                dimension::angle,
+                {.least = 0, .most = half_turn / 2, .least_excluded = true, .most_excluded = true},
+                "angle to the vertical of the two walls of a wedge hopper, which reach from its outlet, in the middle "
+                "of the box, up to the left and right faces; left out: no wedge"},
+      p.wedge.half_angle);
+  visit(Parameter{"wedge.outlet", dimension::length, at_least(0), "width of the wedge's outlet, which the gate shuts"},
+        p.wedge.outlet);
+  visit(Parameter{"wedge.height", dimension::length, at_least(0), "height of the outlet above the floor"},
+        p.wedge.height);
+  for (std::size_t n = 0; n < p.plates.size(); ++n) {
+    visit(Parameter{plate_key(n, 0),
+                    dimension::length,
+                    {},
+                    "thin straight plate through the whole depth, at any angle: x and z of its one end",
+                    true},
+          p.plates[n].from);
+    visit(Parameter{plate_key(n, 1), dimension::length, {}, "x and z of its other end", true}, p.plates[n].to);
+    visit(Parameter{plate_key(n, 2), dimension::length, at_least(0),
+                    "where each opening in it begins and ends, along the plate from `from`"},
+          p.plates[n].openings);
+    visit(Parameter{plate_key(n, 3), dimension::time, at_least(0),
+                    "its openings are shut by gates that go so long after the gate of the case; left out: no gates"},
+          p.plates[n].opens_after);
+  }
+  visit(Parameter{"gate.opens", {}, {}, "when the gate that shuts the slit or the wedge's outlet goes"}, p.gate.opens);
   visit(Parameter{"gate.time", dimension::time, at_least(0), "with gate.opens = \"at-time\": when"}, p.gate.time);
 
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
@@ -123,8 +173,13 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"bed.spacing", dimension::length, above(0),
                   "distance of the lumps at the start; fitted to whole numbers of lumps along each side", true},
         p.bed.spacing);
-  visit(Parameter{"bed.height", dimension::length, above(0), "height of the bed at the start", true}, p.bed.height);
-  visit(Parameter{"bed.bottom", dimension::length, at_least(0), "bottom of the bed; left out: the plate, or the floor"},
+  visit(
+      Parameter{"bed.height", dimension::length, above(0),
+                "height of the bed at the start; it is where the middle of its top can be seen from, no plate between",
+                true},
+      p.bed.height);
+  visit(Parameter{"bed.bottom", dimension::length, at_least(0),
+                  "bottom of the bed; left out: the plate, the wedge's outlet, or the floor"},
         p.bed.bottom);
   visit(Parameter{"bed.left", dimension::length, at_least(0), "where the bed begins along x; left out: the left face"},
         p.bed.left);
@@ -165,6 +220,14 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
 
+  visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it the other keys of the air mean nothing"},
+        p.air.enabled);
+  visit(Parameter{"air.cell", dimension::length, above(0),
+                  "size of the air's cells, fitted to whole numbers along each side of the box; left out: three "
+                  "quarters of bed.spacing"},
+        p.air.cell);
+  air::for_each_parameter(visit, p.air.gas);
+
   visit(Parameter{"settle.speed", dimension::velocity, above(0),
                   "the bed has settled when 99 of 100 lumps are slower than this"},
         p.settle.speed);
@@ -194,7 +257,20 @@ void for_each_parameter(Visit&& visit, P& p) {
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
 
-/// The box, and the plate with its slit shut unless there is no gate.
+/// The slit of the plate or the outlet of the wedge: what the grains leave through.
+struct Outlet {
+  double height, left, right;  ///< m
+};
+std::optional<Outlet> outlet_of(const Parameters& parameters);
+
+/// Where the bed begins and ends along x, and its bottom, m.
+struct Extent {
+  double low, high;
+};
+Extent bed_along_x(const Parameters& parameters);
+double bed_bottom(const Parameters& parameters);
+
+/// The box, and the plates with their gates shut unless there are none.
 Domain domain_of(const Parameters& parameters);
 
 /// The lattice on which the lumps stand at the start.
@@ -205,6 +281,10 @@ struct Lattice {
   double mass;                        ///< of a lump, kg: the bed's mass is its volume times packing and grain density
 };
 Lattice lattice_of(const Parameters& parameters);
+
+/// Where the lumps stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
+/// between, and farther than a quarter of the spacing from plates at any angle.
+std::vector<Vector3> bed_positions(const Parameters& parameters);
 
 }  // namespace talus::continuum
 

@@ -10,9 +10,9 @@ namespace talus::continuum {
 
 void sort_for_locality(State& state, double cell_size) {
   const std::vector<std::uint32_t> order = spatial_order(state.position, cell_size);
-  const auto sort = [&]<class Member>(const Field&, Member& column) {
+  const auto sort = [&]<class Member>(const Field& field, Member& column) {
     if constexpr (!std::is_arithmetic_v<Member>) {
-      if (column.empty()) return;  // not yet filled
+      if (!field.of_particles || column.empty()) return;  // not yet filled
       Member sorted(order.size());
       for (std::size_t n = 0; n < order.size(); ++n) sorted[n] = column[order[n]];
       column = std::move(sorted);

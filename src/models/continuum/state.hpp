@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "models/air/state.hpp"
 #include "numerics/field.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/material_point.hpp"
@@ -22,8 +23,24 @@ struct MaterialColumns {
 };
 
 /// The names of the walls that may bear load, and of the columns of their impulses.
-inline constexpr std::array<const char*, most_walls> wall_names = {"left",  "right", "front", "rear",
-                                                                   "floor", "top",   "plate", "plate_2"};
+inline constexpr std::array<const char*, most_walls> wall_names = {
+    "left",    "right",   "front",   "rear",    "floor",   "top",     "plate",   "plate_2",
+    "plate_3", "plate_4", "plate_5", "plate_6", "plate_7", "plate_8", "plate_9", "plate_10"};
+
+/// The air around the lumps, and what it does to them until its next step.
+struct AirAround {
+  Grid grid;                          ///< from the case, not a field
+  air::AirState flow;                 ///< empty: no air
+  air::Solids solids;                 ///< as the last step met them
+  std::vector<Vector3> acceleration;  ///< of each lump, m/s^2
+  Vector3 force;                      ///< the same on all lumps, N
+  Vector3 impulse;                    ///< what they have received, N s
+  std::uint64_t steps = 0;            ///< of the air
+  std::uint64_t steps_left = 0;       ///< of the lumps until the air's next
+  std::uint64_t iterations = 0;       ///< of the pressure, last step
+  double last_step = 0;               ///< s
+  double reynolds_max = 0;            ///< largest Reynolds number of a grain since the start
+};
 
 struct State {
   double time = 0;         ///< s
@@ -48,6 +65,8 @@ struct State {
   Vector3 damping_impulse;  ///< what the damping of the settling bed took, N s
   Vector3 gravity_impulse;  ///< what gravity gave, N s
 
+  AirAround air;
+
   // Phases.
   double gate_time = -1;   ///< when the gate opened, s; -1: it has not
   double quiet_time = -1;  ///< since when the bed has been slower than settle.speed, s; -1: it is not
@@ -67,6 +86,13 @@ inline constexpr std::array<const char*, 6> collisional_names = {"collisional_st
                                                                  "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
+struct AirNames {
+  const char *velocity, *momentum, *drag, *solid_flux, *force, *impulse;
+};
+inline constexpr std::array<AirNames, 3> air_names{
+    {{"air_velocity_x", "air_momentum_x", "air_drag_x", "air_solid_flux_x", "air_force_x", "impulse_air_x"},
+     {"air_velocity_y", "air_momentum_y", "air_drag_y", "air_solid_flux_y", "air_force_y", "impulse_air_y"},
+     {"air_velocity_z", "air_momentum_z", "air_drag_z", "air_solid_flux_z", "air_force_z", "impulse_air_z"}}};
 inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
   std::array<std::array<std::string, 3>, most_walls> names;
   for (std::size_t wall = 0; wall < most_walls; ++wall)
@@ -75,6 +101,30 @@ inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = 
   return names;
 }();
 }  // namespace detail
+
+template <class Visit, class A>
+void for_each_field_of_air(Visit&& visit, A& a) {
+  visit(Field{"air_acceleration", "m/s2"}, a.acceleration);
+  const auto grid = [&](const char* name, const char* unit, auto& field) {
+    visit(Field{name, unit, FieldRole::kept, false, false}, field);
+  };
+  grid("air_pressure", "Pa", a.flow.pressure);
+  grid("air_solid_fraction", "1", a.solids.fraction);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& names = detail::air_names[axis];
+    grid(names.velocity, "m/s", a.flow.velocity[axis]);
+    grid(names.momentum, "kg/(m2 s)", a.flow.momentum[axis]);
+    grid(names.drag, "N/m3", a.flow.drag[axis]);
+    grid(names.solid_flux, "m/s", a.solids.flux[axis]);
+    visit(Field{names.force, "N"}, a.force[static_cast<int>(axis)]);
+    visit(Field{names.impulse, "N s"}, a.impulse[static_cast<int>(axis)]);
+  }
+  visit(Field{"air_steps", "1"}, a.steps);
+  visit(Field{"air_steps_left", "1"}, a.steps_left);
+  visit(Field{"air_iterations", "1"}, a.iterations);
+  visit(Field{"air_last_step", "s"}, a.last_step);
+  visit(Field{"air_reynolds_max", "1"}, a.reynolds_max);
+}
 
 template <class Visit, class S>
 void for_each_field(Visit&& visit, S& s) {
@@ -107,6 +157,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(Field{"list_smoothing_length", "m", FieldRole::kept, false}, s.list_smoothing_length);
   visit(Field{"list_builds", "1"}, s.list_builds);
   visit(Field{"last_step", "s"}, s.last_step);
+  if (!s.air.flow.pressure.empty()) for_each_field_of_air(visit, s.air);
 }
 
 }  // namespace talus::continuum

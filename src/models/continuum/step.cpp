@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A step in order: (1) positions, velocities, densities and stresses move on, by the midpoint rule or the leapfrog,
-/// each stage starting from the state at the start of the step, so that none toggles a branch of the law; (2) walls rub
-/// and turn back; (3) the phase is looked at: the gate opens when its time has come or the bed is at rest; (4) where
-/// lumps have moved too far, they are sorted now and then and the neighbour lists are built; (5) the rates of the new
-/// state are evaluated: they open the next step. On entry and exit: rates, packing and lists belong to the state.
+/// A step in order: (0) where the lumps have come to the end of the air's step, the air goes on by the next one and
+/// fixes what it gives them in each of theirs; (1) positions, velocities, densities and stresses move on, by the
+/// midpoint rule or the leapfrog, each stage starting from the state at the start of the step, so that none toggles a
+/// branch of the law; (2) walls rub and turn back; (3) the phase is looked at: the gate opens when its time has come or
+/// the bed is at rest; (4) where lumps have moved too far, they are sorted now and then and the neighbour lists are
+/// built; (5) the rates of the new state are evaluated: they open the next step. On entry and exit: rates, packing and
+/// lists belong to the state.
 #include "models/continuum/step.hpp"
 
 #include <fmt/format.h>
@@ -25,6 +27,11 @@ constexpr std::uint64_t builds_between_sorts = 16;
 
 Vector3 gravity(const Parameters& p) {
   return {0, 0, -p.gravity.acceleration};
+}
+
+/// Acceleration by the air, which lasts over a step of its own.
+Vector3 by_air(const State& s, std::size_t i) {
+  return s.air.acceleration.empty() ? Vector3{} : s.air.acceleration[i];
 }
 
 void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span<const Vector3> position) {
@@ -51,7 +58,7 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
   const std::size_t count = s.position.size();
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
-    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + g);
+    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + g + by_air(s, i));
     w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
   });
   measure_strain_at(team, s, w, w.position);
@@ -61,7 +68,7 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i];
     s.position[i] += dt * w.velocity[i];
-    s.velocity[i] += dt * (w.rates.acceleration[i] + g);
+    s.velocity[i] += dt * (w.rates.acceleration[i] + g + by_air(s, i));
     s.density[i] += dt * w.rates.density_rate[i];
   });
   strain(team, s, w, dt);
@@ -75,7 +82,8 @@ void leapfrog(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, dou
   const Vector3 g = gravity(p);
   const double kick = 0.5 * (s.last_step + dt);
   const std::size_t count = s.position.size();
-  for_each(team, count, [&](std::size_t i) { s.velocity[i] += kick * (w.rates.acceleration[i] + g); });
+  for_each(team, count,
+           [&](std::size_t i) { s.velocity[i] += kick * (w.rates.acceleration[i] + g) + dt * by_air(s, i); });
   s.gravity_impulse += (kick * s.mass * static_cast<double>(count)) * g;
   meet_walls(team, p, w.sweep.neighbourhood().domain(), w.rates, s.position, kick, s);
   for_each(team, count, [&](std::size_t i) { w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i]; });
@@ -154,11 +162,15 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
   const bool quiet = 100 * moving <= s.velocity.size();
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
-  if (s.gate_time >= 0) return;
+  if (s.gate_time >= 0) {
+    w.sweep.open_gates(s.time - s.gate_time);
+    return;
+  }
   const bool settled = quiet && s.time - s.quiet_time >= p.settle.duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
-    w.sweep.open_gates();
+    w.sweep.open_gates(0);
+    if (w.air) w.air->open_gates();
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
     throw NumericalError({.what = "the bed has not settled",
                           .term = fmt::format("{} of {} lumps are faster than settle.speed", moving, s.velocity.size()),
@@ -211,6 +223,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
     : material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       sweep(parameters, state.mass, sound_speed),
+      air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters) : nullptr),
       position(state.position.size()),
       velocity(state.position.size()),
       density(state.position.size()),
@@ -221,11 +234,15 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (p.gate.opens == GateOpens::from_the_start) s.gate_time = 0;
   measure(team, s, w);
   find_neighbours(team, p, s, w);
+  if (w.air) w.air->begin(team, w.smoothing_length, s);
   evaluate(team, p, s, w);
 }
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (s.gate_time >= 0) w.sweep.open_gates();
+  if (s.gate_time >= 0) {
+    w.sweep.open_gates(s.time - s.gate_time);
+    if (w.air) w.air->open_gates();
+  }
   measure(team, s, w);
   w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
   evaluate(team, p, s, w);
@@ -240,7 +257,8 @@ double time_step(ThreadTeam& team, const Parameters& p, const State& s, const Wo
 }
 
 void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const double dt = time_step(team, p, s, w);
+  double dt = time_step(team, p, s, w);
+  if (w.air) dt = w.air->advance(team, w.smoothing_length, dt, s);
   p.integration.method == Method::runge_kutta ? runge_kutta(team, p, s, w, dt) : leapfrog(team, p, s, w, dt);
   turn_back(team, w.material, w.sweep.neighbourhood().domain(), w.position, s);
   damp(team, p, s, dt);

@@ -2,9 +2,11 @@
 /// One time step of the grains: density by Eq. 16, velocity by Eq. 17, stress by the law, walls, phases.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "models/continuum/atmosphere.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
@@ -17,7 +19,8 @@ struct Workspace {
   Material material;
   double sound_speed;  ///< bound for the time step, m/s
   Sweep sweep;
-  Rates rates;  ///< of the state, between steps
+  Rates rates;                      ///< of the state, between steps
+  std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
 
   /// The state in the middle of a step.
   std::vector<Vector3> position, velocity;
@@ -38,7 +41,7 @@ void begin(ThreadTeam& team, const Parameters& parameters, State& state, Workspa
 /// Recomputes what follows from kept fields, after a checkpoint was read.
 void derive(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
-/// The step that the Courant number allows, s, or the fixed one.
+/// The step that the Courant number allows, s, or the fixed one; air may ask for another.
 double time_step(ThreadTeam& team, const Parameters& parameters, const State& state, const Workspace& workspace);
 
 /// Advances by one step.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/instruction_set.hpp"
@@ -58,18 +59,39 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two lumps interact within the sum of their smoothing lengths: twice their mean.
   around_.build(team, position, smoothing_length, skin_);
-  image_walls_.clear();
-  for (const Image& image : around_.images()) {
-    std::array<std::int8_t, 3> walls{-1, -1, -1};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (image.side[axis] != 0) walls[axis] = static_cast<std::int8_t>(face_number(int(axis), image.side[axis] > 0));
-    if (image.plate >= 0) {
-      const Plate& plate = around_.domain().plates()[static_cast<std::size_t>(image.plate)];
-      walls[static_cast<std::size_t>(plate.axis)] = static_cast<std::int8_t>(wall_of_plate(image.plate));
-    }
-    image_walls_.push_back(walls);
-  }
+  bearings_.clear();
+  for (const Image& image : around_.images()) bearings_.push_back(bearings(image));
   find_groups();
+}
+
+/// Faces and plates at right angles bear the force along their axes. Where the line to the image meets a panel and
+/// another wall, the force is the sum of two along their normals.
+std::array<Sweep::Bearing, 3> Sweep::bearings(const Image& image) const {
+  const Domain& domain = around_.domain();
+  std::array<Bearing, 3> found;
+  std::size_t count = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const int side = image.side[static_cast<std::size_t>(axis)]; side != 0) {
+      const int wall = face_number(axis, side > 0);
+      found[count++] = {wall, domain.normal(wall)};
+    }
+  if (image.plate >= 0) found[count++] = {wall_of_plate(image.plate), domain.normal(wall_of_plate(image.plate))};
+  std::array<int, 2> met{-1, -1};
+  for (const std::int8_t number : image.mirrors) {
+    const int wall = number < 0 ? -1 : domain.mirrors()[static_cast<std::size_t>(number)].wall;
+    if (wall < 0 || wall == met[0] || wall == met[1]) continue;
+    met[met[0] < 0 ? 0 : 1] = wall;
+  }
+  for (std::size_t n = 0; n < 2 && met[n] >= 0; ++n) {
+    Vector3 part = domain.normal(met[n]);
+    if (met[1] >= 0) {
+      const Vector3 other = domain.normal(met[1 - n]);
+      const Vector3 across{-other.z, 0, other.x};
+      if (const double sine = dot(across, part); std::abs(sine) > 1e-6) part = (1 / sine) * across;
+    }
+    found[count++] = {met[n], part};
+  }
+  return found;
 }
 
 /// Where each group of a lump's neighbours ends: lumps first, then images by mirror, as the lists are sorted.
@@ -112,11 +134,11 @@ void Sweep::pack(ThreadTeam& team, const LumpView& lumps) {
     LumpRecord ghost = records_[ghosts[g].source];
     const Vector3 x = image.position({ghost.position[0], ghost.position[1], ghost.position[2]});
     const Vector3 u = image.vector({ghost.velocity[0], ghost.velocity[1], ghost.velocity[2]});
-    const Vector3& sign = image.vector_sign;
     for (int axis = 0; axis < 3; ++axis) ghost.position[axis] = x[axis], ghost.velocity[axis] = u[axis];
-    ghost.specific_stress[3] *= sign.x * sign.y;
-    ghost.specific_stress[4] *= sign.y * sign.z;
-    ghost.specific_stress[5] *= sign.z * sign.x;
+    const double* s = ghost.specific_stress;
+    const SymmetricTensor3<> stress = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
+    const double turned[6] = {stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.zx};
+    std::copy(turned, turned + 6, ghost.specific_stress);
     records_[count + g] = ghost;
   });
   constexpr double far_away = 1e3;  // m
@@ -133,7 +155,7 @@ void Sweep::pack(ThreadTeam& team, const LumpView& lumps) {
 Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
   const auto neighbours = around_.of(i);
   const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
-  const bool near_plate = around_.is_near_plate(i);
+  const bool near_plate = around_.is_near_plate(i), panels = !around_.domain().panels().empty();
   record.clear();
   end.clear();
   std::uint32_t n = 0;
@@ -146,8 +168,13 @@ Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, s
       const int image = groups_[g].image;
       const int plate = image < 0 ? -1 : around_.images()[static_cast<std::size_t>(image)].plate;
       const Vector3 own = place(static_cast<std::uint32_t>(i));
+      const auto sees = [&](std::uint32_t r) {
+        if (!panels) return around_.domain().sees(own, place(r), plate);
+        if (image < 0) return !around_.domain().blocks(own, place(r));
+        return around_.domain().sees_source(own, place(r), place(around_.ghosts()[r - around_.particles()].source));
+      };
       for (; n < groups_[g].end; ++n)
-        if (around_.domain().sees(own, place(neighbours[n]), plate)) record.push_back(neighbours[n]);
+        if (sees(neighbours[n])) record.push_back(neighbours[n]);
       end.push_back(static_cast<std::uint32_t>(record.size()));
     } else {
       end.push_back(groups_[g].end);
@@ -184,9 +211,9 @@ void Sweep::operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, R
       all += Vector3{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
       const std::int32_t image = groups_[first_group_[i] + g].image;
       if (image < 0) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (const int wall = image_walls_[static_cast<std::size_t>(image)][axis]; wall >= 0)
-          push[static_cast<std::size_t>(wall)] += acceleration[g][axis];
+      const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
+      for (const Bearing& bearing : bearings_[static_cast<std::size_t>(image)])
+        if (bearing.wall >= 0) push[static_cast<std::size_t>(bearing.wall)] += dot(bearing.part, a);
     }
     rates.acceleration[i] = all;
     rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct Rates {
   std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
   std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
   std::vector<double> kernel_density;        ///< sum of m W over lumps and images, kg/m^3
-  /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's axis, m/s^2. What
+  /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's normal, m/s^2. What
   /// images do along a wall cancels in the sum over all lumps.
   std::vector<std::array<double, most_walls>> wall_push;
 
@@ -51,7 +52,8 @@ class Sweep {
   /// Builds the neighbour lists.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
   const Neighbourhood& neighbourhood() const { return around_; }
-  void open_gates() { around_.open_gates(); }
+  /// \param time from the opening of the case's gate, s
+  void open_gates(double time = std::numeric_limits<double>::infinity()) { around_.open_gates(time); }
 
   /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
   void operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, Rates& rates);
@@ -62,6 +64,13 @@ class Sweep {
     std::int32_t image;  ///< of the group, -1: lumps
   };
 
+  /// A wall that an image loads, and what of its force, in the direction of the wall's normal.
+  struct Bearing {
+    int wall = -1;
+    Vector3 part;
+  };
+
+  std::array<Bearing, 3> bearings(const Image& image) const;
   void pack(ThreadTeam& team, const LumpView& lumps);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
@@ -75,10 +84,10 @@ class Sweep {
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_;  // by what is wanted
   Neighbourhood around_;
-  std::vector<std::array<std::int8_t, 3>> image_walls_;  // the wall that bears each component, -1: none; by image
-  std::vector<LumpRecord> records_;                      // lumps, images, nobody
-  std::vector<Group> groups_;                            // of every lump's neighbours, one lump after the other
-  std::vector<std::uint32_t> first_group_;               // of a lump; one more than lumps
+  std::vector<std::array<Bearing, 3>> bearings_;  // by image; those that are used first
+  std::vector<LumpRecord> records_;               // lumps, images, nobody
+  std::vector<Group> groups_;                     // of every lump's neighbours, one lump after the other
+  std::vector<std::uint32_t> first_group_;        // of a lump; one more than lumps
 };
 
 }  // namespace talus::continuum

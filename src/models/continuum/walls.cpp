@@ -17,57 +17,59 @@ Impulses sum(Impulses a, const Impulses& b) {
   return a;
 }
 
-int axis_of_wall(const Domain& domain, int wall) {
-  if (wall < wall_of_plate(0)) return wall / 2;
-  const auto plate = static_cast<std::size_t>(wall - wall_of_plate(0));
-  return plate < domain.plates().size() ? domain.plates()[plate].axis : 2;
-}
-
 struct Wall {
   int number;
-  int axis;
-  double position;
+  Vector3 place, normal;
   int side;  ///< on which lumps are: 1 above, -1 below, 0 both
 };
 
-/// The walls that rub: solid faces and plates.
+/// The walls that rub: solid faces, plates, panels.
 std::vector<Wall> rough_walls(const Domain& domain) {
   std::vector<Wall> walls;
+  const auto add = [&](int number, const Vector3& place, int side) {
+    walls.push_back({number, place, domain.normal(number), side});
+  };
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1})
       if (domain.box().face(axis, side) == FaceKind::wall)
-        walls.push_back({face_number(axis, side), axis, domain.box().bound(axis, side), side == 0 ? 1 : -1});
+        add(face_number(axis, side), side == 0 ? domain.box().low : domain.box().high, side == 0 ? 1 : -1);
   for (int p = 0; p < static_cast<int>(domain.plates().size()); ++p) {
     const Plate& plate = domain.plates()[static_cast<std::size_t>(p)];
-    walls.push_back({wall_of_plate(p), plate.axis, plate.position, 0});
+    Vector3 place;
+    place[plate.axis] = plate.position;
+    add(wall_of_plate(p), place, 0);
   }
+  for (int p = 0; p < static_cast<int>(domain.panels().size()); ++p)
+    add(wall_of_plate(p), domain.panels()[static_cast<std::size_t>(p)].from, 0);
   return walls;
 }
 
-/// Size of the traction along a plane with that normal.
-double shear_on_plane(const SymmetricTensor3<>& t, int axis) {
-  return axis == 0 ? std::hypot(t.xy, t.zx) : axis == 1 ? std::hypot(t.xy, t.yz) : std::hypot(t.yz, t.zx);
+/// Whether the wall is there, at a place beside it: no opening of a plate, no end of a panel.
+bool is_beside(const Domain& domain, const Wall& wall, const Vector3& position) {
+  if (wall.number < wall_of_plate(0)) return true;
+  const auto number = static_cast<std::size_t>(wall.number - wall_of_plate(0));
+  if (!domain.plates().empty()) return domain.plates()[number].is_solid(position);
+  const Panel& panel = domain.panels()[number];
+  return panel.is_solid(dot(panel.along(), position - panel.from));
 }
 
 Vector3 rubbed(const Parameters& p, const Wall& wall, const Domain& domain, const Vector3& position,
                const Vector3& velocity, double push, const SymmetricTensor3<>& stress, double mass, double density,
                double duration) {
-  Vector3 along = velocity;
-  along[wall.axis] = 0;
-  const int side = wall.side != 0 ? wall.side : (position[wall.axis] >= wall.position ? 1 : -1);
+  const Vector3 through = dot(velocity, wall.normal) * wall.normal;
+  const Vector3 along = velocity - through;
+  const double above = dot(position - wall.place, wall.normal);
   if (p.walls.friction == Friction::coulomb) {
-    along = sph::coulomb_friction(along, side * push * duration, p.walls.coefficient);
-  } else {
-    if (std::abs(position[wall.axis] - wall.position) > sph::smoothing_length(mass, density)) return velocity;
-    if (wall.number >= wall_of_plate(0) &&
-        !domain.plates()[static_cast<std::size_t>(wall.number - wall_of_plate(0))].is_solid(position))
-      return velocity;
-    const double normal[3] = {stress.xx, stress.yy, stress.zz};
-    along = sph::printed_friction(along, shear_on_plane(stress, wall.axis), normal[wall.axis], p.walls.coefficient,
-                                  duration);
+    const int side = wall.side != 0 ? wall.side : (above >= 0 ? 1 : -1);
+    return through + sph::coulomb_friction(along, side * push * duration, p.walls.coefficient);
   }
-  along[wall.axis] = velocity[wall.axis];
-  return along;
+  if (std::abs(above) > sph::smoothing_length(mass, density) || !is_beside(domain, wall, position)) return velocity;
+  const Vector3 n = wall.normal;
+  const Vector3 traction{stress.xx * n.x + stress.xy * n.y + stress.zx * n.z,
+                         stress.xy * n.x + stress.yy * n.y + stress.yz * n.z,
+                         stress.zx * n.x + stress.yz * n.y + stress.zz * n.z};
+  const double normal = dot(traction, n);
+  return through + sph::printed_friction(along, norm(traction - normal * n), normal, p.walls.coefficient, duration);
 }
 
 }  // namespace
@@ -83,7 +85,7 @@ void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, con
     Impulses received{};
     const std::array<double, most_walls>& push = rates.wall_push[i];
     for (std::size_t wall = 0; wall < most_walls; ++wall)
-      received[wall][axis_of_wall(domain, int(wall))] -= state.mass * duration * push[wall];
+      if (push[wall] != 0) received[wall] -= (state.mass * duration * push[wall]) * domain.normal(int(wall));
     for (const Wall& wall : rough) {
       const auto number = static_cast<std::size_t>(wall.number);
       const Vector3 after = rubbed(p, wall, domain, position[i], state.velocity[i], push[number],
@@ -101,17 +103,24 @@ void turn_back(ThreadTeam& team, const Material& material, const Domain& domain,
   constexpr int most_bounces = 8;
   const auto turn = [&](std::size_t i) {
     Impulses received{};
-    for (int bounces = 0; bounces < most_bounces; ++bounces) {
+    const auto become = [&](int wall, const Vector3& position, const Vector3& velocity) {
+      received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - velocity);
+      state.velocity[i] = velocity;
+      state.position[i] = position;
+    };
+    for (int bounces = 0;; ++bounces) {
       const auto bounce = domain.bounce(before[i], state.position[i]);
       if (!bounce) break;
-      const Vector3 after = bounce->image.vector(state.velocity[i]);
-      received[static_cast<std::size_t>(bounce->wall)] += state.mass * (state.velocity[i] - after);
-      state.velocity[i] = after;
+      if (bounces == most_bounces) {  // in a narrow corner: back the way it came
+        if (!state.reset_position.empty()) state.reset_position[i] += before[i] - state.position[i];
+        become(bounce->wall, before[i], -1.0 * state.velocity[i]);
+        break;
+      }
       const Vector3 place = bounce->image.position(state.position[i]);
       if (!state.reset_position.empty())
         state.reset_position[i] = place - bounce->image.vector(state.position[i] - state.reset_position[i]);
-      state.position[i] = place;
-      material.mirror(state.material, i, bounce->image.vector_sign);
+      become(bounce->wall, place, bounce->image.vector(state.velocity[i]));
+      material.mirror(state.material, i, bounce->image);
     }
     return received;
   };

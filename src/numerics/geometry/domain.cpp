@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "numerics/geometry/mirrors.hpp"
+
 namespace talus {
 
 namespace {
@@ -16,7 +18,7 @@ struct AxisImage {
   double sign = 1, offset = 0, vector_sign = 1;
 };
 
-AxisImage mirrored(const AxisImage& image, double plane, FaceKind kind) {
+AxisImage axis_mirrored(const AxisImage& image, double plane, FaceKind kind) {
   return {image.copy, -image.sign, 2 * plane - image.offset,
           kind == FaceKind::printed ? image.vector_sign : -image.vector_sign};
 }
@@ -35,7 +37,7 @@ std::vector<AxisImage> axis_images(const Box& box, int axis, double reach) {
         for (int k = n; k >= 1; --k) {
           const int at = k % 2 == 1 ? side : 1 - side;
           exists = exists && is_mirror(box.face(axis, at));
-          image = mirrored(image, box.bound(axis, at), box.face(axis, at));
+          image = axis_mirrored(image, box.bound(axis, at), box.face(axis, at));
         }
         if (!exists) break;
       }
@@ -63,23 +65,39 @@ Image mirrored_at(double plane, int axis, Image image = {}) {
 
 }  // namespace
 
-Domain::Domain(const Box& box, std::vector<Plate> plates) : box_(box), plates_(std::move(plates)) {
+Domain::Domain(const Box& box, std::vector<Plate> plates, std::vector<Panel> panels)
+    : box_(box), plates_(std::move(plates)), panels_(std::move(panels)) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(box.extent(axis) > 0)) throw std::invalid_argument("the box is empty");
     if ((box.face(axis, 0) == FaceKind::periodic) != (box.face(axis, 1) == FaceKind::periodic))
       throw std::invalid_argument("a periodic face needs a periodic one opposite");
   }
-  if (plates_.size() > most_plates) throw std::invalid_argument("too many plates");
+  if (!plates_.empty() && !panels_.empty()) throw std::invalid_argument("plates and panels do not go together");
+  for (const Panel& panel : panels_)
+    if (!(panel.length() > 0)) throw std::invalid_argument("a panel has no length");
+  if (plates_.size() + panels_.size() > most_plates) throw std::invalid_argument("too many plates");
   for (const Plate& plate : plates_) {
     if (plate.axis != plates_[0].axis) throw std::invalid_argument("plates must be parallel");
     if (!(plate.position > box.low[plate.axis] && plate.position < box.high[plate.axis]))
       throw std::invalid_argument("a plate must lie inside the box");
   }
+  find_mirrors();
 }
 
-void Domain::open_gates() {
+void Domain::open_gates(double time) {
   for (Plate& plate : plates_)
     for (Opening& opening : plate.openings) opening.shut = false;
+  for (Panel& panel : panels_)
+    for (Panel::Opening& opening : panel.openings) opening.shut = opening.shut && time < opening.opens_after;
+}
+
+Vector3 Domain::normal(int wall) const {
+  const auto number = static_cast<std::size_t>(wall - wall_of_plate(0));
+  if (wall >= wall_of_plate(0) && number < panels_.size()) return panels_[number].normal();
+  const int axis = wall < wall_of_plate(0) ? wall / 2 : number < plates_.size() ? plates_[number].axis : 2;
+  Vector3 unit;
+  unit[axis] = 1;
+  return unit;
 }
 
 double Domain::largest_reach() const {
@@ -116,10 +134,24 @@ std::vector<Image> Domain::images(double reach) const {
           }
           images.push_back(image);
         }
+  if (panels_.empty()) return images;
+  for (const Image& image : images_in_panels(reach))
+    for (const AxisImage& y : along_y) {
+      Image both = image;
+      set_axis(both, box_, 1, y);
+      images.push_back(both);
+    }
   return images;
 }
 
 bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
+  Vector3 place = x;
+  for (const std::int8_t number : image.mirrors) {
+    if (number < 0) break;
+    const Mirror& mirror = mirrors_[static_cast<std::size_t>(number)];
+    if (!(mirror.distance(place) <= reach)) return false;
+    place = mirrored(Image{}, mirror).source(place);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const int copy = image.copy[static_cast<std::size_t>(axis)];
     if (copy < 0 && !(x[axis] >= box_.low[axis] - reach)) return false;
@@ -135,6 +167,10 @@ bool Domain::is_near_plate(const Vector3& x, double reach) const {
                      [&](const Plate& plate) { return std::abs(x[plate.axis] - plate.position) <= reach; });
 }
 
+bool Domain::is_near_panel(const Vector3& x, double reach) const {
+  return std::any_of(panels_.begin(), panels_.end(), [&](const Panel& panel) { return panel.distance(x) <= reach; });
+}
+
 std::optional<Domain::Bounce> Domain::bounce(const Vector3& from, const Vector3& to) const {
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {
@@ -147,7 +183,15 @@ std::optional<Domain::Bounce> Domain::bounce(const Vector3& from, const Vector3&
     if (plate.side_of(from) != plate.side_of(to) && plate.is_solid(fold(crossing(plate, from, to))))
       return Bounce{wall_of_plate(p), mirrored_at(plate.position, plate.axis)};
   }
-  return std::nullopt;
+  std::optional<Bounce> first;
+  double earliest = 2;
+  for (int p = 0; p < static_cast<int>(panels_.size()); ++p) {
+    const auto at = panels_[static_cast<std::size_t>(p)].meets(from, to);
+    if (!at || *at >= earliest) continue;
+    earliest = *at;
+    first = Bounce{wall_of_plate(p), mirrored(Image{}, mirrors_[static_cast<std::size_t>(p)])};
+  }
+  return first;
 }
 
 Vector3 Domain::fold(const Vector3& x) const {

@@ -74,7 +74,7 @@ inline Vector3 momentum(const State& s) {
 
 /// Momentum of the lumps less all that they were given: zero but for round-off.
 inline Vector3 momentum_error(const State& s) {
-  Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse;
+  Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse - s.air.impulse;
   for (const Vector3& impulse : s.wall_impulse) error += impulse;
   return error;
 }

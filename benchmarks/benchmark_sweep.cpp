@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a step of the continuum costs, and its parts: the sums over pairs with the packing of records, a rebuild of the
+/// neighbour lists, the law applied to all lumps, whole steps. The bed of the paper's hopper (60 x 3 x 50 lumps between
+/// mirrors, some 37 neighbours each) and one of 100,000 lumps; arguments: lumps along x, y, z, and threads.
+#include <benchmark/benchmark.h>
+
+#include "base/random.hpp"
+#include "models/continuum/initial.hpp"
+#include "models/continuum/model.hpp"
+
+namespace talus::continuum {
+namespace {
+
+/// The bed at rest on an open slit, its lumps a little out of place.
+struct Bed {
+  Parameters parameters;
+  State state;
+  Material material;
+  ThreadTeam team;
+  Sweep sweep;
+  Rates rates;
+  std::vector<double> h;
+
+  static Parameters hopper(const benchmark::State& run) {
+    constexpr double spacing = 0.1 / 60;
+    Parameters p;
+    p.box.width = static_cast<double>(run.range(0)) * spacing;
+    p.box.depth = static_cast<double>(run.range(1)) * spacing;
+    p.box.height = static_cast<double>(run.range(2) + 100) * spacing;
+    p.plate.height = 60 * spacing;
+    p.plate.slit_left = 0.3 * p.box.width;
+    p.plate.slit_right = 0.7 * p.box.width;
+    p.gate.opens = GateOpens::from_the_start;
+    p.bed.spacing = spacing;
+    p.bed.height = static_cast<double>(run.range(2)) * spacing;
+    return p;
+  }
+
+  explicit Bed(const benchmark::State& run)
+      : parameters(hopper(run)),
+        state(initial_state(parameters, Material(parameters))),
+        material(parameters),
+        team(static_cast<int>(run.range(3))),
+        sweep(parameters, state.mass, 100) {
+    Random random(1);
+    const auto shift = [&] { return 0.1 * parameters.bed.spacing * random.uniform(-1, 1); };
+    for (Vector3& x : state.position) x += Vector3{shift(), shift(), shift()};
+    for (Vector3& u : state.velocity)
+      u = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
+    for (double& density : state.density) density *= random.uniform(0.999, 1.001);
+    for (auto& stress : state.material.stress)
+      for (double& component : stress) component = random.uniform(0, 1000);
+    for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
+    sweep.find_neighbours(team, state.position, h);
+    evaluate(Wanted::all);
+  }
+  void evaluate(Wanted wanted) {
+    sweep(team, {state.position, state.velocity, state.density, state.material}, wanted, rates);
+  }
+};
+
+/// Neighbours of all lumps, images among them.
+std::size_t pairs_of(const Bed& bed) {
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < bed.h.size(); ++i) pairs += bed.sweep.neighbourhood().of(i).size();
+  return pairs;
+}
+
+void sweep(benchmark::State& run, Wanted wanted) {
+  Bed bed(run);
+  for (auto _ : run) bed.evaluate(wanted);
+  run.SetItemsProcessed(static_cast<std::int64_t>(pairs_of(bed)) * run.iterations());
+}
+void sweep_gradients(benchmark::State& run) {
+  sweep(run, Wanted::gradients);
+}
+void sweep_forces(benchmark::State& run) {
+  sweep(run, Wanted::forces);
+}
+void sweep_all(benchmark::State& run) {
+  sweep(run, Wanted::all);
+}
+
+void neighbours(benchmark::State& run) {
+  Bed bed(run);
+  for (auto _ : run) bed.sweep.find_neighbours(bed.team, bed.state.position, bed.h);
+  run.SetItemsProcessed(static_cast<std::int64_t>(bed.h.size()) * run.iterations());
+}
+
+void law(benchmark::State& run) {
+  Bed bed(run);
+  for (auto _ : run)
+    bed.material.update(bed.team, bed.state.material, bed.rates.velocity_gradient, bed.state.density, 1e-6,
+                        bed.state.material, true);
+  run.SetItemsProcessed(static_cast<std::int64_t>(bed.h.size()) * run.iterations());
+}
+
+void step(benchmark::State& run, Method method) {
+  Parameters p = Bed::hopper(run);
+  p.integration.method = method;
+  ThreadTeam team(static_cast<int>(run.range(3)));
+  Continuum model(p);
+  model.begin(team);
+  for (int n = 0; n < 100; ++n) model.advance(team);
+  for (auto _ : run) model.advance(team);
+  run.SetItemsProcessed(static_cast<std::int64_t>(model.state().position.size()) * run.iterations());
+}
+void step_leapfrog(benchmark::State& run) {
+  step(run, Method::leapfrog);
+}
+void step_runge_kutta(benchmark::State& run) {
+  step(run, Method::runge_kutta);
+}
+
+void sizes(benchmark::internal::Benchmark* stage) {
+  stage->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMicrosecond);
+  for (const int threads : {1, 2}) stage->Args({60, 3, 50, threads});
+  for (const int threads : {1, 2}) stage->Args({100, 20, 50, threads});
+}
+BENCHMARK(sweep_gradients)->Apply(sizes);
+BENCHMARK(sweep_forces)->Apply(sizes);
+BENCHMARK(sweep_all)->Apply(sizes);
+BENCHMARK(neighbours)->Apply(sizes);
+BENCHMARK(law)->Apply(sizes);
+BENCHMARK(step_leapfrog)->Apply(sizes);
+BENCHMARK(step_runge_kutta)->Apply(sizes);
+
+}  // namespace
+}  // namespace talus::continuum
+
+BENCHMARK_MAIN();

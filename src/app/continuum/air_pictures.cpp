@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/air_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "analysis/curve.hpp"
+#include "app/continuum/continuum_pictures.hpp"
+#include "io/figure/figure.hpp"
+#include "io/run_folder.hpp"
+#include "io/series.hpp"
+#include "io/vtkhdf.hpp"
+#include "io/vtkhdf_grid.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using namespace figure;
+
+constexpr double printed_times[] = {0.17, 0.2, 1.0};  // s
+constexpr double between_arrows = 9;                  // units of the page
+
+struct Layer {
+  std::vector<Vector3> centre, velocity;
+  std::vector<double> radius, pressure;
+};
+
+Layer middle_layer(const GridSnapshot& air) {
+  Layer layer;
+  const int j = air.count[1] / 2;
+  for (int k = 0; k < air.count[2]; ++k)
+    for (int i = 0; i < air.count[0]; ++i) {
+      const std::size_t c = air.index(i, j, k);
+      layer.centre.push_back(air.centre(i, j, k));
+      layer.velocity.push_back(air.vectors("velocity")[c]);
+      layer.pressure.push_back(air.scalars("pressure")[c]);
+      layer.radius.push_back(0.75 * std::max(air.spacing.x, air.spacing.z));  // without gaps
+    }
+  return layer;
+}
+
+/// Those nearest to the paper's times, each once; the last one of a shorter run.
+std::vector<std::size_t> chosen(const std::vector<double>& times) {
+  std::vector<std::size_t> frames;
+  for (const double time : printed_times)
+    if (time <= times.back() + 0.01) frames.push_back(nearest_point(times, time));
+  if (frames.empty()) frames.push_back(times.size() - 1);
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  return frames;
+}
+
+}  // namespace
+
+bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
+              const std::filesystem::path& path) {
+  const RunFolder folder(run_folder);
+  const std::vector<int> numbers = folder.snapshot_numbers("air");
+  if (numbers.empty()) return false;
+  const double gate = gate_time_of(read_series(folder.series()));
+  std::vector<double> times;
+  for (const int number : numbers) times.push_back(read_points_time(folder.snapshot(number, "air")) - gate);
+  std::vector<Layer> layers;
+  const std::vector<std::size_t> frames = chosen(times);
+  for (const std::size_t n : frames) layers.push_back(middle_layer(read_grid(folder.snapshot(numbers[n], "air"))));
+  Figure figure{.title = title};
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const Layer& layer = layers[n];
+    ParticlePicture picture = lump_picture(setting, layer.centre, layer.radius,
+                                           {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}});
+    picture.title = fmt::format("*t* = {:.2f} s", times[frames[n]]);
+    picture.arrows = Arrows{.values = layer.velocity, .spacing = between_arrows};
+    figure.panels.emplace_back(std::move(picture));
+  }
+  figure.columns = static_cast<int>(frames.size());
+  write_png(figure, path);
+  return true;
+}
+
+}  // namespace talus::app

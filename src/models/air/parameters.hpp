@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the air of a case is: an incompressible gas between grains (Yuu & Umekage 2011, Eqs 18-21). SI; the initial
+/// values are the defaults.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "base/parameter.hpp"
+#include "numerics/grid/passages.hpp"
+#include "physics/air/gas.hpp"
+#include "physics/coupling/drag.hpp"
+
+namespace talus::air {
+
+/// What has no divergence.
+enum class Continuity {
+  mixture,   ///< Phi u + (1-Phi) u_p: Eq. 19 and the grains' own continuity; grains that leave a vessel change places
+             ///< with air
+  air_alone  ///< Phi u: Eq. 19 without the change of Phi with time; air need not make room for grains
+};
+
+enum class Motion {
+  flowing,  ///< Eqs 18 and 19
+  frozen    ///< at rest and everywhere at one pressure: it only drags
+};
+
+struct Parameters {
+  double pressure = 101325;     ///< of the surroundings, Pa
+  double temperature = 293.15;  ///< K; not a key
+  double viscosity = 1.82e-5;   ///< Pa s
+  Motion motion = Motion::flowing;
+  Continuity continuity = Continuity::mixture;
+  coupling::DragLaw drag = coupling::DragLaw::schiller_naumann_umekage_yuu;
+  double grain_diameter = 200e-6;  ///< m
+  double grain_density = 2500;     ///< kg/m^3
+  double upwind = 0.25;   ///< upstream weight of convection: 0 the printed central scheme, 1 third-order upstream
+  double courant = 0.5;   ///< most that the air moves in a step, cells
+  double response = 0.1;  ///< most of the time step over the time in which the pressure stops the grains' dilation
+  double longest_step = 100e-6;  ///< s
+  double tolerance = 1e-6;       ///< of the pressure equation, relative
+  std::int64_t most_iterations = 200;
+  /// A vessel: walls left, right and below, planes of symmetry before and behind, open above.
+  FlowBoundaries boundaries{.kind = {FlowBoundary::no_slip, FlowBoundary::no_slip, FlowBoundary::free_slip,
+                                     FlowBoundary::free_slip, FlowBoundary::no_slip, FlowBoundary::open},
+                            .pressure = {},
+                            .wall_velocity = {}};
+
+  double density() const { return air::density(pressure, temperature); }
+  coupling::DragMedium medium() const {
+    return {.density = density(),
+            .viscosity = viscosity,
+            .diameter = grain_diameter,
+            .slip_factor = slip_factor(mean_free_path(viscosity, pressure, temperature), grain_diameter)};
+  }
+};
+
+/// Every key of the air, once; those of a grain are the grains' own.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"air.pressure", dimension::pressure, above(0),
+                  "pressure of the surroundings; density (dry air at 20 degrees C) and slip factor of the drag follow"},
+        p.pressure);
+  visit(Parameter{"air.viscosity", dimension::viscosity, above(0), "viscosity of the air"}, p.viscosity);
+  visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest and of one pressure, so that it only drags"},
+        p.motion);
+  visit(Parameter{"air.continuity",
+                  {},
+                  {},
+                  "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
+                  "if the void fraction did not change with time"},
+        p.continuity);
+  visit(Parameter{"air.drag",
+                  {},
+                  {},
+                  "law of the drag: Schiller and Naumann's with Umekage and Yuu's factor (Eqs 20-21), or Gidaspow's of "
+                  "Ergun, Wen and Yu"},
+        p.drag);
+  visit(Parameter{"air.left",
+                  {},
+                  {},
+                  "what the left face is to the air, whatever it is to the grains: a wall, a plane of symmetry (or a "
+                  "wall without friction), periodic (with its opposite), or open to a pressure"},
+        p.boundaries.kind[0]);
+  visit(Parameter{"air.right", {}, {}, "the right face"}, p.boundaries.kind[1]);
+  visit(Parameter{"air.front", {}, {}, "the front face"}, p.boundaries.kind[2]);
+  visit(Parameter{"air.rear", {}, {}, "the rear face"}, p.boundaries.kind[3]);
+  visit(Parameter{"air.floor", {}, {}, "the floor"}, p.boundaries.kind[4]);
+  visit(Parameter{"air.top", {}, {}, "the top"}, p.boundaries.kind[5]);
+  visit(Parameter{"air.left_pressure", dimension::pressure, any(),
+                  "pressure beyond the left face where it is open, against air.pressure"},
+        p.boundaries.pressure[0]);
+  visit(Parameter{"air.right_pressure", dimension::pressure, any(), "beyond the right face"}, p.boundaries.pressure[1]);
+  visit(Parameter{"air.front_pressure", dimension::pressure, any(), "beyond the front face"}, p.boundaries.pressure[2]);
+  visit(Parameter{"air.rear_pressure", dimension::pressure, any(), "beyond the rear face"}, p.boundaries.pressure[3]);
+  visit(Parameter{"air.floor_pressure", dimension::pressure, any(), "below the floor"}, p.boundaries.pressure[4]);
+  visit(Parameter{"air.top_pressure", dimension::pressure, any(), "above the top"}, p.boundaries.pressure[5]);
+  visit(Parameter{"air.upwind", dimension::none, between(0, 1),
+                  "upstream weight of the air's convection: 0 the printed central scheme of fourth order, 1 the "
+                  "upstream-biased one of third"},
+        p.upwind);
+  visit(Parameter{"air.courant", dimension::none, above(0), "most cells that the air moves in one of its steps"},
+        p.courant);
+  visit(Parameter{"air.response", dimension::none, above(0),
+                  "longest step of the air over the time in which the pressure it takes stops a bed that dilates"},
+        p.response);
+  visit(Parameter{"air.longest_step", dimension::time, above(0), "longest step of the air in any case"},
+        p.longest_step);
+  visit(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
+                  "residual of the pressure equation over its source at which it is solved"},
+        p.tolerance);
+  visit(Parameter{"air.most_iterations", dimension::none, at_least(1),
+                  "iterations after which a pressure that is not solved ends the run"},
+        p.most_iterations);
+}
+
+}  // namespace talus::air
+
+namespace talus {
+template <>
+inline constexpr auto choices<air::Motion> = std::to_array<std::string_view>({"flowing", "frozen"});
+template <>
+inline constexpr auto choices<air::Continuity> = std::to_array<std::string_view>({"mixture", "air-alone"});
+template <>
+inline constexpr auto choices<coupling::DragLaw> = std::to_array<std::string_view>({"schiller-naumann+umekage-yuu",
+                                                                                    "ergun-wen-yu"});
+template <>
+inline constexpr auto choices<FlowBoundary> = std::to_array<std::string_view>({"wall", "symmetry", "periodic", "open"});
+}  // namespace talus

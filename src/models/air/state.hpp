@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the air knows between its steps: of the solids in its cells, and of itself.
+#pragma once
+
+#include "numerics/grid/grid.hpp"
+
+namespace talus::air {
+
+/// What stands in the air, cell by cell.
+struct Solids {
+  CellField fraction;  ///< solid volume over volume, 0 to below 1
+  FaceField flux;      ///< by component, of every cell: fraction times the solid's velocity, m/s
+
+  Solids() = default;
+  explicit Solids(const Grid& grid) : fraction(grid.cell_field()), flux(grid.face_field()) {}
+};
+
+/// What the air remembers between steps.
+struct AirState {
+  FaceField velocity;  ///< m/s
+  FaceField momentum;  ///< rho Phi u, kg/(m^2 s)
+  CellField pressure;  ///< against the boundaries' reference, Pa; mean of the last step
+  FaceField drag;      ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
+
+  AirState() = default;
+  explicit AirState(const Grid& grid)
+      : velocity(grid.face_field()),
+        momentum(grid.face_field()),
+        pressure(grid.cell_field()),
+        drag(grid.face_field()) {}
+
+  /// Component of the velocity in the middle of a cell, m/s.
+  double cell_velocity(const Grid& grid, int axis, std::size_t cell) const {
+    const auto& u = velocity[static_cast<std::size_t>(axis)];
+    return 0.5 * (u[cell] + u[cell + static_cast<std::size_t>(grid.stride(axis))]);
+  }
+};
+
+}  // namespace talus::air

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/atmosphere.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double millimetre = 1e-3;
+
+Vector3 extent(const Parameters& p) {
+  return {p.box.width, p.box.depth, p.box.height};
+}
+
+double cell_size(const Parameters& p) {
+  return p.air.cell.value_or(0.75 * p.bed.spacing);
+}
+
+air::Parameters gas_of(const Parameters& p) {
+  air::Parameters gas = p.air.gas;
+  gas.grain_diameter = p.grains.diameter;
+  gas.grain_density = p.grains.density;
+  return gas;
+}
+
+}  // namespace
+
+Grid air_grid(const Parameters& p) {
+  Grid grid;
+  const Vector3 size = extent(p);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p))));
+    grid.count[static_cast<std::size_t>(axis)] = count;
+    grid.spacing[axis] = size[axis] / count;
+  }
+  return grid;
+}
+
+std::vector<Problem> check_air(const Parameters& p) {
+  std::vector<Problem> problems;
+  if (!p.air.enabled || !(cell_size(p) > 0)) return problems;
+  const auto add = [&](std::string key, std::string what, std::string allowed) {
+    problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
+  };
+  if (p.wedge.half_angle || !p.plates.empty())
+    add("air.enabled", "the air does not meet walls at an angle yet", "false with [wedge] and [[plates]]");
+  const Grid grid = air_grid(p);
+  const FaceKind grains[6] = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top};
+  constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
+  for (std::size_t face = 0; face < 6; ++face)
+    if ((p.air.gas.boundaries.kind[face] == FlowBoundary::periodic) != (grains[face] == FaceKind::periodic))
+      add(fmt::format("air.{}", names[face]),
+          fmt::format("is {}periodic, but box.{} is {}", grains[face] == FaceKind::periodic ? "not " : "", names[face],
+                      choice_name(grains[face])),
+          "periodic for both air and grains, or for neither");
+  for (int axis = 0; axis < 3; ++axis) {
+    const int count = grid.count[static_cast<std::size_t>(axis)];
+    if (std::abs(grid.spacing[axis] / cell_size(p) - 1) > 0.5)
+      add("air.cell",
+          fmt::format("along {} the cells would be {:.4g} mm long", "xyz"[axis], grid.spacing[axis] / millimetre),
+          "a length that divides the box's sides nearly evenly");
+    if (p.air.gas.boundaries.is_periodic(axis) && count > 1 && count % 2 == 1)
+      add("air.cell", fmt::format("makes {} cells along {}, where the air is periodic", count, "xyz"[axis]),
+          "an even number, or one");
+  }
+  if (p.plate.height) {
+    const double layer = *p.plate.height / grid.spacing.z;
+    if (std::abs(layer - std::round(layer)) > 1e-6)
+      add("air.cell", fmt::format("plate.height is {:.6g} cells above the floor", layer),
+          "cells of whose faces some lie in the plate");
+  }
+  return problems;
+}
+
+Atmosphere::Atmosphere(const Parameters& p)
+    : domain_(domain_of(p)),
+      grain_density_(p.grains.density),
+      medium_(gas_of(p).medium()),
+      deposition_(air_grid(p), domain_),
+      flow_(air_grid(p), gas_of(p), domain_.plates()),
+      per_solid_volume_(air_grid(p).face_field()) {}
+
+void Atmosphere::open_gates() {
+  domain_.open_gates();
+  deposition_.open_gates();
+  flow_.set_plates(domain_.plates());
+}
+
+void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposition_.weigh(team, s.position, smoothing_length);
+  deposition_.gather(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+}
+
+void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposit(team, smoothing_length, s);
+  flow_.begin(team, s.air.solids, s.air.flow);
+}
+
+double Atmosphere::advance(ThreadTeam& team, std::span<const double> smoothing_length, double dt, State& s) {
+  if (s.air.steps_left > 0)
+    dt = s.last_step;
+  else
+    move_air(team, smoothing_length, dt, s);
+  --s.air.steps_left;
+  s.air.impulse += dt * s.air.force;
+  return dt;
+}
+
+void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& s) {
+  AirAround& a = s.air;
+  deposit(team, smoothing_length, s);
+  const double longest = flow_.time_step(team, a.solids, a.flow);
+  dt = std::min(dt, longest);
+  a.steps_left = static_cast<std::uint64_t>(longest / dt);
+  const double duration = static_cast<double>(a.steps_left) * dt;
+  try {
+    flow_.advance(team, duration, a.solids, a.flow, per_solid_volume_);
+  } catch (const NumericalError& error) {
+    NumericalError::Report report = error.report();
+    report.step = s.step, report.time = s.time;
+    throw NumericalError(report);
+  }
+  received_.resize(s.position.size());
+  deposition_.hand_out(team, s.mass / grain_density_, per_solid_volume_, received_);
+  for_each(team, received_.size(),
+           [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
+  a.force = s.mass * reduce(
+                         team, received_.size(), Vector3{}, [&](std::size_t i) { return a.acceleration[i]; },
+                         [](const Vector3& x, const Vector3& y) { return x + y; });
+  ++a.steps;
+  a.last_step = duration;
+  a.iterations = static_cast<std::uint64_t>(flow_.iterations());
+  measure_slip(team, s);
+}
+
+/// The slip of each lump is the mean of its cells'.
+void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
+  const AirAround& a = s.air;
+  const Grid& grid = a.grid;
+  team.run(static_cast<std::size_t>(grid.count[2]), [&](std::size_t k) {
+    for (int j = 0; j < grid.count[1]; ++j)
+      for (int i = 0; i < grid.count[0]; ++i) {
+        const std::size_t c = grid.index(i, j, static_cast<int>(k));
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto n = static_cast<std::size_t>(axis);
+          const double solid = a.solids.fraction[c];
+          per_solid_volume_[n][c] = solid > 0 ? a.flow.cell_velocity(grid, axis, c) - a.solids.flux[n][c] / solid : 0;
+        }
+      }
+  });
+  deposition_.hand_out(team, 1, per_solid_volume_, received_);
+  const double reynolds = reduce(
+      team, received_.size(), 0.0, [&](std::size_t i) { return coupling::grain_reynolds(medium_, norm(received_[i])); },
+      [](double x, double y) { return std::max(x, y); });
+  s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds);
+}
+
+}  // namespace talus::continuum

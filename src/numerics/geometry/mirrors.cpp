@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Images in panels, and who sees them.
+#include "numerics/geometry/mirrors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+
+namespace {
+
+/// Beyond an open face the faces beside it reach on.
+constexpr double far_away = 1e3;  // m
+
+/// Turns both columns of (xx xz; zx zz) over in a line with that normal.
+void reflect(const Vector3& n, double& xx, double& xz, double& zx, double& zz) {
+  const double x = 2 * (n.x * xx + n.z * zx), z = 2 * (n.x * xz + n.z * zz);
+  xx -= x * n.x, zx -= x * n.z;
+  xz -= z * n.x, zz -= z * n.z;
+}
+
+bool same_map(const Image& a, const Image& b, double length) {
+  const auto close = [](double x, double y, double slack) { return std::abs(x - y) <= slack; };
+  constexpr double rounding = 1e-9;
+  return close(a.sign.x, b.sign.x, rounding) && close(a.sign.z, b.sign.z, rounding) &&
+         close(a.turn.xz, b.turn.xz, rounding) && close(a.turn.zx, b.turn.zx, rounding) &&
+         close(a.offset.x, b.offset.x, rounding * length) && close(a.offset.z, b.offset.z, rounding * length);
+}
+
+/// Least distance of two mirrors that do not cross: one of the ends is nearest.
+double distance(const Mirror& a, const Mirror& b) {
+  return std::min({a.distance(b.from), a.distance(b.to), b.distance(a.from), b.distance(a.to)});
+}
+
+}  // namespace
+
+Image mirrored(Image image, const Mirror& mirror) {
+  if (mirror.wall < 0) {  // seen through a periodic face: from the other side
+    image.offset += mirror.shift;
+    return image;
+  }
+  reflect(mirror.normal, image.sign.x, image.turn.xz, image.turn.zx, image.sign.z);
+  if (!mirror.printed)
+    reflect(mirror.normal, image.vector_sign.x, image.vector_turn.xz, image.vector_turn.zx, image.vector_sign.z);
+  const double twice = 2 * dot(mirror.normal, image.offset - mirror.from);
+  image.offset.x -= twice * mirror.normal.x;
+  image.offset.z -= twice * mirror.normal.z;
+  return image;
+}
+
+void Domain::find_mirrors() {
+  if (panels_.empty()) return;
+  for (std::size_t p = 0; p < panels_.size(); ++p)
+    mirrors_.push_back({.from = panels_[p].from,
+                        .to = panels_[p].to,
+                        .normal = panels_[p].normal(),
+                        .wall = wall_of_plate(static_cast<int>(p)),
+                        .shift = {},
+                        .printed = false});
+  for (const int axis : {0, 2})
+    for (const int side : {0, 1}) {
+      const FaceKind kind = box_.face(axis, side);
+      if (kind == FaceKind::open) continue;
+      const int other = 2 - axis;
+      Mirror mirror{.from = box_.low, .to = box_.high, .normal = {}, .wall = -1, .shift = {}, .printed = false};
+      mirror.from[axis] = mirror.to[axis] = box_.bound(axis, side);
+      if (box_.face(other, 0) == FaceKind::open) mirror.from[other] -= far_away;
+      if (box_.face(other, 1) == FaceKind::open) mirror.to[other] += far_away;
+      mirror.normal[axis] = 1;
+      if (kind == FaceKind::periodic)
+        mirror.shift[axis] = (side == 0 ? -1 : 1) * box_.extent(axis);
+      else
+        mirror.wall = face_number(axis, side);
+      mirror.printed = kind == FaceKind::printed;
+      mirrors_.push_back(mirror);
+    }
+}
+
+std::vector<Image> Domain::images_in_panels(double reach) const {
+  std::vector<Image> images;
+  // The mirror that the line meets last acts first.
+  const auto add = [&](std::initializer_list<std::size_t> met) {
+    Image image;
+    for (std::size_t n = met.size(); n-- > 0;) image = mirrored(image, mirrors_[met.begin()[n]]);
+    std::transform(met.begin(), met.end(), image.mirrors.begin(), [](std::size_t m) { return std::int8_t(m); });
+    const double length = std::max(box_.extent(0), box_.extent(2));
+    if (std::none_of(images.begin(), images.end(), [&](const Image& i) { return same_map(i, image, length); }))
+      images.push_back(image);
+  };
+  for (std::size_t a = 0; a < panels_.size(); ++a) add({a});
+  for (std::size_t a = 0; a < panels_.size(); ++a)
+    for (std::size_t b = a + 1; b < mirrors_.size(); ++b) {
+      if (distance(mirrors_[a], mirrors_[b]) > reach) continue;
+      add({a, b}), add({b, a}), add({a, b, a}), add({b, a, b});
+    }
+  return images;
+}
+
+bool Domain::blocks(const Vector3& a, const Vector3& b) const {
+  // From both ends the same numbers, so that two never disagree on whether they see each other.
+  const bool in_order = a.x != b.x ? a.x < b.x : a.z < b.z;
+  const Vector3 &first = in_order ? a : b, &second = in_order ? b : a;
+  return std::any_of(panels_.begin(), panels_.end(),
+                     [&](const Panel& p) { return p.meets(first, second).has_value(); }) ||
+         std::any_of(plates_.begin(), plates_.end(), [&](const Plate& plate) {
+           return plate.side_of(first) != plate.side_of(second) && plate.is_solid(fold(crossing(plate, first, second)));
+         });
+}
+
+bool Domain::sees_source(const Vector3& from, const Vector3& to, const Vector3& source) const {
+  constexpr int most_turns = 8;
+  const double slack = 1e-9 * std::max(box_.extent(0), box_.extent(2));
+  Vector3 a = from, b = to;
+  std::size_t last = mirrors_.size();
+  for (int turns = 0; turns < most_turns; ++turns) {
+    std::size_t first = mirrors_.size();
+    double earliest = 2;
+    for (std::size_t m = 0; m < mirrors_.size(); ++m) {
+      if (m == last) continue;
+      std::optional<double> at;
+      if (m < panels_.size()) {
+        at = panels_[m].meets(a, b);
+      } else {
+        const Mirror& face = mirrors_[m];
+        const int axis = face.normal.x != 0 ? 0 : 2;
+        const double outward = face.from[axis] > box_.low[axis] ? 1 : -1;
+        if (outward * (a[axis] - face.from[axis]) <= 0 && outward * (b[axis] - face.from[axis]) > 0)
+          at = (face.from[axis] - a[axis]) / (b[axis] - a[axis]);
+      }
+      if (at && *at < earliest) earliest = *at, first = m;
+    }
+    if (first == mirrors_.size()) return std::abs(b.x - source.x) < slack && std::abs(b.z - source.z) < slack;
+    const Mirror& mirror = mirrors_[first];
+    a = a + earliest * (b - a);
+    if (mirror.wall < 0) {
+      a -= mirror.shift;
+      b -= mirror.shift;
+      // It comes in at the opposite face, from outside: that one is not met.
+    } else {
+      b = mirrored(Image{}, mirror).position(b);
+    }
+    last = mirror.wall < 0 ? mirrors_.size() : first;
+  }
+  return false;
+}
+
+}  // namespace talus

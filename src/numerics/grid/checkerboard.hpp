@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The order in which the pressure solver keeps the cells of a grid: of each row along x first the red cells, then,
+/// elsewhere, the black ones, so that a sweep over one colour reads and writes runs of numbers without gaps.
+/// A cell is red if i + j + k is even. In row r = (j, k) the cells of a colour are i = 2 m + first, m = 0, 1, ...;
+/// its neighbours along x are m + first - 1 and m + first of the other colour in the same row, those along y and z are
+/// m of the other colour in the neighbouring rows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.hpp"
+
+namespace talus {
+
+class Checkerboard {
+ public:
+  Checkerboard(std::array<int, 3> count, std::array<bool, 3> periodic);
+
+  const std::array<int, 3>& count() const { return count_; }
+  bool is_periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
+  std::size_t rows() const { return rows_; }
+  /// Length of an array; its tail is a row of zeros that stands for whatever lies outside the grid.
+  std::size_t size() const { return 2 * (rows_ + 1) * stride_; }
+
+  /// First cell of the colour in row r; one pad cell before and at least one after the run.
+  std::size_t run(int colour, std::size_t r) const {
+    return (static_cast<std::size_t>(colour) * (rows_ + 1) + r) * stride_ + 1;
+  }
+  int first(int colour, std::size_t r) const { return (parity_[r] + colour) & 1; }
+  int length(int colour, std::size_t r) const { return (count_[0] - first(colour, r) + 1) / 2; }
+
+  /// The rows below and above in y, then in z; outside the grid: the row of zeros.
+  const std::array<std::uint32_t, 4>& around(std::size_t r) const { return around_[r]; }
+
+  std::size_t row(int j, int k) const {
+    return static_cast<std::size_t>(j) + static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(k);
+  }
+  std::size_t at(int i, int j, int k) const {
+    const int colour = (i + j + k) & 1;
+    return run(colour, row(j, k)) + static_cast<std::size_t>(i / 2);
+  }
+
+  /// Calls body(task, first row, end row) for blocks of rows of fixed size.
+  template <class Body>
+  void for_each_block(ThreadTeam& team, Body&& body) const {
+    team.run(blocks(), [&](std::size_t block) {
+      const std::size_t begin = block * block_, end = begin + block_;
+      body(block, begin, end < rows_ ? end : rows_);
+    });
+  }
+  std::size_t blocks() const { return (rows_ + block_ - 1) / block_; }
+
+  /// Repeats the ends of a run behind its other end where x is periodic.
+  template <class Number>
+  void close_run(Number* run, int length) const {
+    if (!periodic_[0]) return;
+    run[-1] = run[length - 1];
+    run[length] = run[0];
+  }
+
+ private:
+  std::array<int, 3> count_;
+  std::array<bool, 3> periodic_;
+  std::size_t rows_, stride_, block_;
+  std::vector<std::uint8_t> parity_;
+  std::vector<std::array<std::uint32_t, 4>> around_;
+};
+
+}  // namespace talus

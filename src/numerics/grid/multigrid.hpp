@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One multigrid V-cycle for sums of flows between neighbouring cells, as a preconditioner: symmetric, in single
+/// precision, the same bits for any number of threads.
+///
+/// Cells are joined in twos along every axis; the conductances of joined faces add up and are divided by the longer
+/// way between the centres. Coarse corrections are handed to all cells joined, residuals are summed. One red-black
+/// sweep before the coarse grid, one black-red sweep after it. Compare Trottenberg, Oosterlee & Schueller 2001,
+/// Multigrid, 4.3 and 8.7.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "numerics/grid/checkerboard.hpp"
+
+namespace talus {
+
+class Multigrid {
+ public:
+  /// Conductances, in the order of the checkerboard, ends of runs closed.
+  template <class Number>
+  struct Matrix {
+    std::array<std::vector<Number>, 3> low;  ///< through the low face of every cell, by axis, to its neighbour
+    std::vector<Number> outside;             ///< of every cell to outside the grid
+    std::vector<Number> diagonal;            ///< sum over the six faces; 0: a cell without open faces
+
+    explicit Matrix(std::size_t size) : low{zeros(size), zeros(size), zeros(size)} {
+      outside = zeros(size), diagonal = zeros(size);
+    }
+
+   private:
+    static std::vector<Number> zeros(std::size_t size) { return std::vector<Number>(size, 0); }
+  };
+
+  explicit Multigrid(const Checkerboard& finest);
+
+  /// Takes the matrix of the finest grid, times `scale`, and makes those of the coarser ones.
+  void set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale);
+
+  /// One cycle from zero: correction := correction_scale * cycle(residual_scale * residual). The scales keep single
+  /// precision within its range.
+  void precondition(ThreadTeam& team, const std::vector<double>& residual, double residual_scale,
+                    double correction_scale, std::vector<double>& correction);
+
+ private:
+  struct Level {
+    Checkerboard board;
+    std::array<int, 3> factor;                 // how many cells the next coarser level joins along each axis: 1 or 2
+    std::array<std::vector<float>, 3> extent;  // of the cells along each axis, in cells of the finest level
+    Matrix<float> matrix;
+    std::vector<float> inverse;  // of the diagonal
+    std::vector<float> value, source;
+
+    Level(const Checkerboard& board, std::array<std::vector<float>, 3> extent);
+    /// Ends of runs, diagonal and its inverse from the conductances.
+    void complete(ThreadTeam& team);
+    void smooth(ThreadTeam& team, int colour, bool from_zero = false);
+  };
+
+  static void coarsen(ThreadTeam& team, const Level& fine, Level& coarse);
+  static void restrict_residual(ThreadTeam& team, const Level& fine, Level& coarse);
+  static void add_correction(ThreadTeam& team, const Level& coarse, Level& fine);
+  void cycle(ThreadTeam& team, std::size_t level);
+
+  std::vector<Level> levels_;
+};
+
+}  // namespace talus

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "numerics/grid/passages.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace talus {
+
+namespace {
+
+using Place = std::array<int, 3>;
+
+/// Calls body(place) for low <= place < high.
+template <class Body>
+void for_each_place(const Place& low, const Place& high, Body&& body) {
+  for (int k = low[2]; k < high[2]; ++k)
+    for (int j = low[1]; j < high[1]; ++j)
+      for (int i = low[0]; i < high[0]; ++i) body(Place{i, j, k});
+}
+
+Place moved(Place place, int axis, int by) {
+  place[static_cast<std::size_t>(axis)] += by;
+  return place;
+}
+
+std::size_t index(const Grid& grid, const Place& place) {
+  return grid.index(place[0], place[1], place[2]);
+}
+
+/// Closes the faces of a plate's solid part.
+void close(const Grid& grid, const Plate& plate, FaceField& open) {
+  const double place = (plate.position - grid.low[plate.axis]) / grid.spacing[plate.axis];
+  const int layer = static_cast<int>(std::lround(place));
+  if (std::abs(place - layer) > 1e-6 || layer <= 0 || layer >= grid.count[static_cast<std::size_t>(plate.axis)])
+    throw std::invalid_argument("Passages: a plate must lie on faces of the cells, within the box");
+  Place low{}, high = grid.count;
+  low[static_cast<std::size_t>(plate.axis)] = layer;
+  high[static_cast<std::size_t>(plate.axis)] = layer + 1;
+  for_each_place(low, high, [&](const Place& at) {
+    if (plate.is_solid(grid.centre(at[0], at[1], at[2])))
+      open[static_cast<std::size_t>(plate.axis)][index(grid, at)] = 0;
+  });
+}
+
+}  // namespace
+
+Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Plate>& plates)
+    : grid(cells), boundaries(bounds), open(grid.face_field()), wall(open), drive(open), inner(grid.cell_field()) {
+  link = {open, open, open}, wide = link;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    if ((bounds.kind[2 * a] == FlowBoundary::periodic) != (bounds.kind[2 * a + 1] == FlowBoundary::periodic))
+      throw std::invalid_argument("Passages: a periodic face needs its opposite periodic too");
+    for_each_place({0, 0, 0}, {faces(axis, 0), faces(axis, 1), faces(axis, 2)}, [&](const Place& at) {
+      const bool passes = !is_end(axis, at[a]) || bounds.is_open(axis, at[a] == 0 ? 0 : 1);
+      open[a][index(grid, at)] = passes;
+    });
+  }
+  for (const Plate& plate : plates) close(grid, plate, open);
+  for (auto& faces_of_axis : open) wrap(faces_of_axis);
+
+  for_each_place({0, 0, 0}, grid.count, [&](const Place& at) {
+    bool is_inner = true;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int side : {0, 1}) {
+        const int end = side == 0 ? 0 : grid.count[static_cast<std::size_t>(axis)] - 1;
+        if (at[static_cast<std::size_t>(axis)] == end && bounds.is_open(axis, side)) is_inner = false;
+      }
+    inner[index(grid, at)] = is_inner;
+  });
+
+  for (int axis = 0; axis < 3; ++axis)
+    for (int second = 0; second < 3; ++second) {
+      const auto a = static_cast<std::size_t>(axis), b = static_cast<std::size_t>(second);
+      const int n = faces(axis, second);
+      const bool ring = bounds.is_periodic(second);
+      const double stiffness = 2 / (grid.spacing[second] * grid.spacing[second]);
+      // Places between a face and the one before it, those at the ends of the box among them.
+      Place high{faces(axis, 0), faces(axis, 1), faces(axis, 2)};
+      high[b] = grid.count[b] + (ring ? 0 : 1);
+      for_each_place({0, 0, 0}, high, [&](const Place& at) {
+        const bool has_this = ring || at[b] < n, has_before = ring || at[b] > 0;
+        const std::size_t f = index(grid, at);
+        if (second == axis) {
+          link[a][b][f] = has_this && has_before;
+          return;
+        }
+        // The faces of the second axis of the two cells beside this face, or of the one within the box.
+        const auto passes = [&](const Place& cell) {
+          const bool within = bounds.is_periodic(axis) || (cell[a] >= 0 && cell[a] < grid.count[a]);
+          return !within || open[b][index(grid, cell)] > 0;
+        };
+        const bool free = passes(at) && passes(moved(at, axis, -1));
+        link[a][b][f] = free && has_this && has_before;
+        if (free) return;
+        const bool at_end = is_end(second, at[b]);
+        const std::size_t side = 2 * b + (at[b] == 0 ? 0 : 1);
+        if (at_end && bounds.kind[side] == FlowBoundary::free_slip) return;
+        const double speed = at_end ? bounds.wall_velocity[side][axis] : 0;
+        const auto hold = [&](const Place& place) {
+          wall[a][index(grid, place)] += stiffness;
+          drive[a][index(grid, place)] += stiffness * speed;
+        };
+        if (has_this) hold(at);
+        if (has_before) {
+          Place before = moved(at, second, -1);
+          if (before[b] < 0) before[b] += n;
+          hold(before);
+        }
+      });
+      wrap(link[a][b]);
+      for_each_place({0, 0, 0}, high, [&](const Place& at) {
+        const std::size_t f = index(grid, at), before = index(grid, moved(at, second, -1)),
+                          after = index(grid, moved(at, second, 1));
+        bool all = link[a][b][before] * link[a][b][f] * link[a][b][after] > 0;
+        if (second == axis) all = all && open[a][f] > 0 && open[a][before] > 0;
+        wide[a][b][f] = all;
+      });
+      wrap(wide[a][b]);
+    }
+  for (std::size_t a = 0; a < 3; ++a) wrap(wall[a]), wrap(drive[a]);
+}
+
+void Passages::wrap(CellField& field) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!boundaries.is_periodic(axis)) continue;
+    const auto a = static_cast<std::size_t>(axis);
+    const int n = grid.count[a];
+    constexpr int m = Grid::margin;
+    Place low{-m, -m, -m}, high{grid.count[0] + m, grid.count[1] + m, grid.count[2] + m};
+    low[a] = 0, high[a] = m;
+    for_each_place(low, high, [&](const Place& at) {
+      Place above = at, below = at, source_above = at, source_below = at;
+      above[a] = n + at[a], source_above[a] = at[a] % n;
+      below[a] = -1 - at[a], source_below[a] = (n - 1 - at[a] % n);
+      field[index(grid, above)] = field[index(grid, source_above)];
+      field[index(grid, below)] = field[index(grid, source_below)];
+    });
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Where a fluid passes on a grid: the boundaries of the box, the plates within it, and which neighbouring velocities
+/// see each other.
+///
+/// Velocities stand on faces (Harlow & Welch 1965). The neighbour of a face along another axis is hidden where a plate
+/// or the box comes between; a rough wall then holds the velocity at the wall's, half a cell away. At a plate's rim,
+/// where it covers one of two cells, it counts as a wall.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "numerics/geometry/plate.hpp"
+#include "numerics/grid/grid.hpp"
+
+namespace talus {
+
+enum class FlowBoundary {
+  no_slip,    ///< a wall that holds the fluid
+  free_slip,  ///< a wall without friction, or a plane of symmetry
+  periodic,
+  open  ///< to a given pressure: the static one of a fluid that leaves, the total one of a fluid that enters from rest
+};
+
+struct FlowBoundaries {
+  std::array<FlowBoundary, 6> kind{};      ///< by face_number
+  std::array<double, 6> pressure{};        ///< beyond an open face, Pa, against any reference
+  std::array<Vector3, 6> wall_velocity{};  ///< of a wall along itself, m/s
+
+  bool is_periodic(int axis) const { return kind[static_cast<std::size_t>(2 * axis)] == FlowBoundary::periodic; }
+  bool is_open(int axis, int side) const {
+    return kind[static_cast<std::size_t>(2 * axis + side)] == FlowBoundary::open;
+  }
+};
+
+struct Passages {
+  Grid grid;
+  FlowBoundaries boundaries;
+
+  FaceField open;  ///< 1: the fluid passes the face; 0: closed
+  /// 1 where the velocities along an axis of a face and of the face before it along a second axis see each other.
+  std::array<FaceField, 3> link;  ///< [axis][second axis]
+  /// 1 where the two faces before and the two from there on all see each other: wide stencils.
+  std::array<FaceField, 3> wide;
+  FaceField wall;   ///< sum of 2/width^2 over the rough walls beside a face, 1/m^2
+  FaceField drive;  ///< sum of 2/width^2 times the velocity of those walls, 1/(m s)
+  CellField inner;  ///< 1: a cell without a face open to outside the grid
+
+  /// \throws std::invalid_argument for a periodic face without its opposite, a plate off the faces of the cells
+  Passages(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Plate>& plates);
+
+  /// Faces of an axis along a second one: one more than cells along the axis itself, unless it is periodic.
+  int faces(int axis, int along) const {
+    return grid.count[static_cast<std::size_t>(along)] + (axis == along && !boundaries.is_periodic(axis));
+  }
+  bool is_end(int axis, int place) const {
+    return !boundaries.is_periodic(axis) && (place == 0 || place == grid.count[static_cast<std::size_t>(axis)]);
+  }
+  /// Repeats the ends of a periodic axis in the ghosts.
+  void wrap(CellField& field) const;
+};
+
+}  // namespace talus

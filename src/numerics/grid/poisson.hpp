@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Poisson's equation with a coefficient on every face: the value of each cell such that what flows out through its
+/// faces is its source,
+///   sum over faces of conductance * (value - value of the neighbour) = source,
+/// where the value outside an open boundary is zero (add conductance * outside value to the source for another one).
+/// Conjugate gradients in double precision, preconditioned by a multigrid cycle; the bits do not depend on the number
+/// of threads. Faces of no conductance may cut the grid into regions; a region without an open boundary has a value up
+/// to a constant only, chosen so that its mean is zero, and its sources must balance.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "numerics/grid/grid.hpp"
+#include "numerics/grid/multigrid.hpp"
+
+namespace talus {
+
+class PoissonSolver {
+ public:
+  struct Stop {
+    double tolerance = 1e-6;  ///< of the residual over the source, both as root of the sum of squares
+    double absolute = 0;      ///< root of the sum of squares of the residual that is small enough in any case
+    int most_iterations = 200;
+  };
+  struct Outcome {
+    int iterations = 0;
+    double residual = 0;  ///< root of the sum of squares
+  };
+
+  /// \throws std::invalid_argument for a periodic axis with an odd number of cells above 1
+  PoissonSolver(const Grid& grid, std::array<bool, 3> periodic);
+
+  /// Takes the conductances, at least 0, unit [source] / [value]; those of the high faces of a periodic axis are not
+  /// read. Finds the regions anew where the pattern of zeros has changed.
+  void set_conductance(ThreadTeam& team, const FaceField& conductance);
+
+  /// \param source of every cell, in the grid's order
+  /// \param value in: a first guess, out: the solution; ghosts are left alone
+  /// \throws NumericalError if it does not converge, or if the sources of a closed region do not balance; the report
+  ///         names the worst cell
+  Outcome solve(ThreadTeam& team, const CellField& source, CellField& value, const Stop& stop);
+
+ private:
+  template <class Body>
+  void for_each_range(ThreadTeam& team, Body&& body) const;
+  template <class Term>
+  double sum(ThreadTeam& team, Term&& term);
+  double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& image);
+  void find_closed_regions();
+  double unbalanced() const;
+  void remove_means(std::vector<double>& column) const;
+  [[noreturn]] void fail(const char* what, const char* advice) const;
+
+  static constexpr std::size_t pad = static_cast<std::size_t>(-1);
+
+  Grid grid_;
+  std::array<bool, 3> to_itself_;  // periodic axes of one cell
+  Checkerboard board_;
+  std::vector<std::size_t> index_;  // in the grid's order, of every cell in the board's order; or `pad`
+  Multigrid::Matrix<double> matrix_;
+  Multigrid multigrid_;
+  double scale_ = 1;                              // brings the conductances near 1
+  std::vector<unsigned char> pattern_;            // which faces of a cell are open
+  std::vector<std::vector<std::size_t>> closed_;  // cells of each closed region, in the board's order
+  // In the board's order. Pads of the residual and of the image are zero, so that they add nothing to sums.
+  std::vector<double> value_, residual_, direction_, image_, correction_;
+  std::vector<double> partial_;
+};
+
+}  // namespace talus

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From lumps of grains to the cells of the air and back: the solid volume and its flow that lumps spread over a grid
+/// with the SPH kernel, and what cells hand back with the same weights ("averaged in an air cell", Yuu & Umekage 2011).
+///
+/// The weights of a lump are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
+/// round-off. What would fall behind a wall, a symmetry plane or the solid part of a plate is folded back, as the
+/// lump's image behind it would spread it, so that a bed is as dense at a wall as within; what would leave through a
+/// periodic face comes in at the other. Beyond an open face there is no air: a lump out there has no weights.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "numerics/grid/grid.hpp"
+
+namespace talus::coupling {
+
+class Deposition {
+ public:
+  /// \throws std::invalid_argument if the grid does not fill the domain's box, or if a plate is not on faces of cells
+  Deposition(const Grid& grid, const Domain& domain);
+
+  void open_gates() { domain_.open_gates(); }
+
+  /// Finds the weights. \param smoothing_length of each lump, m; the kernel reaches twice as far
+  void weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
+
+  /// \param solid_volume of each lump, without pores, m^3; the same for all
+  /// \param fraction out: solid volume over volume of every cell
+  /// \param flux out: by component, that times the solid's velocity, m/s
+  void gather(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
+              FaceField& flux) const;
+
+  /// received[j] = solid_volume * sum over cells of weight * (per solid volume). Summed over lumps this is the cells'
+  /// volume times `gather`'s fraction times `per_solid_volume`.
+  void hand_out(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
+                std::span<Vector3> received) const;
+
+ private:
+  static constexpr std::size_t block_size = 64;
+  struct Block {
+    std::vector<std::size_t> end;  // of each lump's cells
+    std::vector<std::uint32_t> cell;
+    std::vector<double> weight;
+  };
+  void weigh(const Vector3& position, double smoothing_length, Block& block) const;
+  template <class Body>
+  void for_each_lump(const Block& block, std::size_t first, Body&& body) const;
+
+  Grid grid_;
+  Domain domain_;
+  std::vector<int> layer_;  // of the faces on which each plate lies
+  std::size_t count_ = 0;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace talus::coupling

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The drag between grains and air, S = beta (u - u_p): force on the grains in a unit volume of grains and air, whose
+/// momentum balance for the air has the pressure term -Phi grad P (Yuu & Umekage 2011, Eqs 18 and 20).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace talus::coupling {
+
+enum class DragLaw : std::uint8_t {
+  schiller_naumann_umekage_yuu,  ///< as Yuu & Umekage 2011 print it
+  ergun_wen_yu                   ///< Gidaspow 1994
+};
+
+/// What a drag law asks of the air and of the grains.
+struct DragMedium {
+  double density;      ///< of the air, kg/m^3
+  double viscosity;    ///< of the air, Pa s
+  double diameter;     ///< of a grain, m
+  double slip_factor;  ///< C_c, 1 in dense air
+};
+
+/// Re_p = D_p |u - u_p| rho / mu.
+constexpr double grain_reynolds(const DragMedium& medium, double slip) {
+  return medium.diameter * slip * medium.density / medium.viscosity;
+}
+
+/// Drag of one sphere over Stokes' drag, 1 + 0.15 Re^0.687; Re < 1000 (Schiller & Naumann 1933).
+inline double schiller_naumann(double reynolds) {
+  return 1 + 0.15 * std::pow(reynolds, 0.687);
+}
+
+/// Effect of the neighbours on the drag, 3.8 - 5.4/Phi + 2.6/Phi^2; packing below 0.74 (Umekage & Yuu 1999; Yuu &
+/// Umekage 2011, Eq. 21). 1 for a single grain.
+constexpr double umekage_yuu(double void_fraction) {
+  return 3.8 + (2.6 / void_fraction - 5.4) / void_fraction;
+}
+
+/// Number of grains in a unit volume, 1/m^3.
+constexpr double number_density(double solid_fraction, double diameter) {
+  return solid_fraction * 6 / (3.14159265358979323846 * diameter * diameter * diameter);
+}
+
+/// beta of Yuu & Umekage 2011, Eqs 20 and 21: 3 pi mu D_p (1 + 0.15 Re_p^0.687) n zeta(Phi) / C_c.
+/// \param solid_fraction 1 - Phi, 0 to 0.74; \param slip |u - u_p|, m/s; \returns kg/(m^3 s)
+inline double schiller_naumann_umekage_yuu(const DragMedium& medium, double solid_fraction, double slip) {
+  // 3 pi mu D n = 18 mu (1 - Phi)/D^2
+  const double stokes = 18 * medium.viscosity * solid_fraction / (medium.diameter * medium.diameter);
+  return stokes * schiller_naumann(grain_reynolds(medium, slip)) * umekage_yuu(1 - solid_fraction) / medium.slip_factor;
+}
+
+/// beta of Gidaspow 1994: Ergun 1952 below a void fraction of 0.8, Wen & Yu 1966 above, with a jump there;
+/// the part of friction is divided by the slip factor.
+/// \param solid_fraction 1 - Phi; \param slip |u - u_p|, m/s; \returns kg/(m^3 s)
+inline double ergun_wen_yu(const DragMedium& medium, double solid_fraction, double slip) {
+  const double phi = 1 - solid_fraction, d = medium.diameter;
+  if (phi < 0.8)
+    return 150 * solid_fraction * solid_fraction * medium.viscosity / (phi * d * d * medium.slip_factor) +
+           1.75 * solid_fraction * medium.density * slip / d;
+  // 3/4 C_d Phi (1 - Phi) rho |u - u_p| Phi^-2.65/D with C_d = 24/Re (1 + 0.15 Re^0.687) to Re = 1000, 0.44 beyond, at
+  // the Reynolds number of the superficial velocity.
+  const double reynolds = phi * grain_reynolds(medium, slip), weight = std::pow(phi, -2.65);
+  if (reynolds < 1000)
+    return 18 * medium.viscosity * solid_fraction * weight * schiller_naumann(reynolds) / (d * d * medium.slip_factor);
+  return 0.75 * 0.44 * phi * solid_fraction * medium.density * slip * weight / d;
+}
+
+/// beta by name of the law, kg/(m^3 s).
+inline double drag_coefficient(DragLaw law, const DragMedium& medium, double solid_fraction, double slip) {
+  return law == DragLaw::ergun_wen_yu ? ergun_wen_yu(medium, solid_fraction, slip)
+                                      : schiller_naumann_umekage_yuu(medium, solid_fraction, slip);
+}
+
+/// What the drag, with a coefficient that stays as it is, does to the air in a time dt that is not short against the
+/// time rho Phi/beta in which the slip decays: u(dt) = u_p + decay (u(0) - u_p) + pull dt f under a force f on a unit
+/// of the air's mass. The exact solution of rho Phi du/dt = -beta (u - u_p) + rho Phi f.
+struct SlipDecay {
+  double decay;  ///< exp(-dt/T), T = rho Phi/beta
+  double pull;   ///< (1 - exp(-dt/T)) T/dt
+};
+/// \param steps dt/T >= 0
+inline SlipDecay slip_decay(double steps) {
+  const double lost = -std::expm1(-steps);
+  return {1 - lost, steps > 0 ? lost / steps : 1};
+}
+
+}  // namespace talus::coupling

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A flow of air on a small grid, for the tests of the air.
+#pragma once
+
+#include "models/air/flow.hpp"
+
+namespace talus::air {
+
+inline FlowBoundaries all(FlowBoundary kind) {
+  FlowBoundaries boundaries;
+  boundaries.kind.fill(kind);
+  return boundaries;
+}
+
+template <class Body>
+void for_each_cell(const Grid& grid, Body&& body) {
+  for (int k = 0; k < grid.count[2]; ++k)
+    for (int j = 0; j < grid.count[1]; ++j)
+      for (int i = 0; i < grid.count[0]; ++i) body(i, j, k, grid.index(i, j, k));
+}
+
+/// Place of a face: its low corner's axis, the others' centres.
+inline Vector3 face_centre(const Grid& grid, int axis, int i, int j, int k) {
+  Vector3 x = grid.centre(i, j, k);
+  x[axis] -= 0.5 * grid.spacing[axis];
+  return x;
+}
+
+/// A flow on a grid with its state, and steps.
+struct Case {
+  ThreadTeam team;
+  Grid grid;
+  Parameters parameters;
+  AirFlow flow;
+  Solids solids;
+  AirState state;
+  FaceField impulse;
+
+  Case(const Grid& cells, const Parameters& p, const std::vector<Plate>& plates = {}, int threads = 1)
+      : team(threads),
+        grid(cells),
+        parameters(p),
+        flow(cells, p, plates),
+        solids(cells),
+        state(cells),
+        impulse(cells.face_field()) {}
+
+  template <class Velocity>
+  void set_velocity(Velocity&& velocity) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < flow.passages().faces(axis, 2); ++k)
+        for (int j = 0; j < flow.passages().faces(axis, 1); ++j)
+          for (int i = 0; i < flow.passages().faces(axis, 0); ++i)
+            state.velocity[static_cast<std::size_t>(axis)][grid.index(i, j, k)] =
+                velocity(face_centre(grid, axis, i, j, k))[axis];
+  }
+  void set_solids(int k_from, int k_to, double fraction, const Vector3& velocity) {
+    for_each_cell(grid, [&](int, int, int k, std::size_t c) {
+      if (k < k_from || k >= k_to) return;
+      solids.fraction[c] = fraction;
+      for (int a = 0; a < 3; ++a) solids.flux[static_cast<std::size_t>(a)][c] = fraction * velocity[a];
+    });
+  }
+  void begin() { flow.begin(team, solids, state); }
+  void advance(double dt, int steps = 1) {
+    for (int n = 0; n < steps; ++n) flow.advance(team, dt, solids, state, impulse);
+  }
+};
+
+}  // namespace talus::air

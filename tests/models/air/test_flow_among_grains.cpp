@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The air among grains.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "flow_case.hpp"
+
+namespace talus::air {
+namespace {
+
+TEST(AirFlow, PressureDropOfAFixedBedIsThatOfTheDragLaw) {
+  struct Expected {
+    coupling::DragLaw law;
+    double drop;
+  };
+  for (const auto& [law, drop] : {Expected{coupling::DragLaw::schiller_naumann_umekage_yuu, 2152},
+                                  Expected{coupling::DragLaw::ergun_wen_yu, 3849}}) {
+    Parameters p;
+    p.drag = law;
+    p.boundaries = all(FlowBoundary::free_slip);
+    p.boundaries.kind[4] = p.boundaries.kind[5] = FlowBoundary::open;
+    const int n = 16;
+    const double h = 1.25e-3;
+    p.boundaries.pressure[4] = drop * n * h;
+    Case c({.count = {2, 2, n}, .low = {}, .spacing = {h, h, h}}, p);
+    c.set_solids(0, n, 0.6, {});
+    c.begin();
+    c.advance(100e-6, 40);
+    const double superficial = 0.4 * c.state.velocity[2][c.grid.index(1, 1, n / 2)];
+    EXPECT_NEAR(superficial, 0.01, 1e-4);
+    const double gradient =
+        (c.state.pressure[c.grid.index(0, 0, 12)] - c.state.pressure[c.grid.index(0, 0, 3)]) / (9 * h);
+    EXPECT_NEAR(gradient, -drop, 2e-3 * drop);
+    // The grains receive the whole pressure gradient: drag and their own share of it.
+    EXPECT_NEAR(0.6 * c.impulse[2][c.grid.index(1, 0, 8)] / 100e-6, drop, 2e-3 * drop);
+  }
+}
+
+TEST(AirFlow, SlipDecaysAtTheDragsRate) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::periodic);
+  p.viscosity = 1.82e-5;
+  Case c({.count = {4, 2, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.set_solids(0, 4, 0.6, {0, 0, 0.2});
+  c.set_velocity([](const Vector3&) { return Vector3{0, 0, 0.2 + 1e-6}; });  // so slow that the drag is Stokes'
+  c.begin();
+  const double beta = coupling::drag_coefficient(p.drag, p.medium(), 0.6, 0), t_slip = p.density() * 0.4 / beta;
+  EXPECT_NEAR(t_slip, 15e-6, 0.5e-6);
+  // In a periodic box the mixture's flow stays, so a pressure gradient has nothing to say: the slip decays freely.
+  const double dt = 40e-6;
+  c.advance(dt);
+  const double slip = c.state.velocity[2][c.grid.index(1, 1, 1)] - 0.2;
+  EXPECT_NEAR(slip / 1e-6, std::exp(-dt / t_slip), 1e-4);
+}
+
+/// Grains and air at random in a periodic box: solids that fill some of it and move each their way.
+struct Mixture : Case {
+  explicit Mixture(const Parameters& p, int threads = 1)
+      : Case({.count = {12, 4, 16}, .low = {}, .spacing = {1.25e-3, 1.25e-3, 1.25e-3}}, p, {}, threads) {
+    Random random(11);
+    for_each_cell(grid, [&](int, int, int k, std::size_t i) {
+      const double s = k < 8 ? random.uniform(0.3, 0.6) : k < 10 ? random.uniform(0, 1e-6) : 0;
+      solids.fraction[i] = s;
+      for (auto& flux : solids.flux) flux[i] = s * random.uniform(-0.5, 0.5);
+    });
+    set_velocity([&](const Vector3& x) {
+      return Vector3{0.5 * std::sin(x.z * 300), 0.1, 0.7 * std::cos(x.x * 400) + random.uniform(-0.1, 0.1)};
+    });
+    begin();
+  }
+};
+
+Vector3 received(const Case& c) {
+  Vector3 total;
+  for_each_cell(c.grid, [&](int, int, int, std::size_t i) {
+    for (int a = 0; a < 3; ++a)
+      total[a] += c.grid.volume() * c.solids.fraction[i] * c.impulse[static_cast<std::size_t>(a)][i];
+  });
+  return total;
+}
+
+/// Without viscosity, whose printed form is no divergence where the void fraction varies; the drag is then Ergun's
+/// inertial part.
+TEST(AirFlow, WithoutViscosityTheMomentumOfAirAndGrainsStays) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::periodic);
+  p.viscosity = 1e-18;
+  p.drag = coupling::DragLaw::ergun_wen_yu;
+  for (const double upwind : {0.0, 0.5}) {
+    p.upwind = upwind;
+    Mixture c(p);
+    const Vector3 start = c.flow.momentum(c.state);
+    Vector3 grains;
+    double exchanged = 0;
+    for (int step = 0; step < 10; ++step) {
+      c.advance(30e-6);
+      grains += received(c);
+      exchanged += norm(received(c));
+    }
+    EXPECT_GT(exchanged, 0.5 * norm(start));
+    EXPECT_LT(norm(c.flow.momentum(c.state) - start + grains), 1e-12 * exchanged);
+  }
+}
+
+/// One step in which only drag and pressure act: uniform air, solids of one velocity.
+TEST(AirFlow, ExchangeIsEqualAndOppositeToRoundOff) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::periodic);
+  Case c({.count = {8, 4, 8}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.set_solids(0, 8, 0.5, {0.3, 0, -0.4});
+  c.set_velocity([](const Vector3&) { return Vector3{1, 0.5, 2}; });
+  c.begin();
+  const Vector3 start = c.flow.momentum(c.state);
+  c.advance(50e-6);
+  const Vector3 sum = c.flow.momentum(c.state) - start + received(c);
+  EXPECT_GT(norm(received(c)), 0.9 * norm(start) / 3);
+  EXPECT_LT(norm(sum), 1e-12 * norm(start));
+}
+
+TEST(AirFlow, MixtureHasNoDivergence) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::no_slip);
+  p.boundaries.kind[5] = FlowBoundary::open;
+  p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::periodic;
+  Mixture c(p);
+  const double before = c.flow.largest_divergence(c.solids, c.state);
+  c.advance(50e-6);
+  EXPECT_LT(c.flow.largest_divergence(c.solids, c.state), 1e-4 * before);
+}
+
+/// Grains fall from one half of a closed box into the other, through an opening beside them.
+TEST(AirFlow, ChangesPlacesWithGrainsOrIsBoundByItselfAlone) {
+  for (const Continuity continuity : {Continuity::mixture, Continuity::air_alone}) {
+    Parameters p;
+    p.boundaries = all(FlowBoundary::no_slip);
+    p.continuity = continuity;
+    p.tolerance = 1e-10;
+    Case c({.count = {8, 4, 12}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+    for_each_cell(c.grid, [&](int i, int, int k, std::size_t n) {
+      if (i >= 4 || k < 2 || k >= 10) return;
+      c.solids.fraction[n] = 0.4;
+      c.solids.flux[2][n] = 0.4 * -0.5;
+    });
+    c.begin();
+    c.advance(50e-6, 3);
+    EXPECT_LT(c.flow.largest_divergence(c.solids, c.state), 1e-4);
+    double air = 0, grains = 0, upwards_beside = 0;
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 8; ++i) {
+        const std::size_t f = c.grid.index(i, j, 6);
+        air += (1 - c.solids.fraction[f]) * c.state.velocity[2][f];
+        grains += c.solids.flux[2][f];
+        if (i >= 4) upwards_beside += c.state.velocity[2][f];
+      }
+    EXPECT_NEAR(air, continuity == Continuity::mixture ? -grains : 0, 1e-6 * std::abs(grains));
+    EXPECT_GT(upwards_beside, 0);
+  }
+}
+
+TEST(AirFlow, GivesTheSameBitsForAnyNumberOfThreads) {
+  for (const double viscosity : {1.82e-5, 1e-2}) {  // explicit and implicit
+    Parameters p;
+    p.boundaries = all(FlowBoundary::no_slip);
+    p.boundaries.kind[5] = FlowBoundary::open;
+    p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::periodic;
+    p.viscosity = viscosity;
+    Mixture one(p, 1), two(p, 2);
+    one.advance(50e-6, 3), two.advance(50e-6, 3);
+    EXPECT_EQ(one.flow.is_viscosity_implicit(), viscosity > 1e-3);
+    EXPECT_EQ(one.state.velocity, two.state.velocity);
+    EXPECT_EQ(one.state.pressure, two.state.pressure);
+    EXPECT_EQ(one.impulse, two.impulse);
+  }
+}
+
+TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::no_slip);
+  p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::free_slip;
+  p.boundaries.kind[4] = p.boundaries.kind[5] = FlowBoundary::open;
+  p.boundaries.pressure[4] = 5;
+  const double h = 1e-3;
+  Plate plate{.axis = 2, .position = 8 * h, .openings = {{.low = {3 * h, -1, 0}, .high = {7 * h, 1, 0}, .shut = true}}};
+  Case c({.count = {10, 2, 16}, .low = {}, .spacing = {h, h, h}}, p, {plate});
+  c.begin();
+  c.advance(20e-6, 5);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(c.state.velocity[2][c.grid.index(i, 0, 8)], 0);
+  // Shut, each side has the pressure of its opening.
+  EXPECT_NEAR(c.state.pressure[c.grid.index(5, 0, 7)], 5, 1e-3);
+  EXPECT_NEAR(c.state.pressure[c.grid.index(5, 0, 8)], 0, 1e-3);
+  plate.openings[0].shut = false;
+  c.flow.set_plates({plate});
+  c.advance(20e-6, 5);
+  for (int i = 0; i < 10; ++i) {
+    const double u = c.state.velocity[2][c.grid.index(i, 1, 8)];
+    if (i >= 3 && i < 7)
+      EXPECT_GT(u, 0.01);
+    else
+      EXPECT_EQ(u, 0);
+  }
+}
+
+TEST(AirFlow, RefusesAVoidFractionOutOfRange) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::no_slip);
+  Case c({.count = {4, 4, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.solids.fraction[c.grid.index(1, 2, 3)] = 1.01;
+  try {
+    c.begin();
+    FAIL();
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.report().place, testing::HasSubstr("(1, 2, 3)"));
+  }
+}
+
+TEST(AirFlow, FrozenAirOnlyDrags) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::no_slip);
+  p.motion = Motion::frozen;
+  Case c({.count = {4, 4, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.set_solids(1, 3, 0.2, {0, 0, -1});
+  c.begin();
+  c.advance(1e-5);
+  const double beta = coupling::drag_coefficient(p.drag, p.medium(), 0.2, 1);
+  EXPECT_NEAR(c.impulse[2][c.grid.index(2, 2, 2)], 1e-5 * beta / 0.2, 1e-9 * beta);
+  EXPECT_EQ(c.impulse[2][c.grid.index(2, 2, 3)], 0);
+  EXPECT_EQ(c.state.velocity[2][c.grid.index(2, 2, 2)], 0);
+}
+
+TEST(AirFlow, TimeStepFollowsItsThreeLimits) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::periodic);
+  p.longest_step = 1;
+  p.courant = 0.5;
+  Case c({.count = {4, 4, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.begin();
+  EXPECT_EQ(c.flow.time_step(c.team, c.solids, c.state), 1);
+  c.set_velocity([](const Vector3&) { return Vector3{2, 0, -3}; });
+  EXPECT_NEAR(c.flow.time_step(c.team, c.solids, c.state), 0.5 / 5000, 1e-12);
+  c.set_velocity([](const Vector3&) { return Vector3{}; });
+  c.set_solids(0, 4, 0.6, {});
+  const double beta = coupling::drag_coefficient(p.drag, p.medium(), 0.6, 0);
+  EXPECT_NEAR(c.flow.time_step(c.team, c.solids, c.state), 0.1 * 0.16 * 1500 / beta, 1e-9);
+}
+
+}  // namespace
+}  // namespace talus::air

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/coupling/deposition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.hpp"
+
+namespace talus::coupling {
+namespace {
+
+constexpr double cell = 1.25e-3, spacing = 5e-3 / 3;
+
+/// 20 x 5 x 40 mm: thinner than the kernel is wide; the plate across it has a slit from 7.5 to 12.5 mm.
+struct Silo {
+  ThreadTeam team{1};
+  Grid grid{.count = {16, 4, 32}, .low = {}, .spacing = {cell, cell, cell}};
+  Domain domain;
+  Deposition deposition;
+  std::vector<Vector3> position, velocity;
+  std::vector<double> smoothing_length;
+  CellField fraction;
+  FaceField flux;
+  double volume = 0.6 * spacing * spacing * spacing;
+
+  explicit Silo(FaceKind front = FaceKind::symmetry, int threads = 1)
+      : team(threads),
+        domain({.low = {},
+                .high = {20e-3, 5e-3, 40e-3},
+                .faces = {FaceKind::wall, FaceKind::wall, front, front, FaceKind::wall, FaceKind::open}},
+               {{.axis = 2, .position = 15e-3, .openings = {{.low = {7.5e-3, -1, 0}, .high = {12.5e-3, 1, 0}}}}}),
+        deposition(grid, domain),
+        fraction(grid.cell_field()),
+        flux(grid.face_field()) {}
+
+  void place(const Vector3& x, const Vector3& u = {}) {
+    position.push_back(x), velocity.push_back(u), smoothing_length.push_back(spacing);
+  }
+  void fill(double low, double high) {
+    for (int k = 0; low + (k + 0.5) * spacing < high; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 12; ++i) place({(i + 0.5) * spacing, (j + 0.5) * spacing, low + (k + 0.5) * spacing});
+  }
+  void gather() {
+    deposition.weigh(team, position, smoothing_length);
+    deposition.gather(team, volume, velocity, fraction, flux);
+  }
+};
+
+double total(const Grid& grid, const CellField& field) {
+  double sum = 0;
+  for (int k = 0; k < grid.count[2]; ++k)
+    for (int j = 0; j < grid.count[1]; ++j)
+      for (int i = 0; i < grid.count[0]; ++i) sum += grid.volume() * field[grid.index(i, j, k)];
+  return sum;
+}
+
+void place_at_random(Silo& silo, int count) {
+  Random random(5);
+  for (int n = 0; n < count; ++n)
+    silo.place({20e-3 * random.uniform(), 5e-3 * random.uniform(), 40e-3 * random.uniform()},
+               {random.normal(), random.normal(), random.normal()});
+  for (double& h : silo.smoothing_length) h *= random.uniform(0.3, 1.5);  // some reach less than a cell
+}
+
+TEST(Deposition, ConservesVolumeAndMomentum) {
+  for (const FaceKind front : {FaceKind::symmetry, FaceKind::periodic}) {
+    Silo silo(front);
+    place_at_random(silo, 500);
+    silo.gather();
+    EXPECT_NEAR(total(silo.grid, silo.fraction) / (500 * silo.volume), 1, 1e-13);
+    for (int a = 0; a < 3; ++a) {
+      double momentum = 0;
+      for (const Vector3& u : silo.velocity) momentum += silo.volume * u[a];
+      EXPECT_NEAR(total(silo.grid, silo.flux[static_cast<std::size_t>(a)]), momentum, 1e-12 * 500 * silo.volume);
+    }
+  }
+}
+
+TEST(Deposition, HandsBackWithTheSameWeights) {
+  Silo silo;
+  place_at_random(silo, 300);
+  silo.gather();
+  FaceField given = silo.grid.face_field();
+  Random random(9);
+  for (auto& component : given)
+    for (double& g : component) g = random.normal();
+  std::vector<Vector3> received(300);
+  silo.deposition.hand_out(silo.team, silo.volume, given, received);
+  for (int a = 0; a < 3; ++a) {
+    const auto& g = given[static_cast<std::size_t>(a)];
+    CellField product = silo.fraction;
+    for (std::size_t c = 0; c < product.size(); ++c) product[c] *= g[c];
+    double sum = 0, size = 0;
+    for (const Vector3& r : received) sum += r[a], size += std::abs(r[a]);
+    EXPECT_NEAR(sum, total(silo.grid, product), 1e-13 * size);
+  }
+}
+
+TEST(Deposition, ABedIsAsDenseAtWallsAndPlateAsWithin) {
+  Silo silo;
+  silo.fill(15e-3, 35e-3);
+  silo.gather();
+  // Layers from the plate up to one reach below the surface, on the solid part and away from the slit.
+  for (int k = 12; k < 25; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (const int i : {0, 1, 2, 14, 15})
+        EXPECT_NEAR(silo.fraction[silo.grid.index(i, j, k)], 0.6, 0.012) << i << ' ' << k;
+}
+
+TEST(Deposition, APlateHidesWhatIsBehindItAndItsSlitDoesNot) {
+  Silo silo;
+  silo.place({2.5e-3, 2.5e-3, 15.5e-3});
+  silo.gather();
+  double below = 0;
+  for (int k = 0; k < 12; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 16; ++i) below += silo.fraction[silo.grid.index(i, j, k)];
+  EXPECT_EQ(below, 0);
+
+  Silo open;
+  open.place({10e-3, 2.5e-3, 15.5e-3});
+  open.gather();
+  EXPECT_GT(open.fraction[open.grid.index(8, 2, 11)], 0);
+  double through = 0, all = 0;
+  for (int k = 0; k < 32; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 16; ++i) {
+        const double s = open.fraction[open.grid.index(i, j, k)];
+        all += s, through += k < 12 ? s : 0;
+      }
+  EXPECT_GT(through, 0.25 * all);
+}
+
+TEST(Deposition, ALumpBeyondAnOpenFaceHasNoWeights) {
+  Silo silo;
+  silo.place({10e-3, 2e-3, 50e-3}, {0, 0, 1});
+  silo.gather();
+  EXPECT_EQ(total(silo.grid, silo.fraction), 0);
+  std::vector<Vector3> received(1, Vector3{1, 1, 1});
+  silo.deposition.hand_out(silo.team, silo.volume, silo.grid.face_field(), received);
+  EXPECT_EQ(received[0], Vector3{});
+}
+
+TEST(Deposition, GivesTheSameBitsForAnyNumberOfThreads) {
+  Silo one(FaceKind::symmetry, 1), three(FaceKind::symmetry, 3);
+  for (Silo* silo : {&one, &three}) place_at_random(*silo, 400), silo->gather();
+  EXPECT_EQ(one.fraction, three.fraction);
+  EXPECT_EQ(one.flux, three.flux);
+}
+
+TEST(Deposition, RefusesAGridThatDoesNotFillTheBox) {
+  Silo silo;
+  Grid shifted = silo.grid;
+  shifted.low.x = 1e-4;
+  EXPECT_THROW(Deposition(shifted, silo.domain), std::invalid_argument);
+  Grid coarse{.count = {8, 2, 16}, .low = {}, .spacing = {2 * cell, 2 * cell, 2 * cell}};
+  EXPECT_NO_THROW(Deposition(coarse, silo.domain));
+  Grid off{.count = {8, 2, 10}, .low = {}, .spacing = {2 * cell, 2 * cell, 4e-3}};
+  EXPECT_THROW(Deposition(off, silo.domain), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace talus::coupling
