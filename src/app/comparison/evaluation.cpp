@@ -32,6 +32,40 @@ std::string variants_text(const ComparisonRow& row) {
   return text;
 }
 
+/// More variants than a line holds, and every row of the same ones.
+bool is_side_by_side(const std::vector<EvaluatedRow>& rows) {
+  constexpr std::size_t most_in_a_line = 4;
+  return !rows.empty() && rows.front().row->variants.size() > most_in_a_line &&
+         std::all_of(rows.begin(), rows.end(), [&](const EvaluatedRow& e) {
+           return e.row->variants == rows.front().row->variants && e.values.size() == e.row->variants.size();
+         });
+}
+
+/// A line a variant, a column a row, each value judged by itself.
+std::string side_by_side(const std::vector<EvaluatedRow>& rows) {
+  std::string names = "| |", lines = "|---|", criteria = "| met if |", printed = "| the paper |", text;
+  for (const EvaluatedRow& e : rows) {
+    names += fmt::format(" {}: `{}`, {} |", e.row->number, e.row->quantity, e.row->unit);
+    lines += "---|";
+    criteria += fmt::format(" {} |", to_string(e.row->criterion));
+    printed += fmt::format(" {} |", e.row->printed);
+  }
+  const std::vector<std::string>& variants = rows.front().row->variants;
+  for (std::size_t v = 0; v < variants.size(); ++v) {
+    text += fmt::format("| {} |", variants[v]);
+    for (const EvaluatedRow& e : rows) {
+      const bool missed = e.row->criterion.kind != Criterion::Kind::reported &&
+                          judge(e.row->criterion, e.values[v]) == Verdict::not_met;
+      text += fmt::format(" {} |", !e.values[v] ? "-"
+                                   : missed     ? "**" + number(*e.values[v]) + "**"
+                                                : number(*e.values[v]));
+    }
+    text += "\n";
+  }
+  return fmt::format("{}\n{}\n{}\n{}\n{}\nIn bold: not met. -: the run did not get there.\n", names, lines, printed,
+                     criteria, text);
+}
+
 }  // namespace
 
 std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs) {
@@ -61,6 +95,7 @@ std::string to_text(const std::vector<EvaluatedRow>& rows) {
 }
 
 std::string to_markdown(const std::vector<EvaluatedRow>& rows) {
+  if (is_side_by_side(rows)) return side_by_side(rows);
   std::string text = "| row | case | quantity | the paper | met if | computed | |\n|---|---|---|---|---|---|---|\n";
   for (const EvaluatedRow& e : rows) {
     text += fmt::format("| {} | {} ({}) | `{}`{} | {} ({}) | {} | {} | {} |\n", e.row->number, e.row->case_name,

@@ -22,7 +22,8 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns
 
 /// As lines for a terminal.
 std::string to_text(const std::vector<EvaluatedRow>& rows);
-/// As a Markdown table.
+/// As a Markdown table: a line a row, or, if all rows are of the same many variants, a line a variant and a column a
+/// row.
 std::string to_markdown(const std::vector<EvaluatedRow>& rows);
 /// As JSON: [{"id", "number", "quantity", "case", "printed", "criterion", "values": [...], "verdict", ...}], the values
 /// in the order of the row's variants.

@@ -52,8 +52,8 @@ class HopperEnsembles : public StudiedRuns {
   }
 
   static bool reaches(const HopperRun& run, const Window& window) {
-    const double last = window.at.value_or(std::isfinite(window.to) ? window.to : 0);
-    return run.end() >= last - tolerance_of_end;
+    const double last = window.at.value_or(window.to);
+    return !std::isfinite(last) || run.end() >= last - tolerance_of_end;
   }
 
   static std::optional<double> of_pair(const ComparisonRow& row, const std::vector<const HopperEnsemble*>& pair) {

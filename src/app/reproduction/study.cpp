@@ -98,7 +98,8 @@ double processor_seconds(const std::vector<ScheduledRun>& runs) {
 /// The report: the table of all rows, what is not met and why (validation/STUDY/gaps.md, written by hand), the figures.
 std::string report_text(const Reference& reference, const StudyRequest& request, const std::filesystem::path& project,
                         const std::vector<ScheduledRun>& runs, const std::vector<EvaluatedRow>& rows,
-                        const std::string& counts, const std::vector<FigureOfStudy>& figures) {
+                        const std::vector<FailedRun>& failed, const std::string& counts,
+                        const std::vector<FigureOfStudy>& figures) {
   std::string report = fmt::format(
       "# {}\n\n{}\n\nComputed by `talus reproduce {}{}` with Talus {} ({}): {} runs, {} of processor time on {}.\n"
       "Rows, estimators and criteria were written down before the first comparison: `validation/{}/reference.toml`.\n\n"
@@ -106,6 +107,10 @@ std::string report_text(const Reference& reference, const StudyRequest& request,
       reference.title, reference.source, reference.study, request.quick ? " --quick" : "", program_version(),
       program_revision(), runs.size(), run::format_seconds(processor_seconds(runs)),
       manifest_of_this_program().processor, reference.study, counts, to_markdown(rows));
+  if (!failed.empty()) report += "## Runs that did not get through\n\n";
+  for (const FailedRun& run : failed)
+    report += fmt::format("- {} (exit status {}): {}\n", run.folder.lexically_relative(request.folder).string(),
+                          run.status, run.reason);
   if (const auto gaps = project / "validation" / reference.study / "gaps.md"; std::filesystem::exists(gaps))
     report += read_whole_file(gaps) + "\n";
   for (const FigureOfStudy& figure : figures)
@@ -151,7 +156,7 @@ ExitStatus reproduce(const StudyRequest& request) {
 
   const std::vector<FigureOfStudy> figures = studied->draw(request.folder / "figures");
   const std::filesystem::path report_path = request.folder / (reference.study + ".md");
-  write_atomically(report_path, report_text(reference, request, project, runs, rows, counts, figures));
+  write_atomically(report_path, report_text(reference, request, project, runs, rows, result.failed, counts, figures));
 
   fmt::print("{}{}\nReport: {}\n", text, counts, report_path.string());
   if (!figures.empty()) fmt::print("Picture: {}\n", figures.front().path.string());

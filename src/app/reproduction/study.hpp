@@ -20,7 +20,7 @@ struct StudyRequest {
 };
 
 /// The studies there are.
-inline constexpr const char* study_names[] = {"niiya2020", "yuu2011"};
+inline constexpr const char* study_names[] = {"niiya2020", "yuu2011", "yuu2011/laws"};
 
 /// Runs every member of every case and radius of validation/STUDY/reference.toml that is not done yet, evaluates all
 /// rows, and writes comparison.txt, comparison.json, the report STUDY.md and its figures into the folder.

@@ -28,12 +28,19 @@ void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::s
   Law::for_each_slot([&](granular::HistorySlot, double& value) { columns.history[slot++][i] = value; }, point.history);
 }
 
+template <class Law>
+concept TakesAStrain = requires(const Law law, const granular::MaterialPoint<Law>& old) {
+  law.update_at_strain(old, SymmetricTensor3<>{}, Tensor3<>{}, 1.0, 1.0);
+};
+
 }  // namespace
 
 Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grains.density)) {
   const std::vector<granular::HistorySlot> remembered = slots();
-  for (std::size_t k = 0; k < remembered.size(); ++k)
+  for (std::size_t k = 0; k < remembered.size(); ++k) {
     if (remembered[k].name == std::string_view("strain_xx")) first_strain_slot_ = k;
+    if (remembered[k].name == std::string_view("resets")) resets_slot_ = k;
+  }
   if (p.law.collisions != granular::Collisions::none)
     collisions_ = granular::collision_options(p.law, p.grains.diameter, p.gravity.acceleration);
 }
@@ -49,17 +56,33 @@ std::vector<granular::HistorySlot> Material::slots() const {
       law_);
 }
 
+bool Material::by_displacements() const {
+  return std::visit(
+      []<class Law>(const Law& law) {
+        if constexpr (TakesAStrain<Law>) return law.by_displacements();
+        return false;
+      },
+      law_);
+}
+
 double Material::sound_speed(double density) const {
   return std::visit([&](const auto& law) { return law.sound_speed(density); }, law_);
 }
 
 void Material::update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
-                      std::span<const double> density, double time_step, MaterialColumns& next,
-                      bool keep_history) const {
+                      std::span<const SymmetricTensor3<>> measured_strain, std::span<const double> density,
+                      double time_step, MaterialColumns& next, bool keep_history) const {
   std::visit(
       [&]<class Law>(const Law& law) {
+        const auto updated = [&](std::size_t i) {
+          if constexpr (TakesAStrain<Law>)
+            if (!measured_strain.empty())
+              return law.update_at_strain(load<Law>(old, i), measured_strain[i], velocity_gradient[i], density[i],
+                                          time_step);
+          return law.update(load<Law>(old, i), velocity_gradient[i], density[i], time_step);
+        };
         for_each(team, density.size(), [&](std::size_t i) {
-          auto point = law.update(load<Law>(old, i), velocity_gradient[i], density[i], time_step);
+          auto point = updated(i);
           store(point, next, i, keep_history);
           if (!collisions_) return;
           const double mean_stress = std::max(trace(point.stress) / 3, 0.0);

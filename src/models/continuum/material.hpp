@@ -20,14 +20,22 @@ class Material {
   /// What the law remembers of each lump.
   std::vector<granular::HistorySlot> slots() const;
 
+  /// Whether the law takes the strain from displacements (displacement.hpp) in place of its rate.
+  bool by_displacements() const;
+
   /// Upper bound of the speed of pressure waves, m/s.
   double sound_speed(double density) const;
 
   /// Applies the law to every lump over a time step, from `old` to `next`, which may be the same.
-  /// \param velocity_gradient 1/s; \param density at the end of the step, kg/m^3; \param keep_history false: only the
-  ///        stress of `next` is written, for a stage within a step
+  /// \param velocity_gradient 1/s; \param measured_strain at the end of the step, one a lump if by_displacements(),
+  ///        else empty; \param density at the end of the step, kg/m^3; \param keep_history false: only the stress of
+  ///        `next` is written, for a stage within a step
   void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
-              std::span<const double> density, double time_step, MaterialColumns& next, bool keep_history) const;
+              std::span<const SymmetricTensor3<>> measured_strain, std::span<const double> density, double time_step,
+              MaterialColumns& next, bool keep_history) const;
+
+  /// How often the law has reset the strain of each lump. \pre by_displacements()
+  std::span<const double> resets(const MaterialColumns& columns) const { return columns.history[*resets_slot_]; }
 
   /// Norm of the strain that the law remembers of a lump; 0 if it remembers none.
   double strain(const MaterialColumns& columns, std::size_t lump) const;
@@ -37,7 +45,7 @@ class Material {
 
  private:
   granular::AnyLaw law_;
-  std::optional<std::size_t> first_strain_slot_;
+  std::optional<std::size_t> first_strain_slot_, resets_slot_;
   std::optional<granular::CollisionOptions> collisions_;
 };
 

@@ -150,10 +150,6 @@ std::vector<Problem> check(const Parameters& p) {
   check_bed(p, problems);
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   for (const Problem& problem : check_air(p)) problems.push_back(problem);
-  if (p.law.strain == granular::Strain::displacements)
-    problems.push_back({.key = "law.strain",
-                        .what = "lumps do not keep the places of their last reset yet",
-                        .allowed = "\"rate\"; talus law takes either"});
   if (p.law.collisions != granular::Collisions::none && !(p.gravity.acceleration > 0))
     problems.push_back({.key = "law.collisions",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",

@@ -53,6 +53,8 @@ struct State {
   MaterialColumns material;
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
   double mass = 0;                           ///< of a lump, kg
+  /// X_i, m: where each lump was when its strain was last reset; empty unless the strain comes from displacements.
+  std::vector<Vector3> reset_position;
 
   std::vector<double> packing;     ///< as the kernel deposits it: sum of m W over lumps and images, over rho_p; derived
   std::vector<double> strain;      ///< |e|, norm of the strain that the law remembers; 0 if it remembers none; derived
@@ -138,6 +140,7 @@ void for_each_field(Visit&& visit, S& s) {
   for (std::size_t k = 0; k < s.slots.size(); ++k)
     visit(Field{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
   visit(Field{"mass", "kg"}, s.mass);
+  if (!s.reset_position.empty()) visit(Field{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
   visit(Field{"packing", "1", FieldRole::derived}, s.packing);
   visit(Field{"strain", "1", FieldRole::derived}, s.strain);
   visit(Field{"shear_rate", "1/s"}, s.shear_rate);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 
+#include "models/continuum/displacement.hpp"
 #include "models/continuum/sort.hpp"
 #include "models/continuum/walls.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -33,6 +34,24 @@ Vector3 by_air(const State& s, std::size_t i) {
   return s.air.acceleration.empty() ? Vector3{} : s.air.acceleration[i];
 }
 
+void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span<const Vector3> position) {
+  if (w.material.by_displacements())
+    measure_strain(team, w.sweep.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
+}
+
+/// The law over the whole step; a lump whose strain it resets has its displacement counted anew from here.
+void strain(ThreadTeam& team, State& s, Workspace& w, double dt) {
+  measure_strain_at(team, s, w, s.position);
+  const bool displaced = w.material.by_displacements();
+  if (displaced) w.resets.assign(w.material.resets(s.material).begin(), w.material.resets(s.material).end());
+  w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, s.density, dt, s.material, true);
+  if (!displaced) return;
+  const std::span<const double> resets = w.material.resets(s.material);
+  for_each(team, resets.size(), [&](std::size_t i) {
+    if (resets[i] != w.resets[i]) s.reset_position[i] = s.position[i];
+  });
+}
+
 /// The explicit midpoint rule.
 void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
   const Vector3 g = gravity(p);
@@ -42,7 +61,9 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + g + by_air(s, i));
     w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
   });
-  w.material.update(team, s.material, w.rates.velocity_gradient, w.density, 0.5 * dt, w.columns, false);
+  measure_strain_at(team, s, w, w.position);
+  w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, w.density, 0.5 * dt, w.columns,
+                    false);
   w.sweep(team, {w.position, w.velocity, w.density, w.columns}, Wanted::all, w.rates);
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i];
@@ -50,7 +71,7 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
     s.velocity[i] += dt * (w.rates.acceleration[i] + g + by_air(s, i));
     s.density[i] += dt * w.rates.density_rate[i];
   });
-  w.material.update(team, s.material, w.rates.velocity_gradient, s.density, dt, s.material, true);
+  strain(team, s, w, dt);
   s.gravity_impulse += (dt * s.mass * static_cast<double>(count)) * g;
   meet_walls(team, p, w.sweep.neighbourhood().domain(), w.rates, w.position, dt, s);
 }
@@ -72,7 +93,7 @@ void leapfrog(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, dou
     s.position[i] += dt * s.velocity[i];
     s.density[i] += dt * w.rates.density_rate[i];
   });
-  w.material.update(team, s.material, w.rates.velocity_gradient, s.density, dt, s.material, true);
+  strain(team, s, w, dt);
 }
 
 void damp(ThreadTeam& team, const Parameters& p, State& s, double dt) {
@@ -88,28 +109,47 @@ void damp(ThreadTeam& team, const Parameters& p, State& s, double dt) {
   s.damping_impulse += (s.mass * (1 / left - 1)) * momentum;
 }
 
-[[noreturn]] void give_up(const State& s, std::size_t i) {
+/// A lump of no or of hardly any density reaches past plates and faces; one that jumps over its neighbours in a step
+/// was thrown by stresses that cannot be.
+struct Possible {
+  double least_density;  // kg/m^3
+  double most_speed;     // m/s
+
+  Possible(const Parameters& p, const State& s, const Workspace& w, double dt)
+      : least_density(p.sph.smoothing == Smoothing::fixed
+                          ? 0
+                          : s.mass * std::pow(0.5 * (w.sweep.neighbourhood().domain().largest_reach() -
+                                                     p.integration.skin * p.bed.spacing),
+                                              -3)),
+        most_speed(p.bed.spacing / dt) {}
+
+  bool density(double value) const { return value > least_density && std::isfinite(value); }
+  bool velocity(const Vector3& v) const { return norm(v) <= most_speed; }
+};
+
+[[noreturn]] void give_up(const State& s, const Possible& possible, std::size_t i) {
   const Vector3& x = s.position[i];
-  const bool density = !(s.density[i] > 0) || !std::isfinite(s.density[i]);
-  throw NumericalError(
-      {.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i]) : "the velocity is not finite",
-       .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
-       .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
-       .step = s.step,
-       .time = s.time,
-       .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
+  const bool density = !possible.density(s.density[i]);
+  const double speed = norm(s.velocity[i]);
+  throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
+                                : std::isfinite(speed)
+                                    ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
+                                    : "the velocity is not finite",
+                        .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+                        .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
+                        .step = s.step,
+                        .time = s.time,
+                        .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
 }
 
-void check_possible(ThreadTeam& team, const State& s) {
+void check_possible(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w, double dt) {
+  const Possible possible(p, s, w, dt);
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   const std::size_t worst = reduce(
       team, s.position.size(), none,
-      [&](std::size_t i) {
-        const Vector3& v = s.velocity[i];
-        return std::isfinite(v.x + v.y + v.z) && std::isfinite(s.density[i]) && s.density[i] > 0 ? none : i;
-      },
+      [&](std::size_t i) { return possible.velocity(s.velocity[i]) && possible.density(s.density[i]) ? none : i; },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (worst != none) give_up(s, worst);
+  if (worst != none) give_up(s, possible, worst);
 }
 
 /// Settle, open, run: looks whether the bed is at rest, and opens the gate when it is time.
@@ -151,7 +191,11 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
     sort_for_locality(s, sph::support * p.bed.spacing);
     measure(team, s, w);
   }
-  for (Vector3& x : s.position) x = w.sweep.neighbourhood().domain().wrap(x);
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const Vector3 wrapped = w.sweep.neighbourhood().domain().wrap(s.position[i]);
+    if (!s.reset_position.empty()) s.reset_position[i] += wrapped - s.position[i];
+    s.position[i] = wrapped;
+  }
   s.list_position = s.position;
   s.list_smoothing_length = w.smoothing_length;
   ++s.list_builds;
@@ -221,7 +265,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   s.time += dt;
   s.last_step = dt;
   ++s.step;
-  check_possible(team, s);
+  check_possible(team, p, s, w, dt);
   look_at_phase(team, p, s, w);
   measure(team, s, w);
   if (!w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) find_neighbours(team, p, s, w);

@@ -28,6 +28,10 @@ struct Workspace {
   MaterialColumns columns;
   std::vector<double> smoothing_length;
 
+  /// Only if the strain comes from displacements.
+  std::vector<SymmetricTensor3<>> measured_strain;
+  std::vector<double> resets;  ///< of each lump at the start of the step
+
   Workspace(const Parameters& parameters, const State& state);
 };
 

@@ -111,10 +111,14 @@ void turn_back(ThreadTeam& team, const Material& material, const Domain& domain,
       const auto bounce = domain.bounce(before[i], state.position[i]);
       if (!bounce) break;
       if (bounces == most_bounces) {  // in a narrow corner: back the way it came
+        if (!state.reset_position.empty()) state.reset_position[i] += before[i] - state.position[i];
         become(bounce->wall, before[i], -1.0 * state.velocity[i]);
         break;
       }
-      become(bounce->wall, bounce->image.position(state.position[i]), bounce->image.vector(state.velocity[i]));
+      const Vector3 place = bounce->image.position(state.position[i]);
+      if (!state.reset_position.empty())
+        state.reset_position[i] = place - bounce->image.vector(state.position[i] - state.reset_position[i]);
+      become(bounce->wall, place, bounce->image.vector(state.velocity[i]));
       material.mirror(state.material, i, bounce->image);
     }
   };

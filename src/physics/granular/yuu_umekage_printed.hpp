@@ -182,8 +182,8 @@ class YuuUmekagePrinted {
         old.stress + stiffness * normal_stresses(Number(initial_[0]), Number(initial_[1]), Number(initial_[2]),
                                                  increment,
                                                  Sums<Number>{now.x - before.x, now.y - before.y, now.z - before.z});
-    // Not beyond the loading stress.
-    const Number tau = trace(normal), most = maximum(trace(loading), Number(0.0));
+    // Not beyond the loading stress, nor into tension.
+    const Number tau = maximum(trace(normal), Number(0.0)), most = maximum(trace(loading), Number(0.0));
     normal = (minimum(tau, most) / maximum(tau, Number(tiny))) * normal;
 
     const Number old_tau = maximum((1.0 / 3.0) * trace(old.stress), Number(tiny));

@@ -119,6 +119,25 @@ TEST(YuuUmekagePrinted, UnloadsReloadsToTheYieldPointAndForgetsAtTheEnd) {
   EXPECT_NEAR(points[6].stress.zz, alpha * value(printed_2011.a1, 1e-5) * 1e-5, 1e-3 * points[6].stress.zz);
 }
 
+TEST(YuuUmekagePrinted, UnloadedPastTheEndOfStressAtOnceItBearsNone) {
+  // However far the step goes beyond the end of the line: most of all where it passes zero by a hair or by far.
+  const Tensor3<> squash{.zz = -3e-4};
+  for (LawParameters options : {printed_route(), LawParameters{.form = Form::printed}}) {
+    options.smoothing_time = 0;
+    const YuuUmekagePrinted law = std::get<YuuUmekagePrinted>(make_law(options, 2500));
+    const auto loaded = law.update({}, squash, 1500 * (1 + 3e-4), 1);
+    EXPECT_GT(mean(loaded.stress), 100);
+    for (const double back : {-0.8, -0.9, -1.0, -1.1, -2.0, -30.0}) {
+      const auto point = law.update(loaded, back * squash, 1500.0, 1);
+      EXPECT_GE(mean(point.stress), 0) << back;
+      EXPECT_LE(mean(point.stress), mean(loaded.stress)) << back;
+      if (back <= -1) {
+        EXPECT_EQ(norm(point.stress), 0) << back;
+      }
+    }
+  }
+}
+
 TEST(YuuUmekagePrinted, RatchetsUnlessTheVolumeIsTiedToTheDensity) {
   // Load to 1200 Pa, unload to nothing, again and again: with resets every cycle compacts the grains by the strain that
   // the unloading does not give back. With the volume tied to the density and no resets there is one compaction.
