@@ -90,7 +90,7 @@ void neighbours(benchmark::State& run) {
 void law(benchmark::State& run) {
   Bed bed(run);
   for (auto _ : run)
-    bed.material.update(bed.team, bed.state.material, bed.rates.velocity_gradient, bed.state.density, 1e-6,
+    bed.material.update(bed.team, bed.state.material, bed.rates.velocity_gradient, {}, bed.state.density, 1e-6,
                         bed.state.material, true);
   run.SetItemsProcessed(static_cast<std::int64_t>(bed.h.size()) * run.iterations());
 }

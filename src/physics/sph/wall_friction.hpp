@@ -10,8 +10,8 @@ namespace talus::sph {
 
 /// Coulomb: the wall takes at most mu times the normal impulse from the tangential momentum, and stops the lump if that
 /// is enough. A choice; Yuu & Umekage 2011 print mu = 0.3 for their rule below.
-/// \param tangential velocity along the wall, m/s; \param normal_push the wall's normal force over the lump's mass, times
-/// the step, m/s, counted where it pushes; \param coefficient mu
+/// \param tangential velocity along the wall, m/s; \param normal_push the wall's normal force over the lump's mass,
+/// times the step, m/s, counted where it pushes; \param coefficient mu
 inline Vector3 coulomb_friction(const Vector3& tangential, double normal_push, double coefficient) {
   const double speed = norm(tangential);
   const double loss = coefficient * normal_push;

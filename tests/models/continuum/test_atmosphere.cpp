@@ -141,8 +141,8 @@ TEST(Atmosphere, ABeadFallsThroughAirAtRestWithItsTerminalVelocity) {
   p.air.cell = 0.1;
   p.air.gas.motion = air::Motion::frozen;
   p.air.gas.boundaries.kind[2] = p.air.gas.boundaries.kind[3] = FlowBoundary::periodic;
-  p.air.gas.longest_step = 1e-3;
-  p.integration.step = 1e-3;
+  p.air.gas.longest_step = 0.5e-3;
+  p.integration.step = 0.5e-3;
   ThreadTeam team(1);
   Continuum model = started(p, team);
   while (model.state().time < 1.5) model.advance(team);
