@@ -14,12 +14,19 @@ namespace talus::app {
 
 namespace {
 
-ExitStatus compare_with_reference(const std::string& folder, const std::string& path, const std::string& json) {
-  const Reference reference = read_reference(path);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, *read_studied_runs(folder, reference));
+struct CompareOptions {
+  std::string folder, other, json, markdown, figures, picture = "compare.png";
+};
+
+ExitStatus compare_with_reference(const CompareOptions& options) {
+  const Reference reference = read_reference(options.other);
+  const std::unique_ptr<StudiedRuns> runs = read_studied_runs(options.folder, reference);
+  const std::vector<EvaluatedRow> rows = evaluate(reference, *runs);
   fmt::print("{}\n", reference.source);
   fmt::print("{}", to_text(rows));
-  if (!json.empty()) write_atomically(json, to_json(reference, rows));
+  if (!options.json.empty()) write_atomically(options.json, to_json(reference, rows));
+  if (!options.markdown.empty()) write_atomically(options.markdown, to_markdown(rows));
+  if (!options.figures.empty()) runs->draw(options.figures);
   fmt::print("{} met, {} not met, {} reported, {} not evaluated\n", count(rows, Verdict::met),
              count(rows, Verdict::not_met), count(rows, Verdict::reported), count(rows, Verdict::not_evaluated));
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;
@@ -28,14 +35,13 @@ ExitStatus compare_with_reference(const std::string& folder, const std::string& 
 }  // namespace
 
 void add_compare_command(CLI::App& app, Action& action) {
-  struct Options {
-    std::string folder, other, json, picture = "compare.png";
-  };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   CLI::App* command = app.add_subcommand("compare", "compare runs with a reference, or two runs with each other");
   command->add_option("DIR", options->folder, "folder of a run, an ensemble or a reproduction")->required();
   command->add_option("OTHER", options->other, "REFERENCE.toml, or the folder of another run")->required();
   command->add_option("--json", options->json, "also write the rows to this file");
+  command->add_option("--markdown", options->markdown, "also write them to this file, as a table");
+  command->add_option("--figures", options->figures, "also draw the study's figures into this folder");
   command->add_option("--picture", options->picture, "two runs: draw their series over each other into this PNG")
       ->capture_default_str();
   command->footer(
@@ -45,7 +51,7 @@ void add_compare_command(CLI::App& app, Action& action) {
     action = [options] {
       if (std::filesystem::is_directory(options->other))
         return compare_runs(options->folder, options->other, options->picture);
-      return compare_with_reference(options->folder, options->other, options->json);
+      return compare_with_reference(*options);
     };
   });
 }
