@@ -81,8 +81,13 @@ class Album {
     figures_.push_back({folder_ / name, title, caption});
   }
 
-  Colour colour_of(const HopperEnsemble& ensemble) const {
-    return palette_colour(static_cast<std::size_t>(&ensemble - ensembles_.data()));
+  std::size_t number_of(const HopperEnsemble& ensemble) const {
+    return static_cast<std::size_t>(&ensemble - ensembles_.data());
+  }
+  Colour colour_of(const HopperEnsemble& ensemble) const { return palette_colour(number_of(ensemble)); }
+  /// Dotted where the colours come round again.
+  Dash dash_of(const HopperEnsemble& ensemble) const {
+    return number_of(ensemble) < palette.size() ? Dash::solid : Dash::dotted;
   }
 
   void draw_snapshots(const HopperEnsemble& ensemble) {
@@ -97,7 +102,8 @@ class Album {
     return {.x = std::move(curve.time),
             .y = std::move(curve.value),
             .label = ensemble.variant + what,
-            .colour = colour_of(ensemble)};
+            .colour = colour_of(ensemble),
+            .dash = dash_of(ensemble)};
   }
 
   void draw_curves(const std::string& name, const std::string& title, const std::string& caption, const Axis& y,
