@@ -169,7 +169,8 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
       double force = rate_[a][f];
       if (!implicit_) force += phi * parameters_.viscosity * stress_[a][f];
       stream.velocity[a][f] = base_[a][f] + slip.pull * dt * force / mass;
-      conductance_[a][f] = phi * slip.pull * dt / rho * area_over_way * (passages_.is_end(axis, place) ? 2 : 1);
+      conductance_[a][f] =
+          air_share(phi) * slip.pull * dt / rho * area_over_way * (passages_.is_end(axis, place) ? 2 : 1);
     });
   }
   // Pressure's share of the velocity over dt.
@@ -179,7 +180,9 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
       for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
         if (passages_.open[a][f] <= 0) return;
         const int place = axis == 0 ? i : axis == 1 ? j : k;
-        velocity[a][f] -= sign * pull_[a][f] * dt / rho * pressure_step(axis, place, f, pressure);
+        const double phi = void_fraction_[a][f];
+        velocity[a][f] -=
+            sign * pull_[a][f] * dt / rho * (air_share(phi) / phi) * pressure_step(axis, place, f, pressure);
       });
     }
   };
@@ -239,9 +242,9 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
   }
 }
 
-/// What the air lost to drag, and what the pressure does to the solid, over the solid's volume: first on the faces,
-/// then as the cells' means, so that it is handed out with the weights by which the solids were gathered.
-/// \param velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
+/// What the air lost to drag, and in model A what the pressure does to the solid, over the solid's volume: first on the
+/// faces, then as the cells' means, so that it is handed out with the weights by which the solids were gathered. \param
+/// velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
 void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse) {
   const Grid& grid = passages_.grid;
   const double rho = parameters_.density();
@@ -251,7 +254,8 @@ void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, 
       const int place = axis == 0 ? i : axis == 1 ? j : k;
       double received = 0, drag = 0;
       if (passages_.open[a][f] > 0) {
-        received = -dt * pressure_step(axis, place, f, state.pressure);
+        if (parameters_.formulation == Formulation::model_a)
+          received = -dt * pressure_step(axis, place, f, state.pressure);
         if (solid_[a][f] > 0) {
           const double mass = rho * void_fraction_[a][f];
           // All but drag, as an acceleration times dt: what makes the slip's decay end at the velocity found.

@@ -21,6 +21,12 @@ enum class Continuity {
   air_alone  ///< Phi u: Eq. 19 without the change of Phi with time; air need not make room for grains
 };
 
+/// Whom the gradient of the air's pressure moves.
+enum class Formulation {
+  model_a,  ///< air and grains, each by its share of the volume: Eqs 17 and 18 as printed
+  model_b   ///< the air; the grains feel the drag of Eq. 20 and nothing else
+};
+
 enum class Motion {
   flowing,  ///< Eqs 18 and 19
   frozen    ///< at rest and everywhere at one pressure: it only drags
@@ -32,6 +38,7 @@ struct Parameters {
   double viscosity = 1.82e-5;   ///< Pa s
   Motion motion = Motion::flowing;
   Continuity continuity = Continuity::mixture;
+  Formulation formulation = Formulation::model_a;
   coupling::DragLaw drag = coupling::DragLaw::schiller_naumann_umekage_yuu;
   double grain_diameter = 200e-6;  ///< m
   double grain_density = 2500;     ///< kg/m^3
@@ -71,6 +78,14 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
                   "if the void fraction did not change with time"},
         p.continuity);
+  visit(
+      Parameter{
+          "air.formulation",
+          {},
+          {},
+          "whom the gradient of the pressure moves: air and grains by their shares of the volume (model A, Eqs 17 "
+          "and 18), or the air alone, so that the drag is all that the grains feel (model B)"},
+      p.formulation);
   visit(Parameter{"air.drag",
                   {},
                   {},
@@ -122,6 +137,8 @@ template <>
 inline constexpr auto choices<air::Motion> = std::to_array<std::string_view>({"flowing", "frozen"});
 template <>
 inline constexpr auto choices<air::Continuity> = std::to_array<std::string_view>({"mixture", "air-alone"});
+template <>
+inline constexpr auto choices<air::Formulation> = std::to_array<std::string_view>({"model-a", "model-b"});
 template <>
 inline constexpr auto choices<coupling::DragLaw> = std::to_array<std::string_view>({"schiller-naumann+umekage-yuu",
                                                                                     "ergun-wen-yu"});

@@ -7,7 +7,10 @@
 namespace talus::granular {
 
 DruckerPrager::DruckerPrager(const DruckerPragerOptions& options, const FittedFunctions& functions)
-    : options_(options), shear_(shear_table(functions)), inverse_grain_density_(1 / options.grain_density) {
+    : options_(options),
+      memory_(options.volume, options.reference_packing, options.gate_packing, options.compaction),
+      shear_(shear_table(functions)),
+      inverse_grain_density_(1 / options.grain_density) {
   if (!(options_.largest_deviator <= largest_fitted_strain))
     throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
   const double lambda = options_.scale * functions.a2.piece[0].c0;

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Linear elasticity with a friction limit: Drucker-Prager plasticity without dilatancy, in rate form.
 ///
-///     elastic:  ds/dt = 2G (-D_dev) + W s - s W,   p = 3 K ln(rho_b/rho_ref)/3  or  dp/dt = -K tr D
+///     elastic:  ds/dt = 2G (-D_dev) + W s - s W,   p = 3 K e_v  or  dp/dt = -K tr D
 ///     yield:    |s| <= sqrt(2) mu(kappa) p,  returned at constant p;  no stress where p would be negative
 ///
-/// with s the deviator of the stress, positive in compression, K = lambda + 2G/3. sqrt(2) mu p is the friction
-/// coefficient mu in simple shear. kappa sums the shear strain beyond the yield point of the moment, in one direction
-/// all of it; the grains harden as the fits do, mu(kappa) = A4(kappa) kappa/sqrt(2), or mu is a constant. Moduli of Eqs
-/// 1-3 at zero strain: lambda = alpha A2(0), 2G = alpha (A1(0) - A2(0)), 2.9 and 5.9 MPa at alpha = 9.8.
-/// Source: Bui, Fukagawa, Sako & Ohno, Int. J. Numer. Anal. Mech. Geomech. 32, 1537 (2008), with zero dilatancy; data
-/// of Yuu & Umekage 2011, Appendix B.
-/// Range: slow, dense flow of 200 um glass beads with A4; with a constant mu of anything without cohesion.
-/// deviates: Bui et al. let the pressure follow the rate alone; tied to the density it cannot drift from the packing.
+/// with s the deviator of the stress, positive in compression, e_v the volumetric strain by the density
+/// (equation_of_state, contact_memory), K = lambda + 2G/3. sqrt(2) mu p is the friction coefficient mu in simple shear.
+/// kappa sums the shear strain beyond the yield point of the moment, in one direction all of it; the grains harden as
+/// the fits do, mu(kappa) = A4(kappa) kappa/sqrt(2), or mu is a constant. Moduli of Eqs 1-3 at zero strain: lambda =
+/// alpha A2(0), 2G = alpha (A1(0) - A2(0)), 2.9 and 5.9 MPa at alpha = 9.8. Source: Bui, Fukagawa, Sako & Ohno, Int. J.
+/// Numer. Anal. Mech. Geomech. 32, 1537 (2008), with zero dilatancy; data of Yuu & Umekage 2011, Appendix B. Range:
+/// slow, dense flow of 200 um glass beads with A4; with a constant mu of anything without cohesion. deviates: Bui et
+/// al. let the pressure follow the rate alone; tied to the density it cannot drift from the packing.
 ///
 /// The rate is Jaumann's. The convected rate of the strain (almansi_strain.hpp) would stretch the stress with the
 /// grains, which has no meaning for a stress; over the elastic range, |s|/2G < 2e-4, the two differ by less than that.
 /// The rotation of a step is one to round-off, so pressure and |s| of a turning block stay.
 #pragma once
 
+#include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
 #include "physics/granular/law_readings.hpp"
@@ -30,7 +31,8 @@ struct DruckerPragerOptions {
   double scale = 9.80;             ///< alpha
   double grain_density = 2500;     ///< rho_p, kg/m^3
   double reference_packing = 0.6;  ///< rho_ref/rho_p, at which the grains just touch
-  Volume volume = Volume::density;
+  Volume volume = Volume::contact;
+  double compaction = 3;            ///< k, of contact_memory.hpp
   double friction = 0;              ///< mu, constant; 0: from A4
   double largest_deviator = 0.014;  ///< kappa beyond which mu no longer changes
   double gate_packing = 0.5;        ///< packing below which contacts are lost
@@ -45,10 +47,12 @@ class DruckerPrager {
   template <class Number>
   struct History {
     Number yield_deviator = 0.0;  ///< kappa
+    Number dilation = 0.0;        ///< of the grains at which they touch (contact_memory.hpp)
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
     visit(HistorySlot{"yield_deviator", "1"}, history.yield_deviator);
+    visit(HistorySlot{"dilation", "1"}, history.dilation);
   }
 
   template <class Number>
@@ -57,12 +61,14 @@ class DruckerPrager {
                                               double time_step) const {
     const SymmetricTensor3<Number> increment = time_step * symmetric_part(velocity_gradient);
     const Number packing = inverse_grain_density_ * density;
-    const bool by_density = options_.volume == Volume::density;
-    Number pressure = maximum(by_density ? (3.0 * bulk_) * volumetric_strain(packing, options_.reference_packing)
-                                         : (1.0 / 3.0) * trace(old.stress) - bulk_ * trace(increment),
-                              Number(0.0));
+    const Number packed = volumetric_strain(packing, options_.reference_packing);
+    const Number dilation = memory_.dilation(old.history.dilation, packed, velocity_gradient, time_step);
+    Number pressure =
+        maximum(options_.volume == Volume::strain ? (1.0 / 3.0) * trace(old.stress) - bulk_ * trace(increment)
+                                                  : (3.0 * bulk_) * (packed + dilation),
+                Number(0.0));
     // By the density there is no pressure below the reference packing, and so none that the gate could take away.
-    if (!by_density || options_.gate_packing > options_.reference_packing)
+    if (options_.volume != Volume::density || options_.gate_packing > options_.reference_packing)
       pressure = pressure * contact_gate(packing, options_.gate_packing, options_.gate_power);
 
     const SymmetricTensor3<Number> shear =
@@ -71,6 +77,7 @@ class DruckerPrager {
     const Number size = norm(shear);
     const Number excess = maximum(size - friction_ratio(old.history.yield_deviator) * pressure, Number(0.0));
     MaterialPoint<DruckerPrager, Number> point;
+    point.history.dilation = dilation;
     point.history.yield_deviator =
         minimum(old.history.yield_deviator + inverse_two_g_ * excess, Number(options_.largest_deviator));
     const Number most = friction_ratio(point.history.yield_deviator) * pressure;
@@ -91,6 +98,7 @@ class DruckerPrager {
   }
 
   DruckerPragerOptions options_;
+  ContactMemory memory_;
   ShearTable shear_;
   double two_g_;  // Pa
   double inverse_two_g_;

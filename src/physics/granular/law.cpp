@@ -16,7 +16,7 @@ std::vector<Problem> check(const LawParameters& p) {
                         .what = "only the printed components take the strain from displacements",
                         .allowed = "\"rate\", or law.form = \"printed\""});
   if (p.name != LawName::yuu_umekage) return problems;
-  if (p.reset == Reset::strain && p.volume == Volume::density)
+  if (p.reset == Reset::strain && p.volume != Volume::strain)
     problems.push_back({.key = "law.reset",
                         .what = "a volumetric strain measured by the density cannot be reset",
                         .allowed = "\"never\" or \"deviator\", or law.volume = \"strain\""});
@@ -39,6 +39,7 @@ AnyLaw make_law(const LawParameters& p, double grain_density) {
                           .grain_density = grain_density,
                           .reference_packing = p.reference_packing,
                           .volume = p.volume,
+                          .compaction = p.compaction,
                           .friction = p.friction,
                           .largest_deviator = p.largest_deviator,
                           .gate_packing = p.gate_packing,
@@ -49,6 +50,7 @@ AnyLaw make_law(const LawParameters& p, double grain_density) {
                                   .reference_packing = p.reference_packing,
                                   .strain = p.strain,
                                   .volume = p.volume,
+                                  .compaction = p.compaction,
                                   .unloading = p.unloading,
                                   .unloading_stiffness = p.unloading_stiffness,
                                   .reset = p.reset,

@@ -11,6 +11,7 @@ namespace talus::granular {
 
 YuuUmekageIsotropic::YuuUmekageIsotropic(const YuuUmekageOptions& options, const FittedFunctions& functions)
     : options_(options),
+      memory_(options.volume, options.reference_packing, options.gate_packing, options.compaction),
       pressure_(pressure_table(functions)),
       shear_(shear_table(functions)),
       close_volume_(volumetric_strain(options.close_packing, options.reference_packing)),

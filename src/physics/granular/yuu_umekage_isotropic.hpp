@@ -27,6 +27,7 @@
 #pragma once
 
 #include "physics/granular/almansi_strain.hpp"
+#include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
 #include "physics/granular/law_readings.hpp"
@@ -48,6 +49,7 @@ class YuuUmekageIsotropic {
     Number unloading = 0.0;       ///< 1 while the pressure is below its loading curve, else 0
     Number yield_deviator = 0.0;  ///< |e_dev| at the yield point of the shear stress
     Number main_rate = 0.0;       ///< 1/s, smoothed rate of the main strain; 0 without resets
+    Number dilation = 0.0;        ///< of the grains at which they touch (contact_memory.hpp)
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
@@ -56,6 +58,7 @@ class YuuUmekageIsotropic {
     visit(HistorySlot{"unloading", "1"}, history.unloading);
     visit(HistorySlot{"yield_deviator", "1"}, history.yield_deviator);
     visit(HistorySlot{"main_rate", "1/s"}, history.main_rate);
+    visit(HistorySlot{"dilation", "1"}, history.dilation);
   }
 
   template <class Number>
@@ -64,7 +67,12 @@ class YuuUmekageIsotropic {
                                                     double time_step) const {
     MaterialPoint<YuuUmekageIsotropic, Number> point;
     const SymmetricTensor3<Number> strain = transported_strain(old.history.strain, velocity_gradient, time_step);
-    Volumetric<Number> volume = volumetric(old, strain, density);
+    const Number packing = density * (1.0 / options_.grain_density);
+    const Number packed = volumetric_strain(density, options_.reference_packing * options_.grain_density);
+    point.history.dilation = memory_.dilation(old.history.dilation, packed, velocity_gradient, time_step);
+    Volumetric<Number> volume =
+        volumetric(old, packing, packed,
+                   options_.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : packed + point.history.dilation);
     SymmetricTensor3<Number> sheared = deviator(strain);
     if (options_.reset != Reset::never) {
       point.history.main_rate = smoothed_main_rate(old.history.main_rate, options_.main_strain, velocity_gradient,
@@ -110,16 +118,13 @@ class YuuUmekageIsotropic {
     return options_.unloading == Unloading::pressure || options_.unloading == Unloading::all;
   }
   bool unloads_shear() const { return options_.unloading == Unloading::shear || options_.unloading == Unloading::all; }
+  /// \param packed ln(rho_b/rho_ref)/3; \param volume e_v
   template <class Number>
-  Volumetric<Number> volumetric(const MaterialPoint<YuuUmekageIsotropic, Number>& old,
-                                const SymmetricTensor3<Number>& strain, const Number& density) const {
-    const Number volume = options_.volume == Volume::density
-                              ? volumetric_strain(density, options_.reference_packing * options_.grain_density)
-                              : (1.0 / 3.0) * trace(strain);
-    const Number packing = density * (1.0 / options_.grain_density);
+  Volumetric<Number> volumetric(const MaterialPoint<YuuUmekageIsotropic, Number>& old, const Number& packing,
+                                const Number& packed, const Number& volume) const {
     const Number stiffness =
         options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
-    const Number beyond = maximum(volume - close_volume_, Number(0.0));
+    const Number beyond = maximum(packed - close_volume_, Number(0.0));
     const Number loading =
         stiffness * ((1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0))) + initial_pressure_ * beyond);
     if (!unloads_pressure()) return {volume, loading, Number(0.0)};
@@ -163,6 +168,7 @@ class YuuUmekageIsotropic {
   }
 
   YuuUmekageOptions options_;
+  ContactMemory memory_;
   PressureTable pressure_;
   ShearTable shear_;
   double close_volume_;      // e_v at close packing

@@ -10,6 +10,7 @@ namespace talus::granular {
 
 YuuUmekagePrinted::YuuUmekagePrinted(const YuuUmekageOptions& options, const FittedFunctions& functions)
     : options_(options),
+      memory_(options.volume, options.reference_packing, options.gate_packing, options.compaction),
       table_(component_table(functions)),
       initial_{functions.a1.piece[0].c0, functions.a2.piece[0].c0, functions.a3.piece[0].c0, functions.a4.piece[0].c0},
       largest_ratio_(0),

@@ -20,6 +20,7 @@
 #pragma once
 
 #include "physics/granular/almansi_strain.hpp"
+#include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
 #include "physics/granular/law_readings.hpp"
@@ -38,6 +39,7 @@ class YuuUmekagePrinted {
     Number yield_strain = 0.0;        ///< main strain at the yield point, while unloading
     Number unloading = 0.0;           ///< 1 while unloading or reloading, else 0
     Number resets = 0.0;              ///< resets so far: at each the point's X_i := x_i
+    Number dilation = 0.0;            ///< of the grains at which they touch (contact_memory.hpp)
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
@@ -47,6 +49,7 @@ class YuuUmekagePrinted {
     visit(HistorySlot{"yield_strain", "1"}, history.yield_strain);
     visit(HistorySlot{"unloading", "1"}, history.unloading);
     visit(HistorySlot{"resets", "1"}, history.resets);
+    visit(HistorySlot{"dilation", "1"}, history.dilation);
   }
 
   /// With the strain by its rate.
@@ -67,9 +70,11 @@ class YuuUmekagePrinted {
                                                             const SymmetricTensor3<Number>& measured_strain,
                                                             const Tensor3<Number>& velocity_gradient,
                                                             const Number& density, double time_step) const {
-    const SymmetricTensor3<Number> strain = restrained(measured_strain, density);
-    const Number scale = density_scale(density);
     MaterialPoint<YuuUmekagePrinted, Number> point;
+    const Number packed = volumetric_strain(inverse_grain_density_ * density, options_.reference_packing);
+    point.history.dilation = memory_.dilation(old.history.dilation, packed, velocity_gradient, time_step);
+    const SymmetricTensor3<Number> strain = restrained(measured_strain, packed + point.history.dilation);
+    const Number scale = density_scale(density);
     point.stress = loading_stress(strain, scale);
     point.history.strain = strain;
     point.history.resets = old.history.resets;
@@ -129,12 +134,10 @@ class YuuUmekagePrinted {
     return options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
   }
 
-  /// The strain with its volume tied to the density, and its deviator held, as the options say.
+  /// The strain with its volume by the density, and its deviator held, as the options say.
   template <class Number>
-  SymmetricTensor3<Number> restrained(const SymmetricTensor3<Number>& strain, const Number& density) const {
-    const Number volume = options_.volume == Volume::density
-                              ? volumetric_strain(inverse_grain_density_ * density, options_.reference_packing)
-                              : (1.0 / 3.0) * trace(strain);
+  SymmetricTensor3<Number> restrained(const SymmetricTensor3<Number>& strain, const Number& by_density) const {
+    const Number volume = options_.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : by_density;
     const SymmetricTensor3<Number> shear = deviator(strain);
     const Number size = norm(shear);
     return isotropic(volume) + (minimum(size, Number(options_.largest_deviator)) / maximum(size, Number(tiny))) * shear;
@@ -195,6 +198,7 @@ class YuuUmekagePrinted {
   }
 
   YuuUmekageOptions options_;
+  ContactMemory memory_;
   ComponentTable table_;
   double initial_[4];             // A1 to A4 at 0
   double largest_ratio_;          // of |shear stresses| to tau: the largest A4 a within the range

@@ -93,7 +93,7 @@ TEST(YuuUmekageIsotropic, TurnsItsStressWithAStressedBlock) {
 }
 
 TEST(YuuUmekageIsotropic, BearsNoTension) {
-  for (const Volume volume : {Volume::density, Volume::strain}) {
+  for (const Volume volume : {Volume::contact, Volume::density, Volume::strain}) {
     const AnyLaw law = make_law({.volume = volume}, 2500);
     EXPECT_EQ(end_of(law, {{1, squeeze(-1e-3)}, {1, shear(5e-3)}}).stress, SymmetricTensor3<>{});
     EXPECT_EQ(end_of(law, {{1, squash(2e-4)}, {1, shear(1e-3)}, {1, squash(-3e-4)}}).stress, SymmetricTensor3<>{});

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The density at which grains touch, as they remember it.
+///
+///     e_v = ln(rho_b/rho_ref)/3 + d,   d >= 0,   d' >= -ln(rho_b/rho_ref)/3,   dd/dgamma = -k d while e_v > 0
+///
+/// Grains that come apart and are pressed again bear pressure from where they last touched, not first at the reference
+/// packing: the dilation d grows with the expansion beyond e_v = 0. It is the paper's rule, "at the end of the
+/// unloading process, the point x_i was set to the initial point X_i", for the volume, with two bounds. Below the
+/// gate's packing there is no contact to remember; and shear packs loose grains again, at the rate k per shear strain
+/// gamma. Source: Yuu & Umekage 2011, section 2.1; relaxation to a critical packing under shear as in Roux & Radjai,
+/// Physics of Dry Granular Media (1998), with the reference packing for the critical one. completed: k and the bounds.
+/// Tied to the density, the volume cannot drift from the packing, as that of a strain does which is integrated and
+/// reset.
+#pragma once
+
+#include "base/tensor.hpp"
+#include "physics/granular/equation_of_state.hpp"
+#include "physics/granular/law_readings.hpp"
+
+namespace talus::granular {
+
+class ContactMemory {
+ public:
+  /// \param gate_packing below which no contact is remembered; \param compaction k, >= 0
+  ContactMemory(Volume volume, double reference_packing, double gate_packing, double compaction)
+      : remembers_(volume == Volume::contact),
+        largest_dilation_(maximum(volumetric_strain(reference_packing, gate_packing), 0.0)),
+        compaction_(compaction) {}
+
+  /// d at the end of a step; 0 if nothing is remembered.
+  /// \param old d at its start; \param by_density ln(rho_b/rho_ref)/3 at its end; \param velocity_gradient 1/s
+  template <class Number>
+  Number dilation(const Number& old, const Number& by_density, const Tensor3<Number>& velocity_gradient,
+                  double time_step) const {
+    if (!remembers_) return 0.0;
+    const Number apart = minimum(maximum(old, -1.0 * by_density), Number(largest_dilation_));
+    const Number sheared = (sqrt2 * time_step) * norm(deviator(symmetric_part(velocity_gradient)));
+    return select(by_density + apart > Number(0.0), apart / (1.0 + compaction_ * sheared), apart);
+  }
+
+ private:
+  static constexpr double sqrt2 = 1.4142135623730951;
+
+  bool remembers_;
+  double largest_dilation_;
+  double compaction_;
+};
+
+}  // namespace talus::granular
