@@ -60,7 +60,9 @@ class AirFlow {
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
-  double pressure_step(int axis, int place, std::size_t face, const CellField& pressure) const;
+  void find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const;
+  void project(ThreadTeam& team, const Stream& stream, CellField& pressure);
+  void close(CellField& pressure) const;
 
   Parameters parameters_;
   Passages passages_;
