@@ -5,50 +5,105 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/clones.hpp"
 #include "base/error.hpp"
+#include "numerics/grid/loops.hpp"
 #include "physics/air/momentum.hpp"
 
 namespace talus::air {
 
 namespace {
 
-std::size_t plus(std::size_t index, std::ptrdiff_t by) {
-  return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + by);
-}
-
 std::array<bool, 3> periodic_axes(const FlowBoundaries& boundaries) {
   return {boundaries.is_periodic(0), boundaries.is_periodic(1), boundaries.is_periodic(2)};
 }
 
-/// Calls body(i, j, k, index) for the cells, in parallel.
-template <class Body>
-void for_each_cell(ThreadTeam& team, const Grid& grid, Body&& body) {
-  const int nx = grid.count[0], ny = grid.count[1], rows = ny * grid.count[2];
-  constexpr int rows_at_once = 16;
-  team.run(static_cast<std::size_t>((rows + rows_at_once - 1) / rows_at_once), [&](std::size_t block) {
-    const int begin = static_cast<int>(block) * rows_at_once;
-    for (int row = begin; row < std::min(begin + rows_at_once, rows); ++row) {
-      const int j = row % ny, k = row / ny;
-      const std::size_t first = grid.index(0, j, k);
-      for (int i = 0; i < nx; ++i) body(i, j, k, first + static_cast<std::size_t>(i));
-    }
-  });
-}
-
-/// Largest value(i, j, k, index) over the cells.
+/// Largest value(index) over the cells, at least 0.
 template <class Value>
 double largest(ThreadTeam& team, const Grid& grid, Value&& value) {
   const int ny = grid.count[1], rows = ny * grid.count[2];
   return reduce(
       team, static_cast<std::size_t>(rows), 0.0,
       [&](std::size_t row) {
-        const int j = static_cast<int>(row) % ny, k = static_cast<int>(row) / ny;
+        const auto begin =
+            static_cast<std::ptrdiff_t>(grid.index(0, static_cast<int>(row) % ny, static_cast<int>(row) / ny));
         double most = 0;
-        for (int i = 0; i < grid.count[0]; ++i) most = std::max(most, value(i, j, k, grid.index(i, j, k)));
+        for (auto c = begin; c < begin + grid.count[0]; ++c) most = std::max(most, value(c));
         return most;
       },
       [](double a, double b) { return std::max(a, b); });
+}
+
+/// Of the pressure's gradient, on air of a void fraction: phi in model A, all of it in model B.
+double air_share(double phi, double grains_share) {
+  return phi + (1 - grains_share) * (1 - phi);
+}
+
+// Rows of faces. Functions of their own, so that the compiler makes vectors of them.
+
+/// What a stage knows of a row of faces but for the pressure.
+struct StageRow {
+  const double *open, *phi, *momentum, *grains, *convection, *stress, *decay, *pull;
+};
+
+TALUS_CLONES void move_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
+                           double way, const StageRow& row, double* __restrict base, double* __restrict velocity,
+                           double* __restrict conductance) {
+  const auto [open, phi, momentum, grains, convection, stress, decay, pull] = row;
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double per_mass = 1 / (rho * phi[f]);
+    const double force = convection[f] + viscosity * phi[f] * stress[f];
+    const double carried = open[f] * (decay[f] * momentum[f] * per_mass + (1 - decay[f]) * grains[f]);
+    base[f] = carried;
+    velocity[f] = open[f] * (carried + pull[f] * dt * force * per_mass);
+    conductance[f] = open[f] * air_share(phi[f], grains_share) * pull[f] * way;
+  }
+}
+
+TALUS_CLONES void press_row(std::ptrdiff_t count, double factor, double grains_share, const double* open,
+                            const double* phi, const double* pull, const double* below, const double* above,
+                            double* __restrict velocity) {
+  for (std::ptrdiff_t f = 0; f < count; ++f)
+    velocity[f] -= factor * open[f] * pull[f] * (air_share(phi[f], grains_share) / phi[f]) * (above[f] - below[f]);
+}
+
+TALUS_CLONES void find_volume_flow_of_row(std::ptrdiff_t count, double carried, const double* open, const double* phi,
+                                          const double* velocity, const double* solid, const double* grains,
+                                          double* __restrict flow) {
+  for (std::ptrdiff_t f = 0; f < count; ++f)
+    flow[f] = open[f] * (phi[f] * velocity[f] + carried * solid[f] * grains[f]);
+}
+
+TALUS_CLONES void find_source_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& area,
+                                     const double* x, const double* y, const double* z, double* __restrict source) {
+  for (int c = 0; c < count; ++c)
+    source[c] = -((x[c + 1] - x[c]) * area.x + (y[c + dy] - y[c]) * area.y + (z[c + dz] - z[c]) * area.z);
+}
+
+/// What hand_over knows of a row of faces. `press`: of the pressure's difference, on the grains, over the way.
+struct HandOverRow {
+  const double *open, *solid, *phi, *grains, *velocity, *momentum, *decay, *pull, *base, *below, *above;
+};
+
+TALUS_CLONES void hand_over_row(std::ptrdiff_t count, double dt, double rho, double press, const HandOverRow& row,
+                                double* __restrict received, double* __restrict drag) {
+  const auto [open, solid, phi, grains, velocity, momentum, decay, pull, base, below, above] = row;
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double mass = rho * phi[f];
+    // All but drag, as an acceleration times dt: what makes the slip's decay end at the velocity found.
+    const double push = (velocity[f] - base[f]) / pull[f];
+    const double slip = momentum[f] / mass - grains[f];
+    const double lost = mass * (slip * (1 - decay[f]) + (1 - pull[f]) * push);
+    const double is_solid = solid[f] > 0 ? 1.0 : 0.0;
+    received[f] = open[f] * (is_solid * lost / (solid[f] + (1 - is_solid)) - press * dt * (above[f] - below[f]));
+    drag[f] = open[f] * is_solid * lost / dt;
+  }
+}
+
+TALUS_CLONES void average_row(std::ptrdiff_t count, const double* below, const double* above, double* __restrict mean) {
+  for (std::ptrdiff_t c = 0; c < count; ++c) mean[c] = 0.5 * (below[c] + above[c]);
 }
 
 }  // namespace
@@ -74,8 +129,9 @@ void AirFlow::set_plates(const std::vector<Plate>& plates) {
 /// end.
 void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
   const Grid& grid = passages_.grid;
-  for_each_cell(team, grid, [&](int i, int j, int k, std::size_t c) {
-    const double s = solids.fraction[c];
+  const double* fraction = solids.fraction.data();
+  for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t c) {
+    const double s = fraction[c];
     if (s >= 0 && s < 1) return;
     const Vector3 x = grid.centre(i, j, k);
     throw NumericalError(
@@ -86,18 +142,15 @@ void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
   });
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const int n = grid.count[a];
-    const std::ptrdiff_t stride = grid.stride(axis);
-    const bool ring = parameters_.boundaries.is_periodic(axis);
-    for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
-      const int place = axis == 0 ? i : axis == 1 ? j : k;
-      const std::size_t before = place > 0 ? plus(f, -stride) : ring ? plus(f, stride * (n - 1)) : f;
-      const std::size_t here = place < n ? f : before;
-      const double s = 0.5 * (solids.fraction[before] + solids.fraction[here]);
-      const double flux = 0.5 * (solids.flux[a][before] + solids.flux[a][here]);
-      solid_[a][f] = s;
-      void_fraction_[a][f] = 1 - s;
-      grain_velocity_[a][f] = s > 0 ? flux / s : 0;
+    const double* flux = solids.flux[a].data();
+    double *solid = solid_[a].data(), *gap = void_fraction_[a].data(), *velocity = grain_velocity_[a].data();
+    for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+      for (auto f = run.begin; f < run.end; ++f) {
+        const double s = 0.5 * (fraction[f + run.before] + fraction[f + run.here]);
+        const double through = 0.5 * (flux[f + run.before] + flux[f + run.here]);
+        solid[f] = s, gap[f] = 1 - s;
+        velocity[f] = s > 0 ? through / s : 0;
+      }
     });
   }
 }
@@ -106,7 +159,8 @@ void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
 void AirFlow::measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity) {
   const Grid& grid = passages_.grid;
   const coupling::DragMedium medium = parameters_.medium();
-  for_each_cell(team, grid, [&](int, int, int, std::size_t c) {
+  for_each_cell(team, grid, [&](int, int, int, std::ptrdiff_t place) {
+    const auto c = static_cast<std::size_t>(place);
     const double s = solids.fraction[c];
     if (s <= 0) {
       drag_[c] = 0;
@@ -115,7 +169,7 @@ void AirFlow::measure_drag(ThreadTeam& team, const Solids& solids, const FaceFie
     double square = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      const double u = 0.5 * (velocity[a][c] + velocity[a][plus(c, grid.stride(axis))]);
+      const double u = 0.5 * (velocity[a][c] + velocity[a][c + static_cast<std::size_t>(grid.stride(axis))]);
       const double slip = u - solids.flux[a][c] / s;
       square += slip * slip;
     }
@@ -123,21 +177,28 @@ void AirFlow::measure_drag(ThreadTeam& team, const Solids& solids, const FaceFie
   });
 }
 
-/// Difference of the pressure across a face over the way, Pa/m.
-double AirFlow::pressure_step(int axis, int place, std::size_t face, const CellField& pressure) const {
+/// Fills the ghosts of a pressure so that its difference across every face of the box, over the distance of two
+/// centres, is the gradient there: to an end of the box the way is half as long.
+void AirFlow::close(CellField& pressure) const {
   const Grid& grid = passages_.grid;
-  const int n = grid.count[static_cast<std::size_t>(axis)];
-  const std::ptrdiff_t stride = grid.stride(axis);
-  const double width = grid.spacing[axis];
-  if (!parameters_.boundaries.is_periodic(axis)) {
-    const auto outside = [&](int side) {
-      return parameters_.boundaries.pressure[static_cast<std::size_t>(2 * axis + side)];
-    };
-    if (place == 0) return (pressure[face] - outside(0)) / (0.5 * width);
-    if (place == n) return (outside(1) - pressure[plus(face, -stride)]) / (0.5 * width);
+  passages_.wrap(pressure);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (passages_.boundaries.is_periodic(axis)) continue;
+    for (const int side : {0, 1}) {
+      std::array<int, 3> layer = grid.count;
+      layer[static_cast<std::size_t>(axis)] = 1;
+      const int n = grid.count[static_cast<std::size_t>(axis)];
+      const std::ptrdiff_t within = side == 0 ? 0 : (n - 1) * grid.stride(axis);
+      const std::ptrdiff_t beyond = side == 0 ? -grid.stride(axis) : n * grid.stride(axis);
+      const double outside = passages_.boundaries.pressure[static_cast<std::size_t>(2 * axis + side)];
+      for (int k = 0; k < layer[2]; ++k)
+        for (int j = 0; j < layer[1]; ++j)
+          for (int i = 0; i < layer[0]; ++i) {
+            double* p = pressure.data() + grid.index(i, j, k);
+            p[beyond] = 2 * outside - p[within];
+          }
+    }
   }
-  const std::size_t before = place == 0 ? plus(face, stride * (n - 1)) : plus(face, -stride);
-  return (pressure[face] - pressure[before]) / width;
 }
 
 /// From the momentum at the start of the step: velocity and pressure after dt, under the convection and viscosity of
@@ -150,80 +211,92 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
   if (!implicit_) transport_.spread(team, stream.velocity, stress_);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const int n = grid.count[a];
-    const std::ptrdiff_t stride = grid.stride(axis);
-    const bool ring = parameters_.boundaries.is_periodic(axis);
     const double area_over_way = grid.face_area(axis) / grid.spacing[axis];
-    for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
-      const int place = axis == 0 ? i : axis == 1 ? j : k;
-      if (passages_.open[a][f] <= 0) {
-        stream.velocity[a][f] = base_[a][f] = conductance_[a][f] = 0, decay_[a][f] = 0, pull_[a][f] = 1;
-        return;
+    const double viscosity = implicit_ ? 0 : parameters_.viscosity;
+    const double *phi = void_fraction_[a].data(), *drag = drag_.data();
+    double *decay = decay_[a].data(), *pull = pull_[a].data();
+    for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+      for (auto f = run.begin; f < run.end; ++f) {
+        const double between = 0.5 * (drag[f + run.before] + drag[f + run.here]);
+        const coupling::SlipDecay slip =
+            between > 0 ? coupling::slip_decay(between * dt / (rho * phi[f])) : coupling::SlipDecay{1, 1};
+        decay[f] = slip.decay, pull[f] = slip.pull;
       }
-      const std::size_t before = place > 0 ? plus(f, -stride) : ring ? plus(f, stride * (n - 1)) : f;
-      const double drag = 0.5 * (drag_[before] + drag_[place < n ? f : before]);
-      const double phi = void_fraction_[a][f], mass = rho * phi;
-      const coupling::SlipDecay slip = drag > 0 ? coupling::slip_decay(drag * dt / mass) : coupling::SlipDecay{1, 1};
-      decay_[a][f] = slip.decay, pull_[a][f] = slip.pull;
-      base_[a][f] = slip.decay * start.momentum[a][f] / mass + (1 - slip.decay) * grain_velocity_[a][f];
-      double force = rate_[a][f];
-      if (!implicit_) force += phi * parameters_.viscosity * stress_[a][f];
-      stream.velocity[a][f] = base_[a][f] + slip.pull * dt * force / mass;
-      conductance_[a][f] =
-          air_share(phi) * slip.pull * dt / rho * area_over_way * (passages_.is_end(axis, place) ? 2 : 1);
+      const auto from = [&](auto& field) { return field[a].data() + run.begin; };
+      move_row(run.end - run.begin, dt, rho, viscosity, grains_share(), (run.is_end ? 2 : 1) * dt / rho * area_over_way,
+               {from(passages_.open), from(void_fraction_), from(start.momentum), from(grain_velocity_), from(rate_),
+                from(stress_), from(decay_), from(pull_)},
+               from(base_), from(stream.velocity), from(conductance_));
     });
   }
   // Pressure's share of the velocity over dt.
-  const auto press = [&](double sign, FaceField& velocity) {
+  const auto press = [&](double share) {
+    close(pressure);
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
-        if (passages_.open[a][f] <= 0) return;
-        const int place = axis == 0 ? i : axis == 1 ? j : k;
-        const double phi = void_fraction_[a][f];
-        velocity[a][f] -=
-            sign * pull_[a][f] * dt / rho * (air_share(phi) / phi) * pressure_step(axis, place, f, pressure);
+      const double factor = share * dt / (rho * grid.spacing[axis]);
+      for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+        const double* above = pressure.data() + begin;
+        press_row(end - begin, factor, grains_share(), passages_.open[a].data() + begin,
+                  void_fraction_[a].data() + begin, pull_[a].data() + begin, above - grid.stride(axis), above,
+                  stream.velocity[a].data() + begin);
       });
     }
   };
   if (implicit_) {
     // With the guessed pressure at work: viscosity then meets the velocity to come, and a steady flow is exact.
-    press(1, stream.velocity);
+    press(1);
     stress_ = stream.velocity;
     transport_.spread_implicitly(team, stress_, pull_, parameters_.viscosity / rho * dt, stream.velocity);
-    press(-1, stream.velocity);
+    press(-1);
   }
+  project(team, stream, pressure);
+  press(1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double *phi = void_fraction_[a].data(), *velocity = stream.velocity[a].data();
+    double* mass = stream.mass[a].data();
+    for_each_face(team, passages_, axis, [&](std::ptrdiff_t f) { mass[f] = rho * phi[f] * velocity[f]; });
+  }
+}
 
-  // The volume flow without this step's pressure: that of the mixture, or of the air.
+/// The volume flow through every face: of the mixture, or of the air.
+void AirFlow::find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const {
   const double carried = parameters_.continuity == Continuity::mixture;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) {
-      rate_[a][f] = passages_.open[a][f] *
-                    (void_fraction_[a][f] * stream.velocity[a][f] + carried * solid_[a][f] * grain_velocity_[a][f]);
+    for_each_row(team, passages_.grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
+      find_volume_flow_of_row(end - begin, carried, from(passages_.open), from(void_fraction_), from(velocity),
+                              from(solid_), from(grain_velocity_), flow[a].data() + begin);
     });
-    passages_.wrap(rate_[a]);
-    passages_.wrap(conductance_[a]);
+    passages_.wrap(flow[a]);
   }
-  for_each_cell(team, grid, [&](int i, int j, int k, std::size_t c) {
-    const std::array<int, 3> place{i, j, k};
-    double source = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      const std::size_t above = plus(c, grid.stride(axis));
-      source -= (rate_[a][above] - rate_[a][c]) * grid.face_area(axis);
-      if (passages_.boundaries.is_open(axis, 0) && place[a] == 0)
-        source += conductance_[a][c] * parameters_.boundaries.pressure[2 * a];
-      if (passages_.boundaries.is_open(axis, 1) && place[a] == grid.count[a] - 1)
-        source += conductance_[a][above] * parameters_.boundaries.pressure[2 * a + 1];
-    }
-    source_[c] = source;
+}
+
+/// The pressure that takes the divergence from the volume flow of a stream that has not felt it yet.
+void AirFlow::project(ThreadTeam& team, const Stream& stream, CellField& pressure) {
+  const Grid& grid = passages_.grid;
+  find_volume_flow(team, stream.velocity, rate_);
+  for (auto& conductance : conductance_) passages_.wrap(conductance);
+  const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
+  const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
+  double* source = source_.data();
+  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
+    find_source_of_row(grid.count[0], grid.stride(1), grid.stride(2), area, x + begin, y + begin, z + begin,
+                       source + begin);
   });
+  for (int axis = 0; axis < 3; ++axis)
+    for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+      if (!run.is_end) return;
+      const auto a = static_cast<std::size_t>(axis);
+      const double outside = passages_.boundaries.pressure[2 * a + (run.place == 0 ? 0 : 1)];
+      for (auto f = run.begin; f < run.end; ++f) source[f + run.here] += conductance_[a][f] * outside;
+    });
   solver_.set_conductance(team, conductance_);
   // No smaller than what rounding leaves of the flows that the sources are differences of.
-  const double flow = largest(team, grid, [&](int, int, int, std::size_t c) {
-    return std::abs(rate_[0][c]) * grid.face_area(0) + std::abs(rate_[1][c]) * grid.face_area(1) +
-           std::abs(rate_[2][c]) * grid.face_area(2);
+  const double flow = largest(team, grid, [&](std::ptrdiff_t c) {
+    return std::abs(x[c]) * area.x + std::abs(y[c]) * area.y + std::abs(z[c]) * area.z;
   });
   const double rounding = 1e-15 * flow * std::sqrt(static_cast<double>(grid.cells()));
   iterations_ += solver_
@@ -232,47 +305,31 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
                              .absolute = rounding,
                              .most_iterations = static_cast<int>(parameters_.most_iterations)})
                      .iterations;
-
-  press(1, stream.velocity);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) {
-      stream.mass[a][f] = rho * void_fraction_[a][f] * stream.velocity[a][f];
-    });
-  }
 }
 
-/// What the air lost to drag, and in model A what the pressure does to the solid, over the solid's volume: first on the
-/// faces, then as the cells' means, so that it is handed out with the weights by which the solids were gathered. \param
-/// velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
+/// What the air lost to drag, and in model A what the pressure does to the solid, over its volume: first on the faces,
+/// then as the cells' means, so that it is handed out with the weights by which the solids were gathered.
+/// \param velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
 void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse) {
   const Grid& grid = passages_.grid;
   const double rho = parameters_.density();
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t f) {
-      const int place = axis == 0 ? i : axis == 1 ? j : k;
-      double received = 0, drag = 0;
-      if (passages_.open[a][f] > 0) {
-        if (parameters_.formulation == Formulation::model_a)
-          received = -dt * pressure_step(axis, place, f, state.pressure);
-        if (solid_[a][f] > 0) {
-          const double mass = rho * void_fraction_[a][f];
-          // All but drag, as an acceleration times dt: what makes the slip's decay end at the velocity found.
-          const double push = (velocity[a][f] - base_[a][f]) / pull_[a][f];
-          const double slip = state.momentum[a][f] / mass - grain_velocity_[a][f];
-          drag = mass * (slip * (1 - decay_[a][f]) + (1 - pull_[a][f]) * push);
-          received += drag / solid_[a][f];
-        }
-      }
-      rate_[a][f] = received, stress_[a][f] = drag / dt;
+    const std::ptrdiff_t stride = grid.stride(axis);
+    for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
+      const double* above = state.pressure.data() + begin;
+      hand_over_row(end - begin, dt, rho, grains_share() / grid.spacing[axis],
+                    {from(passages_.open), from(solid_), from(void_fraction_), from(grain_velocity_), from(velocity),
+                     from(state.momentum), from(decay_), from(pull_), from(base_), above - stride, above},
+                    rate_[a].data() + begin, stress_[a].data() + begin);
     });
     passages_.wrap(rate_[a]);
     passages_.wrap(stress_[a]);
-    for_each_cell(team, grid, [&](int, int, int, std::size_t c) {
-      const std::size_t above = plus(c, grid.stride(axis));
-      impulse[a][c] = 0.5 * (rate_[a][c] + rate_[a][above]);
-      state.drag[a][c] = 0.5 * (stress_[a][c] + stress_[a][above]);
+    for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const double *received = rate_[a].data() + begin, *drag = stress_[a].data() + begin;
+      average_row(end - begin, received, received + stride, impulse[a].data() + begin);
+      average_row(end - begin, drag, drag + stride, state.drag[a].data() + begin);
     });
   }
 }
@@ -281,7 +338,8 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
   take_solids(team, solids);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) {
+    for_each_face(team, passages_, axis, [&](std::ptrdiff_t face) {
+      const auto f = static_cast<std::size_t>(face);
       state.velocity[a][f] *= passages_.open[a][f];
       state.momentum[a][f] = parameters_.density() * void_fraction_[a][f] * state.velocity[a][f];
     });
@@ -293,19 +351,18 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
 double AirFlow::time_step(ThreadTeam& team, const Solids& solids, const AirState& state) {
   const Grid& grid = passages_.grid;
   measure_drag(team, solids, state.velocity);
-  const double moved = largest(team, grid, [&](int, int, int, std::size_t c) {
-    double rate = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto& u = state.velocity[static_cast<std::size_t>(axis)];
-      rate += std::max(std::abs(u[c]), std::abs(u[plus(c, grid.stride(axis))])) / grid.spacing[axis];
-    }
-    return rate;
-  });
+  const auto fastest = [&](int axis, std::ptrdiff_t c) {
+    const double* u = state.velocity[static_cast<std::size_t>(axis)].data();
+    return std::max(std::abs(u[c]), std::abs(u[c + grid.stride(axis)])) / grid.spacing[axis];
+  };
+  const double moved =
+      largest(team, grid, [&](std::ptrdiff_t c) { return fastest(0, c) + fastest(1, c) + fastest(2, c); });
   // A bed that dilates draws air through its pores; the pressure that this takes stops it at the rate
   // beta/(Phi^2 rho_b), whatever the wave length.
-  const double response = largest(team, grid, [&](int, int, int, std::size_t c) {
-    const double phi = 1 - solids.fraction[c];
-    return solids.fraction[c] > 0 ? drag_[c] / (phi * phi * solids.fraction[c] * parameters_.grain_density) : 0;
+  const double* fraction = solids.fraction.data();
+  const double response = largest(team, grid, [&](std::ptrdiff_t c) {
+    const double phi = 1 - fraction[c];
+    return fraction[c] > 0 ? drag_[c] / (phi * phi * fraction[c] * parameters_.grain_density) : 0;
   });
   double dt = parameters_.longest_step;
   if (moved > 0) dt = std::min(dt, parameters_.courant / moved);
@@ -317,7 +374,8 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   const Grid& grid = passages_.grid;
   if (parameters_.motion == Motion::frozen) {
     measure_drag(team, solids, state.velocity);
-    for_each_cell(team, grid, [&](int, int, int, std::size_t c) {
+    for_each_cell(team, grid, [&](int, int, int, std::ptrdiff_t place) {
+      const auto c = static_cast<std::size_t>(place);
       const double s = solids.fraction[c];
       for (std::size_t a = 0; a < 3; ++a) {
         state.drag[a][c] = s > 0 ? -drag_[c] * solids.flux[a][c] / s : 0;
@@ -343,7 +401,7 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   hand_over(team, dt, stream_.velocity, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
     passages_.wrap(stream_.velocity[a]), passages_.wrap(stream_.mass[a]);
-    state.velocity[a] = stream_.velocity[a], state.momentum[a] = stream_.mass[a];
+    std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);
   }
 }
 
@@ -365,20 +423,12 @@ double AirFlow::largest_divergence(const Solids& solids, const AirState& state) 
   ThreadTeam alone;
   const Grid& grid = passages_.grid;
   take_solids(alone, solids);
-  const double carried = parameters_.continuity == Continuity::mixture;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    for_each_face(alone, passages_, axis, [&](int, int, int, std::size_t f) {
-      rate_[a][f] = passages_.open[a][f] *
-                    (void_fraction_[a][f] * state.velocity[a][f] + carried * solid_[a][f] * grain_velocity_[a][f]);
-    });
-    passages_.wrap(rate_[a]);
-  }
-  return largest(alone, grid, [&](int, int, int, std::size_t c) {
+  find_volume_flow(alone, state.velocity, rate_);
+  return largest(alone, grid, [&](std::ptrdiff_t c) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto& flow = rate_[static_cast<std::size_t>(axis)];
-      sum += (flow[plus(c, grid.stride(axis))] - flow[c]) / grid.spacing[axis];
+      const double* flow = rate_[static_cast<std::size_t>(axis)].data();
+      sum += (flow[c + grid.stride(axis)] - flow[c]) / grid.spacing[axis];
     }
     return std::abs(sum);
   });

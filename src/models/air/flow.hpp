@@ -7,8 +7,7 @@
 /// Runge-Kutta). In each of the two, drag acts as the exact solution of its own decay, and the pressure is the one
 /// that makes the mixture's volume flow without divergence, div(Phi u + (1 - Phi) u_p) = 0: Eq. 19 with the grains'
 /// own continuity, and without the noisy dPhi/dt. Where the viscous time limit is shorter than the step, viscosity is
-/// implicit and of first order. What the drag and, in model A, the pressure take from the air the grains receive, to
-/// round-off.
+/// implicit and of first order. What the drag and the pressure take from the air the grains receive, to round-off.
 ///
 /// completed: Eq. 18 is silent on the void fraction at a face (mean of the two cells), on boundaries (FlowBoundary) and
 /// on grains that move within the step (they keep their velocity; time_step() keeps that short against their response).
@@ -61,11 +60,11 @@ class AirFlow {
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
-  double pressure_step(int axis, int place, std::size_t face, const CellField& pressure) const;
-  /// Of a pressure's gradient, on air of a void fraction.
-  double air_share(double void_fraction) const {
-    return parameters_.formulation == Formulation::model_a ? void_fraction : 1;
-  }
+  void find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const;
+  void project(ThreadTeam& team, const Stream& stream, CellField& pressure);
+  void close(CellField& pressure) const;
+  /// Whether the grains have a share, that of their volume, in the pressure's gradient: 1, or 0 in model B.
+  double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
 
   Parameters parameters_;
   Passages passages_;

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "base/clones.hpp"
 #include "base/error.hpp"
+#include "numerics/grid/loops.hpp"
 #include "physics/air/momentum.hpp"
 
 namespace talus::air {
@@ -24,10 +26,55 @@ std::size_t plus(std::size_t index, std::ptrdiff_t by) {
   return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + by);
 }
 
+// Rows of faces. Functions of their own, so that the compiler makes vectors of them.
+
+/// What flows carry between the faces of a row and those before them.
+TALUS_CLONES void find_flows_of_row(int count, std::ptrdiff_t along, std::ptrdiff_t across, double upwind,
+                                    const double* u, const double* mass, const double* wide, double* __restrict flow) {
+  for (int f = 0; f < count; ++f) {
+    const double carrier = 0.5 * (mass[f] + mass[f - along]);
+    flow[f] = carrier * carried_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across], wide[f],
+                                         carrier > 0 ? 1.0 : -1.0, upwind);
+  }
+}
+
+TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double factor, const double* below, const double* above,
+                                      double* __restrict out) {
+  for (std::ptrdiff_t f = 0; f < count; ++f) out[f] -= factor * (above[f] - below[f]);
+}
+
+TALUS_CLONES void find_divergence_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& per_width,
+                                         const double* u, const double* v, const double* w, const double* inner,
+                                         double* __restrict out) {
+  for (int c = 0; c < count; ++c)
+    out[c] = inner[c] *
+             ((u[c + 1] - u[c]) * per_width.x + (v[c + dy] - v[c]) * per_width.y + (w[c + dz] - w[c]) * per_width.z);
+}
+
+/// What the stress of a row of faces is made of, from its first face on.
+struct StressRow {
+  const double *u, *link_x, *link_y, *link_z, *wall, *drive, *open, *divergence;
+  std::ptrdiff_t along;  ///< from a cell to the next across a face
+  double third;          ///< of the inverse of their distance, 1/m
+};
+
+TALUS_CLONES void find_stress_of_row(int count, double driven, std::ptrdiff_t dy, std::ptrdiff_t dz,
+                                     const Vector3& per_width, const StressRow& row, double* __restrict stress) {
+  const double xx = per_width.x * per_width.x, yy = per_width.y * per_width.y, zz = per_width.z * per_width.z;
+  const auto [u, x, y, z, wall, drive, open, divergence, along, third] = row;
+  for (int f = 0; f < count; ++f) {
+    const double own = third * (divergence[f] - divergence[f - along]) - wall[f] * u[f] + driven * drive[f];
+    const double sum = xx * (x[f + 1] * (u[f + 1] - u[f]) - x[f] * (u[f] - u[f - 1])) +
+                       yy * (y[f + dy] * (u[f + dy] - u[f]) - y[f] * (u[f] - u[f - dy])) +
+                       zz * (z[f + dz] * (u[f + dz] - u[f]) - z[f] * (u[f] - u[f - dz]));
+    stress[f] = open[f] * (own + sum);
+  }
+}
+
 }  // namespace
 
 Transport::Transport(const Passages& passages)
-    : passages_(passages), flux_(passages.grid.cell_field()), divergence_(flux_) {}
+    : passages_(passages), flow_(passages.grid.cell_field()), divergence_(flow_) {}
 
 void Transport::close(Stream& stream) const {
   const Grid& grid = passages_.grid;
@@ -59,77 +106,68 @@ void Transport::convect(ThreadTeam& team, const Stream& stream, double upwind, F
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double* u = stream.velocity[a].data();
-    for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) { rate[a][f] = 0; });
+    double* out = rate[a].data();
+    for_each_face(team, passages_, axis, [&](std::ptrdiff_t f) { out[f] = 0; });
     for (int second = 0; second < 3; ++second) {
       const auto b = static_cast<std::size_t>(second);
-      const std::ptrdiff_t along = grid.stride(axis), across = grid.stride(second);
+      const std::ptrdiff_t across = grid.stride(second);
       const double* mass = stream.mass[b].data();
-      const double* wide = passages_.wide[a][b].data();
+      find_flows(team, stream, axis, second, upwind);
+      const double* flow = flow_.data();
       const double per_width = 1 / grid.spacing[second];
-      // Flow of momentum between a face and the one before it.
-      const auto flow = [&](std::ptrdiff_t f) {
-        const double carrier = 0.5 * (mass[f] + mass[f - along]);
-        return carrier * carried_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across], wide[f],
-                                          carrier > 0 ? 1.0 : -1.0, upwind);
-      };
-      for_each_face(team, passages_, axis, [&](int i, int j, int k, std::size_t face) {
-        const auto f = static_cast<std::ptrdiff_t>(face);
-        const int place = axis == 0 ? i : axis == 1 ? j : k;
+      for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+        if (second != axis || !run.is_end)
+          return subtract_difference(run.end - run.begin, per_width, flow + run.begin, flow + run.begin + across,
+                                     out + run.begin);
         // The volume of a face at an open end is half a cell, from the end inwards.
-        const bool at_end = second == axis && passages_.is_end(axis, place);
-        double below, above, width = per_width;
-        if (!at_end) {
-          below = flow(f), above = flow(f + across);
-        } else {
-          const auto end = [&](double neighbour) { return mass[f] * 0.5 * (u[f] + neighbour); };
-          below = place == 0 ? end(u[f - across]) : flow(f);
-          above = place == 0 ? flow(f + across) : end(u[f + across]);
-          width = 2 * per_width;
-        }
-        rate[a][face] -= width * (above - below);
+        const std::ptrdiff_t outward = run.place == 0 ? -across : across, inward = run.place == 0 ? across : 0;
+        const double factor = (run.place == 0 ? 2 : -2) * per_width;
+        for (auto f = run.begin; f < run.end; ++f)
+          out[f] -= factor * (flow[f + inward] - mass[f] * 0.5 * (u[f] + u[f + outward]));
       });
     }
   }
 }
 
-template <bool driven>
-void Transport::laplace(ThreadTeam& team, const FaceField& velocity, FaceField& stress) {
+/// The flow of momentum along an axis between each of its faces and the one before it along a second axis; for the
+/// last within the box that to the one beyond, too.
+void Transport::find_flows(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind) {
+  const auto a = static_cast<std::size_t>(axis), b = static_cast<std::size_t>(second);
   const Grid& grid = passages_.grid;
-  const std::array<std::ptrdiff_t, 3> stride{grid.stride(0), grid.stride(1), grid.stride(2)};
-  const Vector3 h = grid.spacing;
-  const auto [nx, ny, nz] = grid.count;
-  const double *u = velocity[0].data(), *v = velocity[1].data(), *w = velocity[2].data();
-  const int rows = ny * nz, n = nx;
-  team.run(static_cast<std::size_t>((rows + 15) / 16), [&](std::size_t block) {
-    for (int row = static_cast<int>(block) * 16; row < std::min(static_cast<int>(block + 1) * 16, rows); ++row) {
-      const std::size_t first = grid.index(0, row % grid.count[1], row / grid.count[1]);
-      for (std::size_t c = first; c < first + static_cast<std::size_t>(n); ++c)
-        divergence_[c] = passages_.inner[c] * ((u[c + 1] - u[c]) / h.x + (v[plus(c, stride[1])] - v[c]) / h.y +
-                                               (w[plus(c, stride[2])] - w[c]) / h.z);
-    }
+  std::array<int, 3> count = passages_.faces(axis);
+  count[b] = grid.count[b] + 1;
+  for_each_row(team, grid, count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
+    find_flows_of_row(count[0], grid.stride(axis), grid.stride(second), upwind, stream.velocity[a].data() + begin,
+                      stream.mass[b].data() + begin, passages_.wide[a][b].data() + begin, flow_.data() + begin);
+  });
+}
+
+/// \param driven 1, or 0: as if the walls stood still
+void Transport::laplace(ThreadTeam& team, double driven, const FaceField& velocity, FaceField& stress) {
+  const Grid& grid = passages_.grid;
+  const std::ptrdiff_t dy = grid.stride(1), dz = grid.stride(2);
+  const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
+  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
+    find_divergence_of_row(grid.count[0], dy, dz, per_width, velocity[0].data() + begin, velocity[1].data() + begin,
+                           velocity[2].data() + begin, passages_.inner.data() + begin, divergence_.data() + begin);
   });
   passages_.wrap(divergence_);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const double* x = velocity[a].data();
-    const double third = 1 / (3 * h[axis]);
-    for_each_face(team, passages_, axis, [&](int, int, int, std::size_t face) {
-      const auto f = static_cast<std::ptrdiff_t>(face);
-      double sum = third * (divergence_[face] - divergence_[plus(face, -stride[a])]) - passages_.wall[a][face] * x[f];
-      if constexpr (driven) sum += passages_.drive[a][face];
-      for (std::size_t b = 0; b < 3; ++b) {
-        const double* link = passages_.link[a][b].data();
-        const std::ptrdiff_t s = stride[b];
-        const double square = h[static_cast<int>(b)] * h[static_cast<int>(b)];
-        sum += (link[f + s] * (x[f + s] - x[f]) - link[f] * (x[f] - x[f - s])) / square;
-      }
-      stress[a][face] = passages_.open[a][face] * sum;
+    const auto& link = passages_.link[a];
+    for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const auto from = [&](const CellField& field) { return field.data() + begin; };
+      const StressRow row{from(velocity[a]),       from(link[0]),           from(link[1]),
+                          from(link[2]),           from(passages_.wall[a]), from(passages_.drive[a]),
+                          from(passages_.open[a]), from(divergence_),       grid.stride(axis),
+                          per_width[axis] / 3};
+      find_stress_of_row(static_cast<int>(end - begin), driven, dy, dz, per_width, row, stress[a].data() + begin);
     });
   }
 }
 
 void Transport::spread(ThreadTeam& team, const FaceField& velocity, FaceField& stress) {
-  laplace<true>(team, velocity, stress);
+  laplace(team, 1, velocity, stress);
 }
 
 int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const FaceField& weight, double amount,
@@ -163,7 +201,7 @@ int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const
   const auto for_all = [&](auto&& body) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      for_each_face(team, passages_, axis, [&](int, int, int, std::size_t f) { body(a, f); });
+      for_each_face(team, passages_, axis, [&](std::ptrdiff_t f) { body(a, static_cast<std::size_t>(f)); });
     }
   };
   const auto is_open = [&](std::size_t a, std::size_t f) { return passages_.open[a][f] > 0; };
@@ -172,7 +210,7 @@ int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const
   };
 
   wrap(velocity);
-  laplace<true>(team, velocity, image_);
+  laplace(team, 1, velocity, image_);
   for_all([&](std::size_t a, std::size_t f) {
     residual_[a][f] = is_open(a, f) ? (start[a][f] - velocity[a][f]) / weight[a][f] + amount * image_[a][f] : 0;
     direction_[a][f] = 0;
@@ -198,7 +236,7 @@ int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const
     before = product;
     for_all([&](std::size_t a, std::size_t f) { direction_[a][f] = preconditioned_[a][f] + turn * direction_[a][f]; });
     wrap(direction_);
-    laplace<false>(team, direction_, image_);
+    laplace(team, 0, direction_, image_);
     for_all([&](std::size_t a, std::size_t f) {
       image_[a][f] = is_open(a, f) ? direction_[a][f] / weight[a][f] - amount * image_[a][f] : 0;
     });

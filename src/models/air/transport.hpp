@@ -7,22 +7,6 @@
 
 namespace talus::air {
 
-/// Calls body(i, j, k, index) for the faces of an axis, in parallel by rows.
-template <class Body>
-void for_each_face(ThreadTeam& team, const Passages& passages, int axis, Body&& body) {
-  const int nx = passages.faces(axis, 0), ny = passages.faces(axis, 1), nz = passages.faces(axis, 2);
-  constexpr int rows_at_once = 16;
-  const int rows = ny * nz;
-  team.run(static_cast<std::size_t>((rows + rows_at_once - 1) / rows_at_once), [&](std::size_t block) {
-    const int begin = static_cast<int>(block) * rows_at_once;
-    for (int row = begin; row < std::min(begin + rows_at_once, rows); ++row) {
-      const int j = row % ny, k = row / ny;
-      const std::size_t first = passages.grid.index(0, j, k);
-      for (int i = 0; i < nx; ++i) body(i, j, k, first + static_cast<std::size_t>(i));
-    }
-  });
-}
-
 /// Velocity and what flows with it.
 struct Stream {
   FaceField velocity;  ///< m/s
@@ -51,11 +35,11 @@ class Transport {
                         FaceField& velocity);
 
  private:
-  template <bool driven>
-  void laplace(ThreadTeam& team, const FaceField& velocity, FaceField& stress);
+  void find_flows(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind);
+  void laplace(ThreadTeam& team, double driven, const FaceField& velocity, FaceField& stress);
 
   const Passages& passages_;
-  CellField flux_, divergence_;
+  CellField flow_, divergence_;
   FaceField residual_, direction_, image_, preconditioned_;
 };
 

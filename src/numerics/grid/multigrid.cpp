@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/clones.hpp"
 #include "numerics/grid/runs.hpp"
 
 namespace talus {
@@ -55,6 +56,12 @@ std::array<const float*, 3> pointers(const std::array<std::vector<float>, 3>& co
   return {columns[0].data(), columns[1].data(), columns[2].data()};
 }
 
+TALUS_CLONES void relax(int length, const Runs<float>& around, const float* source, const float* inverse,
+                        float* __restrict x) {
+  const Runs<float> runs = around;
+  for (int m = 0; m < length; ++m) x[m] = inverse[m] * (source[m] + runs.inflow(m));
+}
+
 }  // namespace
 
 Multigrid::Level::Level(const Checkerboard& checkerboard, std::array<std::vector<float>, 3> extents)
@@ -95,7 +102,7 @@ void Multigrid::Level::smooth(ThreadTeam& team, int colour, bool from_zero) {
       if (from_zero)
         for (int m = 0; m < length; ++m) x[m] = d[m] * b[m];
       else
-        for (int m = 0; m < length; ++m) x[m] = d[m] * (b[m] + runs.inflow(m));
+        relax(length, runs, b, d, x);
       board.close_run(x, length);
     }
   });

@@ -53,6 +53,7 @@ struct Passages {
   int faces(int axis, int along) const {
     return grid.count[static_cast<std::size_t>(along)] + (axis == along && !boundaries.is_periodic(axis));
   }
+  std::array<int, 3> faces(int axis) const { return {faces(axis, 0), faces(axis, 1), faces(axis, 2)}; }
   bool is_end(int axis, int place) const {
     return !boundaries.is_periodic(axis) && (place == 0 || place == grid.count[static_cast<std::size_t>(axis)]);
   }

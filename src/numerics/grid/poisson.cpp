@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/clones.hpp"
 #include "base/error.hpp"
 #include "numerics/grid/runs.hpp"
 
@@ -26,6 +27,12 @@ Checkerboard board_of(const Grid& grid, std::array<bool, 3> periodic) {
 
 std::array<const double*, 3> pointers(const std::array<std::vector<double>, 3>& columns) {
   return {columns[0].data(), columns[1].data(), columns[2].data()};
+}
+
+TALUS_CLONES void find_outflow(int length, const Runs<double>& around, const double* diagonal, const double* value,
+                               double* __restrict out) {
+  const Runs<double> runs = around;
+  for (int m = 0; m < length; ++m) out[m] = diagonal[m] * value[m] - runs.inflow(m);
 }
 
 }  // namespace
@@ -195,9 +202,7 @@ double PoissonSolver::apply(ThreadTeam& team, const std::vector<double>& x, std:
         const std::size_t own = board_.run(colour, r);
         const int length = board_.length(colour, r);
         const Runs<double> runs(board_, pointers(matrix_.low), x.data(), colour, r);
-        const double *d = matrix_.diagonal.data() + own, *v = x.data() + own;
-        double* __restrict out = image.data() + own;
-        for (int m = 0; m < length; ++m) out[m] = d[m] * v[m] - runs.inflow(m);
+        find_outflow(length, runs, matrix_.diagonal.data() + own, x.data() + own, image.data() + own);
       }
   });
   return sum(team, [&](std::size_t c) { return x[c] * image[c]; });

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/registers.hpp"
 #include "numerics/grid/checkerboard.hpp"
 
 namespace talus {
@@ -32,7 +33,7 @@ struct Runs {
   }
 
   /// Sum over the neighbours of conductance times value.
-  Number inflow(int m) const {
+  TALUS_INLINE Number inflow(int m) const {
     return ((c_west[m] * west[m] + c_east[m] * east[m]) + (c_south[m] * south[m] + c_north[m] * north[m])) +
            (c_below[m] * below[m] + c_above[m] * above[m]);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/clones.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::coupling {
@@ -21,7 +22,46 @@ int fold(int place, int count, FaceKind low, FaceKind high) {
   return place;
 }
 
+/// The kernel where the square of the distance is square[i] + beside. \param per_width over the smoothing length
+TALUS_CLONES void weigh_row(std::size_t count, const double* square, double beside, double per_width,
+                            double* __restrict weight) {
+  for (std::size_t i = 0; i < count; ++i)
+    weight[i] = sph::cubic_spline_of(std::sqrt(beside + square[i]) * per_width, per_width);
+}
+
 }  // namespace
+
+/// The cells within reach of a lump, and what they weigh.
+struct Deposition::Scratch {
+  struct Along {
+    int from = 0;                   // the first one along an axis
+    std::vector<double> square;     // of the distance of each one's centre, m^2; then far ones, to a whole vector
+    std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for; its size: none
+    std::vector<int> cell;          // each once
+
+    void find(const Grid& grid, const Box& box, int axis, double x, double reach);
+  };
+  std::array<Along, 3> along;
+  std::vector<double> weight;  // of a row along x
+  std::vector<double> sum;     // by slots along x, y, z
+};
+
+void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, double x, double reach) {
+  const double width = grid.spacing[axis], place = (x - grid.low[axis]) / width - 0.5;
+  const int to = static_cast<int>(std::floor(place + reach / width));
+  from = static_cast<int>(std::ceil(place - reach / width));
+  square.clear(), slot.clear(), cell.clear();
+  constexpr auto none = static_cast<std::size_t>(-1);
+  for (int n = from; n <= to; ++n) {
+    square.push_back((n - place) * (n - place) * width * width);
+    const int within = fold(n, grid.count[static_cast<std::size_t>(axis)], box.face(axis, 0), box.face(axis, 1));
+    const auto found = std::find(cell.begin(), cell.end(), within);
+    slot.push_back(within < 0 ? none : static_cast<std::size_t>(found - cell.begin()));
+    if (within >= 0 && found == cell.end()) cell.push_back(within);
+  }
+  std::replace(slot.begin(), slot.end(), none, cell.size());
+  square.resize((square.size() + 7) / 8 * 8, 4 * reach * reach);
+}
 
 Deposition::Deposition(const Grid& grid, const Domain& domain) : grid_(grid), domain_(domain) {
   const auto close = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
@@ -44,55 +84,79 @@ void Deposition::weigh(ThreadTeam& team, std::span<const Vector3> position, std:
   blocks_.resize((count_ + block_size - 1) / block_size);
   team.run(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
-    block.end.clear(), block.cell.clear(), block.weight.clear();
+    Scratch scratch;
+    block.end.clear();
     for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, count_); ++i)
-      weigh(position[i], smoothing_length[i], block);
+      weigh(position[i], smoothing_length[i], scratch, block);
   });
 }
 
-void Deposition::weigh(const Vector3& x, double h, Block& block) const {
-  const Box& box = domain_.box();
+void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& block) const {
   // At least the nearest cell's centre is within reach.
   const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
-  const double width = reach / sph::support;
-  std::array<int, 3> from, to;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const double place = (x[axis] - grid_.low[axis]) / grid_.spacing[axis] - 0.5;
-    from[a] = static_cast<int>(std::ceil(place - reach / grid_.spacing[axis]));
-    to[a] = static_cast<int>(std::floor(place + reach / grid_.spacing[axis]));
-  }
+  const double per_width = sph::support / reach;
+  for (int axis = 0; axis < 3; ++axis)
+    scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  const std::size_t columns = along_x.cell.size() + 1, rows = along_y.cell.size() + 1;
+  scratch.sum.assign(columns * rows * (along_z.cell.size() + 1), 0);
+  scratch.weight.resize(along_x.square.size());
+  double *sum = scratch.sum.data(), *weight = scratch.weight.data();
+  const auto slot = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return along_x.slot[i] + columns * (along_y.slot[j] + rows * along_z.slot[k]);
+  };
   const bool beside_plate = domain_.is_near_plate(x, reach);
-  const std::size_t begin = block.cell.size();
-  double sum = 0;
-  for (int k = from[2]; k <= to[2]; ++k)
-    for (int j = from[1]; j <= to[1]; ++j)
-      for (int i = from[0]; i <= to[0]; ++i) {
-        const Vector3 centre = grid_.centre(i, j, k);
-        const double distance = norm(centre - x);
-        if (distance >= reach) continue;
-        std::array<int, 3> place{i, j, k};
-        // Hidden behind the solid part of a plate: to its mirror image on this side.
-        if (beside_plate && !domain_.sees(x, centre))
-          for (std::size_t p = 0; p < layer_.size(); ++p) {
-            const Plate& plate = domain_.plates()[p];
-            auto& layer = place[static_cast<std::size_t>(plate.axis)];
-            if (plate.side_of(x) != plate.side_of(centre)) layer = 2 * layer_[p] - 1 - layer;
-          }
-        bool is_within = true;
-        for (int axis = 0; axis < 3; ++axis) {
-          const auto a = static_cast<std::size_t>(axis);
-          place[a] = fold(place[a], grid_.count[a], box.face(axis, 0), box.face(axis, 1));
-          is_within = is_within && place[a] >= 0;
-        }
-        if (!is_within) continue;
-        const double weight = sph::cubic_spline(distance, width);
-        sum += weight;
-        block.cell.push_back(static_cast<std::uint32_t>(grid_.index(place[0], place[1], place[2])));
-        block.weight.push_back(weight);
+  for (std::size_t k = 0; k < along_z.slot.size(); ++k)
+    for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
+      const double beside = along_y.square[j] + along_z.square[k];
+      if (beside >= reach * reach) continue;
+      weigh_row(along_x.square.size(), along_x.square.data(), beside, per_width, weight);
+      if (!beside_plate) {
+        double* row = sum + slot(0, j, k) - along_x.slot[0];
+        for (std::size_t i = 0; i < along_x.slot.size(); ++i) row[along_x.slot[i]] += weight[i];
+      } else {
+        for (std::size_t i = 0; i < along_x.slot.size(); ++i)
+          if (const auto seen = in_front_of_plates(x, scratch, {i, j, k}))
+            sum[slot((*seen)[0], (*seen)[1], (*seen)[2])] += weight[i];
       }
-  for (std::size_t n = begin; n < block.weight.size(); ++n) block.weight[n] /= sum;
-  block.end.push_back(block.cell.size());
+    }
+
+  const std::size_t begin = block.end.empty() ? 0 : block.end.back(), most = begin + scratch.sum.size();
+  if (block.cell.size() < most) block.cell.resize(2 * most), block.weight.resize(2 * most);
+  std::uint32_t* cell = block.cell.data();
+  double *kept = block.weight.data(), total = 0;
+  std::size_t end = begin;
+  for (std::size_t k = 0; k < along_z.cell.size(); ++k)
+    for (std::size_t j = 0; j < along_y.cell.size(); ++j) {
+      const double* row = sum + columns * (j + rows * k);
+      const auto first = static_cast<std::uint32_t>(grid_.index(0, along_y.cell[j], along_z.cell[k]));
+      for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
+        cell[end] = first + static_cast<std::uint32_t>(along_x.cell[i]);
+        kept[end] = row[i], total += row[i];
+        end += row[i] > 0;
+      }
+    }
+  for (std::size_t n = begin; n < end; ++n) kept[n] /= total;
+  block.end.push_back(end);
+}
+
+/// Of a cell within reach, by its numbers along the axes: itself, or its mirror image on this side of the plates behind
+/// whose solid part it is hidden.
+std::optional<std::array<std::size_t, 3>> Deposition::in_front_of_plates(const Vector3& x, const Scratch& scratch,
+                                                                         std::array<std::size_t, 3> cell) const {
+  std::array<int, 3> place;
+  for (std::size_t a = 0; a < 3; ++a) place[a] = scratch.along[a].from + static_cast<int>(cell[a]);
+  const Vector3 centre = grid_.centre(place[0], place[1], place[2]);
+  if (domain_.sees(x, centre)) return cell;
+  for (std::size_t p = 0; p < layer_.size(); ++p) {
+    const Plate& plate = domain_.plates()[p];
+    const auto a = static_cast<std::size_t>(plate.axis);
+    if (plate.side_of(x) == plate.side_of(centre)) continue;
+    place[a] = 2 * layer_[p] - 1 - place[a];
+    cell[a] = static_cast<std::size_t>(place[a] - scratch.along[a].from);
+    if (cell[a] >= scratch.along[a].slot.size()) return {};  // out of reach, by rounding
+  }
+  return cell;
 }
 
 /// Calls body(lump, begin, end) with the range of each lump's cells.

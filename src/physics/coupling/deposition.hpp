@@ -8,7 +8,9 @@
 /// periodic face comes in at the other. Beyond an open face there is no air: a lump out there has no weights.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,11 +44,14 @@ class Deposition {
  private:
   static constexpr std::size_t block_size = 64;
   struct Block {
-    std::vector<std::size_t> end;  // of each lump's cells
-    std::vector<std::uint32_t> cell;
+    std::vector<std::size_t> end;     // of each lump's cells
+    std::vector<std::uint32_t> cell;  // longer than needed
     std::vector<double> weight;
   };
-  void weigh(const Vector3& position, double smoothing_length, Block& block) const;
+  struct Scratch;
+  void weigh(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
+  std::optional<std::array<std::size_t, 3>> in_front_of_plates(const Vector3& position, const Scratch& scratch,
+                                                               std::array<std::size_t, 3> cell) const;
   template <class Body>
   void for_each_lump(const Block& block, std::size_t first, Body&& body) const;
 

@@ -81,7 +81,8 @@ struct SlipDecay {
 };
 /// \param steps dt/T >= 0
 inline SlipDecay slip_decay(double steps) {
-  const double lost = -std::expm1(-steps);
+  // expm1 is slow, and more exact only where little is lost.
+  const double lost = steps < 0.5 ? -std::expm1(-steps) : 1 - std::exp(-steps);
   return {1 - lost, steps > 0 ? lost / steps : 1};
 }
 

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Parallel loops over the rows of a grid along x, over its cells, and over the faces where a fluid passes or might.
+/// What writes only to the index that it is called with gives the same bits for any number of threads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "base/parallel.hpp"
+#include "numerics/grid/passages.hpp"
+
+namespace talus {
+
+/// Calls body(j, k, begin, end) with the indices of each row of a block of so many places from the first cell on.
+template <class Body>
+void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Body&& body) {
+  constexpr int rows_at_once = 16;
+  const int rows = count[1] * count[2];
+  team.run(static_cast<std::size_t>((rows + rows_at_once - 1) / rows_at_once), [&](std::size_t block) {
+    const int begin = static_cast<int>(block) * rows_at_once;
+    for (int row = begin; row < std::min(begin + rows_at_once, rows); ++row) {
+      const int j = row % count[1], k = row / count[1];
+      const auto first = static_cast<std::ptrdiff_t>(grid.index(0, j, k));
+      body(j, k, first, first + count[0]);
+    }
+  });
+}
+
+/// Calls body(i, j, k, index) for the cells.
+template <class Body>
+void for_each_cell(ThreadTeam& team, const Grid& grid, Body&& body) {
+  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto c = begin; c < end; ++c) body(static_cast<int>(c - begin), j, k, c);
+  });
+}
+
+/// Faces of an axis, one after another along x, that have their neighbours in the same places.
+struct FaceRun {
+  std::ptrdiff_t begin, end;
+  int place;              ///< of the first along the axis
+  std::ptrdiff_t before;  ///< from a face to the cell below it; at the low end of the box to the one within
+  std::ptrdiff_t here;    ///< to the cell above it; at the high end to the one within
+  bool is_end;            ///< the faces lie in an end of the box, which is not periodic
+};
+
+/// Calls body(run) for all faces of an axis.
+template <class Body>
+void for_each_run(ThreadTeam& team, const Passages& passages, int axis, Body&& body) {
+  const int n = passages.grid.count[static_cast<std::size_t>(axis)];
+  const std::ptrdiff_t stride = passages.grid.stride(axis);
+  const bool ring = passages.boundaries.is_periodic(axis);
+  const auto run = [&](std::ptrdiff_t begin, std::ptrdiff_t end, int place) {
+    const std::ptrdiff_t before = place > 0 ? -stride : ring ? stride * (n - 1) : 0;
+    body(FaceRun{begin, end, place, before, place < n ? 0 : before, passages.is_end(axis, place)});
+  };
+  for_each_row(team, passages.grid, passages.faces(axis), [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    if (axis > 0) return run(begin, end, axis == 1 ? j : k);
+    run(begin, begin + 1, 0);
+    run(begin + 1, begin + n, 1);
+    run(begin + n, end, n);
+  });
+}
+
+/// Calls body(index) for all faces of an axis.
+template <class Body>
+void for_each_face(ThreadTeam& team, const Passages& passages, int axis, Body&& body) {
+  for_each_row(team, passages.grid, passages.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for (auto f = begin; f < end; ++f) body(f);
+  });
+}
+
+}  // namespace talus
