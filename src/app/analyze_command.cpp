@@ -105,8 +105,8 @@ void add_analyze_command(CLI::App& app, Action& action) {
   for (const MeasureEntry& entry : measures) footer += fmt::format("  {:14} {}\n", entry.name, entry.text);
   command->add_option("--as", options->measure, "what is measured; see below");
   command->add_option("--radius", options->radius, "mean radius a, such as \"5 mm\"; that of the points if not given");
-  command->add_option("--column", options->column, "histogram: of this column; a vector's component is NAME_x");
-  command->add_option("--bins", options->bins, "histogram: number of bins")
+  command->add_option("--column", options->column, "histogram, layers: of this column; a vector's component is NAME_x");
+  command->add_option("--bins", options->bins, "histogram, layers: how many")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print JSON");

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Heaps of spheres as `talus analyze --as repose|surface|packing` measures them.
+/// Heaps of spheres as `talus analyze --as repose|surface|packing|layers` measures them.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "app/points/measures.hpp"
+#include "base/error.hpp"
 
 namespace talus::app {
 namespace {
@@ -59,6 +60,24 @@ TEST(HeapMeasures, PackingOfALattice) {
   EXPECT_NEAR(value(m, "packing_max"), std::numbers::pi / 6, 0.015);
   EXPECT_NEAR(m.rows[5][1], std::numbers::pi / 6, 0.015);
   EXPECT_LT(m.rows.back()[1], 1e-9) << "above the heap";
+}
+
+TEST(HeapMeasures, MeansOfAColumnInLayers) {
+  // Three layers of 2, 1 and 3 points; none in between.
+  const std::vector<Vector3> points = {{0, 0, 1}, {1, 0, 1.5}, {0, 0, 4.5}, {0, 0, 10}, {1, 0, 10.5}, {2, 0, 11}};
+  const std::vector<double> stress = {70, 90, 40, 1, 2, 6};
+  Snapshot snapshot;
+  snapshot.columns.push_back({"position", "m", std::span<const Vector3>(points)});
+  snapshot.columns.push_back({"stress_zz", "Pa", std::span<const double>(stress)});
+  const PointsToMeasure set("points", snapshot, 0.5);
+  const Measured m = measure_layers(set, "stress_zz", 5);
+  const std::vector<std::vector<double>> expected = {{1.25, 80, 2}, {4.5, 40, 1}, {10.5, 3, 3}};
+  EXPECT_EQ(m.rows, expected);
+  EXPECT_EQ(m.columns[1].unit, "Pa");
+  EXPECT_THROW(measure_layers(set, "stress_xy", 5), InputError);
+  const Measured one = measure_layers(set, "position_z", 1);
+  ASSERT_EQ(one.rows.size(), 1u);
+  EXPECT_DOUBLE_EQ(one.rows[0][1], one.rows[0][0]);
 }
 
 }  // namespace

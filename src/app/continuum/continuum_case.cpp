@@ -32,10 +32,12 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
   std::vector<NamedValue> groups = {{"lumps", "1", static_cast<double>(continuum::bed_positions(p).size())},
                                     {"mass", "kg", bed_mass(p)},
-                                    {"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height},
                                     {"sound_speed", "m/s", sound},
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"lumps_across_grain", "1", p.grains.diameter / p.bed.spacing}};
+  // Where the bed is as wide as the box from its bottom to its top.
+  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty())
+    groups.push_back({"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height});
   if (const auto outlet = continuum::outlet_of(p))
     groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;

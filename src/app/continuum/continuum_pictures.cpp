@@ -73,13 +73,18 @@ double highest(const Snapshot& snapshot) {
   return z;
 }
 
-/// Walls and plate, not covered by grains.
+/// Walls and plate, not covered by grains; an open face is no line.
 std::vector<Segment> outline(const HopperSetting& setting, double top) {
   const HopperShape& s = setting.shape;
+  const Box& box = setting.domain.box();
   const Colour colour = ink;
-  std::vector<Segment> lines = {{.from = {0, 0, 0}, .to = {s.width, 0, 0}, .colour = colour},
-                                {.from = {0, 0, 0}, .to = {0, 0, top}, .colour = colour},
-                                {.from = {s.width, 0, 0}, .to = {s.width, 0, top}, .colour = colour}};
+  std::vector<Segment> lines;
+  const auto add = [&](int axis, int side, const Vector3& from, const Vector3& to) {
+    if (is_mirror(box.face(axis, side))) lines.push_back({.from = from, .to = to, .colour = colour});
+  };
+  add(2, 0, {0, 0, 0}, {s.width, 0, 0});
+  add(0, 0, {0, 0, 0}, {0, 0, top});
+  add(0, 1, {s.width, 0, 0}, {s.width, 0, top});
   for (const auto& panel : setting.domain.panels()) {
     double begin = 0;
     const auto draw = [&](double end) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Heaps of any points, z up: free surface, slopes, packing.
+/// Heaps of any points, z up: free surface, slopes, packing, layers.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -97,6 +97,31 @@ Measured measure_packing(const PointsToMeasure& set, const std::string&, std::si
     m.rows.push_back({heap.packing.z(row),
                       mean(std::vector<double>(first, first + static_cast<std::ptrdiff_t>(heap.packing.columns)))});
   }
+  return m;
+}
+
+Measured measure_layers(const PointsToMeasure& set, const std::string& column, std::size_t bins) {
+  Measured m;
+  std::string unit;
+  const std::vector<double> values = numbers_of(set, column, unit);
+  const auto [lowest, highest] = std::minmax_element(set.position().begin(), set.position().end(),
+                                                     [](const Vector3& a, const Vector3& b) { return a.z < b.z; });
+  struct Layer {
+    double height = 0, value = 0, points = 0;
+  };
+  std::vector<Layer> layers(bins);
+  const double thickness = (highest->z - lowest->z) / static_cast<double>(bins);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double above = set.position()[i].z - lowest->z;
+    Layer& layer = layers[thickness > 0 ? std::min(bins - 1, static_cast<std::size_t>(above / thickness)) : 0];
+    layer.height += set.position()[i].z;
+    layer.value += values[i];
+    ++layer.points;
+  }
+  m.columns = {{"z", "m"}, {column, unit}, {"points", "1"}};
+  for (const Layer& layer : layers)
+    if (layer.points > 0) m.rows.push_back({layer.height / layer.points, layer.value / layer.points, layer.points});
+  m.quantities = {{"mean", unit, mean(values)}};
   return m;
 }
 

@@ -36,7 +36,8 @@ std::vector<double> as_numbers(const std::vector<std::uint32_t>& counts) {
   return {counts.begin(), counts.end()};
 }
 
-/// The numbers of a column: of a vector its length, or a component by NAME_x.
+}  // namespace
+
 std::vector<double> numbers_of(const PointsToMeasure& set, const std::string& name, std::string& unit) {
   std::vector<std::string> names;
   std::vector<double> numbers;
@@ -67,8 +68,6 @@ std::vector<double> numbers_of(const PointsToMeasure& set, const std::string& na
                      .allowed = fmt::format("{}", fmt::join(names, ", ")),
                      .nearest = std::string(nearest(name, candidates))}});
 }
-
-}  // namespace
 
 PointsToMeasure::PointsToMeasure(std::string name, Snapshot points, std::optional<double> mean_radius)
     : name_(std::move(name)), points_(std::move(points)) {

@@ -39,13 +39,16 @@ class PointsToMeasure {
   std::vector<double> radius_;
 };
 
+/// The numbers of a column: of a vector its length, or a component by NAME_x; its unit too. \throws InputError
+std::vector<double> numbers_of(const PointsToMeasure& set, const std::string& name, std::string& unit);
+
 struct Measured {
   std::vector<NamedValue> quantities;
   std::vector<SeriesColumn> columns;  ///< of a table that follows, one row a head or a bin; empty: none
   std::vector<std::vector<double>> rows;
 };
 
-/// \param column, bins for the histogram \throws InputError
+/// \param column, bins for the histogram and the layers \throws InputError
 using Measure = Measured (*)(const PointsToMeasure& points, const std::string& column, std::size_t bins);
 
 Measured measure_heads(const PointsToMeasure& points, const std::string& column, std::size_t bins);
@@ -64,6 +67,9 @@ Measured measure_surface(const PointsToMeasure& points, const std::string& colum
 Measured measure_repose(const PointsToMeasure& points, const std::string& column, std::size_t bins);
 /// Packing fraction at the points (median, 99.9th percentile, largest), and its mean in layers a high.
 Measured measure_packing(const PointsToMeasure& points, const std::string& column, std::size_t bins);
+/// Mean of a column over each of `bins` layers of equal height between the lowest and the highest point, with the mean
+/// height of its points and their number; layers without points are left out.
+Measured measure_layers(const PointsToMeasure& points, const std::string& column, std::size_t bins);
 
 struct MeasureEntry {
   std::string_view name, text;
@@ -79,6 +85,7 @@ inline constexpr auto measures = std::to_array<MeasureEntry>({
     {"repose", "angle of repose: slopes of a heap longer than 20 a, seen along y", measure_repose},
     {"surface", "height of the free surface, seen along y", measure_surface},
     {"packing", "packing fraction at the points, and in layers; spheres of radius a", measure_packing},
+    {"layers", "means of a column in horizontal layers, from the lowest point up (--column, --bins)", measure_layers},
     {"histogram", "moments, normality and histogram of a column (--column, --bins)", measure_histogram},
 });
 

@@ -7,7 +7,8 @@
 /// Runge-Kutta). In each of the two, drag acts as the exact solution of its own decay, and the pressure is the one
 /// that makes the mixture's volume flow without divergence, div(Phi u + (1 - Phi) u_p) = 0: Eq. 19 with the grains'
 /// own continuity, and without the noisy dPhi/dt. Where the viscous time limit is shorter than the step, viscosity is
-/// implicit and of first order. What the drag and the pressure take from the air the grains receive, to round-off.
+/// implicit and of first order. What the drag and, in model A, the pressure take from the air the grains receive, to
+/// round-off.
 ///
 /// completed: Eq. 18 is silent on the void fraction at a face (mean of the two cells), on boundaries (FlowBoundary) and
 /// on grains that move within the step (they keep their velocity; time_step() keeps that short against their response).

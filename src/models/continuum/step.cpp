@@ -177,7 +177,8 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
                           .place = "the bed",
                           .step = s.step,
                           .time = s.time,
-                          .advice = "a shorter settle.damping_time, a longer settle.longest"});
+                          .advice = "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
+                                    "inclined walls, walls.friction_from = \"start\""});
   }
 }
 

@@ -91,5 +91,82 @@ TEST(Walls, ABlockSlidesWithCoulombsFrictionAndSticksBelowIt) {
   EXPECT_LT(norm(momentum_error(s) - Vector3{40 * s.mass * 0.3, 0, 0}), 1e-11 * norm(s.gravity_impulse));
 }
 
+/// cases/janssen-silo.toml with lumps twice as large. Janssen: between walls a width W apart that rub with mu the floor
+/// carries L/H (1 - exp(-H/L)) of a bed of height H, L = W/(2 mu K), K the force on a wall over what the vertical
+/// stress would exert on it.
+TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
+  Parameters p;
+  p.box = {.width = 30e-3, .depth = 5e-3, .height = 180e-3};
+  p.bed.spacing = 5e-3;
+  p.bed.height = 150e-3;
+  p.law.scale = 1.5;
+  p.walls.coefficient = 0.3;
+  p.walls.friction_from = FrictionFrom::start;
+  p.settle.damping_time = 5e-3;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  while (s.gate_time < 0) model.advance(team);
+  const auto before = s.wall_impulse;
+  const double begin = s.time;
+  while (s.time < begin + 0.02) model.advance(team);
+  const auto force = [&](std::size_t wall) { return (1 / (s.time - begin)) * (s.wall_impulse[wall] - before[wall]); };
+  const Vector3 left = force(0), right = force(1), floor = force(4);
+  const double weight = s.mass * static_cast<double>(s.position.size()) * 9.81;
+  EXPECT_NEAR(-(left.z + right.z + floor.z) / weight, 1, 0.005);
+  EXPECT_NEAR(left.z, right.z, 1e-6 * weight);
+  EXPECT_NEAR(left.z / left.x, 0.3, 0.006) << "friction is mobilised";
+
+  double stress = 0;
+  for (const double szz : s.material.stress[2]) stress += szz;
+  const double over_wall = stress * std::pow(p.bed.spacing, 3) / p.box.width;  // N
+  const double k = -left.x / over_wall;
+  EXPECT_GT(k, 0.4);
+  EXPECT_LT(k, 0.6);
+  const double length = p.box.width / (2 * 0.3 * k), height = 150e-3;
+  const double janssen = length / height * (1 - std::exp(-height / length));
+  EXPECT_NEAR(-floor.z / weight, janssen, 0.05 * janssen);
+}
+
+/// What leaves through an open face is counted there, and what is inside with it is what there was: to the last lump.
+TEST(Totals, CountTheMassThatHasLeftThroughAnOpenFace) {
+  Parameters p = small_hopper();
+  p.box.floor = FaceKind::open;
+  p.plate.height = 6 * spacing;
+  p.box.height = 30 * spacing;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  const auto total = [&](std::string_view name) {
+    for (const NamedValue& value : model.totals())
+      if (value.name == name) return value.value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  };
+  const std::size_t lumps = s.position.size();
+  const double initial = s.mass * static_cast<double>(lumps);
+  EXPECT_EQ(total("mass_outside"), 0);
+  double outside = 0;
+  while (s.time < 0.25) {
+    model.advance(team);
+    std::size_t inside = 0;
+    for (const Vector3& x : s.position)
+      inside += x.z >= 0 && x.z <= p.box.height && x.x >= 0 && x.x <= p.box.width && x.y >= 0 && x.y <= p.box.depth;
+    ASSERT_EQ(s.position.size(), lumps);
+    ASSERT_EQ(total("mass_outside"), s.mass * static_cast<double>(lumps - inside));
+    ASSERT_GE(total("mass_outside"), outside) << "what has left does not come back";
+    outside = total("mass_outside");
+    ASSERT_NEAR(s.mass * static_cast<double>(inside) + outside, initial, 1e-12 * initial);
+  }
+  EXPECT_GT(outside, 10 * s.mass);
+  EXPECT_LT(outside, initial - 20 * s.mass);
+  std::vector<std::int64_t> identities = s.identity;
+  std::sort(identities.begin(), identities.end());
+  for (std::size_t n = 0; n < lumps; ++n) ASSERT_EQ(identities[n], static_cast<std::int64_t>(n)) << "each lump once";
+  EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
+}
+
 }  // namespace
 }  // namespace talus::continuum
