@@ -31,7 +31,7 @@ struct DruckerPragerOptions {
   double scale = 9.80;             ///< alpha
   double grain_density = 2500;     ///< rho_p, kg/m^3
   double reference_packing = 0.6;  ///< rho_ref/rho_p, at which the grains just touch
-  Volume volume = Volume::contact;
+  Volume volume = Volume::density;
   double compaction = 3;            ///< k, of contact_memory.hpp
   double friction = 0;              ///< mu, constant; 0: from A4
   double largest_deviator = 0.014;  ///< kappa beyond which mu no longer changes

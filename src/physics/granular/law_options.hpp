@@ -29,7 +29,7 @@ struct LawParameters {
   double scale = 9.80;
   double reference_packing = 0.6;
   Strain strain = Strain::rate;
-  Volume volume = Volume::contact;
+  Volume volume = Volume::density;
   double compaction = 3;
   double close_packing = 0.64;
   double largest_deviator = 0.014;
@@ -81,8 +81,8 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
           "law.volume",
           {},
           {},
-          "what the volumetric strain is measured by: the density over that at which the grains last touched, the "
-          "density over that of the reference packing, or the strain since the last reset"},
+          "what the volumetric strain is measured by: the density over that of the reference packing, the density "
+          "over that at which the grains last touched, or the strain since the last reset"},
       p.volume);
   visit(Parameter{"law.compaction", dimension::none, at_least(0),
                   "volume by contact: how fast shear packs grains again that came apart, per unit of shear strain"},
@@ -160,7 +160,7 @@ inline constexpr auto choices<granular::Collisions> = std::to_array<std::string_
 template <>
 inline constexpr auto choices<granular::Strain> = std::to_array<std::string_view>({"rate", "displacements"});
 template <>
-inline constexpr auto choices<granular::Volume> = std::to_array<std::string_view>({"contact", "density", "strain"});
+inline constexpr auto choices<granular::Volume> = std::to_array<std::string_view>({"density", "contact", "strain"});
 template <>
 inline constexpr auto choices<granular::Unloading> = std::to_array<std::string_view>({"none", "pressure", "shear",
                                                                                       "all"});

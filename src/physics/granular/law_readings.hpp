@@ -8,8 +8,8 @@ namespace talus::granular {
 
 /// What the volumetric strain is measured by.
 enum class Volume {
+  density,  ///< ln(rho_b/rho_ref)/3: tied to the packing, cannot drift from it
   contact,  ///< ln(rho_b/rho_touch)/3, from the density at which the grains last touched (contact_memory.hpp)
-  density,  ///< ln(rho_b/rho_ref)/3, from the same density always
   strain    ///< the trace of the strain since the last reset, as in the paper
 };
 
@@ -43,7 +43,7 @@ struct YuuUmekageOptions {
   double grain_density = 2500;     ///< rho_p, kg/m^3
   double reference_packing = 0.6;  ///< rho_ref/rho_p, at which the grains just touch
   Strain strain = Strain::rate;    ///< printed components only
-  Volume volume = Volume::contact;
+  Volume volume = Volume::density;
   double compaction = 3;  ///< k, per shear strain, by which shear makes grains forget that they came apart
   Unloading unloading = Unloading::all;
   double unloading_stiffness = 1.5;  ///< k_u

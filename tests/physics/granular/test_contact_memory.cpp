@@ -82,7 +82,7 @@ TEST(ContactMemory, ThereIsNoPressureBelowTheReferencePackingAfterLongShear) {
 TEST(ContactMemory, AClosedCycleGivesNoEnergy) {
   const std::vector<PathStretch> cycle = {{1, squeeze(-apart)}, {1, squeeze(pressed)}, {1, shear(2e-3)},
                                           {1, squeeze(apart)},  {1, shear(-2e-3)},     {1, squeeze(-pressed)}};
-  const AnyLaw law = make_law({}, 2500);
+  const AnyLaw law = make_law({.volume = Volume::contact}, 2500);
   EXPECT_GT(work_of_path(cycle, follow_path(law, cycle, {.largest_increment = 1e-5, .points = 3000})), 0);
 }
 
