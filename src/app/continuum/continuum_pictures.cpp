@@ -38,17 +38,18 @@ Frames snapshots_of(const std::filesystem::path& run_folder) {
   return frames;
 }
 
-/// Those nearest to the paper's times, each once; of a run that does not reach the third of them some of its own.
-std::vector<std::size_t> chosen_frames(const Frames& frames) {
-  std::vector<std::size_t> chosen;
-  const double end = frames.time.back();
-  const std::size_t last = frames.time.size() - 1;
-  if (end >= printed_times[2])
-    for (const double time : printed_times) {
-      if (time <= end + 0.01) chosen.push_back(nearest_point(frames.time, time));
-    }
+/// Of a hopper those nearest to the paper's times, each once; of a run that does not reach the third of them, or of
+/// grains that leave no hopper, four of its own, close in time at first.
+std::vector<std::size_t> chosen_frames(const Frames& frames, bool of_hopper) {
+  std::vector<double> times;
+  const double end = frames.time.back(), begin = end > 0 ? 0 : frames.time.front();
+  if (of_hopper && end >= printed_times[2])
+    std::copy_if(std::begin(printed_times), std::end(printed_times), std::back_inserter(times),
+                 [&](double time) { return time <= end + 0.01; });
   else
-    chosen = {0, last / 5, last / 2, last};
+    for (const double share : {0.0, 0.1, 0.25, 1.0}) times.push_back(begin + share * (end - begin));
+  std::vector<std::size_t> chosen;
+  for (const double time : times) chosen.push_back(nearest_point(frames.time, time));
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
@@ -140,7 +141,7 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
                  const std::filesystem::path& path) {
   const Frames frames = snapshots_of(run_folder);
   if (frames.paths.empty()) throw FileError(run_folder.string(), "holds no snapshots");
-  const std::vector<std::size_t> chosen = chosen_frames(frames);
+  const std::vector<std::size_t> chosen = chosen_frames(frames, setting.shape.plate.has_value());
   std::vector<std::vector<Vector3>> dots;
   double top = 0;
   for (const std::size_t n : chosen) {
