@@ -99,7 +99,6 @@ TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
   p.box = {.width = 30e-3, .depth = 5e-3, .height = 180e-3};
   p.bed.spacing = 5e-3;
   p.bed.height = 150e-3;
-  p.law.volume = granular::Volume::density;
   p.law.scale = 1.5;
   p.walls.coefficient = 0.3;
   p.walls.friction_from = FrictionFrom::start;
