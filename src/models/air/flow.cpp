@@ -38,9 +38,10 @@ double largest(ThreadTeam& team, const Grid& grid, Value&& value) {
 
 }  // namespace
 
-AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates)
+AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates,
+                 const std::vector<Panel>& panels)
     : parameters_(parameters),
-      passages_(grid, parameters.boundaries, plates),
+      passages_(grid, parameters.boundaries, plates, panels),
       transport_(passages_),
       solver_(grid, periodic_axes(parameters.boundaries)),
       drag_(grid.cell_field()),
@@ -51,8 +52,8 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
     *field = grid.face_field();
 }
 
-void AirFlow::set_plates(const std::vector<Plate>& plates) {
-  passages_ = Passages(passages_.grid, parameters_.boundaries, plates);
+void AirFlow::set_walls(const std::vector<Plate>& plates, const std::vector<Panel>& panels) {
+  passages_ = Passages(passages_.grid, parameters_.boundaries, plates, panels);
 }
 
 /// Void fraction, solid fraction and grains' velocity on the faces: means of the two cells, of the one within at an

@@ -25,13 +25,14 @@ namespace talus::air {
 
 class AirFlow {
  public:
-  /// \param plates their openings decide where the air passes; see open_gates()
-  AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates);
+  /// \param plates, panels their openings decide where the air passes
+  AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates,
+          const std::vector<Panel>& panels = {});
   AirFlow(const AirFlow&) = delete;
   AirFlow& operator=(const AirFlow&) = delete;
 
-  /// Takes the plates anew, after a gate has opened.
-  void set_plates(const std::vector<Plate>& plates);
+  /// Takes plates and panels anew, after a gate has opened.
+  void set_walls(const std::vector<Plate>& plates, const std::vector<Panel>& panels = {});
 
   /// Momentum of air with the state's velocities between these solids.
   void begin(ThreadTeam& team, const Solids& solids, AirState& state);

@@ -46,8 +46,6 @@ std::vector<Problem> check_air(const Parameters& p) {
   const auto add = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
-  if (p.wedge.half_angle || !p.plates.empty())
-    add("air.enabled", "the air does not meet walls at an angle yet", "false with [wedge] and [[plates]]");
   const Grid grid = air_grid(p);
   const FaceKind grains[6] = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top};
   constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
@@ -81,13 +79,13 @@ Atmosphere::Atmosphere(const Parameters& p)
       grain_density_(p.grains.density),
       medium_(gas_of(p).medium()),
       deposition_(air_grid(p), domain_),
-      flow_(air_grid(p), gas_of(p), domain_.plates()),
+      flow_(air_grid(p), gas_of(p), domain_.plates(), domain_.panels()),
       per_solid_volume_(air_grid(p).face_field()) {}
 
-void Atmosphere::open_gates() {
-  domain_.open_gates();
-  deposition_.open_gates();
-  flow_.set_plates(domain_.plates());
+void Atmosphere::open_gates(double time) {
+  if (!domain_.open_gates(time)) return;
+  deposition_.open_gates(time);
+  flow_.set_walls(domain_.plates(), domain_.panels());
 }
 
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {

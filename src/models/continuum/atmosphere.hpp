@@ -26,7 +26,8 @@ class Atmosphere {
  public:
   explicit Atmosphere(const Parameters& parameters);
 
-  void open_gates();
+  /// \param time from the opening of the case's gate, s
+  void open_gates(double time);
 
   /// Air at rest around the lumps of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);

@@ -163,14 +163,13 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) {
-    w.sweep.open_gates(s.time - s.gate_time);
+    w.open_gates(s.time - s.gate_time);
     return;
   }
   const bool settled = quiet && s.time - s.quiet_time >= p.settle.duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
-    w.sweep.open_gates(0);
-    if (w.air) w.air->open_gates();
+    w.open_gates(0);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
     throw NumericalError({.what = "the bed has not settled",
                           .term = fmt::format("{} of {} lumps are faster than settle.speed", moving, s.velocity.size()),
@@ -240,10 +239,7 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 }
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (s.gate_time >= 0) {
-    w.sweep.open_gates(s.time - s.gate_time);
-    if (w.air) w.air->open_gates();
-  }
+  if (s.gate_time >= 0) w.open_gates(s.time - s.gate_time);
   measure(team, s, w);
   w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
   evaluate(team, p, s, w);

@@ -33,6 +33,12 @@ struct Workspace {
   std::vector<double> resets;  ///< of each lump at the start of the step
 
   Workspace(const Parameters& parameters, const State& state);
+
+  /// \param time from the opening of the case's gate, s
+  void open_gates(double time) {
+    sweep.open_gates(time);
+    if (air) air->open_gates(time);
+  }
 };
 
 /// Completes a new state: neighbour lists, rates, derived columns.

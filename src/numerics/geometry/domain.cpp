@@ -84,11 +84,15 @@ Domain::Domain(const Box& box, std::vector<Plate> plates, std::vector<Panel> pan
   find_mirrors();
 }
 
-void Domain::open_gates(double time) {
+bool Domain::open_gates(double time) {
+  bool any = false;
+  const auto open = [&](bool& shut) { any = any || shut, shut = false; };
   for (Plate& plate : plates_)
-    for (Opening& opening : plate.openings) opening.shut = false;
+    for (Opening& opening : plate.openings) open(opening.shut);
   for (Panel& panel : panels_)
-    for (Panel::Opening& opening : panel.openings) opening.shut = opening.shut && time < opening.opens_after;
+    for (Panel::Opening& opening : panel.openings)
+      if (time >= opening.opens_after) open(opening.shut);
+  return any;
 }
 
 Vector3 Domain::normal(int wall) const {

@@ -42,9 +42,25 @@ void close(const Grid& grid, const Plate& plate, FaceField& open) {
   });
 }
 
+/// Closes the faces that a panel's solid part stands before.
+void close(const Passages& passages, const Panel& panel, FaceField& open) {
+  const Grid& grid = passages.grid;
+  for (const int axis : {0, 2}) {
+    const auto a = static_cast<std::size_t>(axis);
+    Vector3 step;
+    step[axis] = grid.spacing[axis];
+    const auto faces = passages.faces(axis);
+    for_each_place({0, 0, 0}, {faces[0], faces[1], faces[2]}, [&](const Place& at) {
+      const Vector3 after = grid.centre(at[0], at[1], at[2]);
+      if (panel.meets(after - step, after)) open[a][index(grid, at)] = 0;
+    });
+  }
+}
+
 }  // namespace
 
-Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Plate>& plates)
+Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Plate>& plates,
+                   const std::vector<Panel>& panels)
     : grid(cells), boundaries(bounds), open(grid.face_field()), wall(open), drive(open), inner(grid.cell_field()) {
   link = {open, open, open}, wide = link;
   for (int axis = 0; axis < 3; ++axis) {
@@ -57,6 +73,7 @@ Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::v
     });
   }
   for (const Plate& plate : plates) close(grid, plate, open);
+  for (const Panel& panel : panels) close(*this, panel, open);
   for (auto& faces_of_axis : open) wrap(faces_of_axis);
 
   for_each_place({0, 0, 0}, grid.count, [&](const Place& at) {

@@ -106,20 +106,30 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
     return along_x.slot[i] + columns * (along_y.slot[j] + rows * along_z.slot[k]);
   };
   const bool beside_plate = domain_.is_near_plate(x, reach);
-  for (std::size_t k = 0; k < along_z.slot.size(); ++k)
-    for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
-      const double beside = along_y.square[j] + along_z.square[k];
-      if (beside >= reach * reach) continue;
-      weigh_row(along_x.square.size(), along_x.square.data(), beside, per_width, weight);
-      if (!beside_plate) {
-        double* row = sum + slot(0, j, k) - along_x.slot[0];
-        for (std::size_t i = 0; i < along_x.slot.size(); ++i) row[along_x.slot[i]] += weight[i];
-      } else {
-        for (std::size_t i = 0; i < along_x.slot.size(); ++i)
-          if (const auto seen = in_front_of_plates(x, scratch, {i, j, k}))
-            sum[slot((*seen)[0], (*seen)[1], (*seen)[2])] += weight[i];
+  const auto spread = [&](bool beside_panel) {
+    for (std::size_t k = 0; k < along_z.slot.size(); ++k)
+      for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
+        const double beside = along_y.square[j] + along_z.square[k];
+        if (beside >= reach * reach) continue;
+        weigh_row(along_x.square.size(), along_x.square.data(), beside, per_width, weight);
+        if (beside_panel) {
+          for (std::size_t i = 0; i < along_x.slot.size(); ++i)
+            if (!is_behind_panel(x, scratch, {i, j, k})) sum[slot(i, j, k)] += weight[i];
+        } else if (beside_plate) {
+          for (std::size_t i = 0; i < along_x.slot.size(); ++i)
+            if (const auto seen = in_front_of_plates(x, scratch, {i, j, k}))
+              sum[slot((*seen)[0], (*seen)[1], (*seen)[2])] += weight[i];
+        } else {
+          double* row = sum + slot(0, j, k) - along_x.slot[0];
+          for (std::size_t i = 0; i < along_x.slot.size(); ++i) row[along_x.slot[i]] += weight[i];
+        }
       }
-    }
+  };
+  const bool beside_panel = domain_.is_near_panel(x, reach);
+  spread(beside_panel);
+  // In a corner too narrow for a cell's centre a lump sees none: then it has all.
+  if (beside_panel && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
+    spread(false);
 
   const std::size_t begin = block.end.empty() ? 0 : block.end.back(), most = begin + scratch.sum.size();
   if (block.cell.size() < most) block.cell.resize(2 * most), block.weight.resize(2 * most);
@@ -157,6 +167,22 @@ std::optional<std::array<std::size_t, 3>> Deposition::in_front_of_plates(const V
     if (cell[a] >= scratch.along[a].slot.size()) return {};  // out of reach, by rounding
   }
   return cell;
+}
+
+/// Whether a panel stands between a lump and a cell within reach, or the one within the box that stands for it.
+bool Deposition::is_behind_panel(const Vector3& x, const Scratch& scratch, std::array<std::size_t, 3> cell) const {
+  std::array<int, 3> place, within;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Scratch::Along& along = scratch.along[a];
+    if (along.slot[cell[a]] >= along.cell.size()) return true;  // beyond an open face
+    place[a] = along.from + static_cast<int>(cell[a]), within[a] = along.cell[along.slot[cell[a]]];
+  }
+  const Vector3 centre = grid_.centre(within[0], within[1], within[2]);
+  const Vector3 moved = centre - grid_.centre(place[0], place[1], place[2]);
+  Vector3 from = x;  // the copy beside the cell, through periodic faces
+  for (int axis = 0; axis < 3; ++axis)
+    if (domain_.box().face(axis, 0) == FaceKind::periodic) from[axis] += moved[axis];
+  return domain_.blocks(from, centre);
 }
 
 /// Calls body(lump, begin, end) with the range of each lump's cells.

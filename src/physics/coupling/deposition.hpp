@@ -5,7 +5,8 @@
 /// The weights of a lump are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
 /// round-off. What would fall behind a wall, a symmetry plane or the solid part of a plate is folded back, as the
 /// lump's image behind it would spread it, so that a bed is as dense at a wall as within; what would leave through a
-/// periodic face comes in at the other. Beyond an open face there is no air: a lump out there has no weights.
+/// periodic face comes in at the other. Beyond an open face there is no air: a lump out there has no weights. Cells
+/// that a panel hides from a lump have no share in it, those it sees the more.
 #pragma once
 
 #include <array>
@@ -25,7 +26,8 @@ class Deposition {
   /// \throws std::invalid_argument if the grid does not fill the domain's box, or if a plate is not on faces of cells
   Deposition(const Grid& grid, const Domain& domain);
 
-  void open_gates() { domain_.open_gates(); }
+  /// \param time from the opening of the case's gate, s
+  void open_gates(double time) { domain_.open_gates(time); }
 
   /// Finds the weights. \param smoothing_length of each lump, m; the kernel reaches twice as far
   void weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
@@ -50,6 +52,7 @@ class Deposition {
   };
   struct Scratch;
   void weigh(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
+  bool is_behind_panel(const Vector3& position, const Scratch& scratch, std::array<std::size_t, 3> cell) const;
   std::optional<std::array<std::size_t, 3>> in_front_of_plates(const Vector3& position, const Scratch& scratch,
                                                                std::array<std::size_t, 3> cell) const;
   template <class Body>

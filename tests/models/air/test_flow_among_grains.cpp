@@ -200,7 +200,7 @@ TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
   EXPECT_NEAR(c.state.pressure[c.grid.index(5, 0, 7)], 5, 1e-3);
   EXPECT_NEAR(c.state.pressure[c.grid.index(5, 0, 8)], 0, 1e-3);
   plate.openings[0].shut = false;
-  c.flow.set_plates({plate});
+  c.flow.set_walls({plate});
   c.advance(20e-6, 5);
   for (int i = 0; i < 10; ++i) {
     const double u = c.state.velocity[2][c.grid.index(i, 1, 8)];
@@ -209,6 +209,36 @@ TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
     else
       EXPECT_EQ(u, 0);
   }
+}
+
+/// A panel from wall to wall, at an angle, with a gate in its middle.
+TEST(AirFlow, APanelHoldsTheAirUntilItsGateOpens) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::no_slip);
+  p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::free_slip;
+  p.boundaries.kind[4] = p.boundaries.kind[5] = FlowBoundary::open;
+  p.boundaries.pressure[4] = 5;
+  p.tolerance = 1e-12;
+  const double h = 1e-3;
+  Panel panel{.name = "slope", .from = {0, 0, 4 * h}, .to = {10 * h, 0, 11 * h}};
+  panel.openings = {{.begin = 0.3 * panel.length(), .end = 0.7 * panel.length(), .shut = true}};
+  Case c({.count = {10, 2, 16}, .low = {}, .spacing = {h, h, h}}, p);
+  c.flow.set_walls({}, {panel});
+  c.begin();
+  c.advance(20e-6, 5);
+  const auto flow_through_floor = [&] {
+    double sum = 0;
+    for (int i = 0; i < 10; ++i) sum += c.state.velocity[2][c.grid.index(i, 0, 0)];
+    return sum;
+  };
+  EXPECT_NEAR(flow_through_floor(), 0, 1e-9);
+  for_each_cell(c.grid, [&](int i, int j, int k, std::size_t n) {
+    EXPECT_NEAR(c.state.pressure[n], panel.above(c.grid.centre(i, j, k)) < 0 ? 5 : 0, 1e-3);
+  });
+  panel.openings[0].shut = false;
+  c.flow.set_walls({}, {panel});
+  c.advance(20e-6, 5);
+  EXPECT_GT(flow_through_floor(), 0.05);
 }
 
 TEST(AirFlow, RefusesAVoidFractionOutOfRange) {

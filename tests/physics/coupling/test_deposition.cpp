@@ -161,5 +161,40 @@ TEST(Deposition, RefusesAGridThatDoesNotFillTheBox) {
   EXPECT_THROW(Deposition(off, silo.domain), std::invalid_argument);
 }
 
+/// What a panel hides gets nothing, the rest all; at a periodic face the panel counts from the copy beside it.
+TEST(Deposition, NothingIsSpreadBehindAPanel) {
+  for (const FaceKind side : {FaceKind::wall, FaceKind::periodic}) {
+    const Panel panel{.name = "slope", .from = {4e-3, 0, 5e-3}, .to = {17e-3, 0, 25e-3}};
+    Silo silo;
+    silo.domain =
+        Domain({.low = {},
+                .high = {20e-3, 5e-3, 40e-3},
+                .faces = {side, side, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::wall}},
+               {}, {panel});
+    silo.deposition = Deposition(silo.grid, silo.domain);
+    place_at_random(silo, 200);
+    silo.gather();
+    EXPECT_NEAR(total(silo.grid, silo.fraction), 200 * silo.volume, 1e-12 * 200 * silo.volume);
+
+    const double s = 0.4 * panel.length(), away = 0.4 * spacing;
+    for (const double to : {-away, away}) {
+      Silo one;
+      one.domain = silo.domain, one.deposition = silo.deposition;
+      one.place(panel.from + s * panel.along() + to * panel.normal());
+      one.gather();
+      int reached = 0;
+      for (int k = 0; k < one.grid.count[2]; ++k)
+        for (int j = 0; j < one.grid.count[1]; ++j)
+          for (int i = 0; i < one.grid.count[0]; ++i) {
+            if (one.fraction[one.grid.index(i, j, k)] == 0) continue;
+            ++reached;
+            EXPECT_FALSE(one.domain.blocks(one.position[0], one.grid.centre(i, j, k)));
+          }
+      EXPECT_GT(reached, 20);
+      EXPECT_NEAR(total(one.grid, one.fraction), one.volume, 1e-14 * one.volume);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace talus::coupling
