@@ -10,6 +10,7 @@
 #include "analysis/hopper_quantities.hpp"
 #include "analysis/lump_field.hpp"
 #include "app/continuum/continuum_pictures.hpp"
+#include "app/reproduction/yuu2011_air.hpp"
 #include "io/figure/figure.hpp"
 #include "io/vtkhdf.hpp"
 
@@ -23,6 +24,8 @@ constexpr double flowing = 0.2;                    // s, of Figures 8, 9, 11 and
 constexpr double seconds_a_period = 6e-3;          // of the means of Figure 7, one printed period
 constexpr double rate_mean = 20e-3, every = 1e-3;  // of the means of Figure 6, s
 constexpr double profile_above_plate = 20e-3;      // m, Figure 12
+constexpr double edge_of_slit = 31e-3;             // m, Figure 11a
+constexpr double below_slit = 50e-3;               // m above the floor, Figure 11b
 
 const HopperRun& run_of(const HopperEnsemble& ensemble) {
   return ensemble.runs.front();
@@ -68,6 +71,10 @@ class Album {
     draw_fields("figure_09.png", "Figure 9: vertical normal stress",
                 "At 0.2 s and at the end; lumps as discs, what does not depend on the strain's rate.", "stress_zz",
                 {.label = "stress *τ*_{zz}", .unit = {1e3, "kPa"}, .low = 0, .high = 1.2});
+    if (draw_air_vectors(ensembles_, folder_ / "figure_10.png"))
+      figures_.push_back({folder_ / "figure_10.png", "Figure 10: velocity of the air",
+                          "In the middle of the depth, 0.17 s and 1.0 s after the gate's opening; shaded: grains."});
+    draw_pressures();
     draw_profiles();
     draw_curves("discharged.png", "Share of the grains below the plate", "The paper: more than half at 0.4 s.",
                 {.label = "share below the plate", .low = 0, .high = 1},
@@ -151,9 +158,29 @@ class Album {
     if (!figure.panels.empty()) add(name, figure, title, caption);
   }
 
-  /// Figure 12, as far as it is the grains': mean vertical velocity of the lumps within half a spacing of the height.
+  void draw_pressures() {
+    Chart up{
+        .title = "at *x* = 31 mm", .x = {.label = "*P*", .unit = "Pa"}, .y = {.label = "*z*", .unit = "mm", .low = 0}};
+    Chart across{.title = "at *z* = 50 mm", .x = {.label = "*x*", .unit = "mm"}, .y = {.label = "*P*", .unit = "Pa"}};
+    for (const HopperEnsemble& ensemble : ensembles_) {
+      const std::optional<GridSnapshot> air = air_at(ensemble, flowing);
+      if (!air) continue;
+      Line line{.label = ensemble.variant, .colour = colour_of(ensemble), .dash = dash_of(ensemble)};
+      AirProfile profile = air_along_z(*air, edge_of_slit);
+      line.x = std::move(profile.pressure), line.y = std::move(profile.place);
+      up.series.emplace_back(line);
+      profile = air_along_x(*air, below_slit);
+      line.x = std::move(profile.place), line.y = std::move(profile.pressure);
+      across.series.emplace_back(line);
+    }
+    if (!up.series.empty())
+      add("figure_11.png", {.panels = {up, across}}, "Figure 11: pressure of the air",
+          "At 0.2 s in the middle of the depth, against that of the surroundings.");
+  }
+
+  /// Figure 12: mean vertical velocity of the lumps within a spacing of the height, and the air's there.
   void draw_profiles() {
-    Chart chart{.x = {.label = "*x*", .unit = "mm"}, .y = {.label = "*u*_{pz}", .unit = "m/s"}};
+    Chart chart{.x = {.label = "*x*", .unit = "mm"}, .y = {.label = "*u*_{pz}, *u*_{z}", .unit = "m/s"}};
     for (const HopperEnsemble& ensemble : ensembles_) {
       const HopperShape& shape = run_of(ensemble).setting.shape;
       const std::optional<Picked> found = picked(ensemble, flowing);
@@ -176,10 +203,19 @@ class Album {
           line.y.push_back(sum[cell] / count[cell]);
         }
       chart.series.emplace_back(std::move(line));
+      if (const std::optional<GridSnapshot> air = air_at(ensemble, flowing)) {
+        AirProfile profile = air_along_x(*air, z);
+        chart.series.emplace_back(Line{.x = std::move(profile.place),
+                                       .y = std::move(profile.velocity),
+                                       .label = ensemble.variant + ", of the air",
+                                       .colour = colour_of(ensemble),
+                                       .dash = Dash::dashed});
+      }
     }
     if (!chart.series.empty())
       add("figure_12.png", {.panels = {chart}}, "Figure 12: vertical velocity 20 mm above the slit",
-          "At 0.2 s; lumps within a spacing of the height, means over a spacing in *x*.");
+          "At 0.2 s; lumps within a spacing of the height, means over a spacing in *x*; the air in the middle of the "
+          "depth.");
   }
 
   const std::vector<HopperEnsemble>& ensembles_;
