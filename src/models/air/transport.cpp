@@ -173,7 +173,7 @@ void Transport::spread(ThreadTeam& team, const FaceField& velocity, FaceField& s
 int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const FaceField& weight, double amount,
                                  FaceField& velocity) {
   constexpr int most_iterations = 500;
-  constexpr double tolerance = 1e-9;
+  constexpr double tolerance = 1e-6;
   const Grid& grid = passages_.grid;
   for (FaceField* field : {&residual_, &direction_, &image_, &preconditioned_})
     if (field->front().empty()) *field = grid.face_field();

@@ -89,7 +89,7 @@ TEST(AirFlow, DrivenCavityComesNearGhiasOnACoarseGrid) {
 
 /// validation/air: minutes, so by command only.
 TEST(AirFlow, DISABLED_DrivenCavityIsGhiasWithin1PercentOn128Cells) {
-  const Cavity fine = cavity(128, 0.00375, 15);
+  const Cavity fine = cavity(128, 0.0014, 12.5);
   std::printf("over Ghia, Ghia & Shin: least u %.4f, least w %.4f, largest w %.4f\n", fine.least_u, fine.least_w,
               fine.largest_w);
   EXPECT_NEAR(fine.least_u, 1, 0.01);
