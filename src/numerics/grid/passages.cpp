@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "numerics/grid/passages.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -139,20 +140,23 @@ Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::v
 }
 
 void Passages::wrap(CellField& field) const {
+  constexpr int m = Grid::margin;
+  const int length = grid.count[0] + 2 * m;
   for (int axis = 0; axis < 3; ++axis) {
     if (!boundaries.is_periodic(axis)) continue;
     const auto a = static_cast<std::size_t>(axis);
     const int n = grid.count[a];
-    constexpr int m = Grid::margin;
-    Place low{-m, -m, -m}, high{grid.count[0] + m, grid.count[1] + m, grid.count[2] + m};
-    low[a] = 0, high[a] = m;
-    for_each_place(low, high, [&](const Place& at) {
-      Place above = at, below = at, source_above = at, source_below = at;
-      above[a] = n + at[a], source_above[a] = at[a] % n;
-      below[a] = -1 - at[a], source_below[a] = (n - 1 - at[a] % n);
-      field[index(grid, above)] = field[index(grid, source_above)];
-      field[index(grid, below)] = field[index(grid, source_below)];
-    });
+    // Row by row along x, but for the layers across it.
+    const auto copy = [&](int from, int to) {
+      Place low{-m, -m, -m}, high{1 - m, grid.count[1] + m, grid.count[2] + m};
+      low[a] = to, high[a] = to + 1;
+      const std::ptrdiff_t back = (from - to) * grid.stride(axis);
+      for_each_place(low, high, [&](const Place& at) {
+        double* row = field.data() + index(grid, at);
+        std::copy_n(row + back, axis == 0 ? 1 : length, row);
+      });
+    };
+    for (int k = 0; k < m; ++k) copy(k % n, n + k), copy(n - 1 - k % n, -1 - k);
   }
 }
 
