@@ -149,10 +149,10 @@ class Interrupted(Resumed):
     def test_walltime(self):
         self.talus("run", "case.toml", "--out", "r", "--walltime", "0.1", *LONG, status=130)
         self.assert_left_with_a_checkpoint("the wall-time limit")
-        seconds = json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"]
-        self.assertGreaterEqual(seconds, 0.1)
+        seconds = lambda: json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"]
+        self.assertGreaterEqual(seconds(), 0.1)
         self.talus("run", "case.toml", "--out", "r", "--resume", "--walltime", "0.1", *LONG, status=130)
-        self.assertGreaterEqual(json.loads((self.folder / "r/summary.json").read_text())["wall_seconds"], seconds + 0.1)
+        self.assertGreaterEqual(seconds(), 0.2)
         self.assert_goes_on_to_the_same_bits(threads=3)
 
     def test_damaged_newest_checkpoint_is_passed_over(self):
