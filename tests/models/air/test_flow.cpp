@@ -56,8 +56,8 @@ TEST(AirFlow, LetsTaylorGreenVorticesDecayAsTheyShouldWithSecondOrder) {
 }
 
 /// A cavity of side 1 whose lid moves with velocity 1 at Re 100, steady in the end: extreme velocities on its middle
-/// lines. Those of the tables of Ghia, Ghia & Shin 1982 are 1.5 to 3.4 % nearer to 0 than those of Botella & Peyret 1998
-/// (Computers & Fluids 27, 421), whose spectral solution has seven digits.
+/// lines. Those of the tables of Ghia, Ghia & Shin 1982 are 1.5 to 3.4 % nearer to 0 than those of Botella & Peyret
+/// 1998 (Computers & Fluids 27, 421), whose spectral solution has seven digits.
 struct Cavity {
   double least_u, least_w, largest_w;
 };
