@@ -5,6 +5,7 @@
 
 #include "base/clones.hpp"
 #include "base/error.hpp"
+#include "base/registers.hpp"
 #include "numerics/grid/loops.hpp"
 #include "physics/air/momentum.hpp"
 
@@ -69,6 +70,86 @@ TALUS_CLONES void find_stress_of_row(int count, double driven, std::ptrdiff_t dy
                        zz * (z[f + dz] * (u[f + dz] - u[f]) - z[f] * (u[f] - u[f - dz]));
     stress[f] = open[f] * (own + sum);
   }
+}
+
+// Rows of the conjugate gradients of the implicit viscosity.
+
+/// A sum over a row in eight lanes, so that vectors of any width add in the same order.
+struct Lanes {
+  static constexpr int count = 8;
+  double lane[count] = {};
+
+  double sum() const {
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+  }
+};
+
+/// Calls body(place, lane) along a row.
+template <class Body>
+TALUS_INLINE void for_each_in_lanes(int count, Body&& body) {
+  int f = 0;
+  for (; f + Lanes::count <= count; f += Lanes::count)
+    for (int l = 0; l < Lanes::count; ++l) body(f + l, l);
+  for (int l = 0; f + l < count; ++l) body(f + l, l);
+}
+
+struct BeginRow {
+  const double *open, *wall, *drive, *weight, *start, *velocity, *stress;
+};
+
+/// \returns square of the source
+TALUS_CLONES TwoSums begin_row(int count, double amount, double own, const BeginRow& row, double* __restrict per_weight,
+                               double* __restrict per_diagonal, double* __restrict residual,
+                               double* __restrict direction) {
+  const auto [open, wall, drive, weight, start, velocity, stress] = row;
+  Lanes source;
+  for_each_in_lanes(count, [&](int f, int lane) {
+    const double inverse = open[f] > 0 ? 1 / weight[f] : 0;
+    const double given = open[f] * (start[f] * inverse + amount * drive[f]);
+    per_weight[f] = inverse;
+    per_diagonal[f] = open[f] > 0 ? 1 / (inverse + amount * (own + wall[f])) : 0;
+    residual[f] = open[f] * ((start[f] - velocity[f]) * inverse + amount * stress[f]);
+    direction[f] = 0;
+    source.lane[lane] += given * given;
+  });
+  return {source.sum(), 0};
+}
+
+/// \returns square of the residual, and its product with the preconditioned one
+TALUS_CLONES TwoSums measure_residual_of_row(int count, const double* per_diagonal, const double* residual) {
+  Lanes square, product;
+  for_each_in_lanes(count, [&](int f, int lane) {
+    const double r = residual[f];
+    square.lane[lane] += r * r;
+    product.lane[lane] += r * r * per_diagonal[f];
+  });
+  return {square.sum(), product.sum()};
+}
+
+TALUS_CLONES TwoSums turn_row(int count, double turn, const double* per_diagonal, const double* residual,
+                              double* __restrict direction) {
+  for (int f = 0; f < count; ++f) direction[f] = per_diagonal[f] * residual[f] + turn * direction[f];
+  return {};
+}
+
+/// \param image in: the stress of the direction; \returns its product with the direction
+TALUS_CLONES TwoSums find_image_of_row(int count, double amount, const double* per_weight, const double* direction,
+                                       double* __restrict image) {
+  Lanes work;
+  for_each_in_lanes(count, [&](int f, int lane) {
+    image[f] = direction[f] * per_weight[f] - amount * image[f];
+    work.lane[lane] += direction[f] * image[f];
+  });
+  return {work.sum(), 0};
+}
+
+TALUS_CLONES TwoSums step_row(int count, double step, const double* direction, const double* image,
+                              double* __restrict velocity, double* __restrict residual) {
+  for (int f = 0; f < count; ++f) {
+    velocity[f] += step * direction[f];
+    residual[f] -= step * image[f];
+  }
+  return {};
 }
 
 }  // namespace
@@ -175,75 +256,61 @@ int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const
   constexpr int most_iterations = 500;
   constexpr double tolerance = 1e-6;
   const Grid& grid = passages_.grid;
-  for (FaceField* field : {&residual_, &direction_, &image_, &preconditioned_})
+  for (FaceField* field : {&residual_, &direction_, &image_, &per_weight_, &per_diagonal_})
     if (field->front().empty()) *field = grid.face_field();
   double own = 0;  // of the Laplacian and of the gradient of the divergence
   for (int axis = 0; axis < 3; ++axis) own += 2 / (grid.spacing[axis] * grid.spacing[axis]);
-  const auto dot = [&](const FaceField& x, const FaceField& y) {
-    double total = 0;
+  // Calls body(component, first face, faces) for all rows and adds up what it returns, in the order of the rows.
+  const auto sum_over_rows = [&](auto&& body) {
+    TwoSums total;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      const auto layers = static_cast<std::size_t>(passages_.faces(axis, 2));
-      std::vector<double> partial(layers, 0.0);
-      team.run(layers, [&](std::size_t k) {
-        double sum = 0;
-        for (int j = 0; j < passages_.faces(axis, 1); ++j) {
-          const std::size_t first = grid.index(0, j, static_cast<int>(k));
-          for (std::size_t f = first; f < first + static_cast<std::size_t>(passages_.faces(axis, 0)); ++f)
-            sum += x[a][f] * y[a][f];
-        }
-        partial[k] = sum;
+      const std::array<int, 3> faces = passages_.faces(axis);
+      row_sums_.resize(static_cast<std::size_t>(faces[1] * faces[2]));
+      for_each_row(team, grid, faces, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+        row_sums_[static_cast<std::size_t>(k * faces[1] + j)] =
+            body(static_cast<std::size_t>(axis), begin, static_cast<int>(end - begin));
       });
-      for (const double part : partial) total += part;
+      for (const TwoSums& row : row_sums_) total.first += row.first, total.second += row.second;
     }
     return total;
   };
-  const auto for_all = [&](auto&& body) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      for_each_face(team, passages_, axis, [&](std::ptrdiff_t f) { body(a, static_cast<std::size_t>(f)); });
-    }
-  };
-  const auto is_open = [&](std::size_t a, std::size_t f) { return passages_.open[a][f] > 0; };
   const auto wrap = [&](FaceField& field) {
     for (auto& component : field) passages_.wrap(component);
   };
 
   wrap(velocity);
   laplace(team, 1, velocity, image_);
-  for_all([&](std::size_t a, std::size_t f) {
-    residual_[a][f] = is_open(a, f) ? (start[a][f] - velocity[a][f]) / weight[a][f] + amount * image_[a][f] : 0;
-    direction_[a][f] = 0;
-    image_[a][f] = is_open(a, f) ? start[a][f] / weight[a][f] + amount * passages_.drive[a][f] : 0;
-  });
-  const double enough = tolerance * std::sqrt(dot(image_, image_));
-  double before = 0;
+  const double source =
+      sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+        const double width = grid.spacing[static_cast<int>(a)];
+        return begin_row(count, amount, own + 2 / (3 * width * width),
+                         {&passages_.open[a][f], &passages_.wall[a][f], &passages_.drive[a][f], &weight[a][f],
+                          &start[a][f], &velocity[a][f], &image_[a][f]},
+                         &per_weight_[a][f], &per_diagonal_[a][f], &residual_[a][f], &direction_[a][f]);
+      }).first;
+  double product = 0;
   for (int iteration = 0;; ++iteration) {
-    const double norm = std::sqrt(dot(residual_, residual_));
-    if (norm <= enough) return iteration;
-    if (iteration == most_iterations || !std::isfinite(norm))
+    const TwoSums left = sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+      return measure_residual_of_row(count, &per_diagonal_[a][f], &residual_[a][f]);
+    });
+    if (left.first <= tolerance * tolerance * source) return iteration;
+    if (iteration == most_iterations || !std::isfinite(left.first))
       throw NumericalError({.what = "the implicit viscosity of the air has not converged",
                             .term = "viscous term of Eq. 18",
                             .place = "the whole grid",
                             .advice = "a shorter air.longest_step"});
-    for_all([&](std::size_t a, std::size_t f) {
-      const double third = 2 / (3 * grid.spacing[static_cast<int>(a)] * grid.spacing[static_cast<int>(a)]);
-      preconditioned_[a][f] =
-          is_open(a, f) ? residual_[a][f] / (1 / weight[a][f] + amount * (own + third + passages_.wall[a][f])) : 0;
+    const double turn = product > 0 ? left.second / product : 0;
+    product = left.second;
+    sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+      return turn_row(count, turn, &per_diagonal_[a][f], &residual_[a][f], &direction_[a][f]);
     });
-    const double product = dot(residual_, preconditioned_);
-    const double turn = before > 0 ? product / before : 0;
-    before = product;
-    for_all([&](std::size_t a, std::size_t f) { direction_[a][f] = preconditioned_[a][f] + turn * direction_[a][f]; });
     wrap(direction_);
     laplace(team, 0, direction_, image_);
-    for_all([&](std::size_t a, std::size_t f) {
-      image_[a][f] = is_open(a, f) ? direction_[a][f] / weight[a][f] - amount * image_[a][f] : 0;
-    });
-    const double step = product / dot(direction_, image_);
-    for_all([&](std::size_t a, std::size_t f) {
-      velocity[a][f] += step * direction_[a][f];
-      residual_[a][f] -= step * image_[a][f];
+    const double work = sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+                          return find_image_of_row(count, amount, &per_weight_[a][f], &direction_[a][f], &image_[a][f]);
+                        }).first;
+    sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+      return step_row(count, product / work, &direction_[a][f], &image_[a][f], &velocity[a][f], &residual_[a][f]);
     });
   }
 }

@@ -2,6 +2,8 @@
 /// What convection and viscosity do to the air's velocities on the faces of a grid.
 #pragma once
 
+#include <vector>
+
 #include "base/parallel.hpp"
 #include "numerics/grid/passages.hpp"
 
@@ -11,6 +13,11 @@ namespace talus::air {
 struct Stream {
   FaceField velocity;  ///< m/s
   FaceField mass;      ///< rho Phi u, kg/(m^2 s)
+};
+
+/// Two sums over a row of faces.
+struct TwoSums {
+  double first = 0, second = 0;
 };
 
 class Transport {
@@ -40,7 +47,8 @@ class Transport {
 
   const Passages& passages_;
   CellField flow_, divergence_;
-  FaceField residual_, direction_, image_, preconditioned_;
+  FaceField residual_, direction_, image_, per_weight_, per_diagonal_;  // of the implicit viscosity
+  std::vector<TwoSums> row_sums_;
 };
 
 }  // namespace talus::air

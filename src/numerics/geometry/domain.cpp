@@ -84,6 +84,15 @@ Domain::Domain(const Box& box, std::vector<Plate> plates, std::vector<Panel> pan
   find_mirrors();
 }
 
+bool Domain::has_gates_due(double time) const {
+  const auto any = [](const auto& walls, auto&& due) {
+    return std::any_of(walls.begin(), walls.end(),
+                       [&](const auto& wall) { return std::any_of(wall.openings.begin(), wall.openings.end(), due); });
+  };
+  return any(plates_, [](const Opening& opening) { return opening.shut; }) ||
+         any(panels_, [&](const Panel::Opening& opening) { return opening.shut && time >= opening.opens_after; });
+}
+
 bool Domain::open_gates(double time) {
   bool any = false;
   const auto open = [&](bool& shut) { any = any || shut, shut = false; };

@@ -58,6 +58,9 @@ class Domain {
   const std::vector<Panel>& panels() const { return panels_; }
   const std::vector<Mirror>& mirrors() const { return mirrors_; }
 
+  /// Whether a gate is still shut that open_gates(time) would open.
+  bool has_gates_due(double time) const;
+
   /// Opens gates for good: every gate of a plate, and those of panels whose time has come.
   /// \param time from the opening of the gate of the case, s; \returns whether any has gone
   bool open_gates(double time = std::numeric_limits<double>::infinity());

@@ -32,6 +32,17 @@ inline Parameters column(double x, double y, double z, double room = 0) {
   return p;
 }
 
+/// Grains that rub, bear no tension, and are fifty times softer than beads.
+inline void make_granular(Parameters& p) {
+  p.law = {};
+  p.law.name = granular::LawName::drucker_prager;
+  p.law.collisions = granular::Collisions::none;
+  p.law.scale = 0.2;
+  p.sph.viscosity_alpha = 0.2;
+  p.sph.smoothing = Smoothing::local;
+  p.walls.friction = Friction::coulomb;
+}
+
 /// A block in the middle of empty space.
 inline Parameters free_block(double x, double y, double z) {
   Parameters p = column(x, y, z);

@@ -17,17 +17,6 @@ void make_liquid(Parameters& p) {
   p.sph.viscosity_alpha = 0.3;
 }
 
-/// Grains that rub, bear no tension, and are fifty times softer than beads.
-void make_granular(Parameters& p) {
-  p.law = {};
-  p.law.name = granular::LawName::drucker_prager;
-  p.law.collisions = granular::Collisions::none;
-  p.law.scale = 0.2;
-  p.sph.viscosity_alpha = 0.2;
-  p.sph.smoothing = Smoothing::local;
-  p.walls.friction = Friction::coulomb;
-}
-
 TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   // A trough with one vertical wall and one inclined by 45 degrees, 12 spacings deep.
   Parameters p = column(30, 1, 24, 10);
