@@ -20,6 +20,18 @@ double cell_size(const Parameters& p) {
   return p.air.cell.value_or(0.75 * p.bed.spacing);
 }
 
+/// Layers of cells nearest to a number of them of which one ends in the plate, if a tenth more or fewer will do.
+int layers_that_meet_the_plate(const Parameters& p, int count) {
+  const auto meets = [&](int layers) {
+    const double layer = *p.plate.height / p.box.height * layers;
+    return layers > 0 && std::abs(layer - std::round(layer)) < 1e-6;
+  };
+  for (int change = 0; 10 * change <= count; ++change)
+    for (const int layers : {count + change, count - change})
+      if (meets(layers)) return layers;
+  return count;
+}
+
 air::Parameters gas_of(const Parameters& p) {
   air::Parameters gas = p.air.gas;
   gas.grain_diameter = p.grains.diameter;
@@ -33,7 +45,8 @@ Grid air_grid(const Parameters& p) {
   Grid grid;
   const Vector3 size = extent(p);
   for (int axis = 0; axis < 3; ++axis) {
-    const int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p))));
+    int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p))));
+    if (axis == 2 && p.plate.height && !p.air.cell) count = layers_that_meet_the_plate(p, count);
     grid.count[static_cast<std::size_t>(axis)] = count;
     grid.spacing[axis] = size[axis] / count;
   }

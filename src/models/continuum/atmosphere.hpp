@@ -16,7 +16,8 @@
 
 namespace talus::continuum {
 
-/// The cells of a case's air: air.cell, fitted to whole numbers of cells along each side of the box.
+/// The cells of a case's air: air.cell, fitted to whole numbers of cells along each side of the box; where it is left
+/// out, along z to the plate too, if that takes no more than a tenth.
 Grid air_grid(const Parameters& parameters);
 
 /// Contradictions between the air's keys and the others; empty without air.

@@ -224,7 +224,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.air.enabled);
   visit(Parameter{"air.cell", dimension::length, above(0),
                   "size of the air's cells, fitted to whole numbers along each side of the box; left out: three "
-                  "quarters of bed.spacing"},
+                  "quarters of bed.spacing, fitted to the plate too"},
         p.air.cell);
   air::for_each_parameter(visit, p.air.gas);
 

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <string>
 
+#include "app/prepared_case.hpp"
 #include "base/error.hpp"
+#include "io/case_file.hpp"
 #include "io/scratch_folder.hpp"
 
 namespace talus::app {
@@ -27,6 +29,16 @@ TEST(Reference, ThoseOfTheStudiesCanBeRead) {
         return std::any_of(c.variants.begin(), c.variants.end(), [&](const auto& v) { return v.label == label; });
       })) << label;
   }
+}
+
+TEST(Reference, EveryRunOfTheStudiesIsAValidCase) {
+  for (const std::string study : {"niiya2020", "yuu2011", "yuu2011/laws"})
+    for (const ReferenceCase& c : read_reference(TALUS_SOURCE_DIR "/validation/" + study + "/reference.toml").cases)
+      for (const ReferenceCase::Variant& variant : c.variants) {
+        CaseFile file = CaseFile::read(TALUS_SOURCE_DIR "/cases/" + c.file);
+        for (const auto& [key, value] : variant.settings) file.set(key + "=" + value);
+        EXPECT_NO_THROW(prepare_case(file)) << study << ' ' << variant.label;
+      }
 }
 
 constexpr const char* head = R"(study = "s"

@@ -189,6 +189,16 @@ TEST(Atmosphere, APressureThatDoesNotConvergeNamesCellAndResidual) {
   }
 }
 
+TEST(Atmosphere, CellsThatNobodyChoseMeetThePlate) {
+  Parameters p = small_hopper();
+  p.air.enabled = true;
+  // 0.75 spacings: 66 2/3 layers, 20 below the plate.
+  EXPECT_EQ(air_grid(p).count[2], 70);
+  EXPECT_TRUE(check_air(p).empty());
+  p.plate.height.reset();
+  EXPECT_EQ(air_grid(p).count[2], 67);
+}
+
 TEST(CheckAir, NamesWhatDoesNotFit) {
   Parameters p = small_hopper_in_air();
   EXPECT_TRUE(check(p).empty());
