@@ -184,12 +184,18 @@ TEST(AirFlow, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
+/// A shaft open above and below, with 5 Pa more below.
+Parameters pressed_from_below() {
   Parameters p;
   p.boundaries = all(FlowBoundary::no_slip);
   p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::free_slip;
   p.boundaries.kind[4] = p.boundaries.kind[5] = FlowBoundary::open;
   p.boundaries.pressure[4] = 5;
+  return p;
+}
+
+TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
+  const Parameters p = pressed_from_below();
   const double h = 1e-3;
   Plate plate{.axis = 2, .position = 8 * h, .openings = {{.low = {3 * h, -1, 0}, .high = {7 * h, 1, 0}, .shut = true}}};
   Case c({.count = {10, 2, 16}, .low = {}, .spacing = {h, h, h}}, p, {plate});
@@ -213,11 +219,7 @@ TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
 
 /// A panel from wall to wall, at an angle, with a gate in its middle.
 TEST(AirFlow, APanelHoldsTheAirUntilItsGateOpens) {
-  Parameters p;
-  p.boundaries = all(FlowBoundary::no_slip);
-  p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::free_slip;
-  p.boundaries.kind[4] = p.boundaries.kind[5] = FlowBoundary::open;
-  p.boundaries.pressure[4] = 5;
+  Parameters p = pressed_from_below();
   p.tolerance = 1e-12;
   const double h = 1e-3;
   Panel panel{.name = "slope", .from = {0, 0, 4 * h}, .to = {10 * h, 0, 11 * h}};
