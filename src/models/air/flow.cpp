@@ -139,7 +139,10 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
   const double rho = parameters_.density();
   transport_.close(stream);
   transport_.convect(team, stream, parameters_.upwind, rate_);
-  if (!implicit_) transport_.spread(team, stream.velocity, stress_);
+  if (implicit_)
+    before_ = stream.velocity;
+  else
+    transport_.spread(team, stream.velocity, stress_);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double area_over_way = grid.face_area(axis) / grid.spacing[axis];
@@ -178,6 +181,7 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
     // With the guessed pressure at work: viscosity then meets the velocity to come, and a steady flow is exact.
     press(1);
     stress_ = stream.velocity;
+    stream.velocity = before_;  // nearer to what comes than what viscosity has not met
     transport_.spread_implicitly(team, stress_, pull_, parameters_.viscosity / rho * dt, stream.velocity);
     press(-1);
   }

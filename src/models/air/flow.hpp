@@ -78,6 +78,7 @@ class AirFlow {
   FaceField void_fraction_, solid_, grain_velocity_;  // on faces
   CellField drag_;                                    // beta of cells, kg/(m^3 s)
   FaceField decay_, pull_, base_, rate_, stress_;     // of a stage, on faces
+  FaceField before_;                                  // velocity before a stage, where viscosity is implicit
   FaceField conductance_;
   CellField source_, guess_;
   Stream stream_;
