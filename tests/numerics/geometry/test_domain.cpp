@@ -86,7 +86,12 @@ TEST(Sees, ThroughTheSlitButNotThroughThePlate) {
   EXPECT_TRUE(domain.sees({50, 2, 101}, {51, 2, 99}));
   EXPECT_FALSE(domain.sees({20, 2, 101}, {21, 2, 99}));
   EXPECT_TRUE(domain.sees({20, 2, 101}, {21, 2, 101.5}));
-  EXPECT_FALSE(hopper(true).sees({50, 2, 101}, {51, 2, 99}));
+  Domain shut = hopper(true);
+  EXPECT_FALSE(shut.sees({50, 2, 101}, {51, 2, 99}));
+  EXPECT_TRUE(shut.has_gates_due(0));
+  shut.open_gates(0);
+  EXPECT_FALSE(shut.has_gates_due(0));
+  EXPECT_TRUE(shut.sees({50, 2, 101}, {51, 2, 99}));
   // At the edge it is where the line between the two passes the plane that counts.
   EXPECT_TRUE(domain.sees({29.5, 2, 101}, {30.7, 2, 99}));
   EXPECT_FALSE(domain.sees({29.5, 2, 101}, {30.4, 2, 99}));

@@ -65,11 +65,15 @@ TEST(Panel, OpensItsGatesAtTheirTimes) {
        {.name = "two", .from = {0, 0, 60}, .to = {100, 0, 60}, .openings = {{40, 60, true, 0.2}, {70, 80, false}}}});
   EXPECT_TRUE(domain.blocks({50, 1, 29}, {50, 1, 31}));
   EXPECT_FALSE(domain.blocks({75, 1, 59}, {75, 1, 61}));
+  EXPECT_TRUE(domain.has_gates_due(0.1));
   domain.open_gates(0.1);
+  EXPECT_FALSE(domain.has_gates_due(0.1));
+  EXPECT_TRUE(domain.has_gates_due(0.2));
   EXPECT_FALSE(domain.blocks({50, 1, 29}, {50, 1, 31}));
   EXPECT_TRUE(domain.blocks({30, 1, 29}, {30, 1, 31}));
   EXPECT_TRUE(domain.blocks({50, 1, 59}, {50, 1, 61}));
   domain.open_gates(0.2);
+  EXPECT_FALSE(domain.has_gates_due(1));
   EXPECT_FALSE(domain.blocks({50, 1, 59}, {50, 1, 61}));
 }
 
