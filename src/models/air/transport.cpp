@@ -126,10 +126,9 @@ TALUS_CLONES TwoSums measure_residual_of_row(int count, const double* per_diagon
   return {square.sum(), product.sum()};
 }
 
-TALUS_CLONES TwoSums turn_row(int count, double turn, const double* per_diagonal, const double* residual,
-                              double* __restrict direction) {
+TALUS_CLONES void turn_row(int count, double turn, const double* per_diagonal, const double* residual,
+                           double* __restrict direction) {
   for (int f = 0; f < count; ++f) direction[f] = per_diagonal[f] * residual[f] + turn * direction[f];
-  return {};
 }
 
 /// \param image in: the stress of the direction; \returns its product with the direction
@@ -143,13 +142,12 @@ TALUS_CLONES TwoSums find_image_of_row(int count, double amount, const double* p
   return {work.sum(), 0};
 }
 
-TALUS_CLONES TwoSums step_row(int count, double step, const double* direction, const double* image,
-                              double* __restrict velocity, double* __restrict residual) {
+TALUS_CLONES void step_row(int count, double step, const double* direction, const double* image,
+                           double* __restrict velocity, double* __restrict residual) {
   for (int f = 0; f < count; ++f) {
     velocity[f] += step * direction[f];
     residual[f] -= step * image[f];
   }
-  return {};
 }
 
 }  // namespace
@@ -260,15 +258,25 @@ int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const
     if (field->front().empty()) *field = grid.face_field();
   double own = 0;  // of the Laplacian and of the gradient of the divergence
   for (int axis = 0; axis < 3; ++axis) own += 2 / (grid.spacing[axis] * grid.spacing[axis]);
-  // Calls body(component, first face, faces) for all rows and adds up what it returns, in the order of the rows.
+  // Calls body(component, first face, faces, row of the component) for all rows of a component.
+  const auto over_rows = [&](int axis, auto&& body) {
+    const std::array<int, 3> faces = passages_.faces(axis);
+    for_each_row(team, grid, faces, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      body(static_cast<std::size_t>(axis), begin, static_cast<int>(end - begin),
+           static_cast<std::size_t>(k * faces[1] + j));
+    });
+  };
+  const auto for_all_rows = [&](auto&& body) {
+    for (int axis = 0; axis < 3; ++axis)
+      over_rows(axis, [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t) { body(a, f, count); });
+  };
+  // Adds up what body returns, in the order of the rows.
   const auto sum_over_rows = [&](auto&& body) {
     TwoSums total;
     for (int axis = 0; axis < 3; ++axis) {
-      const std::array<int, 3> faces = passages_.faces(axis);
-      row_sums_.resize(static_cast<std::size_t>(faces[1] * faces[2]));
-      for_each_row(team, grid, faces, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-        row_sums_[static_cast<std::size_t>(k * faces[1] + j)] =
-            body(static_cast<std::size_t>(axis), begin, static_cast<int>(end - begin));
+      row_sums_.resize(static_cast<std::size_t>(passages_.faces(axis, 1) * passages_.faces(axis, 2)));
+      over_rows(axis, [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t row) {
+        row_sums_[row] = body(a, f, count);
       });
       for (const TwoSums& row : row_sums_) total.first += row.first, total.second += row.second;
     }
@@ -301,16 +309,16 @@ int Transport::spread_implicitly(ThreadTeam& team, const FaceField& start, const
                             .advice = "a shorter air.longest_step"});
     const double turn = product > 0 ? left.second / product : 0;
     product = left.second;
-    sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
-      return turn_row(count, turn, &per_diagonal_[a][f], &residual_[a][f], &direction_[a][f]);
+    for_all_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+      turn_row(count, turn, &per_diagonal_[a][f], &residual_[a][f], &direction_[a][f]);
     });
     wrap(direction_);
     laplace(team, 0, direction_, image_);
     const double work = sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
                           return find_image_of_row(count, amount, &per_weight_[a][f], &direction_[a][f], &image_[a][f]);
                         }).first;
-    sum_over_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
-      return step_row(count, product / work, &direction_[a][f], &image_[a][f], &velocity[a][f], &residual_[a][f]);
+    for_all_rows([&](std::size_t a, std::ptrdiff_t f, int count) {
+      step_row(count, product / work, &direction_[a][f], &image_[a][f], &velocity[a][f], &residual_[a][f]);
     });
   }
 }

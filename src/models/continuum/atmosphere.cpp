@@ -96,7 +96,7 @@ Atmosphere::Atmosphere(const Parameters& p)
       per_solid_volume_(air_grid(p).face_field()) {}
 
 void Atmosphere::open_gates(double time) {
-  if (!domain_.open_gates(time)) return;
+  domain_.open_gates(time);
   deposition_.open_gates(time);
   flow_.set_walls(domain_.plates(), domain_.panels());
 }

@@ -93,15 +93,11 @@ bool Domain::has_gates_due(double time) const {
          any(panels_, [&](const Panel::Opening& opening) { return opening.shut && time >= opening.opens_after; });
 }
 
-bool Domain::open_gates(double time) {
-  bool any = false;
-  const auto open = [&](bool& shut) { any = any || shut, shut = false; };
+void Domain::open_gates(double time) {
   for (Plate& plate : plates_)
-    for (Opening& opening : plate.openings) open(opening.shut);
+    for (Opening& opening : plate.openings) opening.shut = false;
   for (Panel& panel : panels_)
-    for (Panel::Opening& opening : panel.openings)
-      if (time >= opening.opens_after) open(opening.shut);
-  return any;
+    for (Panel::Opening& opening : panel.openings) opening.shut = opening.shut && time < opening.opens_after;
 }
 
 Vector3 Domain::normal(int wall) const {

@@ -62,8 +62,8 @@ class Domain {
   bool has_gates_due(double time) const;
 
   /// Opens gates for good: every gate of a plate, and those of panels whose time has come.
-  /// \param time from the opening of the gate of the case, s; \returns whether any has gone
-  bool open_gates(double time = std::numeric_limits<double>::infinity());
+  /// \param time from the opening of the gate of the case, s
+  void open_gates(double time = std::numeric_limits<double>::infinity());
 
   /// Unit normal of a wall, along its axis where it has one. \param wall number of a face, plate or panel
   Vector3 normal(int wall) const;
