@@ -97,7 +97,8 @@ struct BeginRow {
   const double *open, *wall, *drive, *weight, *start, *velocity, *stress;
 };
 
-/// \returns square of the source
+/// \param amount kinematic viscosity times time, m^2; \param own diagonal of -(laplacian + grad div/3) away from rough
+/// walls, 1/m^2; \returns square of the source
 TALUS_CLONES TwoSums begin_row(int count, double amount, double own, const BeginRow& row, double* __restrict per_weight,
                                double* __restrict per_diagonal, double* __restrict residual,
                                double* __restrict direction) {

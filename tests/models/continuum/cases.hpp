@@ -2,6 +2,7 @@
 /// Small cases for the tests of the continuum model.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "models/continuum/model.hpp"
@@ -95,6 +96,18 @@ inline Continuum started(const Parameters& p, ThreadTeam& team) {
   Continuum model(p);
   model.begin(team);
   return model;
+}
+
+/// Lets the bed settle, and go on for a while. \returns mean force on each wall over that while, N
+inline std::array<Vector3, most_walls> settled_wall_forces(Continuum& model, ThreadTeam& team, double duration) {
+  const State& s = model.state();
+  while (s.gate_time < 0) model.advance(team);
+  const auto before = s.wall_impulse;
+  const double begin = s.time;
+  while (s.time < begin + duration) model.advance(team);
+  std::array<Vector3, most_walls> force{};
+  for (std::size_t w = 0; w < most_walls; ++w) force[w] = (1 / (s.time - begin)) * (s.wall_impulse[w] - before[w]);
+  return force;
 }
 
 /// A bed on a plate with a slit.

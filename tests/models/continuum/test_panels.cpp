@@ -28,12 +28,7 @@ TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   ThreadTeam team(2);
   Continuum model = started(p, team);
   const State& s = model.state();
-  while (s.gate_time < 0) model.advance(team);
-  const auto before = s.wall_impulse;
-  const double begin = s.time;
-  while (s.time < begin + 0.05) model.advance(team);
-  std::array<Vector3, most_walls> force{};
-  for (std::size_t w = 0; w < most_walls; ++w) force[w] = (1 / (s.time - begin)) * (s.wall_impulse[w] - before[w]);
+  const auto force = settled_wall_forces(model, team, 0.05);
   const double weight = s.mass * 9.81 * double(s.position.size());
   // Exact: the level of as much liquid, A = 10 H + H^2/2 spacings squared, H its depth.
   const double area = double(s.position.size()) * spacing * spacing;

@@ -108,12 +108,8 @@ TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
   ThreadTeam team(1);
   Continuum model = started(p, team);
   const State& s = model.state();
-  while (s.gate_time < 0) model.advance(team);
-  const auto before = s.wall_impulse;
-  const double begin = s.time;
-  while (s.time < begin + 0.02) model.advance(team);
-  const auto force = [&](std::size_t wall) { return (1 / (s.time - begin)) * (s.wall_impulse[wall] - before[wall]); };
-  const Vector3 left = force(0), right = force(1), floor = force(4);
+  const auto force = settled_wall_forces(model, team, 0.02);
+  const Vector3 left = force[0], right = force[1], floor = force[4];
   const double weight = s.mass * static_cast<double>(s.position.size()) * 9.81;
   EXPECT_NEAR(-(left.z + right.z + floor.z) / weight, 1, 0.005);
   EXPECT_NEAR(left.z, right.z, 1e-6 * weight);
