@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A time step of the air in the hopper of Yuu & Umekage 2011: 80 x 4 x 200 cells, 9000 lumps above a plate with an
-/// open slit that they fall through, in steps of 100 us; and what it takes to spread the lumps over the cells.
+/// A time step of the air in the hopper of Yuu & Umekage 2011: 80 x 4 x 200 cells, 9000 particles above a plate with an
+/// open slit that they fall through, in steps of 100 us; and what it takes to spread the particles over the cells.
 #include <benchmark/benchmark.h>
 
 #include "models/air/flow.hpp"

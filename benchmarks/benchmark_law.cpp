@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A constitutive law applied to all lumps of the hopper's bed: what one evaluation of the stress costs.
+/// A constitutive law applied to all particles of the hopper's bed: what one evaluation of the stress costs.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -13,12 +13,12 @@ namespace {
 /// \tparam Number double, or lanes
 template <class Number>
 void update_bed(benchmark::State& state, const LawParameters& parameters) {
-  constexpr std::size_t lumps = 9000, each = sizeof(Number) / sizeof(double);
+  constexpr std::size_t particles = 9000, each = sizeof(Number) / sizeof(double);
   const AnyLaw any = make_law(parameters, 2500);
   std::visit(
       [&]<class Law>(const Law& law) {
         Random random(1);
-        const std::size_t count = lumps / each;
+        const std::size_t count = particles / each;
         std::vector<MaterialPoint<Law, Number>> old(count), next(count);
         std::vector<Tensor3<Number>> gradient(count);
         std::vector<Number> density(count);
@@ -36,7 +36,7 @@ void update_bed(benchmark::State& state, const LawParameters& parameters) {
         }
       },
       any);
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * lumps));
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * particles));
 }
 
 void isotropic(benchmark::State& state) {

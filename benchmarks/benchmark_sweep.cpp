@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What a step of the continuum costs, and its parts: the sums over pairs with the packing of records, a rebuild of the
-/// neighbour lists, the law applied to all lumps, whole steps. The bed of the paper's hopper (60 x 3 x 50 lumps between
-/// mirrors, some 37 neighbours each) and one of 100,000 lumps; arguments: lumps along x, y, z, and threads.
+/// neighbour lists, the law applied to all particles, whole steps. The bed of the paper's hopper (60 x 3 x 50 particles
+/// between mirrors, some 37 neighbours each) and one of 100,000 particles; arguments: particles along x, y, z, and
+/// threads.
 #include <benchmark/benchmark.h>
 
 #include "base/random.hpp"
@@ -11,7 +12,7 @@
 namespace talus::continuum {
 namespace {
 
-/// The bed at rest on an open slit, its lumps a little out of place.
+/// The bed at rest on an open slit, its particles a little out of place.
 struct Bed {
   Parameters parameters;
   State state;
@@ -59,7 +60,7 @@ struct Bed {
   }
 };
 
-/// Neighbours of all lumps, images among them.
+/// Neighbours of all particles, images among them.
 std::size_t pairs_of(const Bed& bed) {
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < bed.h.size(); ++i) pairs += bed.sweep.neighbourhood().of(i).size();

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents against the tree: links, paths in backticks, and the functions and tests that EQUATIONS.md names."""
+"""Checks the documents against the tree: the width of prose, links, paths in backticks, and the functions and tests that
+EQUATIONS.md names."""
 
 import argparse
 import pathlib
@@ -10,6 +11,7 @@ import sys
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\s]+)`")
+WIDTH = 100  # of prose; tables, code and what cannot be broken may be wider
 FOLDERS = ("src/", "tests/", "cases/", "docs/", "tools/", "validation/", "benchmarks/", "web/")
 
 
@@ -26,6 +28,14 @@ def lines_of(path):
             fenced = not fenced
         elif not fenced:
             yield number, line
+
+
+def check_width(root, documents):
+    for path in documents:
+        for number, line in lines_of(path):
+            breakable = " " in re.sub("`[^`]*`", "code", line).lstrip("-*> 0123456789.").strip()
+            if len(line) > WIDTH and breakable and not line.startswith(("|", "    ", "#", "![")):
+                yield f"{path.relative_to(root)}:{number}: the line has {len(line)} characters; wrap at {WIDTH}"
 
 
 def check_links(root, documents):
@@ -74,7 +84,7 @@ def main():
     parser.add_argument("root", nargs="?", default=pathlib.Path(__file__).resolve().parent.parent, type=pathlib.Path)
     root = parser.parse_args().root
     documents = tracked(root, "*.md")
-    problems = [*check_links(root, documents), *check_paths(root, documents), *check_equations(root)]
+    problems = [*check_width(root, documents), *check_links(root, documents), *check_paths(root, documents), *check_equations(root)]
     print("\n".join(problems), end="\n" if problems else "")
     return 1 if problems else 0
 

@@ -35,32 +35,32 @@ Section empty_section(const Box& box, double width, double height) {
 
 }  // namespace
 
-Section packing_section(const Lumps& lumps, const Domain& domain, double width, double height) {
+Section packing_section(const Particles& particles, const Domain& domain, double width, double height) {
   const Box& box = domain.box();
   Section section = empty_section(box, width, height);
   double reach = 0;
-  for (const double h : lumps.smoothing_length) reach = std::max(reach, sph::support * h);
+  for (const double h : particles.smoothing_length) reach = std::max(reach, sph::support * h);
   // Images along y are in the line's integral already.
   std::vector<Image> images = domain.images(reach);
   std::erase_if(images, [](const Image& image) { return image.copy[1] != 0; });
   images.insert(images.begin(), Image{});
 
   const double middle = 0.5 * (box.low.y + box.high.y), depth = box.extent(1);
-  for (std::size_t i = 0; i < lumps.position.size(); ++i) {
-    const double h = lumps.smoothing_length[i], support = sph::support * h;
-    const Vector3 source{lumps.position[i].x, middle, lumps.position[i].z};
+  for (std::size_t i = 0; i < particles.position.size(); ++i) {
+    const double h = particles.smoothing_length[i], support = sph::support * h;
+    const Vector3 source{particles.position[i].x, middle, particles.position[i].z};
     for (const Image& image : images) {
       if (!domain.is_near(image, image.position(source), support)) continue;
-      const Vector3 lump = image.position(source);
-      const Cells along_x = cells_within(lump.x, support, section.x0, section.width, section.columns);
-      const Cells along_z = cells_within(lump.z, support, section.z0, section.height, section.rows);
+      const Vector3 particle = image.position(source);
+      const Cells along_x = cells_within(particle.x, support, section.x0, section.width, section.columns);
+      const Cells along_z = cells_within(particle.z, support, section.z0, section.height, section.rows);
       for (std::size_t row = along_z.first; row < along_z.last; ++row)
         for (std::size_t column = along_x.first; column < along_x.last; ++column) {
           const Vector3 cell{section.x(column), middle, section.z(row)};
-          const double distance = std::hypot(cell.x - lump.x, cell.z - lump.z);
+          const double distance = std::hypot(cell.x - particle.x, cell.z - particle.z);
           if (distance < support && domain.sees(cell, source, image))
             section.value[row * section.columns + column] +=
-                lumps.solid_volume / depth * sph::cubic_spline_line(distance, h);
+                particles.solid_volume / depth * sph::cubic_spline_line(distance, h);
         }
     }
   }

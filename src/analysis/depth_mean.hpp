@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Packing in the plane x, z as the mean over the depth y: what a camera in front of a flat vessel sees. Each lump is
-/// spread by its kernel, integrated along y; between mirror or periodic faces that is the exact mean. What the kernel
-/// spreads beyond open front and rear faces counts as if it lay between them.
+/// Packing in the plane x, z as the mean over the depth y: what a camera in front of a flat vessel sees. Each particle
+/// is spread by its kernel, integrated along y; between mirror or periodic faces that is the exact mean. What the
+/// kernel spreads beyond open front and rear faces counts as if it lay between them.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
-#include "analysis/lump_field.hpp"
+#include "analysis/particle_field.hpp"
 
 namespace talus {
 
@@ -24,7 +24,7 @@ struct Section {
 };
 
 /// Packing at the centres of cells that fill the domain's box, about `width` wide and `height` high: whole numbers of
-/// them. Images at the side walls, the floor and plates count as in LumpField. \param width, height > 0, m
-Section packing_section(const Lumps& lumps, const Domain& domain, double width, double height);
+/// them. Images at the side walls, the floor and plates count as in ParticleField. \param width, height > 0, m
+Section packing_section(const Particles& particles, const Domain& domain, double width, double height);
 
 }  // namespace talus

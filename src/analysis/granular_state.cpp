@@ -52,7 +52,7 @@ double stress_ratio(const Snapshot& snapshot, std::span<const double> inertial, 
   return vertical > 0 ? horizontal / vertical : none;
 }
 
-GradientSizes velocity_gradient_sizes(const LumpField& field, std::span<const Vector3> velocity,
+GradientSizes velocity_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity,
                                       std::span<const double> packing, double diameter, double gravity) {
   std::vector<double> shear, normal;
   const double unit = std::sqrt(diameter / gravity);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The mechanical state of grains as a continuum: inertial number, ratio of stresses, gradients of velocity, shares of
-/// packing. One entry a lump in every column; stresses in Pa, compression positive.
+/// packing. One entry a particle in every column; stresses in Pa, compression positive.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "analysis/lump_field.hpp"
+#include "analysis/particle_field.hpp"
 #include "base/vector.hpp"
 #include "numerics/snapshot.hpp"
 
@@ -18,36 +18,37 @@ namespace talus {
 /// stress, Pa; \param diameter m; \param grain_density kg/m^3
 double inertial_number(double shear_rate, double pressure, double diameter, double grain_density);
 
-/// Inertial number of every lump, from the columns shear_rate, stress_xx, stress_yy, stress_zz.
+/// Inertial number of every particle, from the columns shear_rate, stress_xx, stress_yy, stress_zz.
 std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density);
 
-/// Share of the lumps at or above a height whose inertial number is below 1e-2; nan if there are none.
+/// Share of the particles at or above a height whose inertial number is below 1e-2; nan if there are none.
 double inertial_share(std::span<const Vector3> position, std::span<const double> inertial, double height);
 
-/// Which lumps count as quasi-static grains.
+/// Which particles count as quasi-static grains.
 struct QuasistaticRule {
   double packing = 0.55;          ///< above
   double inertial_number = 1e-3;  ///< below
   double stress_zz = 50;          ///< above, Pa
 };
-/// Horizontal over vertical stress, sum of stress_xx over sum of stress_zz of the quasi-static lumps: a mean weighted
-/// with the vertical stress. nan if there are none.
+/// Horizontal over vertical stress, sum of stress_xx over sum of stress_zz of the quasi-static particles: a mean
+/// weighted with the vertical stress. nan if there are none.
 double stress_ratio(const Snapshot& snapshot, std::span<const double> inertial, const QuasistaticRule& rule = {});
 
-/// Sizes of the components of the velocity's gradient over the lumps with packing above 0.5, times (D/g)^(1/2).
+/// Sizes of the components of the velocity's gradient over the particles with packing above 0.5, times (D/g)^(1/2).
 struct GradientSizes {
   double shear_max = 0, normal_max = 0;                ///< largest |du_i/dx_j| with i != j, with i = j
-  double shear_percentile = 0, normal_percentile = 0;  ///< 99.9th percentile over the lumps of each one's largest
+  double shear_percentile = 0, normal_percentile = 0;  ///< 99.9th percentile over the particles of each one's largest
 };
-/// \param packing of each lump; nan if no lump is that dense
-GradientSizes velocity_gradient_sizes(const LumpField& field, std::span<const Vector3> velocity,
+/// \param packing of each particle; nan if no particle is that dense
+GradientSizes velocity_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity,
                                       std::span<const double> packing, double diameter, double gravity);
 
-/// Mean over the lumps taken of |density/(packing rho_p) - 1|: how far the density by continuity is from the kernel's.
+/// Mean over the particles taken of |density/(packing rho_p) - 1|: how far the density by continuity is from the
+/// kernel's.
 double density_drift(std::span<const double> density, std::span<const double> packing, double grain_density,
                      const std::vector<bool>& taken);
 
-/// Quantile of the values of the lumps taken; nan if there are none.
+/// Quantile of the values of the particles taken; nan if there are none.
 double quantile_of(std::span<const double> values, const std::vector<bool>& taken, double probability);
 
 }  // namespace talus

@@ -25,9 +25,9 @@ constexpr double profile_height = 120e-3, profile_left = 30e-3, profile_right = 
 constexpr double above_from = 90e-3, above_to = 100e-3, below_from = 40e-3, below_to = 60e-3;  // layers of the stream
 constexpr double stream_from = 40e-3, stream_to = 90e-3, stripes_to = 95e-3;
 
-Lumps lumps_of(const Snapshot& snapshot, const HopperSetting& s) {
-  return lumps_of_density(snapshot.positions(), snapshot.scalars("density"), s.lump_mass, s.grain_density,
-                          s.smoothing_length);
+Particles particles_of(const Snapshot& snapshot, const HopperSetting& s) {
+  return particles_of_density(snapshot.positions(), snapshot.scalars("density"), s.particle_mass, s.grain_density,
+                              s.smoothing_length);
 }
 
 Domain domain_at(const HopperSetting& setting, bool gate_is_open) {
@@ -60,7 +60,8 @@ bool stream_is_free(const FreeSurface& bin, const HopperShape::Plate& plate) {
   return true;
 }
 
-void measure_stream(HopperFrame& frame, const Snapshot& snapshot, const LumpField& field, const HopperShape& shape) {
+void measure_stream(HopperFrame& frame, const Snapshot& snapshot, const ParticleField& field,
+                    const HopperShape& shape) {
   frame.stream_width_above = stream_width(snapshot.positions(), above_from, above_to);
   frame.stream_width_below = stream_width(snapshot.positions(), below_from, below_to);
   frame.stream_packing = mean_between(snapshot.positions(), snapshot.scalars("packing"), stream_from, stream_to);
@@ -70,7 +71,8 @@ void measure_stream(HopperFrame& frame, const Snapshot& snapshot, const LumpFiel
   if (mean(along) > 0) frame.stream_stripes = standard_deviation(along) / mean(along);
 }
 
-void measure_hopper(HopperFrame& frame, const Snapshot& snapshot, const LumpField& field, const HopperShape& shape) {
+void measure_hopper(HopperFrame& frame, const Snapshot& snapshot, const ParticleField& field,
+                    const HopperShape& shape) {
   std::vector<double> velocity, packing;
   for (double x = profile_left; x < profile_right; x += hopper_cell) {
     const Vector3 cell = cell_centre({x, 0.5 * shape.depth, profile_height}, hopper_cell);
@@ -85,7 +87,7 @@ double imbalance_in_bin(std::span<const Vector3> position, const HopperSetting& 
   double difference = 0;
   for (const Vector3& x : position)
     if (x.z < setting.shape.bin().top) difference += x.x < setting.shape.middle() ? -1 : 1;
-  return std::abs(difference) / setting.lumps;
+  return std::abs(difference) / setting.particles;
 }
 
 std::vector<bool> without_nan(std::vector<bool> taken, std::span<const double> values) {
@@ -97,7 +99,7 @@ std::vector<bool> without_nan(std::vector<bool> taken, std::span<const double> v
 
 HopperView hopper_view(const Snapshot& snapshot, const HopperSetting& setting, bool gate_is_open) {
   const double h = setting.shape.spacing;
-  HopperView view{packing_section(lumps_of(snapshot, setting), domain_at(setting, gate_is_open), h, 0.5 * h), {}};
+  HopperView view{packing_section(particles_of(snapshot, setting), domain_at(setting, gate_is_open), h, 0.5 * h), {}};
   view.surfaces = hopper_surfaces(view.packing, setting.shape);
   return view;
 }
@@ -108,11 +110,11 @@ HopperFrame hopper_frame(const Snapshot& snapshot, const Snapshot* before, const
   const bool open = frame.time >= 0;
   const auto position = snapshot.positions();
   const auto packing = snapshot.scalars("packing");
-  frame.mass = static_cast<double>(position.size()) * setting.lump_mass;
+  frame.mass = static_cast<double>(position.size()) * setting.particle_mass;
   if (position.empty()) return frame;
 
   const HopperView view = hopper_view(snapshot, setting, open);
-  const std::vector<bool> deep = deep_lumps(position, view.surfaces, setting.shape);
+  const std::vector<bool> deep = deep_particles(position, view.surfaces, setting.shape);
   measure_surfaces(frame, view, setting.shape);
   frame.packing_max = quantile(packing, nearly_all);
   frame.packing_max_outside_impact =
@@ -127,7 +129,7 @@ HopperFrame hopper_frame(const Snapshot& snapshot, const Snapshot* before, const
   frame.stress_ratio = stress_ratio(snapshot, inertial);
   frame.inertial_share = inertial_share(position, inertial, setting.shape.plate ? setting.shape.plate->height : 0);
 
-  const LumpField field(lumps_of(snapshot, setting), domain_at(setting, open));
+  const ParticleField field(particles_of(snapshot, setting), domain_at(setting, open));
   const GradientSizes sizes =
       velocity_gradient_sizes(field, snapshot.vectors("velocity"), packing, setting.grain_diameter, setting.gravity);
   frame.velocity_gradient_shear_max = sizes.shear_max;

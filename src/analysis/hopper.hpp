@@ -20,14 +20,14 @@ namespace talus {
 /// What the case says. SI.
 struct HopperSetting {
   HopperShape shape;
-  Domain domain;         ///< as at the start: the gate shut
-  double lump_mass = 0;  ///< kg
-  double lumps = 0;      ///< at the start
+  Domain domain;             ///< as at the start: the gate shut
+  double particle_mass = 0;  ///< kg
+  double particles = 0;      ///< at the start
   double grain_density = 0, grain_diameter = 0, gravity = 0;
-  std::optional<double> smoothing_length = {};  ///< of all lumps; left out: of each from its density
+  std::optional<double> smoothing_length = {};  ///< of all particles; left out: of each from its density
   bool air = false;
 
-  double mass() const { return lumps * lump_mass; }
+  double mass() const { return particles * particle_mass; }
 };
 
 /// Edge of the cells in which values at places are taken: those of the paper's air.
@@ -54,7 +54,7 @@ struct HopperFrame {
   double corner_packing_ratio_hopper = none, corner_packing_ratio_bin = none;
   double hopper_velocity = none, hopper_packing = none;  ///< u_z in m/s
   double left_right_imbalance = none;
-  double mass = none;  ///< of all lumps, kg
+  double mass = none;  ///< of all particles, kg
   // Of the air, hopper_air.hpp; velocities along z.
   double drag_to_weight = none;
   double air_pressure_drop_height = none, air_pressure_outside_inside = none;

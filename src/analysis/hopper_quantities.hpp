@@ -25,14 +25,14 @@ double hopper_pair_quantity(std::string_view name, const HopperRun& first, const
 /// place for (a slit's without a plate) are left out.
 std::vector<NamedValue> hopper_summary(const HopperRun& run);
 
-/// Mass of the lumps below the plate against the time from the gate's opening, kg. Without points if the series lacks
-/// the column.
+/// Mass of the particles below the plate against the time from the gate's opening, kg. Without points if the series
+/// lacks the column.
 Curve discharged_mass(const HopperRun& run);
-/// The same over the mass of all lumps at the start.
+/// The same over the mass of all particles at the start.
 Curve discharged_share(const HopperRun& run);
 
-/// Integral of the discharge Q, kg: of lumps spread along z by the kernel. Of this all rates are made: counted whole,
-/// the lumps' layers would pass one by one, with a period h/u of their own.
+/// Integral of the discharge Q, kg: of particles spread along z by the kernel. Of this all rates are made: counted
+/// whole, the particles' layers would pass one by one, with a period h/u of their own.
 Curve passed_mass(const HopperRun& run);
 
 }  // namespace talus

@@ -39,8 +39,8 @@ HopperSurfaces hopper_surfaces(const Section& packing, const HopperShape& shape)
   return {free_surface(packing, shape.bin()), shape.plate ? free_surface(packing, shape.hopper()) : FreeSurface{}};
 }
 
-std::vector<bool> deep_lumps(std::span<const Vector3> position, const HopperSurfaces& surfaces,
-                             const HopperShape& shape) {
+std::vector<bool> deep_particles(std::span<const Vector3> position, const HopperSurfaces& surfaces,
+                                 const HopperShape& shape) {
   const double least = depth_in_spacings * shape.spacing;
   std::vector<bool> deep;
   for (const Vector3& x : position) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where lumps are in a hopper above a bin: deep below a free surface, in the stream below the slit, in a corner, near
-/// the place where the stream strikes. x across, z up from the bin's floor.
+/// Where particles are in a hopper above a bin: deep below a free surface, in the stream below the slit, in a corner,
+/// near the place where the stream strikes. x across, z up from the bin's floor.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct HopperShape {
     double slit_left = 0, slit_right = 0;  ///< of its slit, x, m
   };
   std::optional<Plate> plate = {};
-  double spacing = 0;  ///< h, of the lumps at the start, m
+  double spacing = 0;  ///< h, of the particles at the start, m
 
   double middle() const { return 0.5 * width; }
   Vessel bin() const;
@@ -35,24 +35,24 @@ struct HopperSurfaces {
 };
 HopperSurfaces hopper_surfaces(const Section& packing, const HopperShape& shape);
 
-/// The lumps deeper than 3 h below the free surface of their vessel, and not within 3 h of the slit's opening in z.
-std::vector<bool> deep_lumps(std::span<const Vector3> position, const HopperSurfaces& surfaces,
-                             const HopperShape& shape);
+/// The particles deeper than 3 h below the free surface of their vessel, and not within 3 h of the slit's opening in z.
+std::vector<bool> deep_particles(std::span<const Vector3> position, const HopperSurfaces& surfaces,
+                                 const HopperShape& shape);
 
-/// The lumps farther than `distance` from where the stream strikes: the stretch below the slit, as high as the bin's
-/// surface there (the median; of the whole surface where the stream hides it; the floor before there is one).
+/// The particles farther than `distance` from where the stream strikes: the stretch below the slit, as high as the
+/// bin's surface there (the median; of the whole surface where the stream hides it; the floor before there is one).
 std::vector<bool> outside_impact(std::span<const Vector3> position, const FreeSurface& bin, const HopperShape& shape,
                                  double distance);
 
-/// Distance in x between the 5th and the 95th percentile of the lumps with from <= z < to; nan if there are none.
+/// Distance in x between the 5th and the 95th percentile of the particles with from <= z < to; nan if there are none.
 double stream_width(std::span<const Vector3> position, double from, double to);
 
-/// Mean of a column over the lumps with from < z < to; nan if there are none.
+/// Mean of a column over the particles with from < z < to; nan if there are none.
 double mean_between(std::span<const Vector3> position, std::span<const double> values, double from, double to);
 
 /// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the layer of
 /// that height deeper than 3 h below the surface, both without the outermost h/2 at walls and bottom. From the cells of
-/// a section, so that it does not matter how lumps stand at the wall. nan if either is empty.
+/// a section, so that it does not matter how particles stand at the wall. nan if either is empty.
 double corner_packing_ratio(const Section& packing, const FreeSurface& surface, const Vessel& vessel,
                             const HopperShape& shape, double size);
 

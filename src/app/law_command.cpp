@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// talus law: the constitutive law of a case, tried on one lump of grains.
+/// talus law: the constitutive law of a case, tried on one material point.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -89,7 +89,8 @@ ExitStatus follow(const LawOptions& options) {
 
 void add_law_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<LawOptions>();
-  CLI::App* command = app.add_subcommand("law", "lead one lump of grains through a path: its stress as table and plot");
+  CLI::App* command =
+      app.add_subcommand("law", "lead one material point through a path of strain: its stress as table and plot");
   options->case_options.add_to(*command);
   command->add_option("--path", options->path, "the path (CSV); see below")->required();
   command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");

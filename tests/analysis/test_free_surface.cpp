@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "analysis/heap_slopes.hpp"
-#include "analysis/lumps.hpp"
+#include "analysis/particles.hpp"
 
 namespace talus {
 namespace {
@@ -22,16 +22,16 @@ constexpr double degree = std::numbers::pi / 180;
 template <class Height>
 FreeSurface surface_of(Height&& z) {
   const auto points = lattice(width, depth, 0, height, h, [&](double x, double at) { return at < z(x); });
-  return free_surface(packing_section(test::lumps(points, h), box(width, depth, height), h, 0.5 * h), {0, height});
+  return free_surface(packing_section(test::particles(points, h), box(width, depth, height), h, 0.5 * h), {0, height});
 }
 
 TEST(PackingSection, IsTheMeanOverTheDepth) {
   const auto points = lattice(width, depth, 0, 0.1, h, [](double x, double z) { return x + z < 0.15; });
   const Domain domain = box(width, depth, height, {test::plate(0.06, 0.05, 0.15, depth)});
-  const Section section = packing_section(test::lumps(points, h), domain, h, 0.5 * h);
+  const Section section = packing_section(test::particles(points, h), domain, h, 0.5 * h);
   EXPECT_EQ(section.columns, 100u);
   EXPECT_EQ(section.rows, 200u);
-  const LumpField field(test::lumps(points, h), domain);
+  const ParticleField field(test::particles(points, h), domain);
   for (const auto& [column, row] : {std::pair{0, 0}, {50, 58}, {50, 60}, {49, 59}, {70, 5}, {80, 61}, {24, 99}}) {
     double mean = 0;
     const int steps = 48;
@@ -86,7 +86,7 @@ TEST(FreeSurface, AStreamThatFallsIsNoSurface) {
   const auto points = lattice(width, depth, 0, height, h, [](double x, double z) {
     return z < 0.04 || (std::abs(x - 0.1) < 0.02 && z > 0.05) || (std::abs(x - 0.05) < 0.005 && z > 0.1 && z < 0.12);
   });
-  const Section section = packing_section(test::lumps(points, h), box(width, depth, height), h, 0.5 * h);
+  const Section section = packing_section(test::particles(points, h), box(width, depth, height), h, 0.5 * h);
   const FreeSurface from_below = free_surface(section, {0, 0.15, Vessel::Search::from_below});
   for (const double z : from_below.z) EXPECT_NEAR(z, 0.04, 0.1 * h);
   const FreeSurface from_above = free_surface(section, {0, 0.15, Vessel::Search::from_above});
@@ -95,7 +95,7 @@ TEST(FreeSurface, AStreamThatFallsIsNoSurface) {
   const auto joined =
       lattice(width, depth, 0, height, h, [](double x, double z) { return z < 0.04 || std::abs(x - 0.1) < 0.02; });
   const FreeSurface hidden =
-      free_surface(packing_section(test::lumps(joined, h), box(width, depth, height), h, 0.5 * h),
+      free_surface(packing_section(test::particles(joined, h), box(width, depth, height), h, 0.5 * h),
                    {0, 0.15, Vessel::Search::from_below});
   EXPECT_TRUE(std::isnan(hidden.height(0.1)));
   EXPECT_NEAR(hidden.height(0.05), 0.04, 0.1 * h);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analysis/displacement.hpp"
-#include "analysis/lumps.hpp"
+#include "analysis/particles.hpp"
 
 namespace talus {
 namespace {
@@ -17,7 +17,7 @@ TEST(InertialNumber, OfAState) {
   EXPECT_EQ(inertial_number(1, -3, 1, 1), std::numeric_limits<double>::infinity());
 }
 
-/// Lumps one above the other: two at rest under stress, one in shear, one free.
+/// Particles one above the other: two at rest under stress, one in shear, one free.
 test::GrainColumns four() {
   test::GrainColumns c({{0, 0, 0.05}, {0, 0, 0.15}, {0, 0, 0.16}, {0, 0, 0.17}}, 1500, 2500);
   c.stress_xx = {60, 140, 1000, 0};
@@ -57,7 +57,7 @@ TEST(VelocityGradientSizes, OfSimpleShearAndCompression) {
   std::vector<Vector3> velocity;
   for (const Vector3& x : points) velocity.push_back({7 * x.z - x.x, 0, 0});
   std::vector<double> packing(points.size(), 0.6);
-  const LumpField field(test::lumps(points, h), domain);
+  const ParticleField field(test::particles(points, h), domain);
   const GradientSizes sizes = velocity_gradient_sizes(field, velocity, packing, 200e-6, 9.8);
   const double unit = std::sqrt(200e-6 / 9.8);
   EXPECT_NEAR(sizes.shear_max, 7 * unit, 1e-12);

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "analysis/hopper_quantities.hpp"
-#include "analysis/lumps.hpp"
+#include "analysis/particles.hpp"
 #include "analysis/quantities.hpp"
 
 namespace talus {
@@ -19,14 +19,14 @@ using std::numbers::pi;
 // The paper's box: 100 x 5 x 250 mm, the plate at 100 mm, its slit from 30 to 70 mm; h = 5/3 mm.
 constexpr double width = 0.1, depth = 5e-3, height = 0.25, plate = 0.1, h = 5e-3 / 3;
 constexpr double grain_density = 2500, bulk_density = 1500;
-constexpr double lump_mass = bulk_density * h * h * h;
+constexpr double particle_mass = bulk_density * h * h * h;
 constexpr double gate = 0.25;  // s, in the run's time
 
 HopperSetting setting() {
   return {.shape = {width, depth, height, HopperShape::Plate{plate, 0.03, 0.07}, h},
           .domain = test::box(width, depth, height, {test::plate(plate, 0.03, 0.07, depth)}),
-          .lump_mass = lump_mass,
-          .lumps = 9000,
+          .particle_mass = particle_mass,
+          .particles = 9000,
           .grain_density = grain_density,
           .grain_diameter = 200e-6,
           .gravity = 9.8};
@@ -70,7 +70,7 @@ TEST(Hopper, FrameOfTwoHeaps) {
   EXPECT_NEAR(frame.corner_packing_ratio_bin, 1, 0.01);
   EXPECT_EQ(frame.velocity_gradient_shear_max, 0);
   EXPECT_TRUE(std::isnan(frame.stream_packing)) << "the heap has grown into it";
-  EXPECT_DOUBLE_EQ(frame.mass, lump_mass * double(now.position.size()));
+  EXPECT_DOUBLE_EQ(frame.mass, particle_mass * double(now.position.size()));
   EXPECT_TRUE(std::isnan(hopper_frame(now.view(), nullptr, setting(), gate).quiescent_speed));
 }
 
@@ -84,7 +84,7 @@ TEST(Hopper, FrameOfAStream) {
   test::GrainColumns now(points, bulk_density, grain_density, gate + 0.2);
   for (std::size_t i = bed; i < points.size(); ++i) now.packing[i] = 0.4;
   for (std::size_t i = 0; i < points.size(); ++i) now.velocity[i].z = i < bed ? -0.2 : -1;
-  now.packing[bed - 1] = 0.9;  // one lump is no percentile
+  now.packing[bed - 1] = 0.9;  // one particle is no percentile
   const HopperFrame frame = hopper_frame(now.view(), nullptr, setting(), gate);
   EXPECT_NEAR(frame.stream_width_below / frame.stream_width_above, 0.5, 0.1);
   EXPECT_NEAR(frame.stream_packing, 0.4, 1e-12);

@@ -44,8 +44,8 @@ struct Air {
 HopperSetting setting() {
   return {.shape = {.width = 0.1, .depth = 5e-3, .height = 0.25, .plate = {{0.1, 0.03, 0.07}}, .spacing = 1.67e-3},
           .domain = Domain({.low = {}, .high = {0.1, 5e-3, 0.25}, .faces = {}}, {}),
-          .lump_mass = 1,
-          .lumps = 1,
+          .particle_mass = 1,
+          .particles = 1,
           .grain_density = 2500,
           .grain_diameter = 200e-6,
           .gravity = 9.81};

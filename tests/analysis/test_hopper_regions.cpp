@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "analysis/lumps.hpp"
+#include "analysis/particles.hpp"
 
 namespace talus {
 namespace {
@@ -25,17 +25,18 @@ FreeSurface level(double height) {
   return surface;
 }
 
-TEST(DeepLumps, LieBelowTheSurfaceOfTheirVessel) {
+TEST(DeepParticles, LieBelowTheSurfaceOfTheirVessel) {
   const std::vector<Vector3> points = {
       {0.01, 0, 0.01},  {0.01, 0, 0.0139}, {0.01, 0, 0.0141},  // bin: the surface is at 20 mm
       {0.05, 0, 0.08},                                         // in the air
       {0.01, 0, 0.101}, {0.05, 0, 0.104},  {0.05, 0, 0.107},   // hopper; two of them over the slit
       {0.01, 0, 0.149}};
-  EXPECT_THAT(deep_lumps(points, {level(0.02), level(0.15)}, shape),
+  EXPECT_THAT(deep_particles(points, {level(0.02), level(0.15)}, shape),
               ElementsAre(true, true, false, false, true, false, true, false));
   HopperShape box = shape;
   box.plate.reset();
-  EXPECT_THAT(deep_lumps(points, {level(0.12), {}}, box), ElementsAre(true, true, true, true, true, true, true, false));
+  EXPECT_THAT(deep_particles(points, {level(0.12), {}}, box),
+              ElementsAre(true, true, true, true, true, true, true, false));
 }
 
 TEST(OutsideImpact, IsFarFromTheBinsSurfaceBelowTheSlit) {

@@ -12,7 +12,7 @@ REFERENCE = "validation/yuu2011/reference.toml"
 
 
 class Hopper(ProgramTest):
-    """The hopper's study for 30 ms, with lumps of 5 mm."""
+    """The hopper's study for 30 ms, with particles of 5 mm."""
 
     def setUp(self):
         super().setUp()

@@ -75,7 +75,7 @@ class Resumed(ProgramTest):
 
 
 class Hopper(ProgramTest):
-    """Grains that have just begun to leave a hopper: lumps of 5 mm, settled, 20 ms after the opening."""
+    """Grains that have just begun to leave a hopper: particles of 5 mm, settled, 20 ms after the opening."""
     settings = ("--set", "bed.spacing=5 mm", "--set", "run.end=20 ms", "--set", "output.snapshots=5 ms", "--set",
                 "output.pictures=false")
     case = PROJECT / "cases/yuu2011-hopper-vacuum.toml"

@@ -75,6 +75,14 @@ class Documents(Tree):
     def documents(self):
         return sorted(self.root.rglob("*.md"))
 
+    def test_prose_wider_than_a_page_is_found(self):
+        wide = "word " * 21
+        self.write("docs/a.md", f"{wide}\n\n| {wide} |\n\n    {wide}\n\n```\n{wide}\n```\n`{wide}`\n")
+        self.assertEqual(
+            list(check_documents.check_width(self.root, self.documents())),
+            ["docs/a.md:1: the line has 105 characters; wrap at 100"],
+        )
+
     def test_a_broken_link_is_found(self):
         self.write("docs/a.md", "[good](../src/base/a.hpp) [web](https://x.org) [part](#part)\n\n[bad](b.md)\n")
         self.assertEqual(

@@ -68,8 +68,8 @@ bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& sett
   Figure figure{.title = title};
   for (std::size_t n = 0; n < frames.size(); ++n) {
     const Layer& layer = layers[n];
-    ParticlePicture picture = lump_picture(setting, layer.centre, layer.radius,
-                                           {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}});
+    ParticlePicture picture = particle_picture(setting, layer.centre, layer.radius,
+                                               {.values = layer.pressure, .label = "pressure *P*", .unit = {1, "Pa"}});
     picture.title = fmt::format("*t* = {:.2f} s", times[frames[n]]);
     picture.arrows = Arrows{.values = layer.velocity, .spacing = between_arrows};
     figure.panels.emplace_back(std::move(picture));

@@ -30,11 +30,11 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const double density = p.bed.packing * p.grains.density;
   const double sound = continuum::Material(p).sound_speed(density);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
-  std::vector<NamedValue> groups = {{"lumps", "1", static_cast<double>(continuum::bed_positions(p).size())},
+  std::vector<NamedValue> groups = {{"particles", "1", static_cast<double>(continuum::bed_positions(p).size())},
                                     {"mass", "kg", bed_mass(p)},
                                     {"sound_speed", "m/s", sound},
                                     {"mach_number_of_fall", "1", fall / sound},
-                                    {"lumps_across_grain", "1", p.grains.diameter / p.bed.spacing}};
+                                    {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty())
     groups.push_back({"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height});
@@ -64,7 +64,7 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   f.evaluations = f.steps;
   f.seconds_per_evaluation = elapsed / steps;
   const double cells = p.air.enabled ? static_cast<double>(continuum::air_grid(p).cells()) : 0;
-  f.memory_bytes = 20e6 + 3500 * n + 900 * cells;  // libraries; columns, records and lists of a lump and its images
+  f.memory_bytes = 20e6 + 3500 * n + 900 * cells;  // libraries; columns, records and lists of a particle and its images
   f.disk_bytes = (run.end / run.snapshots + 1) * (150 * n + 45 * cells + 20e3) + 2 * (350 * n + 250 * cells + 20e3) +
                  (run.series > 0 ? run.end / run.series : f.steps) * 600;
   return f;

@@ -9,7 +9,7 @@
 #include "analysis/curve.hpp"
 #include "app/continuum/air_pictures.hpp"
 #include "io/figure/figure.hpp"
-#include "io/figure/lump_dots.hpp"
+#include "io/figure/particle_dots.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -22,7 +22,7 @@ using namespace figure;
 
 constexpr double printed_times[] = {0, 0.17, 0.2, 0.3, 0.4, 0.5, 1.0};  // s, Figure 4
 constexpr Colour dot_colour = rgb(0x5b4a33);
-constexpr int dots_of_lump = 50;
+constexpr int dots_of_particle = 50;
 constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
 const figure::Unit millimetre{1e-3, "mm"};
 
@@ -56,7 +56,7 @@ std::vector<std::size_t> chosen_frames(const Frames& frames, bool of_hopper) {
 
 /// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
 Colour colour_of_dots(const HopperShape& s) {
-  const double dots = dots_of_lump * s.depth / std::pow(s.spacing, 3);  // 1/m^2
+  const double dots = dots_of_particle * s.depth / std::pow(s.spacing, 3);  // 1/m^2
   return with_alpha(dot_colour, std::clamp(0.25 * 18e6 / dots, 0.03, 1.0));
 }
 
@@ -113,8 +113,8 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
   const Snapshot view = points.view();
   const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
   ParticlePicture picture =
-      lump_picture(setting, view.positions(), radii,
-                   {.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7});
+      particle_picture(setting, view.positions(), radii,
+                       {.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7});
   picture.title = title_of(time);
   write_png({.title = title, .panels = {picture}}, path);
 }
@@ -147,12 +147,12 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   for (const std::size_t n : chosen) {
     const PointSet points = read_points(frames.paths[n]);
     const Snapshot view = points.view();
-    const Lumps lumps = lumps_of_density(view.positions(), view.scalars("density"), setting.lump_mass,
-                                         setting.grain_density, setting.smoothing_length);
+    const Particles particles = particles_of_density(view.positions(), view.scalars("density"), setting.particle_mass,
+                                                     setting.grain_density, setting.smoothing_length);
     Domain domain = setting.domain;
     if (frames.time[n] >= 0) domain.open_gates(frames.time[n]);
-    dots.push_back(
-        lump_dots(view.positions(), lumps.smoothing_length, view.integers("identity"), domain, dots_of_lump));
+    dots.push_back(particle_dots(view.positions(), particles.smoothing_length, view.integers("identity"), domain,
+                                 dots_of_particle));
     top = std::max(top, highest(view) + 4 * setting.shape.spacing);
   }
   Figure figure{.title = title};
@@ -173,8 +173,8 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   write_png(figure, path);
 }
 
-figure::ParticlePicture lump_picture(const HopperSetting& setting, std::span<const Vector3> positions,
-                                     std::span<const double> radii, figure::ByValue values) {
+figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span<const Vector3> positions,
+                                         std::span<const double> radii, figure::ByValue values) {
   double top = 0;
   for (const Vector3& x : positions) top = std::max(top, x.z);
   ParticlePicture picture{.positions = positions,

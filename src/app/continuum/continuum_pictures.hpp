@@ -17,10 +17,10 @@ namespace talus::app {
 void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
                  const std::filesystem::path& path);
 
-/// Lumps of one snapshot from the side, coloured by values, within walls and plate.
+/// Particles of one snapshot from the side, coloured by values, within walls and plate.
 /// \param positions, radii, values must outlive the picture
-figure::ParticlePicture lump_picture(const HopperSetting& setting, std::span<const Vector3> positions,
-                                     std::span<const double> radii, figure::ByValue values);
+figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span<const Vector3> positions,
+                                         std::span<const double> radii, figure::ByValue values);
 
 /// Draws, and returns the paths: pictures/frames.png, the grains; pictures/packing.png, the last snapshot coloured by
 /// packing; with air pictures/air.png; with a plate pictures/discharge.png and pictures/surface_angle.png. The tables

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/lump_field.hpp"
+#include "analysis/particle_field.hpp"
 
 namespace talus::app {
 
@@ -49,8 +49,8 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
   if (outlet) {
     const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
-    // What is near both places is enough: the fields there know no other lumps.
-    const auto near = lumps_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
+    // What is near both places is enough: the fields there know no other particles.
+    const auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
     const auto pick = [&near](const auto& column) {
       std::vector<std::decay_t<decltype(column[0])>> picked;
       for (const std::size_t i : near) picked.push_back(column[i]);
@@ -61,7 +61,7 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     const auto densities = pick(density);
     Domain domain = continuum::domain_of(p);
     domain.open_gates();
-    const LumpField field(lumps_of_density(places, densities, mass, p.grains.density), domain);
+    const ParticleField field(particles_of_density(places, densities, mass, p.grains.density), domain);
     slit_velocity = field.value(slit, velocities).z;
     probe_velocity = field.value(probe, velocities).z;
     probe_density = field.value(probe, densities);

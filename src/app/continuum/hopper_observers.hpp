@@ -11,15 +11,13 @@
 namespace talus::app {
 
 /// Columns, all at the time of the row; x and z in m from the lower left corner, y in the middle:
-///   discharged_mass  kg    mass of the lumps whose centre is below the plate; without a plate 0
-///   discharge_rate   kg/s  flux of mass downwards through the plate's plane, lumps spread along z by the cubic spline
-///   lowest_z         m     of the lumps' centres
-///   mass_near_floor  kg    of the lumps within a spacing of the floor
-///   slit_velocity    m/s   u_z in the middle of the slit
-///   probe_density    kg/m3, probe_velocity m/s (u_z), probe_stress Pa (the law's, zz), probe_strain 1 (norm of the
-///   strain
+///   discharged_mass  kg    mass of the particles whose centre is below the plate; without a plate 0
+///   discharge_rate   kg/s  flux of mass downwards through the plate's plane, particles spread along z by the cubic
+///   spline lowest_z         m     of the particles' centres mass_near_floor  kg    of the particles within a spacing
+///   of the floor slit_velocity    m/s   u_z in the middle of the slit probe_density    kg/m3, probe_velocity m/s
+///   (u_z), probe_stress Pa (the law's, zz), probe_strain 1 (norm of the strain
 ///                    that the law remembers; 0 if it remembers none): 5 mm above the middle of the slit
-/// Values at a place are the kernel's means over the lumps around it; nan where there are none.
+/// Values at a place are the kernel's means over the particles around it; nan where there are none.
 std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Parameters& parameters);
 
 }  // namespace talus::app

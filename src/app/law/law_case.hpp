@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What `talus law` reads: the law of a case, and the path that a lump of its grains is led through.
+/// What `talus law` reads: the law of a case, and the path that a particle of its grains is led through.
 #pragma once
 
 #include <concepts>

@@ -44,8 +44,9 @@ struct Heap {
 Heap heap_of(const PointsToMeasure& set) {
   const double a = set.mean_radius();
   const Domain domain = box_around(set);
-  const LumpField field(lumps_of_spheres(set.position(), a), domain);
-  Heap heap{packing_section(field.lumps(), domain, 2 * a, a), {}, {}, 0.5 * (domain.box().low.x + domain.box().high.x)};
+  const ParticleField field(particles_of_spheres(set.position(), a), domain);
+  Heap heap{
+      packing_section(field.particles(), domain, 2 * a, a), {}, {}, 0.5 * (domain.box().low.x + domain.box().high.x)};
   for (const Vector3& x : set.position()) heap.at_points.push_back(field.packing(x));
   heap.surface = free_surface(heap.packing, {domain.box().low.z, domain.box().high.z}, 0.5 * median(heap.at_points));
   return heap;

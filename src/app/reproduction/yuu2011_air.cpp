@@ -54,7 +54,7 @@ Layer middle_layer(const GridSnapshot& air) {
 }
 
 ParticlePicture picture_of(const Layer& layer, const HopperEnsemble& ensemble) {
-  ParticlePicture picture = lump_picture(ensemble.runs.front().setting, layer.centre, layer.radius, {});
+  ParticlePicture picture = particle_picture(ensemble.runs.front().setting, layer.centre, layer.radius, {});
   picture.colouring = ByCategory{layer.kind, {{"", white}, {"", grain_colour}}};
   picture.arrows = Arrows{.values = layer.arrow, .length = arrow_of_unit, .spacing = 0};
   picture.title = fmt::format("{}, *t* = {:.2f} s", ensemble.variant, layer.time);

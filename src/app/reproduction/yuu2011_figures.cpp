@@ -8,7 +8,7 @@
 
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_quantities.hpp"
-#include "analysis/lump_field.hpp"
+#include "analysis/particle_field.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/reproduction/yuu2011_air.hpp"
 #include "io/figure/figure.hpp"
@@ -66,10 +66,10 @@ class Album {
                                     run.end());
                 });
     draw_fields("figure_08.png", "Figure 8: packing",
-                "At 0.2 s and at the end; lumps as discs, deposited by the kernel.", "packing",
+                "At 0.2 s and at the end; particles as discs, deposited by the kernel.", "packing",
                 {.label = "packing", .low = 0.3, .high = 0.65});
     draw_fields("figure_09.png", "Figure 9: vertical normal stress",
-                "At 0.2 s and at the end; lumps as discs, what does not depend on the strain's rate.", "stress_zz",
+                "At 0.2 s and at the end; particles as discs, what does not depend on the strain's rate.", "stress_zz",
                 {.label = "stress *τ*_{zz}", .unit = {1e3, "kPa"}, .low = 0, .high = 1.2});
     if (draw_air_vectors(ensembles_, folder_ / "figure_10.png"))
       figures_.push_back({folder_ / "figure_10.png", "Figure 10: velocity of the air",
@@ -101,7 +101,7 @@ class Album {
     const std::filesystem::path path = folder_ / fmt::format("figure_04_{}.png", ensemble.variant);
     draw_grains(ensemble.folders.front(), run_of(ensemble).setting, ensemble.variant, path);
     figures_.push_back({path, "Figure 4: grains, " + ensemble.variant,
-                        "At the paper's times, 50 dots a lump, spread by the kernel as the paper does."});
+                        "At the paper's times, 50 dots a particle, spread by the kernel as the paper does."});
   }
 
   Line line_of(const HopperEnsemble& ensemble, Curve curve, const std::string& what = {}) const {
@@ -151,7 +151,7 @@ class Album {
         ByValue coloured = colours;
         coloured.values = view.scalars(column);
         ParticlePicture picture =
-            lump_picture(run_of(ensemble).setting, view.positions(), shown.back().radii, coloured);
+            particle_picture(run_of(ensemble).setting, view.positions(), shown.back().radii, coloured);
         picture.title = fmt::format("{}, *t* = {:.2f} s", ensemble.variant, shown.back().time);
         figure.panels.emplace_back(std::move(picture));
       }
@@ -178,7 +178,7 @@ class Album {
           "At 0.2 s in the middle of the depth, against that of the surroundings.");
   }
 
-  /// Figure 12: mean vertical velocity of the lumps within a spacing of the height, and the air's there.
+  /// Figure 12: mean vertical velocity of the particles within a spacing of the height, and the air's there.
   void draw_profiles() {
     Chart chart{.x = {.label = "*x*", .unit = "mm"}, .y = {.label = "*u*_{pz}, *u*_{z}", .unit = "m/s"}};
     for (const HopperEnsemble& ensemble : ensembles_) {
@@ -214,7 +214,8 @@ class Album {
     }
     if (!chart.series.empty())
       add("figure_12.png", {.panels = {chart}}, "Figure 12: vertical velocity 20 mm above the slit",
-          "At 0.2 s; lumps within a spacing of the height, means over a spacing in *x*; the air in the middle of the "
+          "At 0.2 s; particles within a spacing of the height, means over a spacing in *x*; the air in the middle of "
+          "the "
           "depth.");
   }
 

@@ -148,7 +148,7 @@ void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_le
   measure_slip(team, s);
 }
 
-/// The slip of each lump is the mean of its cells'.
+/// The slip of each particle is the mean of its cells'.
 void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
   const AirAround& a = s.air;
   const Grid& grid = a.grid;

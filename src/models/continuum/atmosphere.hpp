@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The air around the lumps: it takes what they fill of its cells and how they move, goes on by a step of its own while
-/// they wait, and gives each lump the impulse that its drag and pressure fixed, spread evenly over the lumps' steps of
-/// the same time. What the air loses they gain, to round-off.
+/// The air around the particles: it takes what they fill of its cells and how they move, goes on by a step of its own
+/// while they wait, and gives each particle the impulse that its drag and pressure fixed, spread evenly over the
+/// particles' steps of the same time. What the air loses they gain, to round-off.
 #pragma once
 
 #include <span>
@@ -30,13 +30,13 @@ class Atmosphere {
   /// \param time from the opening of the case's gate, s
   void open_gates(double time);
 
-  /// Air at rest around the lumps of a new state.
+  /// Air at rest around the particles of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
 
-  /// Where the lumps have come to the end of the air's step, moves the air on by the next one: a whole number of steps
-  /// of the lumps, which are all of one length.
-  /// \param dt the lumps' step as they would have it, s; \returns as it is to be
-  /// \throws NumericalError for a void fraction out of range, or a pressure that does not converge: cell and residual
+  /// Where the particles have come to the end of the air's step, moves the air on by the next one: a whole number of
+  /// steps of the particles, which are all of one length. \param dt the particles' step as they would have it, s;
+  /// \returns as it is to be \throws NumericalError for a void fraction out of range, or a pressure that does not
+  /// converge: cell and residual
   double advance(ThreadTeam& team, std::span<const double> smoothing_length, double dt, State& state);
 
  private:

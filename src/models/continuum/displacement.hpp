@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The strain of the printed route: not by its rate but from the displacements of the lumps since each one's last
+/// The strain of the printed route: not by its rate but from the displacements of the particles since each one's last
 /// reset, x_i - X_i, over half spheres (Appendix A). Where neighbours were reset at different times their displacements
 /// are of different histories, and their differences are no strain: the paper's route has it so.
 #pragma once
@@ -13,9 +13,9 @@
 
 namespace talus::continuum {
 
-/// Almansi's strain of every lump, positive in compression.
+/// Almansi's strain of every particle, positive in compression.
 /// \param around lists that hold at `position`; \param reset_position X_i, m; \param smoothing_length h_k, m
-/// \param strain number; resized to one a lump; not finite where the displacements have no inverse
+/// \param strain number; resized to one a particle; not finite where the displacements have no inverse
 void measure_strain(ThreadTeam& team, const Neighbourhood& around, std::span<const Vector3> position,
                     std::span<const Vector3> reset_position, std::span<const double> smoothing_length,
                     std::vector<SymmetricTensor3<>>& strain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The grains at the start: lumps on a regular lattice, at rest, without stress.
+/// The grains at the start: particles on a regular lattice, at rest, without stress.
 #pragma once
 
 #include "models/continuum/material.hpp"

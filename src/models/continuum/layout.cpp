@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where things stand: the box with its plates and walls, and the lumps of the bed.
+/// Where things stand: the box with its plates and walls, and the particles of the bed.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -98,9 +98,9 @@ double Material::strain(const MaterialColumns& columns, std::size_t i) const {
   return norm(SymmetricTensor3<>{e(0), e(1), e(2), e(3), e(4), e(5)});
 }
 
-void Material::mirror(MaterialColumns& columns, std::size_t lump, const Image& image) const {
-  set(columns.stress, lump, image.tensor(tensor_at(columns.stress, lump)));
-  set(columns.collisional, lump, image.tensor(tensor_at(columns.collisional, lump)));
+void Material::mirror(MaterialColumns& columns, std::size_t particle, const Image& image) const {
+  set(columns.stress, particle, image.tensor(tensor_at(columns.stress, particle)));
+  set(columns.collisional, particle, image.tensor(tensor_at(columns.collisional, particle)));
   const auto remembered = slots();
   constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
   const auto begins_tensor = [&](std::size_t k) {
@@ -111,7 +111,7 @@ void Material::mirror(MaterialColumns& columns, std::size_t lump, const Image& i
   };
   for (std::size_t k = 0; k < remembered.size(); ++k) {
     if (!begins_tensor(k)) continue;
-    const auto at = [&](std::size_t c) -> double& { return columns.history[k + c][lump]; };
+    const auto at = [&](std::size_t c) -> double& { return columns.history[k + c][particle]; };
     const SymmetricTensor3<> t = image.tensor({at(0), at(1), at(2), at(3), at(4), at(5)});
     at(0) = t.xx, at(1) = t.yy, at(2) = t.zz, at(3) = t.xy, at(4) = t.yz, at(5) = t.zx;
   }

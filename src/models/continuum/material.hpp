@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The constitutive law of a case, applied to all lumps: the one place where the choice of the law is met.
+/// The constitutive law of a case, applied to all particles: the one place where the choice of the law is met.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class Material {
  public:
   explicit Material(const Parameters& parameters);
 
-  /// What the law remembers of each lump.
+  /// What the law remembers of each particle.
   std::vector<granular::HistorySlot> slots() const;
 
   /// Whether the law takes the strain from displacements (displacement.hpp) in place of its rate.
@@ -26,22 +26,22 @@ class Material {
   /// Upper bound of the speed of pressure waves, m/s.
   double sound_speed(double density) const;
 
-  /// Applies the law to every lump over a time step, from `old` to `next`, which may be the same.
-  /// \param velocity_gradient 1/s; \param measured_strain at the end of the step, one a lump if by_displacements(),
+  /// Applies the law to every particle over a time step, from `old` to `next`, which may be the same.
+  /// \param velocity_gradient 1/s; \param measured_strain at the end of the step, one a particle if by_displacements(),
   ///        else empty; \param density at the end of the step, kg/m^3; \param keep_history false: only the stress of
   ///        `next` is written, for a stage within a step
   void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
               std::span<const SymmetricTensor3<>> measured_strain, std::span<const double> density, double time_step,
               MaterialColumns& next, bool keep_history) const;
 
-  /// How often the law has reset the strain of each lump. \pre by_displacements()
+  /// How often the law has reset the strain of each particle. \pre by_displacements()
   std::span<const double> resets(const MaterialColumns& columns) const { return columns.history[*resets_slot_]; }
 
-  /// Norm of the strain that the law remembers of a lump; 0 if it remembers none.
-  double strain(const MaterialColumns& columns, std::size_t lump) const;
+  /// Norm of the strain that the law remembers of a particle; 0 if it remembers none.
+  double strain(const MaterialColumns& columns, std::size_t particle) const;
 
-  /// Turns what the law knows of a lump as a mirror does.
-  void mirror(MaterialColumns& columns, std::size_t lump, const Image& image) const;
+  /// Turns what the law knows of a particle as a mirror does.
+  void mirror(MaterialColumns& columns, std::size_t particle, const Image& image) const;
 
  private:
   granular::AnyLaw law_;
@@ -53,7 +53,7 @@ inline SymmetricTensor3<> tensor_at(const std::array<std::vector<double>, 6>& s,
   return {s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]};
 }
 
-/// The whole stress of a lump, Eq. 7: the law's and that by collisions, Pa.
+/// The whole stress of a particle, Eq. 7: the law's and that by collisions, Pa.
 inline SymmetricTensor3<> stress_of(const MaterialColumns& columns, std::size_t i) {
   return tensor_at(columns.stress, i) + tensor_at(columns.collisional, i);
 }

@@ -41,7 +41,7 @@ std::string wall_name(const Domain& domain, std::size_t wall) {
   return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
 
-/// Share of the lumps under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
+/// Share of the particles under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
 /// Source: da Cruz et al. 2005, as cited by Yuu & Umekage 2011, section 2.1.
 double quasistatic_share(const Parameters& p, const State& s) {
   std::size_t pressed = 0, quasistatic = 0;
@@ -202,7 +202,7 @@ std::vector<RegimeLine> Continuum::regime() const {
       {"packing", fmt::format("{:.3f} to {:.3f}", *least, *most), "as the kernel deposits it; at most 0.74 in grains",
        *most > 0.74},
       {"share of slow flow", fmt::format("{:.3f}", quasistatic),
-       "lumps under pressure with an inertial number below 0.01, where the stress does not depend on the rate",
+       "particles under pressure with an inertial number below 0.01, where the stress does not depend on the rate",
        quasistatic < 0.5},
   };
   if (parameters_.air.enabled)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The continuum model: grains as lumps of a continuum that carry stress (Yuu & Umekage 2011, in a vacuum).
+/// The continuum model: grains as particles of a continuum that carry stress (Yuu & Umekage 2011, in a vacuum).
 #pragma once
 
 #include <optional>

@@ -38,7 +38,7 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
       add(p.plate.slit_left ? "plate.slit_left" : "plate.slit_right", "given, but there is no plate", "plate.height");
     return;
   }
-  // Images reach twice the support and the skin; lumps grow as they thin out, so some room is left.
+  // Images reach twice the support and the skin; particles grow as they thin out, so some room is left.
   const double room = 3 * sph::support * p.bed.spacing;
   if (*p.plate.height < room || *p.plate.height > p.box.height - room)
     add("plate.height", fmt::format("{:.4g} mm is too near to floor or top", *p.plate.height / millimetre),
@@ -72,7 +72,7 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(lattice.spacing[axis] / p.bed.spacing - 1) > 0.15)
       add("bed.spacing",
-          fmt::format("along {} the lumps would stand {:.4g} mm apart", "xyz"[axis],
+          fmt::format("along {} the particles would stand {:.4g} mm apart", "xyz"[axis],
                       lattice.spacing[axis] / millimetre),
           "a spacing that divides the bed's width, the box's depth and the bed's height nearly evenly");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a case of the continuum model says: grains as a continuum of lumps that move and carry stress, in a box with a
-/// plate across it (Yuu & Umekage 2011). SI, angles in radians; the initial values are the defaults.
+/// What a case of the continuum model says: grains as a continuum of particles that move and carry stress, in a box
+/// with a plate across it (Yuu & Umekage 2011). SI, angles in radians; the initial values are the defaults.
 #pragma once
 
 #include <array>
@@ -171,7 +171,7 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   visit(Parameter{"bed.packing", dimension::none, between(0.1, 0.74), "packing fraction at the start"}, p.bed.packing);
   visit(Parameter{"bed.spacing", dimension::length, above(0),
-                  "distance of the lumps at the start; fitted to whole numbers of lumps along each side", true},
+                  "distance of the particles at the start; fitted to whole numbers of particles along each side", true},
         p.bed.spacing);
   visit(
       Parameter{"bed.height", dimension::length, above(0),
@@ -188,12 +188,14 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   granular::for_each_parameter(visit, p.law);
 
-  visit(Parameter{"sph.smoothing",
-                  {},
-                  {},
-                  "smoothing length: of each lump from its density, h = (m/rho_b)^(1/3), or fixed at its value at the "
-                  "start"},
-        p.sph.smoothing);
+  visit(
+      Parameter{
+          "sph.smoothing",
+          {},
+          {},
+          "smoothing length: of each particle from its density, h = (m/rho_b)^(1/3), or fixed at its value at the "
+          "start"},
+      p.sph.smoothing);
   visit(Parameter{"sph.continuity",
                   {},
                   {},
@@ -229,7 +231,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   air::for_each_parameter(visit, p.air.gas);
 
   visit(Parameter{"settle.speed", dimension::velocity, above(0),
-                  "the bed has settled when 99 of 100 lumps are slower than this"},
+                  "the bed has settled when 99 of 100 particles are slower than this"},
         p.settle.speed);
   visit(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
   visit(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
@@ -246,7 +248,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.step", dimension::time, above(0), "a fixed time step in place of the Courant number's"},
         p.integration.step);
   visit(Parameter{"integration.skin", dimension::none, at_least(0),
-                  "skin of the neighbour lists, in lump spacings: wider lists last longer and cost more"},
+                  "skin of the neighbour lists, in particle spacings: wider lists last longer and cost more"},
         p.integration.skin);
   visit(
       Parameter{
@@ -273,16 +275,16 @@ double bed_bottom(const Parameters& parameters);
 /// The box, and the plates with their gates shut unless there are none.
 Domain domain_of(const Parameters& parameters);
 
-/// The lattice on which the lumps stand at the start.
+/// The lattice on which the particles stand at the start.
 struct Lattice {
   Vector3 corner;                     ///< of the bed, m
   Vector3 spacing;                    ///< m, close to bed.spacing
-  std::array<std::int64_t, 3> count;  ///< lumps along x, y, z
-  double mass;                        ///< of a lump, kg: the bed's mass is its volume times packing and grain density
+  std::array<std::int64_t, 3> count;  ///< particles along x, y, z
+  double mass;  ///< of a particle, kg: the bed's mass is its volume times packing and grain density
 };
 Lattice lattice_of(const Parameters& parameters);
 
-/// Where the lumps stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
+/// Where the particles stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
 /// between, and farther than a quarter of the spacing from plates at any angle.
 std::vector<Vector3> bed_positions(const Parameters& parameters);
 

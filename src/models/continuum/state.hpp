@@ -15,7 +15,7 @@
 
 namespace talus::continuum {
 
-/// What the law knows of each lump, column by column.
+/// What the law knows of each particle, column by column.
 struct MaterialColumns {
   std::array<std::vector<double>, 6> stress;       ///< the law's, Pa, compression positive: xx yy zz xy yz zx
   std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order
@@ -27,16 +27,16 @@ inline constexpr std::array<const char*, most_walls> wall_names = {
     "left",    "right",   "front",   "rear",    "floor",   "top",     "plate",   "plate_2",
     "plate_3", "plate_4", "plate_5", "plate_6", "plate_7", "plate_8", "plate_9", "plate_10"};
 
-/// The air around the lumps, and what it does to them until its next step.
+/// The air around the particles, and what it does to them until its next step.
 struct AirAround {
   Grid grid;                          ///< from the case, not a field
   air::AirState flow;                 ///< empty: no air
   air::Solids solids;                 ///< as the last step met them
-  std::vector<Vector3> acceleration;  ///< of each lump, m/s^2
-  Vector3 force;                      ///< the same on all lumps, N
+  std::vector<Vector3> acceleration;  ///< of each particle, m/s^2
+  Vector3 force;                      ///< the same on all particles, N
   Vector3 impulse;                    ///< what they have received, N s
   std::uint64_t steps = 0;            ///< of the air
-  std::uint64_t steps_left = 0;       ///< of the lumps until the air's next
+  std::uint64_t steps_left = 0;       ///< of the particles until the air's next
   std::uint64_t iterations = 0;       ///< of the pressure, last step
   double last_step = 0;               ///< s
   double reynolds_max = 0;            ///< largest Reynolds number of a grain since the start
@@ -49,15 +49,16 @@ struct State {
   std::vector<Vector3> position;       ///< m
   std::vector<Vector3> velocity;       ///< m/s; with the leapfrog of half a step before
   std::vector<double> density;         ///< bulk density, kg/m^3
-  std::vector<std::int64_t> identity;  ///< number of the lump at the start: columns are re-sorted now and then
+  std::vector<std::int64_t> identity;  ///< number of the particle at the start: columns are re-sorted now and then
   MaterialColumns material;
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
-  double mass = 0;                           ///< of a lump, kg
-  /// X_i, m: where each lump was when its strain was last reset; empty unless the strain comes from displacements.
+  double mass = 0;                           ///< of a particle, kg
+  /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;
 
-  std::vector<double> packing;     ///< as the kernel deposits it: sum of m W over lumps and images, over rho_p; derived
-  std::vector<double> strain;      ///< |e|, norm of the strain that the law remembers; 0 if it remembers none; derived
+  std::vector<double>
+      packing;                 ///< as the kernel deposits it: sum of m W over particles and images, over rho_p; derived
+  std::vector<double> strain;  ///< |e|, norm of the strain that the law remembers; 0 if it remembers none; derived
   std::vector<double> shear_rate;  ///< (2 D':D')^(1/2), D' the deviator of the rate of deformation, last evaluated, 1/s
 
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A step in order: (0) where the lumps have come to the end of the air's step, the air goes on by the next one and
+/// A step in order: (0) where the particles have come to the end of the air's step, the air goes on by the next one and
 /// fixes what it gives them in each of theirs; (1) positions, velocities, densities and stresses move on, by the
 /// midpoint rule or the leapfrog, each stage starting from the state at the start of the step, so that none toggles a
 /// branch of the law; (2) walls rub and turn back; (3) the phase is looked at: the gate opens when its time has come or
-/// the bed is at rest; (4) where lumps have moved too far, they are sorted now and then and the neighbour lists are
+/// the bed is at rest; (4) where particles have moved too far, they are sorted now and then and the neighbour lists are
 /// built; (5) the rates of the new state are evaluated: they open the next step. On entry and exit: rates, packing and
 /// lists belong to the state.
 #include "models/continuum/step.hpp"
@@ -39,7 +39,7 @@ void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span
     measure_strain(team, w.sweep.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
 }
 
-/// The law over the whole step; a lump whose strain it resets has its displacement counted anew from here.
+/// The law over the whole step; a particle whose strain it resets has its displacement counted anew from here.
 void strain(ThreadTeam& team, State& s, Workspace& w, double dt) {
   measure_strain_at(team, s, w, s.position);
   const bool displaced = w.material.by_displacements();
@@ -109,8 +109,8 @@ void damp(ThreadTeam& team, const Parameters& p, State& s, double dt) {
   s.damping_impulse += (s.mass * (1 / left - 1)) * momentum;
 }
 
-/// A lump of no or of hardly any density reaches past plates and faces; one that jumps over its neighbours in a step
-/// was thrown by stresses that cannot be.
+/// A particle of no or of hardly any density reaches past plates and faces; one that jumps over its neighbours in a
+/// step was thrown by stresses that cannot be.
 struct Possible {
   double least_density;  // kg/m^3
   double most_speed;     // m/s
@@ -136,7 +136,7 @@ struct Possible {
                                     ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
                                     : "the velocity is not finite",
                         .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
-                        .place = fmt::format("lump {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
+                        .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
                         .step = s.step,
                         .time = s.time,
                         .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
@@ -188,10 +188,10 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   });
 }
 
-/// Whether a lump in a free surface is as loose as the kernel, half empty there, says it is. Eq. 16 keeps what
-/// separates a density from the kernel's sum, wherever the lump goes: one that began at a free surface with the density
-/// of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears tension
-/// would pull its own skin in; its surfaces stay surfaces.
+/// Whether a particle in a free surface is as loose as the kernel, half empty there, says it is. Eq. 16 keeps what
+/// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
+/// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
+/// tension would pull its own skin in; its surfaces stay surfaces.
 bool is_loose_where_free(const Parameters& p) {
   return p.sph.continuity == Continuity::printed && p.law.name != granular::LawName::linear_elastic;
 }
@@ -235,13 +235,14 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
     s.gate_time = s.time;
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
-    throw NumericalError({.what = "the bed has not settled",
-                          .term = fmt::format("{} of {} lumps are faster than settle.speed", moving, s.velocity.size()),
-                          .place = "the bed",
-                          .step = s.step,
-                          .time = s.time,
-                          .advice = "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
-                                    "inclined walls, walls.friction_from = \"start\""});
+    throw NumericalError(
+        {.what = "the bed has not settled",
+         .term = fmt::format("{} of {} particles are faster than settle.speed", moving, s.velocity.size()),
+         .place = "the bed",
+         .step = s.step,
+         .time = s.time,
+         .advice = "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
+                   "inclined walls, walls.friction_from = \"start\""});
   }
 }
 

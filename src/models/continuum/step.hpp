@@ -30,7 +30,7 @@ struct Workspace {
 
   /// Only if the strain comes from displacements.
   std::vector<SymmetricTensor3<>> measured_strain;
-  std::vector<double> resets;  ///< of each lump at the start of the step
+  std::vector<double> resets;  ///< of each particle at the start of the step
 
   Workspace(const Parameters& parameters, const State& state);
 

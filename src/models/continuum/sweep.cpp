@@ -57,7 +57,7 @@ double Sweep::smoothing_length(double density) const {
 
 void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
-  // Two lumps interact within the sum of their smoothing lengths: twice their mean.
+  // Two particles interact within the sum of their smoothing lengths: twice their mean.
   around_.build(team, position, smoothing_length, skin_);
   bearings_.clear();
   for (const Image& image : around_.images()) bearings_.push_back(bearings(image));
@@ -94,7 +94,7 @@ std::array<Sweep::Bearing, 3> Sweep::bearings(const Image& image) const {
   return found;
 }
 
-/// Where each group of a lump's neighbours ends: lumps first, then images by mirror, as the lists are sorted.
+/// Where each group of a particle's neighbours ends: particles first, then images by mirror, as the lists are sorted.
 void Sweep::find_groups() {
   const auto ghosts = around_.ghosts();
   const std::size_t count = around_.particles();
@@ -112,15 +112,15 @@ void Sweep::find_groups() {
   }
 }
 
-void Sweep::pack(ThreadTeam& team, const LumpView& lumps) {
-  const std::size_t count = lumps.position.size();
+void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
+  const std::size_t count = particles.position.size();
   const auto ghosts = around_.ghosts();
   records_.resize(count + ghosts.size() + 1);
   for_each(team, count, [&](std::size_t i) {
-    const double density = lumps.density[i];
-    const Vector3 &x = lumps.position[i], &u = lumps.velocity[i];
+    const double density = particles.density[i];
+    const Vector3 &x = particles.position[i], &u = particles.velocity[i];
     const SymmetricTensor3<> s =
-        sph::specific_stress(stress_of(lumps.material, i), density, density / grain_density_, stress_form_);
+        sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
     records_[i] = {{x.x, x.y, x.z},
                    {u.x, u.y, u.z},
                    smoothing_length(density),
@@ -131,7 +131,7 @@ void Sweep::pack(ThreadTeam& team, const LumpView& lumps) {
   });
   for_each(team, ghosts.size(), [&](std::size_t g) {
     const Image& image = around_.image(ghosts[g]);
-    LumpRecord ghost = records_[ghosts[g].source];
+    ParticleRecord ghost = records_[ghosts[g].source];
     const Vector3 x = image.position({ghost.position[0], ghost.position[1], ghost.position[2]});
     const Vector3 u = image.vector({ghost.velocity[0], ghost.velocity[1], ghost.velocity[2]});
     for (int axis = 0; axis < 3; ++axis) ghost.position[axis] = x[axis], ghost.velocity[axis] = u[axis];
@@ -151,7 +151,7 @@ void Sweep::pack(ThreadTeam& team, const LumpView& lumps) {
                      .unused = 0};
 }
 
-/// The neighbours of a lump that it sees. Near a plate they are picked into `record` and `end`.
+/// The neighbours of a particle that it sees. Near a plate they are picked into `record` and `end`.
 Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
   const auto neighbours = around_.of(i);
   const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
@@ -184,10 +184,10 @@ Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, s
           static_cast<std::uint32_t>(records_.size() - 1)};
 }
 
-void Sweep::operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, Rates& rates) {
-  const std::size_t count = lumps.position.size();
+void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates) {
+  const std::size_t count = particles.position.size();
   rates.resize(count);
-  pack(team, lumps);
+  pack(team, particles);
   const SumNeighbours sum = sum_[static_cast<std::size_t>(wanted)];
   for_each(team, count, [&](std::size_t i) {
     thread_local std::vector<std::uint32_t> record, end;
@@ -202,7 +202,7 @@ void Sweep::operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, R
       const Tensor3<> gradient = sph::velocity_gradient(
           {{m[0], m[1], m[2], m[3], m[4], m[5]}, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
       rates.velocity_gradient[i] = gradient;
-      rates.density_rate[i] = corrected_continuity_ ? -lumps.density[i] * trace(gradient) : sums.density_rate;
+      rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
     }
     if (wanted == Wanted::gradients) return;
     Vector3 all;

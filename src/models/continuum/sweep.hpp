@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sweep over pairs: what each lump feels from its neighbours and from their images behind the boundaries. Lumps
-/// are packed into records, one a lump; images exist only as records, made from those of their sources. The loops
-/// themselves stand in pair_sweep/, compiled once for each instruction set.
+/// The sweep over pairs: what each particle feels from its neighbours and from their images behind the boundaries.
+/// Particles are packed into records, one a particle; images exist only as records, made from those of their sources.
+/// The loops themselves stand in pair_sweep/, compiled once for each instruction set.
 #pragma once
 
 #include <array>
@@ -19,21 +19,21 @@
 
 namespace talus::continuum {
 
-/// Rates of change of every lump, of one evaluation.
+/// Rates of change of every particle, of one evaluation.
 struct Rates {
   std::vector<Vector3> acceleration;         ///< from stress and viscosity, without gravity, m/s^2
   std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
   std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
-  std::vector<double> kernel_density;        ///< sum of m W over lumps and images, kg/m^3
+  std::vector<double> kernel_density;        ///< sum of m W over particles and images, kg/m^3
   /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's normal, m/s^2. What
-  /// images do along a wall cancels in the sum over all lumps.
+  /// images do along a wall cancels in the sum over all particles.
   std::vector<std::array<double, most_walls>> wall_push;
 
   void resize(std::size_t count);
 };
 
 /// What an evaluation reads.
-struct LumpView {
+struct ParticleView {
   std::span<const Vector3> position;
   std::span<const Vector3> velocity;
   std::span<const double> density;
@@ -42,11 +42,11 @@ struct LumpView {
 
 class Sweep {
  public:
-  /// \param mass of a lump, kg; \param sound_speed of the viscosity, m/s
+  /// \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
   /// \throws InputError if the processor does not have the case's instruction set
   Sweep(const Parameters& parameters, double mass, double sound_speed);
 
-  /// Smoothing length of a lump, m.
+  /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
 
   /// Builds the neighbour lists.
@@ -56,12 +56,12 @@ class Sweep {
   void open_gates(double time = std::numeric_limits<double>::infinity()) { around_.open_gates(time); }
 
   /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
-  void operator()(ThreadTeam& team, const LumpView& lumps, Wanted wanted, Rates& rates);
+  void operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates);
 
  private:
   struct Group {
-    std::uint32_t end;   ///< within the lump's neighbours
-    std::int32_t image;  ///< of the group, -1: lumps
+    std::uint32_t end;   ///< within the particle's neighbours
+    std::int32_t image;  ///< of the group, -1: particles
   };
 
   /// A wall that an image loads, and what of its force, in the direction of the wall's normal.
@@ -71,7 +71,7 @@ class Sweep {
   };
 
   std::array<Bearing, 3> bearings(const Image& image) const;
-  void pack(ThreadTeam& team, const LumpView& lumps);
+  void pack(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
 
@@ -85,9 +85,9 @@ class Sweep {
   std::array<SumNeighbours, 3> sum_;  // by what is wanted
   Neighbourhood around_;
   std::vector<std::array<Bearing, 3>> bearings_;  // by image; those that are used first
-  std::vector<LumpRecord> records_;               // lumps, images, nobody
-  std::vector<Group> groups_;                     // of every lump's neighbours, one lump after the other
-  std::vector<std::uint32_t> first_group_;        // of a lump; one more than lumps
+  std::vector<ParticleRecord> records_;           // particles, images, nobody
+  std::vector<Group> groups_;                     // of every particle's neighbours, one particle after the other
+  std::vector<std::uint32_t> first_group_;        // of a particle; one more than particles
 };
 
 }  // namespace talus::continuum

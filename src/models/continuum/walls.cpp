@@ -20,7 +20,7 @@ Impulses sum(Impulses a, const Impulses& b) {
 struct Wall {
   int number;
   Vector3 place, normal;
-  int side;  ///< on which lumps are: 1 above, -1 below, 0 both
+  int side;  ///< on which particles are: 1 above, -1 below, 0 both
 };
 
 /// The walls that rub: solid faces, plates, panels.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What boundaries do to the lumps in a step, and what the lumps do to them.
+/// What boundaries do to the particles in a step, and what the particles do to them.
 #pragma once
 
 #include <span>
@@ -16,14 +16,14 @@ namespace talus::continuum {
 bool is_rough(const Parameters& parameters, const State& state);
 
 /// After velocities have changed by rates over `duration`: counts the load of the walls in state.wall_impulse, and rubs
-/// the lumps that the walls push.
+/// the particles that the walls push.
 /// \param position where the rates were evaluated, m
 void meet_walls(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const Rates& rates,
                 std::span<const Vector3> position, double duration, State& state);
 
-/// Turns back the lumps that have passed a boundary: each goes on as the image that has come in for it, place, velocity
-/// and what the law knows mirrored. The walls receive twice the normal momentum.
-/// \param before positions at the start of the step, m
+/// Turns back the particles that have passed a boundary: each goes on as the image that has come in for it, place,
+/// velocity and what the law knows mirrored. The walls receive twice the normal momentum. \param before positions at
+/// the start of the step, m
 void turn_back(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
                State& state);
 

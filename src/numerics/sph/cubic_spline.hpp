@@ -12,8 +12,8 @@ namespace talus::sph {
 /// Support over smoothing length: pairs farther apart do not interact.
 inline constexpr double support = 2;
 
-/// Smoothing length of a lump, h = (m/rho_b)^(1/3): the distance between lumps. Yuu & Umekage 2011, below Eq. 16.
-/// \param mass kg; \param density bulk density, kg/m^3; \returns m
+/// Smoothing length of a particle, h = (m/rho_b)^(1/3): the distance between particles. Yuu & Umekage 2011, below
+/// Eq. 16. \param mass kg; \param density bulk density, kg/m^3; \returns m
 inline double smoothing_length(double mass, double density) {
   return std::cbrt(mass / density);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The cubic spline kernel integrated along a straight line: what a lump looks like in a section that is averaged along
-/// its normal.
+/// The cubic spline kernel integrated along a straight line: what a particle looks like in a section that is averaged
+/// along its normal.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ inline double cubed_depth_of_chord(double a, double s) {
 
 }  // namespace detail
 
-/// Integral of cubic_spline along the line at distance `distance` from the lump's centre. Its integral over a plane
+/// Integral of cubic_spline along the line at distance `distance` from the particle's centre. Its integral over a plane
 /// is 1. \param distance m; \param h smoothing length, m; \returns 1/m^2
 inline double cubic_spline_line(double distance, double h) {
   const double s = distance / h;

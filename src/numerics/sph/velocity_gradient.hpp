@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The velocity gradient of a lump from its neighbours, corrected so that it is exact for every linear velocity field,
-/// at free surfaces too.
-/// Source: Randles & Libersky, Comput. Methods Appl. Mech. Eng. 139, 375-408 (1996), Eq. 58; Bonet & Lok 1999.
+/// The velocity gradient of a particle from its neighbours, corrected so that it is exact for every linear velocity
+/// field, at free surfaces too. Source: Randles & Libersky, Comput. Methods Appl. Mech. Eng. 139, 375-408 (1996), Eq.
+/// 58; Bonet & Lok 1999.
 #pragma once
 
 #include "base/lanes.hpp"
@@ -36,7 +36,8 @@ struct GradientSums {
 };
 
 /// Least determinant of the moment that is inverted. On a lattice it is 1.06 within a body, 0.38 on its surface, 0.13
-/// at an edge, 0.044 at a corner; below stand single lumps and threads of them, whose neighbours hardly span the space.
+/// at an edge, 0.044 at a corner; below stand single particles and threads of them, whose neighbours hardly span the
+/// space.
 inline constexpr double least_moment = 0.01;
 
 /// L = velocity . moment^-1, L_ij = du_i/dx_j, 1/s; without the correction where the neighbours do not span the space.

@@ -31,7 +31,7 @@ TALUS_CLONES void weigh_row(std::size_t count, const double* square, double besi
 
 }  // namespace
 
-/// The cells within reach of a lump, and what they weigh.
+/// The cells within reach of a particle, and what they weigh.
 struct Deposition::Scratch {
   struct Along {
     int from = 0;                   // the first one along an axis
@@ -127,7 +127,7 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
   };
   const bool beside_panel = domain_.is_near_panel(x, reach);
   spread(beside_panel);
-  // In a corner too narrow for a cell's centre a lump sees none: then it has all.
+  // In a corner too narrow for a cell's centre a particle sees none: then it has all.
   if (beside_panel && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
     spread(false);
 
@@ -169,7 +169,7 @@ std::optional<std::array<std::size_t, 3>> Deposition::in_front_of_plates(const V
   return cell;
 }
 
-/// Whether a panel stands between a lump and a cell within reach, or the one within the box that stands for it.
+/// Whether a panel stands between a particle and a cell within reach, or the one within the box that stands for it.
 bool Deposition::is_behind_panel(const Vector3& x, const Scratch& scratch, std::array<std::size_t, 3> cell) const {
   std::array<int, 3> place, within;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -185,23 +185,23 @@ bool Deposition::is_behind_panel(const Vector3& x, const Scratch& scratch, std::
   return domain_.blocks(from, centre);
 }
 
-/// Calls body(lump, begin, end) with the range of each lump's cells.
+/// Calls body(particle, begin, end) with the range of each particle's cells.
 template <class Body>
-void Deposition::for_each_lump(const Block& block, std::size_t first, Body&& body) const {
+void Deposition::for_each_particle(const Block& block, std::size_t first, Body&& body) const {
   std::size_t begin = 0;
   for (std::size_t n = 0; n < block.end.size(); begin = block.end[n++]) body(first + n, begin, block.end[n]);
 }
 
 void Deposition::gather(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
                         FaceField& flux) const {
-  // Cells are shared by lumps of several blocks, so the four sums are the tasks; each adds the lumps in order.
+  // Cells are shared by particles of several blocks, so the four sums are the tasks; each adds the particles in order.
   const double share = solid_volume / grid_.volume();
   team.run(4, [&](std::size_t task) {
     CellField& sum = task == 3 ? fraction : flux[task];
     std::fill(sum.begin(), sum.end(), 0.0);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       const Block& block = blocks_[b];
-      for_each_lump(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {
+      for_each_particle(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {
         const double amount = task == 3 ? share : share * velocity[i][static_cast<int>(task)];
         for (std::size_t n = begin; n < end; ++n) sum[block.cell[n]] += amount * block.weight[n];
       });
@@ -213,7 +213,7 @@ void Deposition::hand_out(ThreadTeam& team, double solid_volume, const FaceField
                           std::span<Vector3> received) const {
   team.run(blocks_.size(), [&](std::size_t b) {
     const Block& block = blocks_[b];
-    for_each_lump(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {
+    for_each_particle(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {
       Vector3 sum;
       for (std::size_t n = begin; n < end; ++n) {
         const std::size_t c = block.cell[n];

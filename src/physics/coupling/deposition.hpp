@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From lumps of grains to the cells of the air and back: the solid volume and its flow that lumps spread over a grid
+/// From SPH particles to the cells of the air and back: the solid volume and its flow that particles spread over a grid
 /// with the SPH kernel, and what cells hand back with the same weights ("averaged in an air cell", Yuu & Umekage 2011).
 ///
-/// The weights of a lump are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
+/// The weights of a particle are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
 /// round-off. What would fall behind a wall, a symmetry plane or the solid part of a plate is folded back, as the
-/// lump's image behind it would spread it, so that a bed is as dense at a wall as within; what would leave through a
-/// periodic face comes in at the other. Beyond an open face there is no air: a lump out there has no weights. Cells
-/// that a panel hides from a lump have no share in it, those it sees the more.
+/// particle's image behind it would spread it, so that a bed is as dense at a wall as within; what would leave through
+/// a periodic face comes in at the other. Beyond an open face there is no air: a particle out there has no weights.
+/// Cells that a panel hides from a particle have no share in it, those it sees the more.
 #pragma once
 
 #include <array>
@@ -29,24 +29,24 @@ class Deposition {
   /// \param time from the opening of the case's gate, s
   void open_gates(double time) { domain_.open_gates(time); }
 
-  /// Finds the weights. \param smoothing_length of each lump, m; the kernel reaches twice as far
+  /// Finds the weights. \param smoothing_length of each particle, m; the kernel reaches twice as far
   void weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
 
-  /// \param solid_volume of each lump, without pores, m^3; the same for all
+  /// \param solid_volume of each particle, without pores, m^3; the same for all
   /// \param fraction out: solid volume over volume of every cell
   /// \param flux out: by component, that times the solid's velocity, m/s
   void gather(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
               FaceField& flux) const;
 
-  /// received[j] = solid_volume * sum over cells of weight * (per solid volume). Summed over lumps this is the cells'
-  /// volume times `gather`'s fraction times `per_solid_volume`.
+  /// received[j] = solid_volume * sum over cells of weight * (per solid volume). Summed over particles this is the
+  /// cells' volume times `gather`'s fraction times `per_solid_volume`.
   void hand_out(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
                 std::span<Vector3> received) const;
 
  private:
   static constexpr std::size_t block_size = 64;
   struct Block {
-    std::vector<std::size_t> end;     // of each lump's cells
+    std::vector<std::size_t> end;     // of each particle's cells
     std::vector<std::uint32_t> cell;  // longer than needed
     std::vector<double> weight;
   };
@@ -56,7 +56,7 @@ class Deposition {
   std::optional<std::array<std::size_t, 3>> in_front_of_plates(const Vector3& position, const Scratch& scratch,
                                                                std::array<std::size_t, 3> cell) const;
   template <class Body>
-  void for_each_lump(const Block& block, std::size_t first, Body&& body) const;
+  void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
 
   Grid grid_;
   Domain domain_;

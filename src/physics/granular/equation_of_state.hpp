@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How the density of a lump of grains enters its stress.
+/// How the bulk density of a material point enters its stress.
 /// Source: Yuu & Umekage 2011, section 2.1.
 #pragma once
 

@@ -3,10 +3,10 @@
 ///
 ///     d(x_i - X_i)/dX_j = (<x_i - X_i>_A - <x_i - X_i>_B) / (<X_j>_A - <X_j>_B)
 ///
-/// A and B: the lumps within 1.2 h_k around lump k before and behind it along axis j.
+/// A and B: the particles within 1.2 h_k around particle k before and behind it along axis j.
 /// Source: Yuu & Umekage 2011, Appendix A, Figure A1. The printed formula ends before its denominator: completed.
 /// Range: exact for a uniform gradient where the halves are each other's mirror image; where they are not, means along
-/// the other axes differ too and come in as a false strain. On the cubic lattice 1.2 h_k holds the lump and its 6
+/// the other axes differ too and come in as a false strain. On the cubic lattice 1.2 h_k holds the particle and its 6
 /// neighbours, 6 in each half with those on the plane between: the printed "4~7".
 #pragma once
 
@@ -20,8 +20,8 @@ inline constexpr double half_sphere_radius = 1.2;
 
 class HalfSpheres {
  public:
-  /// Adds a lump within the sphere, lump k itself with an offset of zero. One on the plane between counts in both.
-  /// \param offset x_l - x_k, m; \param displacement x_l - X_l, m, of the nearest image as x_l
+  /// Adds a particle within the sphere, particle k itself with an offset of zero. One on the plane between counts in
+  /// both. \param offset x_l - x_k, m; \param displacement x_l - X_l, m, of the nearest image as x_l
   void add(const Vector3& offset, const Vector3& displacement) {
     const double along[3] = {offset.x, offset.y, offset.z};
     const double moved[3] = {displacement.x, displacement.y, displacement.z};
@@ -31,7 +31,7 @@ class HalfSpheres {
     }
   }
 
-  /// d(x_i - X_i)/dX_j, number. Choice: no displacement gradient along an axis without lumps on both sides.
+  /// d(x_i - X_i)/dX_j, number. Choice: no displacement gradient along an axis without particles on both sides.
   Tensor3<> gradient() const {
     Vector3 column[3];
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One lump of grains led through a path of deformations by a constitutive law: a test in a cell, no flow around it.
+/// One material point led through a path of deformations by a constitutive law: a test in a cell, no flow around it.
 #pragma once
 
 #include <span>
@@ -44,9 +44,9 @@ std::vector<HistorySlot> history_of(const AnyLaw& law);
 std::vector<PathPoint> follow_path(const AnyLaw& law, std::span<const PathStretch> path,
                                    const PathOptions& options = {});
 
-/// Work done on the lump over its volume at the start, J/m^3, by the trapezoidal rule over the recorded points: the sum
-/// of tau : (-D) V/V_0 dt. A closed path with negative work is a source of energy.
-/// \param path, points as given to and returned by follow_path
+/// Work done on the particle over its volume at the start, J/m^3, by the trapezoidal rule over the recorded points: the
+/// sum of tau : (-D) V/V_0 dt. A closed path with negative work is a source of energy. \param path, points as given to
+/// and returned by follow_path
 double work_of_path(std::span<const PathStretch> path, std::span<const PathPoint> points);
 
 }  // namespace talus::granular

@@ -23,7 +23,7 @@ struct HistorySlot {
   int axis = 0, other_axis = 0;
 };
 
-/// A lump of grains as a law sees it. A new point is all zeros: no stress, nothing remembered.
+/// Grains at one place, as a law sees them. A new point is all zeros: no stress, nothing remembered.
 template <class Law, class Number = double>
 struct MaterialPoint {
   SymmetricTensor3<Number> stress;                 ///< Pa, strain-rate independent part, compression positive

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How far a lump of grains turns within a time step.
+/// How far a material point turns within a time step.
 /// Source: Hughes & Winget, Int. J. Numer. Methods Eng. 15, 1862-1867 (1980).
 #pragma once
 

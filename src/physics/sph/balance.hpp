@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a lump brings to the momentum balance of its neighbours, Yuu & Umekage 2011, Eq. 17.
+/// What a particle brings to the momentum balance of its neighbours, Yuu & Umekage 2011, Eq. 17.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ enum class StressForm {
   printed    ///< du/dt = -(1-Phi) div(tau)/rho_b: it would carry 1/(1-Phi) times the weight
 };
 
-/// What a lump brings to the momentum balance: stress over density squared, times the packing fraction in the printed
-/// form (inside the divergence, so that pairs stay balanced). \returns m^5/(kg s^2)
+/// What a particle brings to the momentum balance: stress over density squared, times the packing fraction in the
+/// printed form (inside the divergence, so that pairs stay balanced). \returns m^5/(kg s^2)
 constexpr SymmetricTensor3<> specific_stress(const SymmetricTensor3<>& stress, double density, double packing,
                                              StressForm form) {
   return (form == StressForm::printed ? packing : 1.0) / (density * density) * stress;

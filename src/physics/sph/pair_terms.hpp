@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Conservation of mass and momentum between two lumps of the continuum: the terms of one neighbour.
+/// Conservation of mass and momentum between two particles of the continuum: the terms of one neighbour.
 /// Source: Yuu & Umekage 2011, Eqs 16 and 17; Monaghan 1992, Eqs 2.17 and 3.3.
 #pragma once
 

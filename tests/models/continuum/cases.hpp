@@ -12,8 +12,8 @@ namespace talus::continuum {
 
 inline constexpr double spacing = 1e-2;
 
-/// A frictionless box whose lumps fill it along x and y to a height; elastic grains, no viscosity, no gate.
-/// \param count lumps along x, y, z; \param room free height above, in spacings
+/// A frictionless box whose particles fill it along x and y to a height; elastic grains, no viscosity, no gate.
+/// \param count particles along x, y, z; \param room free height above, in spacings
 inline Parameters column(double x, double y, double z, double room = 0) {
   Parameters p;
   p.box.width = x * spacing;
@@ -70,7 +70,7 @@ inline double lattice_moment() {
   return moment;
 }
 
-/// A column in the order of the lumps at the start.
+/// A column in the order of the particles at the start.
 template <class T>
 std::vector<T> by_identity(const State& s, const std::vector<T>& column) {
   std::vector<T> ordered(column.size());
@@ -84,7 +84,7 @@ inline Vector3 momentum(const State& s) {
   return s.mass * sum;
 }
 
-/// Momentum of the lumps less all that they were given: zero but for round-off.
+/// Momentum of the particles less all that they were given: zero but for round-off.
 inline Vector3 momentum_error(const State& s) {
   Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse - s.air.impulse;
   for (const Vector3& impulse : s.wall_impulse) error += impulse;

@@ -66,7 +66,7 @@ TEST(Atmosphere, MomentumOfAirAndGrainsStaysInAPeriodicBox) {
   };
   const Vector3 before = total();
   double exchanged = 0;
-  // To the end of one of the air's steps: until then the lumps wait for their share of it.
+  // To the end of one of the air's steps: until then the particles wait for their share of it.
   while (s.air.steps < 30 || s.air.steps_left > 0) {
     model.advance(team);
     exchanged += norm(s.air.force) * s.last_step;
@@ -126,7 +126,7 @@ TEST(Atmosphere, AResumedRunTakesTheSameSteps) {
   }
 }
 
-/// Lumps so far apart, and spread over cells so large, that each grain falls alone: 1.413 m/s for a bead of 200 um.
+/// Particles so far apart, and spread over cells so large, that each grain falls alone: 1.413 m/s for a bead of 200 um.
 TEST(Atmosphere, ABeadFallsThroughAirAtRestWithItsTerminalVelocity) {
   Parameters p = free_block(1, 1, 1);
   p.box.width = p.box.depth = 0.2;

@@ -129,7 +129,7 @@ TEST(PrintedRoute, AResumedRunTakesTheSameStepsOnAnyNumberOfThreads) {
   EXPECT_EQ(whole.state().material.stress, resumed.state().material.stress);
 }
 
-TEST(Advance, StopsAtALumpThatIsThrownOrThinsOut) {
+TEST(Advance, StopsAtAParticleThatIsThrownOrThinsOut) {
   ThreadTeam team(1);
   for (const bool thrown : {true, false}) {
     Parameters p = small_hopper();

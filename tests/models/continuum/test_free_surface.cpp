@@ -8,7 +8,7 @@
 namespace talus::continuum {
 namespace {
 
-TEST(Begin, ALumpInAFreeSurfaceIsAsLooseAsItsKernelSays) {
+TEST(Begin, AParticleInAFreeSurfaceIsAsLooseAsItsKernelSays) {
   Parameters p = column(4, 2, 8, 4);
   make_granular(p);
   ThreadTeam team(1);

@@ -42,7 +42,7 @@ TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   EXPECT_NEAR(force[6].x, -force[6].z, 1e-9 * sideways) << "along its normal";
   EXPECT_NEAR(-force[6].z, sideways, 0.06 * sideways) << "what stands above it";
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
-  for (const Vector3& x : s.position) EXPECT_GT(x.z, x.x - 10 * spacing) << "a lump below the wall";
+  for (const Vector3& x : s.position) EXPECT_GT(x.z, x.x - 10 * spacing) << "a particle below the wall";
 }
 
 /// Acceleration along an incline of that angle, from the start of a run of a block that touches it.
@@ -63,7 +63,7 @@ double acceleration_down(double angle, double coefficient) {
   ThreadTeam team(1);
   Continuum model(p);
   State& s = model.mutable_state();
-  // Ten lumps in a row and three layers, half a spacing above the incline.
+  // Ten particles in a row and three layers, half a spacing above the incline.
   const Vector3 down{std::cos(angle), 0, -std::sin(angle)}, up{std::sin(angle), 0, std::cos(angle)};
   const State one = s;
   const auto repeat = [&](auto& column) { column.assign(30, column[0]); };

@@ -47,7 +47,8 @@ TEST(Advance, InFreeFallABlockKeepsItsShapeAndFallsAsItMust) {
 }
 
 /// Mean vertical stress of each layer of a column and the one above it, from the floor on. The mean of two, because
-/// stresses that alternate from layer to layer hardly push lumps on a lattice, and so a few per cent of that remain.
+/// stresses that alternate from layer to layer hardly push particles on a lattice, and so a few per cent of that
+/// remain.
 std::vector<double> stress_between_layers(const State& s, int layers) {
   std::vector<double> sum(static_cast<std::size_t>(layers)), count(sum.size());
   for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -111,9 +112,9 @@ TEST(Advance, ThePrintedStressFormRaisesTheStressByTheInverseOfThePacking) {
 }
 
 /// Period of a small standing pressure wave between floor and top of a closed column, from the zeros of its amplitude.
-double wave_period(const Parameters& p, int lumps, int periods) {
+double wave_period(const Parameters& p, int particles, int periods) {
   ThreadTeam team(1);
-  const double length = lumps * spacing;
+  const double length = particles * spacing;
   const auto mode = [&](const Vector3& x) { return std::sin(pi * x.z / length); };
   Continuum model = started(p, team, [&](const Vector3& x) { return Vector3{0, 0, 1e-3 * mode(x)}; });
   std::vector<double> zeros;
@@ -204,7 +205,8 @@ TEST(Advance, ASpinningBlockKeepsItsAngularMomentumAndCarriesItsStressAlong) {
   }
 }
 
-/// A small hopper with its gate open, over which lumps hit everything there is: walls, friction, plate, slit, floor.
+/// A small hopper with its gate open, over which particles hit everything there is: walls, friction, plate, slit,
+/// floor.
 TEST(Advance, MomentumIsWhatGravityAndTheWallsGave) {
   for (const Method method : methods) {
     Parameters p = small_hopper();
@@ -306,7 +308,7 @@ TEST(Advance, StopsAtTheFirstImpossibleValueAndNamesIt) {
     for (int n = 0; n < 10000; ++n) model.advance(team);
     FAIL() << "no error";
   } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find("lump"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("particle"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("integration.courant"), std::string::npos);
   }
 }

@@ -24,7 +24,7 @@ struct Evaluation {
   explicit Evaluation(const Parameters& p)
       : parameters(p), material(p), state(initial_state(p, material)), sweep(p, state.mass, 50) {}
 
-  /// Moves every lump at random by up to a share of the spacing.
+  /// Moves every particle at random by up to a share of the spacing.
   void disturb(double share) {
     Random random(3);
     for (Vector3& x : state.position)
@@ -51,7 +51,7 @@ void expect_gradient(const Tensor3<>& found, const Tensor3<>& exact, double tole
   for (const double c : {d.xx, d.xy, d.xz, d.yx, d.yy, d.yz, d.zx, d.zy, d.zz}) EXPECT_NEAR(c, 0, tolerance);
 }
 
-TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedLumps) {
+TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedParticles) {
   Evaluation e(free_block(6, 5, 7));
   e.disturb(0.1);
   const Tensor3<> exact{1, -2, 0.5, 3, -1, 0.25, 0.75, 2, -0.5};
@@ -83,7 +83,7 @@ TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
 }
 
 TEST(Sweep, GradientsAreExactOnBothSidesOfAPlateAndAtItsEdges) {
-  // Above the plate the lumps stretch away from it, below they rest.
+  // Above the plate the particles stretch away from it, below they rest.
   Parameters p = column(20, 2, 30);
   p.plate.height = 15 * spacing;
   p.bed.bottom = 0;
@@ -125,7 +125,7 @@ TEST(Sweep, WallsBearTheStressTimesTheirArea) {
   for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(push[w], expected[w] * d2 * m, 1e-9 * std::abs(expected[w] * d2));
 }
 
-TEST(Sweep, ForcesBetweenLumpsCancelAndWallsBearTheRest) {
+TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   Parameters p = column(8, 2, 30);
   p.plate.height = 15 * spacing;
   p.plate.slit_left = 2.3 * spacing;

@@ -30,7 +30,7 @@ TEST(Walls, TheGateOpensAtItsTimeAndNothingPassesBefore) {
             *p.plate.height - spacing);
 }
 
-TEST(Walls, ALumpFallsPastThePlatesEdgeUntouchedAndBouncesOffThePlate) {
+TEST(Walls, AParticleFallsPastThePlatesEdgeUntouchedAndBouncesOffThePlate) {
   Parameters p = column(12, 1, 1, 60);
   p.plate.height = 15 * spacing;
   p.plate.slit_left = 4 * spacing;
@@ -82,7 +82,7 @@ TEST(Walls, ABlockSlidesWithCoulombsFrictionAndSticksBelowIt) {
   while (s.time < begin + 0.05) model.advance(team);
   const Vector3 received = s.wall_impulse[4] - before;
   EXPECT_GT(mean(), 0.05) << "it slides still";
-  // Elastic lumps at the block's ends are pulled by the floor now and then, and only those that it pushes rub.
+  // Elastic particles at the block's ends are pulled by the floor now and then, and only those that it pushes rub.
   EXPECT_GT(received.x / -received.z, 0.299);
   EXPECT_LT(received.x / -received.z, 0.36);
   EXPECT_NEAR(-received.z, 40 * s.mass * 9.81 * (s.time - begin), 0.2 * 40 * s.mass * 9.81 * 0.05);
@@ -91,8 +91,8 @@ TEST(Walls, ABlockSlidesWithCoulombsFrictionAndSticksBelowIt) {
   EXPECT_LT(norm(momentum_error(s) - Vector3{40 * s.mass * 0.3, 0, 0}), 1e-11 * norm(s.gravity_impulse));
 }
 
-/// cases/janssen-silo.toml with lumps twice as large. Janssen: between walls a width W apart that rub with mu the floor
-/// carries L/H (1 - exp(-H/L)) of a bed of height H, L = W/(2 mu K), K the force on a wall over what the vertical
+/// cases/janssen-silo.toml with particles twice as large. Janssen: between walls a width W apart that rub with mu the
+/// floor carries L/H (1 - exp(-H/L)) of a bed of height H, L = W/(2 mu K), K the force on a wall over what the vertical
 /// stress would exert on it.
 TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
   Parameters p;
@@ -126,7 +126,8 @@ TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
   EXPECT_NEAR(-floor.z / weight, janssen, 0.05 * janssen);
 }
 
-/// What leaves through an open face is counted there, and what is inside with it is what there was: to the last lump.
+/// What leaves through an open face is counted there, and what is inside with it is what there was: to the last
+/// particle.
 TEST(Totals, CountTheMassThatHasLeftThroughAnOpenFace) {
   Parameters p = small_hopper();
   p.box.floor = FaceKind::open;
@@ -141,8 +142,8 @@ TEST(Totals, CountTheMassThatHasLeftThroughAnOpenFace) {
     ADD_FAILURE() << name;
     return 0.0;
   };
-  const std::size_t lumps = s.position.size();
-  const double initial = s.mass * static_cast<double>(lumps);
+  const std::size_t particles = s.position.size();
+  const double initial = s.mass * static_cast<double>(particles);
   EXPECT_EQ(total("mass_outside"), 0);
   double outside = 0;
   while (s.time < 0.25) {
@@ -150,8 +151,8 @@ TEST(Totals, CountTheMassThatHasLeftThroughAnOpenFace) {
     std::size_t inside = 0;
     for (const Vector3& x : s.position)
       inside += x.z >= 0 && x.z <= p.box.height && x.x >= 0 && x.x <= p.box.width && x.y >= 0 && x.y <= p.box.depth;
-    ASSERT_EQ(s.position.size(), lumps);
-    ASSERT_EQ(total("mass_outside"), s.mass * static_cast<double>(lumps - inside));
+    ASSERT_EQ(s.position.size(), particles);
+    ASSERT_EQ(total("mass_outside"), s.mass * static_cast<double>(particles - inside));
     ASSERT_GE(total("mass_outside"), outside) << "what has left does not come back";
     outside = total("mass_outside");
     ASSERT_NEAR(s.mass * static_cast<double>(inside) + outside, initial, 1e-12 * initial);
@@ -160,7 +161,8 @@ TEST(Totals, CountTheMassThatHasLeftThroughAnOpenFace) {
   EXPECT_LT(outside, initial - 20 * s.mass);
   std::vector<std::int64_t> identities = s.identity;
   std::sort(identities.begin(), identities.end());
-  for (std::size_t n = 0; n < lumps; ++n) ASSERT_EQ(identities[n], static_cast<std::int64_t>(n)) << "each lump once";
+  for (std::size_t n = 0; n < particles; ++n)
+    ASSERT_EQ(identities[n], static_cast<std::int64_t>(n)) << "each particle once";
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 }
 

@@ -25,7 +25,7 @@ TEST(VelocityGradient, IsExactForALinearFieldWhateverTheNeighbours) {
   EXPECT_NEAR(found.zz, exact.zz, 1e-13);
 }
 
-TEST(VelocityGradient, StaysFiniteForALoneLumpAndForALineOfThem) {
+TEST(VelocityGradient, StaysFiniteForALoneParticleAndForALineOfThem) {
   EXPECT_EQ(velocity_gradient({}), Tensor3<>{});
   GradientSums<> line;
   line.add(0.5, -1, {1, 0, 0}, {0, 2, 0});

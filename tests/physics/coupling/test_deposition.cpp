@@ -133,7 +133,7 @@ TEST(Deposition, APlateHidesWhatIsBehindItAndItsSlitDoesNot) {
   EXPECT_GT(through, 0.25 * all);
 }
 
-TEST(Deposition, ALumpBeyondAnOpenFaceHasNoWeights) {
+TEST(Deposition, AParticleBeyondAnOpenFaceHasNoWeights) {
   Silo silo;
   silo.place({10e-3, 2e-3, 50e-3}, {0, 0, 1});
   silo.gather();

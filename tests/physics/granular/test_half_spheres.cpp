@@ -17,7 +17,7 @@ Vector3 product(const Tensor3<>& a, const Vector3& b) {
   return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.yx * b.x + a.yy * b.y + a.yz * b.z,
           a.zx * b.x + a.zy * b.y + a.zz * b.z};
 }
-/// Offsets of the lump itself and its six neighbours.
+/// Offsets of the particle itself and its six neighbours.
 std::vector<Vector3> lattice() {
   return {{}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
 }
@@ -67,7 +67,7 @@ TEST(HalfSpheres, DoNotSeeAShiftOfAll) {
 }
 
 TEST(HalfSpheres, TakeALopsidedNeighbourhoodForShear) {
-  // One lump half way up before the plane and one half way down behind it: a squash along z, which leaves x alone,
+  // One particle half way up before the plane and one half way down behind it: a squash along z, which leaves x alone,
   // seems to tilt the sides. The paper's method; a corrected gradient (velocity_gradient.hpp of SPH) does not do so.
   HalfSpheres halves;
   for (const Vector3& X : {Vector3{1, 0, 0.5}, Vector3{-1, 0, -0.5}, Vector3{0, 0, 1}, Vector3{0, 0, -1}}) {
@@ -78,7 +78,7 @@ TEST(HalfSpheres, TakeALopsidedNeighbourhoodForShear) {
   EXPECT_NEAR(halves.gradient().zx, -0.005, 1e-15);
 }
 
-TEST(HalfSpheres, KnowNothingAlongAnAxisWithoutLumpsOnBothSides) {
+TEST(HalfSpheres, KnowNothingAlongAnAxisWithoutParticlesOnBothSides) {
   HalfSpheres halves;  // nothing below, not even itself
   for (const Vector3& x : {Vector3{1, 0, 0.2}, Vector3{-1, 0, 0.2}, Vector3{0, 0, 1}}) halves.add(x, {0.1 * x.x, 0, 9});
   const Tensor3<> g = halves.gradient();

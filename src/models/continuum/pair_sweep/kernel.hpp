@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the sums over a lump's neighbours, compiled once for each instruction set, are handed and hand back: plain
+/// What the sums over a particle's neighbours, compiled once for each instruction set, are handed and hand back: plain
 /// numbers only.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace talus::continuum {
 
-/// A lump or an image of one, as its neighbours see it.
-struct alignas(128) LumpRecord {
+/// A particle or an image of one, as its neighbours see it.
+struct alignas(128) ParticleRecord {
   double position[3];         ///< m
   double velocity[3];         ///< m/s
   double smoothing_length;    ///< m
@@ -20,13 +20,13 @@ struct alignas(128) LumpRecord {
 
 /// What all pairs have in common.
 struct PairConstants {
-  double mass;                             ///< of a lump, kg
+  double mass;                             ///< of a particle, kg
   double sound_speed;                      ///< of the viscosity, m/s
   double viscosity_alpha, viscosity_beta;  ///< Monaghan's
 };
 
-/// Neighbours of a lump, by number of their records. Groups follow each other; the first holds lumps, each other one
-/// the images by one mirror.
+/// Neighbours of a particle, by number of their records. Groups follow each other; the first holds particles, each
+/// other one the images by one mirror.
 struct Neighbours {
   const std::uint32_t* record;
   const std::uint32_t* group_end;  ///< one a group: where it ends in `record`
@@ -39,14 +39,14 @@ struct PairSums {
   double moment[6];       ///< GradientSums::moment: xx yy zz xy yz zx
   double velocity[9];     ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
   double density_rate;    ///< Eq. 16, kg/(m^3 s)
-  double kernel_density;  ///< sum of m W without the lump itself, kg/m^3
+  double kernel_density;  ///< sum of m W without the particle itself, kg/m^3
 };
 
 enum class Wanted { all, gradients, forces };
 
 /// \param acceleration one a group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
 /// wanted
-using SumNeighbours = void (*)(const LumpRecord* records, std::uint32_t self, const Neighbours& neighbours,
+using SumNeighbours = void (*)(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
 
 using ChooseSumNeighbours = SumNeighbours(Wanted wanted);

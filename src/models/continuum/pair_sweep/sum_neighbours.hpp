@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sums over a lump's neighbours, a register of neighbours at a time: their records are loaded whole and turned
+/// The sums over a particle's neighbours, a register of neighbours at a time: their records are loaded whole and turned
 /// into columns. Included by one file for each instruction set; its contents live in that set's namespace.
 #pragma once
 
@@ -25,9 +25,9 @@ TALUS_INLINE double total(const Number& x) {
 }
 
 template <bool gradients, bool forces>
-void sum_neighbours(const LumpRecord* records, std::uint32_t self, const Neighbours& neighbours,
+void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, PairSums& sums, double (*acceleration)[3]) {
-  const LumpRecord& own = records[self];
+  const ParticleRecord& own = records[self];
   const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
   const Number zero = 0.0;
   sph::GradientSums<Number> gradient{{zero, zero, zero, zero, zero, zero},

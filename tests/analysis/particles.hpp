@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lumps of a continuum placed by hand: lattices in a box, with the columns of a snapshot.
+/// Particles of a continuum placed by hand: lattices in a box, with the columns of a snapshot.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "analysis/lump_field.hpp"
+#include "analysis/particle_field.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus::test {
@@ -41,8 +41,8 @@ inline std::vector<Vector3> lattice(double width, double depth, double from, dou
   return lattice(width, depth, from, to, h, [](double, double) { return true; });
 }
 
-/// Lumps on a lattice of spacing h, of that packing.
-inline Lumps lumps(const std::vector<Vector3>& position, double h, double packing = 0.6) {
+/// Particles on a lattice of spacing h, of that packing.
+inline Particles particles(const std::vector<Vector3>& position, double h, double packing = 0.6) {
   const double cube = h * h * h;
   return {.position = position,
           .smoothing_length = std::vector<double>(position.size(), h),

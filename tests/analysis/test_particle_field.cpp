@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/lump_field.hpp"
+#include "analysis/particle_field.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "analysis/lumps.hpp"
+#include "analysis/particles.hpp"
 
 namespace talus {
 namespace {
@@ -15,9 +15,9 @@ using test::lattice;
 
 constexpr double h = 1e-2;
 
-TEST(LumpField, DepositsTheLatticesPackingUpToTheWalls) {
+TEST(ParticleField, DepositsTheLatticesPackingUpToTheWalls) {
   const auto points = lattice(0.1, 0.03, 0, 0.1, h);
-  const LumpField field(test::lumps(points, h), box(0.1, 0.03, 0.2));
+  const ParticleField field(test::particles(points, h), box(0.1, 0.03, 0.2));
   // The kernel's sum over a lattice is 1 to 2 % wherever one looks; corners, with images of images, are no exception.
   for (const Vector3& x : {Vector3{0.05, 0.015, 0.05},
                            {0.055, 0.015, 0.055},
@@ -30,23 +30,23 @@ TEST(LumpField, DepositsTheLatticesPackingUpToTheWalls) {
   EXPECT_EQ(field.packing({0.05, 0.015, 0.12}), 0);
 }
 
-TEST(LumpField, InterpolatesLinearFields) {
+TEST(ParticleField, InterpolatesLinearFields) {
   const auto points = lattice(0.1, 0.05, 0, 0.1, h);
-  const LumpField field(test::lumps(points, h), box(0.1, 0.05, 0.2));
+  const ParticleField field(test::particles(points, h), box(0.1, 0.05, 0.2));
   std::vector<double> constant(points.size(), 7.5), stress;
   for (const Vector3& x : points) stress.push_back(1200 * (1 - x.z / 0.1) + 300 * x.x / 0.1);
   EXPECT_NEAR(field.value({0.0431, 0.021, 0.0387}, constant), 7.5, 1e-12);
   const auto exact = [](const Vector3& x) { return 1200 * (1 - x.z / 0.1) + 300 * x.x / 0.1; };
-  // On a lump and between eight of them the sum is symmetric; elsewhere it errs by a few hundredths of a spacing.
+  // On a particle and between eight of them the sum is symmetric; elsewhere it errs by a few hundredths of a spacing.
   for (const Vector3& x : {Vector3{0.045, 0.025, 0.055}, {0.05, 0.03, 0.05}})
     EXPECT_NEAR(field.value(x, stress), exact(x), 1e-9);
   EXPECT_NEAR(field.value({0.0473, 0.0262, 0.0512}, stress), exact({0.0473, 0.0262, 0.0512}), 0.03 * 120);
   EXPECT_TRUE(std::isnan(field.value({0.05, 0.025, 0.15}, stress)));
 }
 
-TEST(LumpField, TurnsVectorsOfImages) {
+TEST(ParticleField, TurnsVectorsOfImages) {
   const auto points = lattice(0.1, 0.05, 0, 0.1, h);
-  const LumpField field(test::lumps(points, h), box(0.1, 0.05, 0.2));
+  const ParticleField field(test::particles(points, h), box(0.1, 0.05, 0.2));
   const std::vector<Vector3> velocity(points.size(), Vector3{1, 2, 3});
   const Vector3 at_left = field.value({0, 0.025, 0.055}, velocity);
   EXPECT_NEAR(at_left.x, 0, 1e-12);
@@ -54,11 +54,11 @@ TEST(LumpField, TurnsVectorsOfImages) {
   EXPECT_NEAR(at_left.z, 3, 1e-12);
 }
 
-TEST(LumpField, GradientsAreExactForLinearVelocities) {
+TEST(ParticleField, GradientsAreExactForLinearVelocities) {
   auto points = lattice(0.1, 0.05, 0, 0.1, h);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].x += 2e-3 * std::sin(double(i));  // no lattice
   // y and z only where mirrors agree with the field: away from them
-  const LumpField field(test::lumps(points, h), box(0.1, 0.05, 0.2));
+  const ParticleField field(test::particles(points, h), box(0.1, 0.05, 0.2));
   std::vector<Vector3> velocity;
   for (const Vector3& x : points) velocity.push_back({2 * x.x - 3 * x.z, 0.5 * x.x + x.y, 4 * x.x - x.y + 6 * x.z});
   std::size_t inner = 0;
@@ -77,42 +77,42 @@ TEST(LumpField, GradientsAreExactForLinearVelocities) {
     EXPECT_NEAR(found, true_value, 1e-11);
 }
 
-TEST(LumpField, SeesThroughOpenGatesOnly) {
+TEST(ParticleField, SeesThroughOpenGatesOnly) {
   const auto points = lattice(0.1, 0.03, 0, 0.1, h);  // below the plate
   Domain domain = box(0.1, 0.03, 0.3, {test::plate(0.1, 0.03, 0.07, 0.03)});
-  const LumpField shut(test::lumps(points, h), domain);
+  const ParticleField shut(test::particles(points, h), domain);
   EXPECT_EQ(shut.packing({0.05, 0.015, 0.105}), 0);
   EXPECT_NEAR(shut.packing({0.05, 0.015, 0.0999}), 0.6, 0.012) << "a plate mirrors";
   domain.open_gates();
-  const LumpField open(test::lumps(points, h), domain);
+  const ParticleField open(test::particles(points, h), domain);
   EXPECT_GT(open.packing({0.05, 0.015, 0.105}), 0.05);
   EXPECT_NEAR(open.packing({0.05, 0.015, 0.0999}), 0.3, 0.012);
   EXPECT_EQ(open.packing({0.01, 0.015, 0.105}), 0);
 }
 
-TEST(LumpField, LumpsOfADensityAndSpheres) {
+TEST(ParticleField, ParticlesOfADensityAndSpheres) {
   const std::vector<Vector3> points = {{0, 0, 0}, {1, 0, 0}};
-  const Lumps lumps = lumps_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500);
-  EXPECT_DOUBLE_EQ(lumps.volume[0], 8e-6);
-  EXPECT_DOUBLE_EQ(lumps.smoothing_length[0], 0.02);
-  EXPECT_DOUBLE_EQ(lumps.smoothing_length[1], 0.1);
-  EXPECT_DOUBLE_EQ(lumps.solid_volume, 4.8e-6);
-  EXPECT_DOUBLE_EQ(lumps_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500, 0.03).smoothing_length[1],
+  const Particles particles = particles_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500);
+  EXPECT_DOUBLE_EQ(particles.volume[0], 8e-6);
+  EXPECT_DOUBLE_EQ(particles.smoothing_length[0], 0.02);
+  EXPECT_DOUBLE_EQ(particles.smoothing_length[1], 0.1);
+  EXPECT_DOUBLE_EQ(particles.solid_volume, 4.8e-6);
+  EXPECT_DOUBLE_EQ(particles_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500, 0.03).smoothing_length[1],
                    0.03);
-  const Lumps spheres = lumps_of_spheres(points, 0.5);
+  const Particles spheres = particles_of_spheres(points, 0.5);
   EXPECT_DOUBLE_EQ(spheres.smoothing_length[1], 1);
   EXPECT_DOUBLE_EQ(spheres.solid_volume / spheres.volume[0], std::numbers::pi / 6);
-  EXPECT_THROW(LumpField(lumps_of_spheres(points, 0), box(1, 1, 1)), std::invalid_argument);
+  EXPECT_THROW(ParticleField(particles_of_spheres(points, 0), box(1, 1, 1)), std::invalid_argument);
 }
 
-TEST(LumpField, TheLumpsAroundAPlaceAreEnoughThere) {
+TEST(ParticleField, TheParticlesAroundAPlaceAreEnoughThere) {
   const auto points = lattice(0.1, 0.03, 0, 0.1, h);
   const Vector3 place{0.043, 0.011, 0.052};
-  const LumpField all(test::lumps(points, h), box(0.1, 0.03, 0.2));
+  const ParticleField all(test::particles(points, h), box(0.1, 0.03, 0.2));
   std::vector<Vector3> near;
-  for (const std::size_t i : lumps_around(points, place, 2 * h)) near.push_back(points[i]);
+  for (const std::size_t i : particles_around(points, place, 2 * h)) near.push_back(points[i]);
   EXPECT_LT(near.size(), points.size() / 4);
-  EXPECT_DOUBLE_EQ(LumpField(test::lumps(near, h), box(0.1, 0.03, 0.2)).packing(place), all.packing(place));
+  EXPECT_DOUBLE_EQ(ParticleField(test::particles(near, h), box(0.1, 0.03, 0.2)).packing(place), all.packing(place));
 }
 
 TEST(CellCentre, OfThePapersCells) {

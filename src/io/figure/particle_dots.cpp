@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure/lump_dots.hpp"
+#include "io/figure/particle_dots.hpp"
 
 #include "base/random.hpp"
 
@@ -28,8 +28,8 @@ Vector3 turned_back(const Domain& domain, const Vector3& from, Vector3 to) {
 
 }  // namespace
 
-std::vector<Vector3> lump_dots(std::span<const Vector3> position, std::span<const double> smoothing_length,
-                               std::span<const std::int64_t> identity, const Domain& domain, int dots) {
+std::vector<Vector3> particle_dots(std::span<const Vector3> position, std::span<const double> smoothing_length,
+                                   std::span<const std::int64_t> identity, const Domain& domain, int dots) {
   std::vector<Vector3> all;
   all.reserve(position.size() * static_cast<std::size_t>(dots));
   for (std::size_t i = 0; i < position.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure/lump_dots.hpp"
+#include "io/figure/particle_dots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,15 +17,15 @@ Domain box() {
       {{.axis = 2, .position = 5, .openings = {{{4, -1, 0}, {6, 11, 0}, false}}}});
 }
 
-TEST(LumpDots, AreNormalWithinTwiceH) {
-  const std::vector<Vector3> lump = {{5, 5, 2.5}};
+TEST(ParticleDots, AreNormalWithinTwiceH) {
+  const std::vector<Vector3> particle = {{5, 5, 2.5}};
   const double h = 1;
-  const auto dots = lump_dots(lump, std::vector<double>{h}, std::vector<std::int64_t>{7}, box(), 20000);
+  const auto dots = particle_dots(particle, std::vector<double>{h}, std::vector<std::int64_t>{7}, box(), 20000);
   ASSERT_EQ(dots.size(), 20000u);
   double farthest = 0, squares = 0;
   Vector3 mean;
   for (const Vector3& x : dots) {
-    const Vector3 d = x - lump[0];
+    const Vector3 d = x - particle[0];
     farthest = std::max(farthest, norm(d));
     squares += dot(d, d) / 20000;
     mean += (1.0 / 20000) * d;
@@ -39,10 +39,10 @@ TEST(LumpDots, AreNormalWithinTwiceH) {
   EXPECT_NEAR(squares / (4.0 / 9), fifth / cut, 0.04);
 }
 
-TEST(LumpDots, StayOnTheirSideOfWallsAndPlates) {
-  const std::vector<Vector3> lumps = {{0.2, 5, 0.3}, {2, 0.1, 5.2}, {8, 9, 4.9}, {5, 5, 5.1}};
+TEST(ParticleDots, StayOnTheirSideOfWallsAndPlates) {
+  const std::vector<Vector3> particles = {{0.2, 5, 0.3}, {2, 0.1, 5.2}, {8, 9, 4.9}, {5, 5, 5.1}};
   const std::vector<double> h(4, 1.0);
-  const auto dots = lump_dots(lumps, h, std::vector<std::int64_t>{0, 1, 2, 3}, box());
+  const auto dots = particle_dots(particles, h, std::vector<std::int64_t>{0, 1, 2, 3}, box());
   ASSERT_EQ(dots.size(), 200u);
   for (const Vector3& x : dots) EXPECT_TRUE(x.x >= 0 && x.x <= 10 && x.y >= 0 && x.y <= 10 && x.z >= 0);
   for (std::size_t n = 50; n < 100; ++n) EXPECT_GE(dots[n].z, 5);
@@ -50,11 +50,11 @@ TEST(LumpDots, StayOnTheirSideOfWallsAndPlates) {
   EXPECT_TRUE(std::any_of(dots.begin() + 150, dots.end(), [](const Vector3& x) { return x.z < 5; })) << "the slit";
 }
 
-TEST(LumpDots, FollowTheLumpsIdentity) {
-  const std::vector<Vector3> lumps = {{3, 5, 2.5}, {7, 5, 2.5}}, turned = {lumps[1], lumps[0]};
+TEST(ParticleDots, FollowTheParticlesIdentity) {
+  const std::vector<Vector3> particles = {{3, 5, 2.5}, {7, 5, 2.5}}, turned = {particles[1], particles[0]};
   const std::vector<double> h(2, 0.5);
-  const auto one = lump_dots(lumps, h, std::vector<std::int64_t>{4, 9}, box());
-  const auto other = lump_dots(turned, h, std::vector<std::int64_t>{9, 4}, box());
+  const auto one = particle_dots(particles, h, std::vector<std::int64_t>{4, 9}, box());
+  const auto other = particle_dots(turned, h, std::vector<std::int64_t>{9, 4}, box());
   for (std::size_t n = 0; n < 50; ++n) EXPECT_EQ(one[n], other[50 + n]);
   EXPECT_NE(one[0].y, one[50].y);
 }

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Grains as particles of a continuum: the fields that the kernel makes of them at any point, walls and plates seen as
+/// the model sees them, by images of the particles. Kernel: the cubic spline with support 2 h of each particle.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/tensor.hpp"
+#include "base/vector.hpp"
+#include "numerics/cell_grid.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+#include "numerics/sph/velocity_gradient.hpp"
+
+namespace talus {
+
+/// Particles of equal mass, one entry a particle.
+struct Particles {
+  std::span<const Vector3> position;     ///< m
+  std::vector<double> smoothing_length;  ///< h, m
+  std::vector<double> volume;            ///< that a particle takes up, voids counted, m^3
+  double solid_volume = 0;               ///< of the grains of a particle, m^3
+};
+
+/// Particles of a bulk density each. \param density kg/m^3, above 0; \param mass of a particle, kg; \param
+/// grain_density rho_p, kg/m^3; \param smoothing_length of all, m; not given: of each from its density, (m/rho)^(1/3)
+Particles particles_of_density(std::span<const Vector3> position, std::span<const double> density, double mass,
+                               double grain_density, std::optional<double> smoothing_length = {});
+
+/// Spheres of one radius a each as particles: smoothing length and volume of a cube of edge 2 a.
+Particles particles_of_spheres(std::span<const Vector3> position, double radius);
+
+class ParticleField {
+ public:
+  /// \param domain with its gates as they are at that time
+  /// \throws std::invalid_argument if a position is not finite or a smoothing length not above 0
+  ParticleField(Particles particles, Domain domain);
+
+  const Particles& particles() const { return particles_; }
+  const Domain& domain() const { return domain_; }
+
+  /// Packing fraction as the kernel deposits it: the sum of solid volume times W over particles and images.
+  double packing(const Vector3& x) const;
+
+  /// Mean of a column over the particles around x, weighted by volume times W; nan where there is none. Exact for a
+  /// constant field. Vectors of images are turned as mirrors turn them. \param column one entry a particle
+  double value(const Vector3& x, std::span<const double> column) const;
+  Vector3 value(const Vector3& x, std::span<const Vector3> column) const;
+
+  /// du_i/dx_j at a particle, corrected so that it is exact for linear fields. \param velocity one entry a particle,
+  /// m/s
+  Tensor3<> velocity_gradient(std::size_t particle, std::span<const Vector3> velocity) const;
+
+  /// Largest support of a particle, m.
+  double reach() const { return reach_; }
+
+ private:
+  /// Calls visit(j, image, d) for each particle j and each of its images whose place x + d is seen from x, |d| < reach.
+  template <class Visit>
+  void for_each_near(const Vector3& x, double reach, Visit&& visit) const;
+
+  Particles particles_;
+  Domain domain_;
+  double reach_ = 0;
+  Vector3 low_, high_;         // of the particles
+  std::vector<Image> images_;  // the identity first
+  CellGrid grid_;
+};
+
+/// The particles whose x and z are within `reach` of a place, by index: enough of them for what a ParticleField says
+/// there, if the box is not periodic along x and z.
+std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& place, double reach);
+
+/// The centre of the cubic cell that holds a place; cells are numbered from the origin.
+Vector3 cell_centre(const Vector3& place, double cell);
+
+}  // namespace talus
