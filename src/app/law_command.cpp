@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
@@ -76,12 +77,16 @@ ExitStatus follow(const LawOptions& options) {
   std::filesystem::create_directories(folder);
   write_path_table(path, folder / "path.csv");
   draw_path(path, folder / "path.png");
-  const bool has_functions = parameters.law.name != granular::LawName::linear_elastic;
-  if (has_functions) draw_functions(parameters, folder / "functions.png");
+  const auto fits = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
+    std::optional<granular::Fits> fits;
+    if constexpr (requires { own.fits; }) fits = own.fits;
+    return fits;
+  });
+  if (fits) draw_functions(*fits, folder / "functions.png");
 
   for (const NamedValue& quantity : quantities_of(path))
     fmt::print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
-  fmt::print("{}: path.csv, path.png{}\n", folder.string(), has_functions ? ", functions.png" : "");
+  fmt::print("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
   return ExitStatus::done;
 }
 
@@ -96,7 +101,8 @@ void add_law_command(CLI::App& app, Action& action) {
   command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");
   command->add_flag("--overwrite", options->overwrite, "replace what an earlier path left in the folder");
   command->footer(
-      "CASE holds a table [law], and if it likes grains.density, grains.diameter and gravity.acceleration, as a case\n"
+      "CASE holds a table [law], and may hold [collisions], grains.density, grains.diameter and gravity.acceleration, "
+      "as a case\n"
       "of the model continuum does; of such a case the rest is passed over. Its table [path] has packing, points and\n"
       "largest_increment.\n\n"
       "A line of the path is a stretch: how long it lasts, and the velocity gradient du_x/dz as gradient_xz, ...;\n"
@@ -107,7 +113,7 @@ void add_law_command(CLI::App& app, Action& action) {
       "  1,0,-0.0001\n"
       "  1,0,0.002\n\n"
       "Stress and strain are positive in compression, and the law's answer does not depend on the durations but for\n"
-      "law.smoothing_time and the stress by collisions.");
+      "a law's smoothing_time and the stress by collisions.");
   command->callback([options, &action] { action = [options] { return follow(*options); }; });
 }
 

@@ -14,6 +14,7 @@
 #include "models/continuum/atmosphere.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
+#include "models/continuum/renamed_keys.hpp"
 
 namespace talus::app {
 
@@ -86,7 +87,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   Parameters p;
   run::RunParameters run;
   p.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
-  ParameterReader reader(file);
+  ParameterReader reader(file, continuum::renamed_keys);
   run::for_each_parameter(reader, run);
   continuum::for_each_parameter(reader, p);
   reader.check(continuum::check(p));

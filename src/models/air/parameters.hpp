@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include "base/parameter.hpp"
@@ -72,13 +73,15 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"air.viscosity", dimension::viscosity, above(0), "viscosity of the air"}, p.viscosity);
   visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest and of one pressure, so that it only drags"},
         p.motion);
-  visit(Parameter{"air.continuity",
-                  {},
-                  {},
-                  "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
-                  "if the void fraction did not change with time"},
-        p.continuity);
-  visit(
+  auto flowing = only_if(where("air.motion", p.motion, Motion::flowing), visit);
+  flowing(
+      Parameter{"air.continuity",
+                {},
+                {},
+                "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
+                "if the void fraction did not change with time"},
+      p.continuity);
+  flowing(
       Parameter{
           "air.formulation",
           {},
@@ -103,18 +106,23 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"air.rear", {}, {}, "the rear face"}, p.boundaries.kind[3]);
   visit(Parameter{"air.floor", {}, {}, "the floor"}, p.boundaries.kind[4]);
   visit(Parameter{"air.top", {}, {}, "the top"}, p.boundaries.kind[5]);
-  visit(Parameter{"air.left_pressure", dimension::pressure, any(),
-                  "pressure beyond the left face where it is open, against air.pressure"},
-        p.boundaries.pressure[0]);
-  visit(Parameter{"air.right_pressure", dimension::pressure, any(), "beyond the right face"}, p.boundaries.pressure[1]);
-  visit(Parameter{"air.front_pressure", dimension::pressure, any(), "beyond the front face"}, p.boundaries.pressure[2]);
-  visit(Parameter{"air.rear_pressure", dimension::pressure, any(), "beyond the rear face"}, p.boundaries.pressure[3]);
-  visit(Parameter{"air.floor_pressure", dimension::pressure, any(), "below the floor"}, p.boundaries.pressure[4]);
-  visit(Parameter{"air.top_pressure", dimension::pressure, any(), "above the top"}, p.boundaries.pressure[5]);
-  visit(Parameter{"air.upwind", dimension::none, between(0, 1),
-                  "upstream weight of the air's convection: 0 the printed central scheme of fourth order, 1 the "
-                  "upstream-biased one of third"},
-        p.upwind);
+  constexpr struct {
+    const char *face, *text;
+  } faces[6] = {{"left", "pressure beyond the left face where it is open, against air.pressure"},
+                {"right", "beyond the right face"},
+                {"front", "beyond the front face"},
+                {"rear", "beyond the rear face"},
+                {"floor", "below the floor"},
+                {"top", "above the top"}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const std::string key = std::string("air.") + faces[k].face;
+    auto open = only_if(where(key, p.boundaries.kind[k], FlowBoundary::open), visit);
+    open(Parameter{key + "_pressure", dimension::pressure, any(), faces[k].text}, p.boundaries.pressure[k]);
+  }
+  flowing(Parameter{"air.upwind", dimension::none, between(0, 1),
+                    "upstream weight of the air's convection: 0 the printed central scheme of fourth order, 1 the "
+                    "upstream-biased one of third"},
+          p.upwind);
   visit(Parameter{"air.courant", dimension::none, above(0), "most cells that the air moves in one of its steps"},
         p.courant);
   visit(Parameter{"air.response", dimension::none, above(0),
@@ -122,12 +130,12 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.response);
   visit(Parameter{"air.longest_step", dimension::time, above(0), "longest step of the air in any case"},
         p.longest_step);
-  visit(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
-                  "residual of the pressure equation over its source at which it is solved"},
-        p.tolerance);
-  visit(Parameter{"air.most_iterations", dimension::none, at_least(1),
-                  "iterations after which a pressure that is not solved ends the run"},
-        p.most_iterations);
+  flowing(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
+                    "residual of the pressure equation over its source at which it is solved"},
+          p.tolerance);
+  flowing(Parameter{"air.most_iterations", dimension::none, at_least(1),
+                    "iterations after which a pressure that is not solved ends the run"},
+          p.most_iterations);
 }
 
 }  // namespace talus::air

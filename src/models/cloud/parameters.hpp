@@ -78,8 +78,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                 "in space, or a file of points",
                 true},
       p.particles.shape);
-  visit(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains; with a file, its points"},
-        p.particles.count);
+  auto packed = only_if(unless("particles.shape", p.particles.shape, Shape::file), visit);
+  packed(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains"}, p.particles.count);
   visit(
       Parameter{"particles.size", dimension::length, above(0),
                 "radius of the circle, ball or dome; height of the triangle, whose base on the slope is twice as long; "
@@ -93,14 +93,15 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"particles.radius", dimension::length, above(0), "mean radius a_p; the unit of length of the results",
                   true},
         p.particles.radius);
-  visit(Parameter{"particles.radius_spread", dimension::none, between(0, 0.9),
-                  "half the width of the radii's uniform "
-                  "distribution, or the standard deviation of the normal one (cut at 3), over the mean radius"},
-        p.particles.radius_spread);
-  visit(Parameter{"particles.radius_distribution", {}, {}, "distribution of the radii"},
-        p.particles.radius_distribution);
-  visit(Parameter{"particles.boundary", {}, {}, "whether the grains' centres or the whole grains lie inside the shape"},
-        p.particles.boundary);
+  packed(Parameter{"particles.radius_spread", dimension::none, between(0, 0.9),
+                   "half the width of the radii's uniform "
+                   "distribution, or the standard deviation of the normal one (cut at 3), over the mean radius"},
+         p.particles.radius_spread);
+  packed(Parameter{"particles.radius_distribution", {}, {}, "distribution of the radii"},
+         p.particles.radius_distribution);
+  packed(
+      Parameter{"particles.boundary", {}, {}, "whether the grains' centres or the whole grains lie inside the shape"},
+      p.particles.boundary);
   visit(Parameter{"particles.density", dimension::density, above(0), "true density of the grains", true},
         p.particles.density);
 
@@ -113,13 +114,15 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "how grains drag each other: the printed tensor, its symmetric form for "
                   "unequal and overlapping spheres, or not at all"},
         p.fluid.mobility);
-  visit(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
-        p.fluid.precision);
+  auto dragged = only_if(unless("fluid.mobility", p.fluid.mobility, hydrodynamics::Mobility::none), visit);
+  dragged(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
+          p.fluid.precision);
 
   visit(Parameter{"contact.enabled", {}, {}, "whether grains that overlap repel each other and the slope"},
         p.contact.enabled);
-  visit(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
-        p.contact.stiffness);
+  auto touching = only_if(where("contact.enabled", p.contact.enabled, true), visit);
+  touching(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
+           p.contact.stiffness);
 
   visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 carries the grains (a wall for contacts only)"},
         p.slope.enabled);
@@ -145,10 +148,11 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.integration.method);
   visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
         p.integration.largest_step);
-  visit(Parameter{"integration.tolerance", dimension::none, above(0),
-                  "allowed root mean square of the local error of a "
-                  "step, in a_p"},
-        p.integration.tolerance);
+  auto adaptive = only_if(where("integration.method", p.integration.method, Method::chebyshev), visit);
+  adaptive(Parameter{"integration.tolerance", dimension::none, above(0),
+                     "allowed root mean square of the local error of a "
+                     "step, in a_p"},
+           p.integration.tolerance);
   visit(Parameter{"integration.overlap_growth", dimension::none, above(0),
                   "a step that makes the largest overlap grow "
                   "by more than this, in a_p, is repeated at half its length"},

@@ -192,14 +192,14 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 /// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
 /// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
 /// tension would pull its own skin in; its surfaces stay surfaces.
-bool is_loose_where_free(const Parameters& p) {
-  return p.sph.continuity == Continuity::printed && p.law.name != granular::LawName::linear_elastic;
+bool is_loose_where_free(const Parameters& p, const Material& material) {
+  return p.sph.continuity == Continuity::printed && !material.bears_tension();
 }
 
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!is_loose_where_free(p)) return;
+  if (!is_loose_where_free(p, w.material)) return;
   evaluate(team, p, s, w);
   const double bed = p.bed.packing * p.grains.density;
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });
@@ -214,7 +214,7 @@ void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   evaluate(team, p, s, w);
   const std::vector<double> before = w.rates.kernel_density;
   w.open_gates(time);
-  if (!is_loose_where_free(p)) return;
+  if (!is_loose_where_free(p, w.material)) return;
   evaluate(team, p, s, w);
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += w.rates.kernel_density[i] - before[i]; });
 }
