@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/prepared_case.hpp"
 #include "io/parameter_writer.hpp"
+#include "numerics/warning.hpp"
 #include "run/progress.hpp"
 
 namespace talus::app {
@@ -32,6 +33,11 @@ ExitStatus check(const CaseOptions& options, int threads) {
   fmt::print("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
     fmt::print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
+
+  if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
+    fmt::print("\nWarnings: the case leaves what its laws and the method assume:\n");
+    for (const Warning& warning : warnings) fmt::print("  ! {}\n", warning.text);
+  }
 
   const Forecast f = prepared.forecast();
   fmt::print("\nForecast (measured on this machine now, one thread, and divided by {} threads):\n", threads);

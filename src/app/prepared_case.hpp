@@ -43,6 +43,8 @@ struct PreparedCase {
   std::vector<run::Observer> observers;
   /// Dimensionless groups and scales, for `check` and the log.
   std::vector<NamedValue> groups;
+  /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.
+  std::vector<RegimeLine> regime;
   std::function<Forecast()> forecast;
   /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
   std::function<std::vector<NamedValue>(const std::filesystem::path& folder)> analyze;

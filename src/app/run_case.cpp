@@ -15,6 +15,7 @@
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/summary.hpp"
+#include "numerics/warning.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
 
@@ -54,6 +55,13 @@ void print_regime(const std::vector<RegimeLine>& regime, spdlog::logger& log) {
     fmt::print("  {}\n", text);
     log.info("regime {}", text);
   }
+}
+
+/// The warnings of a card, for the summary.
+std::vector<std::string> texts_of(const std::vector<RegimeLine>& regime) {
+  std::vector<std::string> texts;
+  for (const Warning& warning : warnings_of(regime)) texts.push_back(to_string(warning));
+  return texts;
 }
 
 Manifest manifest_of(const PreparedCase& prepared, int threads) {
@@ -101,7 +109,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   const bool resume = request.existing == Existing::resume;
   write_summary(
       folder.summary(),
-      {.status = "running", .wall_seconds = 0, .instruction_set = manifest.instruction_set, .quantities = {}});
+      {.status = "running", .instruction_set = manifest.instruction_set, .warnings = texts_of(prepared.regime)});
   const CheckpointFiles checkpoints(folder.path());
   for (const std::string& damage : checkpoints.damages()) {
     log.warn("passed over: {}", damage);
@@ -123,7 +131,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   Summary summary{.status = loop.interrupted ? "interrupted" : "done",
                   .wall_seconds = loop.wall_seconds,
                   .instruction_set = manifest.instruction_set,
-                  .quantities = {}};
+                  .warnings = texts_of(model->regime())};
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
     summary.quantities = prepared.analyze(folder.path());
@@ -153,11 +161,11 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
 }
 
 /// Where even this cannot be written, the trouble that led here is the one to tell.
-void summarize_failure(const RunFolder& folder, const Manifest& manifest) {
+void summarize_failure(const PreparedCase& prepared, const RunFolder& folder, const Manifest& manifest) {
   try {
     write_summary(
         folder.summary(),
-        {.status = "failed", .wall_seconds = 0, .instruction_set = manifest.instruction_set, .quantities = {}});
+        {.status = "failed", .instruction_set = manifest.instruction_set, .warnings = texts_of(prepared.regime)});
   } catch (const FileError&) {
   }
 }
@@ -197,11 +205,11 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     return run_in_folder(prepared, request, folder, manifest, *log);
   } catch (const NumericalError& error) {
     log->error("numerical failure: {}", error.what());
-    summarize_failure(folder, manifest);
+    summarize_failure(prepared, folder, manifest);
     throw;
   } catch (const FileError& error) {
     log->error("file trouble: {}", error.what());
-    summarize_failure(folder, manifest);
+    summarize_failure(prepared, folder, manifest);
     throw;
   }
 }

@@ -58,9 +58,13 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const cloud::Scales s = cloud::scales(p);
   const double a = p.particles.radius;
   const double reynolds = p.fluid.density * a * s.stokes_speed / p.fluid.viscosity;
-  return {{"stokes_speed", "m/s", s.stokes_speed}, {"stokes_time", "s", s.stokes_time},
-          {"contact_ratio", "1", s.contact_ratio}, {"volume_fraction", "1", s.volume_fraction},
-          {"reynolds_number", "1", reynolds},      {"stiffness_ratio", "1", cloud::contact_rate(p) * s.stokes_time}};
+  return {{"particles", "1", static_cast<double>(p.particles.count)},
+          {"stokes_speed", "m/s", s.stokes_speed},
+          {"stokes_time", "s", s.stokes_time},
+          {"contact_ratio", "1", s.contact_ratio},
+          {"volume_fraction", "1", s.volume_fraction},
+          {"reynolds_number", "1", reynolds},
+          {"stiffness_ratio", "1", cloud::contact_rate(p) * s.stokes_time}};
 }
 
 Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grains& grains) {
@@ -150,6 +154,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   cloud::for_each_parameter(prepared.parameters, p);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
+  prepared.regime = cloud::regime_of_case(p);
   auto grains = [p, given] { return given ? *given : cloud::pack(p); };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;

@@ -14,6 +14,7 @@
 #include "models/continuum/atmosphere.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
+#include "models/continuum/regime.hpp"
 #include "models/continuum/renamed_keys.hpp"
 
 namespace talus::app {
@@ -102,6 +103,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   continuum::for_each_parameter(prepared.parameters, p);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
+  prepared.regime = continuum::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = [p, run] { return forecast(p, run); };

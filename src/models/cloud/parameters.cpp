@@ -149,4 +149,23 @@ Scales scales(const Parameters& p) {
   return s;
 }
 
+std::vector<RegimeLine> regime_of_case(const Parameters& p) {
+  const Scales s = scales(p);
+  const double a = p.particles.radius;
+  const double stokes = s.stokes_speed * p.fluid.density * a / p.fluid.viscosity;
+  // Time in which a free grain reaches its Stokes speed over the time in which it passes its own radius.
+  const double inertia = 2.0 / 9.0 * p.particles.density * a * a / p.fluid.viscosity / s.stokes_time;
+  std::vector<RegimeLine> lines = {
+      {"Reynolds number of a single grain", fmt::format("{:.3g}", stokes),
+       "a v_s rho_f/mu; the Stokes drag and the tensor hold for less than about 0.1", stokes > 0.1},
+      {"inertia of a grain", fmt::format("{:.3g}", inertia),
+       "relaxation time over a_p/v_s; the model leaves inertia out, which holds for less than about 0.1",
+       inertia > 0.1}};
+  if (p.contact.enabled)
+    lines.push_back({"contact over weight (gamma, Eq. 9)", fmt::format("{:.3g}", s.contact_ratio),
+                     "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart",
+                     s.contact_ratio < 1});
+  return lines;
+}
+
 }  // namespace talus::cloud

@@ -13,6 +13,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/cloud/pair_sum.hpp"
+#include "numerics/named_value.hpp"
 #include "physics/hydrodynamics/mobility_names.hpp"
 
 namespace talus::cloud {
@@ -168,6 +169,9 @@ void for_each_parameter(Visit&& visit, P& p) {
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
+
+/// How far a case is from what the model assumes: the lines of the regime card that are known before the run.
+std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
 
 /// Quantities that follow from the parameters alone.
 struct Scales {

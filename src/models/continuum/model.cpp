@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/continuum/regime.hpp"
+
 namespace talus::continuum {
 
 namespace {
@@ -52,6 +54,14 @@ double quasistatic_share(const Parameters& p, const State& s) {
     quasistatic += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) < 1e-2;
   }
   return pressed == 0 ? 0 : static_cast<double>(quasistatic) / static_cast<double>(pressed);
+}
+
+/// Of the particles, without the stress by collisions, Pa.
+double largest_pressure(const State& s) {
+  double pressure = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    pressure = std::max(pressure, trace(tensor_at(s.material.stress, i)) / 3);
+  return pressure;
 }
 
 template <class Body>
@@ -192,7 +202,8 @@ std::vector<RegimeLine> Continuum::regime() const {
   const double mach = largest_speed(s) / c;
   const auto [least, most] = std::minmax_element(s.packing.begin(), s.packing.end());
   const double quasistatic = quasistatic_share(parameters_, s);
-  std::vector<RegimeLine> lines = {
+  std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  const std::vector<RegimeLine> of_run = {
       {"Courant number", fmt::format("{:.3g}", courant),
        "time step times the speed of pressure waves over the least smoothing length; stable below about 0.5 "
        "(Runge-Kutta), 1 (leapfrog)",
@@ -205,6 +216,12 @@ std::vector<RegimeLine> Continuum::regime() const {
        "particles under pressure with an inertial number below 0.01, where the stress does not depend on the rate",
        quasistatic < 0.5},
   };
+  lines.insert(lines.end(), of_run.begin(), of_run.end());
+  if (const double most = workspace_->material.range().largest_pressure; std::isfinite(most)) {
+    const double pressure = largest_pressure(s);
+    lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
+                     fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
+  }
   if (parameters_.air.enabled)
     for (RegimeLine& line : regime_of_air(parameters_, s.air)) lines.push_back(std::move(line));
   return lines;
