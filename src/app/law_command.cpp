@@ -101,10 +101,9 @@ void add_law_command(CLI::App& app, Action& action) {
   command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");
   command->add_flag("--overwrite", options->overwrite, "replace what an earlier path left in the folder");
   command->footer(
-      "CASE holds a table [law], and may hold [collisions], grains.density, grains.diameter and gravity.acceleration, "
-      "as a case\n"
-      "of the model continuum does; of such a case the rest is passed over. Its table [path] has packing, points and\n"
-      "largest_increment.\n\n"
+      "CASE holds a table [law] with that of its law, [law.NAME], and may hold [collisions], grains.density,\n"
+      "grains.diameter and gravity.acceleration, as a case of the model continuum does; of such a case the rest is\n"
+      "passed over. Its table [path] has packing, points and largest_increment.\n\n"
       "A line of the path is a stretch: how long it lasts, and the velocity gradient du_x/dz as gradient_xz, ...;\n"
       "components left out are zero. The grains are squashed by 0.02 %, then sheared, back, and on:\n"
       "  duration [s],gradient_zz [1/s],gradient_xz [1/s]\n"
