@@ -44,7 +44,9 @@ class DruckerPrager {
                     "friction coefficient in simple shear, the tangent of the angle at which the grains yield; 0: "
                     "hardening with A4"},
           p.friction);
-    for_each_fit_parameter(visit, p.fits, within_fits());
+    for_each_fit_parameter(visit, p.fits);
+    auto hardening = only_if({"friction", "is given", "= 0", p.friction == 0}, visit);
+    visit_largest_deviator(hardening, p.fits, within_fits());
     for_each_contact_parameter(visit, p.contact);
   }
 

@@ -101,9 +101,8 @@ struct Fits {
   const FittedFunctions& functions() const { return tables == Tables::printed ? printed_2011 : repaired_2011; }
 };
 
-/// \param largest range of largest_deviator
 template <class Visit, class F>
-void for_each_fit_parameter(Visit&& visit, F& fits, const Range& largest) {
+void for_each_fit_parameter(Visit&& visit, F& fits) {
   visit(
       Parameter{"tables",
                 {},
@@ -113,6 +112,11 @@ void for_each_fit_parameter(Visit&& visit, F& fits, const Range& largest) {
   visit(Parameter{"scale", dimension::none, above(0),
                   "alpha: rho_b g h_m over 130 Pa, the stress at the bottom of the bed over that of the fits"},
         fits.scale);
+}
+
+/// \param largest range of the key
+template <class Visit, class F>
+void visit_largest_deviator(Visit&& visit, F& fits, const Range& largest) {
   visit(Parameter{"largest_deviator", dimension::none, largest,
                   "|e_dev| beyond which shear no longer hardens or softens the grains; the fits end at 0.035"},
         fits.largest_deviator);

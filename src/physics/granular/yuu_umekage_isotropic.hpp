@@ -55,7 +55,8 @@ class YuuUmekageIsotropic {
   };
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
-    for_each_fit_parameter(visit, p.fits, within_fits());
+    for_each_fit_parameter(visit, p.fits);
+    visit_largest_deviator(visit, p.fits, within_fits());
     for_each_contact_parameter(visit, p.contact);
     visit(Parameter{"close_packing", dimension::none, between(0.1, 1),
                     "packing beyond which grains cannot give way any more, random close packing: from there on the "

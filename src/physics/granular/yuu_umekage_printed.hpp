@@ -48,7 +48,8 @@ class YuuUmekagePrinted {
   };
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
-    for_each_fit_parameter(visit, p.fits, above(0));
+    for_each_fit_parameter(visit, p.fits);
+    visit_largest_deviator(visit, p.fits, above(0));
     for_each_contact_parameter(visit, p.contact);
     visit(
         Parameter{"strain", {}, {}, "the strain by its rate, or from displacements since the last reset (Appendix A)"},
