@@ -11,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
+#include "base/terminal.hpp"
 
 namespace talus::app {
 
@@ -85,8 +86,8 @@ ExitStatus follow(const LawOptions& options) {
   if (fits) draw_functions(*fits, folder / "functions.png");
 
   for (const NamedValue& quantity : quantities_of(path))
-    fmt::print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
-  fmt::print("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
+    say("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
+  say("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
   return ExitStatus::done;
 }
 
