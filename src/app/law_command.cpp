@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
+#include "io/file_list.hpp"
 
 namespace talus::app {
 
@@ -48,15 +49,18 @@ void check_finite(const FollowedPath& path) {
   }
 }
 
+Existing existing_of(const LawOptions& options) {
+  return options.overwrite ? Existing::overwrite : Existing::refuse;
+}
+
+/// \throws InputError if it may not be used
 std::filesystem::path folder_of(const LawOptions& options) {
   const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
   const std::filesystem::path folder =
       options.out.empty()
           ? std::filesystem::path("results") / (stem(options.case_options.path) + "-" + stem(options.path))
           : std::filesystem::path(options.out);
-  if (!options.overwrite && std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder))
-    throw InputError(
-        {{.where = folder.string(), .what = "is not empty", .allowed = "--overwrite, or another folder by --out"}});
+  check_output(folder, existing_of(options), "--overwrite");
   return folder;
 }
 
@@ -73,7 +77,7 @@ ExitStatus follow(const LawOptions& options) {
   path.points = granular::follow_path(path.law, path.stretches, path.options);
   check_finite(path);
 
-  std::filesystem::create_directories(folder);
+  begin_output(folder, existing_of(options), "--overwrite");
   write_path_table(path, folder / "path.csv");
   draw_path(path, folder / "path.png");
   const bool has_functions = parameters.law.name != granular::LawName::linear_elastic;
@@ -93,7 +97,7 @@ void add_law_command(CLI::App& app, Action& action) {
       app.add_subcommand("law", "lead one material point through a path of strain: its stress as table and plot");
   options->case_options.add_to(*command);
   command->add_option("--path", options->path, "the path (CSV); see below")->required();
-  command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");
+  add_out_option(*command, options->out, "folder of the results; results/CASE-PATH if not given");
   command->add_flag("--overwrite", options->overwrite, "replace what an earlier path left in the folder");
   command->footer(
       "CASE holds a table [law], and if it likes grains.density, grains.diameter and gravity.acceleration, as a case\n"

@@ -41,6 +41,7 @@ struct PreparedCase {
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
   std::vector<run::Observer> observers;
+  run::Headline headline;  ///< what the line of progress shows
   /// Dimensionless groups and scales, for `check` and the log.
   std::vector<NamedValue> groups;
   std::function<Forecast()> forecast;

@@ -154,6 +154,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
+  prepared.headline = {.column = "front_x", .name = p.slope.enabled ? "front" : "foremost grain", .is_rate = true};
   prepared.forecast = [p, run, grains] { return forecast(p, run, grains()); };
   const CloudFrame frame = frame_of(p);
   prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };

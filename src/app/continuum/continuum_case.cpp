@@ -103,6 +103,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.groups = groups(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
+  if (p.plate.height || continuum::outlet_of(p)) prepared.headline = {.column = "discharge_rate", .name = "discharge"};
   prepared.forecast = [p, run] { return forecast(p, run); };
   prepared.analyze = [p](const std::filesystem::path& folder) { return analyze_continuum(folder, hopper_setting(p)); };
   prepared.draw = [p, title = run.title](const std::filesystem::path& folder) {
