@@ -178,10 +178,22 @@ std::filesystem::path RunFolder::snapshot_index(std::string_view kind) const {
 std::vector<int> RunFolder::snapshot_numbers(std::string_view kind) const {
   std::vector<int> numbers;
   if (!at(snapshots(), "cannot read the folder", [&] { return fs::exists(snapshots()); })) return numbers;
+  const std::optional<FileList> list = FileList::read(path_);
   for (const std::string& name : names_in(snapshots()))
-    if (const std::optional<int> number = snapshot_number(name, kind)) numbers.push_back(*number);
+    if (const std::optional<int> number = snapshot_number(name, kind))
+      if (!list || list->holds("snapshots/" + name)) numbers.push_back(*number);
   std::sort(numbers.begin(), numbers.end());
   return numbers;
+}
+
+bool RunFolder::remove_snapshots(int first, std::string_view kind) const {
+  if (!FileList::read(path_)) return false;
+  bool any = false;
+  for (const int number : snapshot_numbers(kind)) {
+    if (number < first) continue;
+    any = at(snapshot(number, kind), "cannot remove", [&] { return fs::remove(snapshot(number, kind)); }) || any;
+  }
+  return any;
 }
 
 std::optional<int> RunFolder::latest_snapshot(std::string_view kind) const {

@@ -48,8 +48,12 @@ class RunFolder {
   /// What ParaView is given to open (snapshot_index.hpp).
   std::filesystem::path snapshot_index(std::string_view kind = "particles") const;
 
-  /// Numbers of the snapshots that are there, rising. \throws FileError if the folder cannot be read
+  /// Numbers of the snapshots that are there, rising; where the folder keeps a list of what Talus wrote, of those in
+  /// it. \throws FileError if the folder cannot be read
   std::vector<int> snapshot_numbers(std::string_view kind = "particles") const;
+  /// Removes the snapshots with this number and above that the list names: a resumed run makes them again.
+  /// \returns whether there were any \throws FileError
+  bool remove_snapshots(int first, std::string_view kind = "particles") const;
   std::optional<int> latest_snapshot(std::string_view kind = "particles") const;
 
  private:

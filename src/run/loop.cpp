@@ -196,6 +196,9 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     guard.resume(*checkpoint);
     row = row_of(model, observers);
     series = SeriesWriter::resume(folder / "series.csv", columns_of(row), rows);
+    const auto taken = static_cast<int>(snapshots);
+    for (const char* kind : {"particles", "air"})
+      if (RunFolder(folder).remove_snapshots(taken, kind)) index_snapshots(RunFolder(folder), taken - 1, kind);
   } else {
     model.begin(team);
     series.emplace(folder / "series.csv", columns_of(row_of(model, observers)));

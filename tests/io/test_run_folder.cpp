@@ -72,11 +72,21 @@ TEST(RunFolder, FindsTheLatestSnapshotByNumber) {
   run_in(scratch / "run");
   const RunFolder folder(scratch / "run");
   for (const char* name : {"particles_99.vtkhdf.part", "particles_x9.vtkhdf", "particles_.vtkhdf", "particles_88.h5",
-                           "particles_-5.vtkhdf", "my_particles_0077.vtkhdf"})
+                           "particles_-5.vtkhdf", "my_particles_0077.vtkhdf", "particles_0050.vtkhdf"})
     put_content(folder.snapshots() / name, "");
   EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0, 9, 10));
   EXPECT_EQ(folder.latest_snapshot(), 10);
   EXPECT_EQ(folder.latest_snapshot("air"), 10000);
+  // What the user put there is no snapshot of the run, and stays.
+  EXPECT_TRUE(folder.remove_snapshots(9));
+  EXPECT_FALSE(folder.remove_snapshots(9));
+  EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0));
+  EXPECT_EQ(folder.latest_snapshot("air"), 10000);
+  EXPECT_TRUE(std::filesystem::exists(folder.snapshot(50)));
+  // Without a list the names decide, and nothing is removed.
+  std::filesystem::remove(scratch / "run/files.txt");
+  EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0, 50));
+  EXPECT_FALSE(folder.remove_snapshots(0));
 }
 
 TEST(RunFolder, RefusesAFolderInUseUnlessTold) {
