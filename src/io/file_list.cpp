@@ -81,7 +81,8 @@ void FileList::add(const std::string& name) {
   Descriptor file(path().string(), O_RDWR | O_NOFOLLOW);
   const std::string content = file.read();
   try {
-    file.write((content.ends_with('\n') ? "" : "\n") + line_of(name));
+    if (!content.ends_with('\n')) file.write("\n");
+    file.write(line_of(name));
     file.sync();
   } catch (const FileError&) {
     file.truncate(content.size());

@@ -76,6 +76,10 @@ void Progress::take_sample(Clock::time_point clock, double now) {
   while (samples_.size() > 2 && phase_.recent < 1 && seconds(clock - samples_[1].clock) >= recent) samples_.pop_front();
 }
 
+double Progress::share_done(double now) const {
+  return phase_.end > phase_.start ? std::clamp((now - phase_.start) / (phase_.end - phase_.start), 0.0, 1.0) : 1;
+}
+
 bool Progress::is_line_due(Clock::time_point clock, double now) const {
   if (clock - last_line_ < between_lines) return false;
   return std::floor(10 * share_done(now)) > tenths_ || (!told_ && clock - began_ >= first_line);

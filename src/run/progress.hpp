@@ -55,7 +55,7 @@ class Progress {
   bool is_due(Clock::time_point clock, double now) const;
   bool is_line_due(Clock::time_point clock, double now) const;
   void show(Clock::time_point clock, double now, const std::string& text);
-  double share_done(double now) const { return (now - phase_.start) / (phase_.end - phase_.start); }
+  double share_done(double now) const;
   std::string time_left(Clock::time_point clock, double now) const;
 
   std::FILE* stream_;
