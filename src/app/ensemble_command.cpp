@@ -13,27 +13,20 @@
 #include "app/ensemble/schedule.hpp"
 #include "app/ensemble/statistics.hpp"
 #include "base/terminal.hpp"
+#include "io/file_list.hpp"
 #include "run/interrupt.hpp"
 
 namespace talus::app {
 
 namespace {
 
-void refuse_foreign_folder(const EnsembleRequest& request) {
-  std::error_code none;
-  if (!request.resume && std::filesystem::exists(request.folder) && !std::filesystem::is_empty(request.folder, none))
-    throw InputError({{.where = request.folder.string(),
-                       .what = "the folder is there and not empty",
-                       .allowed = "--resume to go on with the ensemble in it, or another --out"}});
-}
-
 ExitStatus ensemble(const EnsembleRequest& request) {
   run::catch_signals();
   const EnsemblePlan plan = plan_ensemble(request);
-  refuse_foreign_folder(request);
   std::vector<ScheduledRun> runs;
   for (const EnsembleGroup& group : plan.groups)
     for (const EnsembleMember& member : group.members) runs.push_back({request.case_path, member});
+  begin_output(request.folder, request.resume ? Existing::resume : Existing::refuse, "--resume", has_begun(runs));
 
   const ScheduleResult result = run_members(runs, request.jobs);
   std::vector<std::filesystem::path> pictures;
@@ -79,7 +72,7 @@ void add_ensemble_command(CLI::App& app, Action& action) {
                    "runs at a time, each on one thread; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder of the results; results/NAME-ensemble if not given");
+  add_out_option(*command, options->out, "folder of the results; results/NAME-ensemble if not given");
   command->add_flag("--resume", options->request.resume, "go on with the ensemble in the folder");
   command->footer(
       "Each member is an ordinary run's folder, FOLDER/GROUP/seed_0001. Beside them: members.csv, quantities.csv "

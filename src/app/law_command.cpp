@@ -12,6 +12,7 @@
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
 #include "base/terminal.hpp"
+#include "io/file_list.hpp"
 
 namespace talus::app {
 
@@ -50,15 +51,18 @@ void check_finite(const FollowedPath& path) {
   }
 }
 
+Existing existing_of(const LawOptions& options) {
+  return options.overwrite ? Existing::overwrite : Existing::refuse;
+}
+
+/// \throws InputError if it may not be used
 std::filesystem::path folder_of(const LawOptions& options) {
   const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
   const std::filesystem::path folder =
       options.out.empty()
           ? std::filesystem::path("results") / (stem(options.case_options.path) + "-" + stem(options.path))
           : std::filesystem::path(options.out);
-  if (!options.overwrite && std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder))
-    throw InputError(
-        {{.where = folder.string(), .what = "is not empty", .allowed = "--overwrite, or another folder by --out"}});
+  check_output(folder, existing_of(options), "--overwrite");
   return folder;
 }
 
@@ -75,7 +79,7 @@ ExitStatus follow(const LawOptions& options) {
   path.points = granular::follow_path(path.law, path.stretches, path.options);
   check_finite(path);
 
-  std::filesystem::create_directories(folder);
+  begin_output(folder, existing_of(options), "--overwrite");
   write_path_table(path, folder / "path.csv");
   draw_path(path, folder / "path.png");
   const auto fits = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
@@ -99,7 +103,7 @@ void add_law_command(CLI::App& app, Action& action) {
       app.add_subcommand("law", "lead one material point through a path of strain: its stress as table and plot");
   options->case_options.add_to(*command);
   command->add_option("--path", options->path, "the path (CSV); see below")->required();
-  command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");
+  add_out_option(*command, options->out, "folder of the results; results/CASE-PATH if not given");
   command->add_flag("--overwrite", options->overwrite, "replace what an earlier path left in the folder");
   command->footer(
       "CASE holds a table [law] with that of its law, [law.NAME], and may hold [collisions], grains.density,\n"

@@ -46,6 +46,7 @@ struct PreparedCase {
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
   std::vector<run::Observer> observers;
+  run::Headline headline;  ///< what the line of progress shows
   /// Dimensionless groups and scales, for `check` and the log.
   std::vector<NamedValue> groups;
   /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.

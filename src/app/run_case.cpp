@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/run_case.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
+#include "io/descriptor.hpp"
+#include "io/file_list.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/summary.hpp"
@@ -34,16 +38,34 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+/// A file that no link leads elsewhere.
+class LogFile final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  LogFile(const std::filesystem::path& path, bool append) {
+    claim_file(path);
+    file_ = Descriptor(path.string(), O_WRONLY | O_CREAT | O_NOFOLLOW | (append ? O_APPEND : O_TRUNC));
+  }
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    file_.write({line.data(), line.size()});
+  }
+  void flush_() override {}
+
+  Descriptor file_;
+};
+
 /// log.txt. A log that cannot be written must not end a run: the numbers' own files say so if the disk is full.
 std::shared_ptr<spdlog::logger> open_log(const RunFolder& folder, bool append) {
   std::shared_ptr<spdlog::sinks::sink> sink = std::make_shared<spdlog::sinks::null_sink_mt>();
   try {
-    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !append);
-  } catch (const spdlog::spdlog_ex&) {
+    sink = std::make_shared<LogFile>(folder.log(), append);
+  } catch (const FileError&) {
   }
   auto log = std::make_shared<spdlog::logger>("run", sink);
   log->set_pattern("%Y-%m-%d %H:%M:%S  %v");
-  log->flush_on(spdlog::level::info);
   log->set_error_handler([](const std::string&) {});
   return log;
 }
@@ -126,7 +148,9 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                                               .checkpoint_interval = prepared.run.checkpoint_interval,
                                               .walltime = request.walltime,
                                               .fingerprint = manifest.fingerprint,
-                                              .resume = resume},
+                                              .resume = resume,
+                                              .headline = prepared.headline,
+                                              .log = [&log](const std::string& line) { log.info("{}", line); }},
                                              prepared.observers);
 
   Summary summary{.status = loop.interrupted ? "interrupted" : "done",
@@ -176,6 +200,19 @@ void summarize_failure(const PreparedCase& prepared, const RunFolder& folder, co
 std::string case_fingerprint(const PreparedCase& prepared) {
   std::string all = fingerprint(prepared.parameters, not_in_fingerprint) + "-" + prepared.instruction_set;
   return prepared.inputs.empty() ? all : all + "-" + prepared.inputs;
+}
+
+void keep_snapshot_interval(CaseFile& file, const std::filesystem::path& folder) {
+  if (const CaseEntry* given = file.find("output.snapshots")) {
+    const auto* text = std::get_if<std::string>(&given->value.value);
+    const auto interval = text ? parse_quantity(*text) : std::nullopt;
+    if (!interval || interval->value != 0) return;
+  }
+  const RunFolder run(folder);
+  if (!std::filesystem::exists(run.manifest())) return;
+  const auto values = resolved_values(read_manifest(run.manifest()).case_text);
+  if (const auto interval = values.find("output.snapshots"); interval != values.end())
+    file.set("output.snapshots=" + interval->second, run.manifest().string());
 }
 
 double end_of(const Manifest& manifest) {

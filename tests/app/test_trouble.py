@@ -58,7 +58,7 @@ class Disk(ProgramTest):
         (disk / "filler").write_bytes(b"x" * (os.statvfs(disk).f_bavail * os.statvfs(disk).f_frsize))
         before = tree(disk / "r")
         said = self.talus("run", "case.toml", "--out", "disk/s", status=4).stderr
-        self.assertIn("disk/s/manifest.json: cannot write: No space left on device", said)
+        self.assertIn("disk/s/files.txt: cannot write: No space left on device", said)
         self.assertEqual(tree(disk / "r"), before)
         self.assertEqual(tree(disk / "s"), {})
 

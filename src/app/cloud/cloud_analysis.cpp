@@ -9,6 +9,7 @@
 #include "analysis/falling_cloud.hpp"
 #include "analysis/quantities.hpp"
 #include "base/error.hpp"
+#include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -34,12 +35,6 @@ std::vector<Vector3> seen_from_the_side(std::span<const Vector3> position) {
   std::vector<Vector3> projected(position.begin(), position.end());
   for (Vector3& x : projected) x.y = 0;
   return projected;
-}
-
-void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
-                 const std::vector<std::vector<double>>& rows) {
-  SeriesWriter table(path, columns);
-  for (const auto& row : rows) table.append(row);
 }
 
 /// Fall speed, leakage and shape of a cloud in free space, and what the summary says of them.
@@ -120,7 +115,7 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
 std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame) {
   const AvalancheRun run = read_avalanche(run_folder, frame);
   const std::filesystem::path folder = run_folder / "analysis";
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   if (!frame.has_slope) {
     std::vector<NamedValue> quantities;
     if (frame.motion == cloud::Motion::xyz) quantities = analyze_falling_cloud(run_folder, frame);

@@ -169,6 +169,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.forecast = forecast(p, run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
+  prepared.headline = {.column = "front_x", .name = p.slope.enabled ? "front" : "foremost grain", .is_rate = true};
   const CloudFrame frame = frame_of(p);
   prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
   prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {

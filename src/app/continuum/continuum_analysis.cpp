@@ -7,6 +7,7 @@
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_air.hpp"
 #include "analysis/hopper_quantities.hpp"
+#include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -31,12 +32,6 @@ const PointSet* nearest_to(const std::deque<PointSet>& earlier, double at) {
 std::filesystem::path air_beside(const std::filesystem::path& particles) {
   std::string name = particles.filename();
   return particles.parent_path() / name.replace(0, name.find('_'), "air");
-}
-
-void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
-                 const std::vector<std::vector<double>>& rows) {
-  SeriesWriter table(path, columns);
-  for (const auto& row : rows) table.append(row);
 }
 
 void write_snapshots(const std::filesystem::path& path, const HopperRun& run) {
@@ -122,7 +117,7 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
 std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting) {
   const HopperRun run = read_hopper(run_folder, setting);
   const std::filesystem::path folder = run_folder / "analysis";
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   write_snapshots(folder / "snapshots.csv", run);
   if (setting.shape.plate) write_discharge(folder / "discharge.csv", run);
   if (const auto paths = particle_snapshots(run_folder); !paths.empty()) {

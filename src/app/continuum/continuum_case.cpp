@@ -116,6 +116,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.forecast = forecast(p, run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
+  if (p.plate.height || continuum::outlet_of(p)) prepared.headline = {.column = "discharge_rate", .name = "discharge"};
   prepared.analyze = [p](const std::filesystem::path& folder) { return analyze_continuum(folder, hopper_setting(p)); };
   prepared.draw = [p, title = run.title](const std::filesystem::path& folder) {
     return draw_continuum(folder, hopper_setting(p), title);

@@ -13,6 +13,7 @@
 #include "base/terminal.hpp"
 #include "base/version.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_list.hpp"
 #include "io/manifest.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
@@ -80,7 +81,8 @@ std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyReques
                                      .settings = std::move(settings),
                                      .vary = {},
                                      .members = members,
-                                     .folder = request.folder / folder_of(c.name, variant.label)};
+                                     .folder = request.folder / folder_of(c.name, variant.label),
+                                     .resume = request.resume};
       const EnsemblePlan plan = plan_ensemble(ensemble);
       for (EnsembleMember member : plan.groups.front().members) runs.push_back({ensemble.case_path, std::move(member)});
     }
@@ -128,14 +130,9 @@ ExitStatus reproduce(const StudyRequest& request) {
   const Reference reference =
       read_reference((project / "validation" / request.study / "reference.toml").lexically_normal().string());
   check_variants(reference, request);
-  std::error_code none;
-  if (!request.resume && std::filesystem::exists(request.folder) && !std::filesystem::is_empty(request.folder, none))
-    throw InputError({{.where = request.folder.string(),
-                       .what = "the folder is there and not empty",
-                       .allowed = "--resume to go on with what is in it, or another --out"}});
-
   const int members = request.members ? request.members : request.quick ? reference.quick.members : reference.members;
   const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
+  begin_output(request.folder, request.resume ? Existing::resume : Existing::refuse, "--resume", has_begun(runs));
   say("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(), members,
       request.jobs, request.folder.string());
   const ScheduleResult result = run_members(runs, request.jobs);
@@ -155,6 +152,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   write_atomically(request.folder / "comparison.txt", text + counts + "\n");
   write_atomically(request.folder / "comparison.json", to_json(reference, rows));
 
+  make_folder(request.folder / "figures");
   const std::vector<FigureOfStudy> figures = studied->draw(request.folder / "figures");
   const std::filesystem::path report_path = request.folder / (reference.study + ".md");
   write_atomically(report_path, report_text(reference, request, project, runs, rows, result.failed, counts, figures));

@@ -14,6 +14,7 @@
 /// on grains that move within the step (they keep their velocity; time_step() keeps that short against their response).
 #pragma once
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "models/air/parameters.hpp"
 #include "models/air/state.hpp"
@@ -39,6 +40,9 @@ class AirFlow {
 
   /// The longest step that the air's movement, the grains' response and the parameters allow, s.
   double time_step(ThreadTeam& team, const Solids& solids, const AirState& state);
+
+  /// What holds such a step, and in which cell; the rest of the report is empty. After a step has been taken.
+  NumericalError::Report step_limit(const Solids& solids, const AirState& state) const;
 
   /// Advances by dt.
   /// \param impulse out: momentum that a unit of solid volume in a cell receives from drag and pressure, by component,

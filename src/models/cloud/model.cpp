@@ -41,6 +41,10 @@ void Cloud::advance(ThreadTeam& team) {
   cloud::advance(team, parameters_, state_, *workspace_);
 }
 
+NumericalError::Report Cloud::step_limit() const {
+  return cloud::step_limit(parameters_, state_);
+}
+
 std::vector<NamedValue> Cloud::totals() const {
   double centre = 0;
   for (const Vector3& x : state_.position) centre += x.x;

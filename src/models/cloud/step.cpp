@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "models/cloud/stability.hpp"
 #include "models/cloud/stiffness.hpp"
@@ -92,6 +94,11 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   work.velocities.reorder(state.packing_order);
 }
 
+std::string place_of(const State& state, std::size_t grain) {
+  const Vector3& x = state.position[grain];
+  return fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m", grain, x.x, x.y, x.z);
+}
+
 [[noreturn]] void give_up(const Parameters& p, const State& state, const Workspace& work, bool finite,
                           double largest_overlap) {
   NumericalError::Report report{
@@ -122,8 +129,7 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
     report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
     report.advice = "no two grains at one place at the start, a smaller integration.largest_step";
   }
-  const Vector3& x = state.position[worst];
-  report.place = fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m", worst, x.x, x.y, x.z);
+  report.place = place_of(state, worst);
   throw NumericalError(report);
 }
 
@@ -140,6 +146,27 @@ void check_stiffness(const Parameters& p, const State& state, double largest_ste
 }
 
 }  // namespace
+
+NumericalError::Report step_limit(const Parameters& p, const State& state) {
+  const auto most = [](const auto& column, auto&& less) {
+    return static_cast<std::size_t>(std::max_element(column.begin(), column.end(), less) - column.begin());
+  };
+  const auto shorter = [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); };
+  const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
+  NumericalError::Report report{};
+  if (rate > 0 && state.last_step > 0.9 * longest_stable_step(p, rate)) {
+    report.term = fmt::format("stability of the contacts, whose stiffest rate is {:.3g} 1/s, Eq. 2", rate);
+    report.place = state.stiff_mode.empty() ? "every contact" : place_of(state, most(state.stiff_mode, shorter));
+    report.advice = "a smaller contact.stiffness";
+  } else {
+    const std::size_t tightest = most(state.overlap, std::less<>());
+    const bool touches = state.overlap[tightest] > 0;
+    report.term = "error of a step or growth of an overlap, Eq. 4a";
+    report.place = place_of(state, touches ? tightest : most(state.velocity, shorter));
+    report.advice = "a larger contact.stiffness, a larger integration.tolerance or integration.overlap_growth";
+  }
+  return report;
+}
 
 Workspace::Workspace(const Parameters& parameters, const State& state)
     : velocities(parameters, state.radius),

@@ -126,6 +126,16 @@ double Continuum::time_origin() const {
   return state_.gate_time >= 0 ? state_.gate_time : std::numeric_limits<double>::infinity();
 }
 
+double Continuum::latest_origin() const {
+  if (state_.gate_time >= 0) return state_.gate_time;
+  if (parameters_.gate.opens == GateOpens::from_the_start) return 0;
+  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time : parameters_.settle.longest;
+}
+
+NumericalError::Report Continuum::step_limit() const {
+  return continuum::step_limit(parameters_, state_, *workspace_);
+}
+
 std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
   const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());

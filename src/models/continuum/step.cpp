@@ -179,11 +179,18 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const bool all = p.integration.method == Method::runge_kutta;
   w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? Wanted::all : Wanted::forces, w.rates);
   s.packing.resize(s.position.size());
-  s.shear_rate.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
     s.strain[i] = w.material.strain(s.material, i);
+  });
+}
+
+/// From the gradients last evaluated: with the leapfrog those in the middle of the step, which the state at its end
+/// cannot give again. A resumed run has it from its checkpoint.
+void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {
+  s.shear_rate.resize(s.position.size());
+  for_each(team, s.position.size(), [&](std::size_t i) {
     const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
     s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
   });
@@ -267,6 +274,7 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   begin_densities(team, p, s, w);
   if (w.air) w.air->begin(team, w.smoothing_length, s);
   evaluate(team, p, s, w);
+  measure_shear_rate(team, s, w);
 }
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
@@ -284,6 +292,22 @@ double time_step(ThreadTeam& team, const Parameters& p, const State& s, const Wo
   return p.integration.courant * least / w.sound_speed;
 }
 
+NumericalError::Report step_limit(const Parameters& p, const State& s, const Workspace& w) {
+  const auto least = std::min_element(w.smoothing_length.begin(), w.smoothing_length.end());
+  const double of_grains = p.integration.step.value_or(p.integration.courant * *least / w.sound_speed);
+  if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
+  const auto i = static_cast<std::size_t>(least - w.smoothing_length.begin());
+  const Vector3& x = s.position[i];
+  NumericalError::Report report{};
+  report.term =
+      p.integration.step
+          ? "integration.step"
+          : fmt::format("Courant number of the grains, where they are densest, at {:.4g} kg/m3", s.density[i]);
+  report.place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z);
+  report.advice = "a stiffer law of the grains, a larger sph.viscosity_alpha";
+  return report;
+}
+
 void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   double dt = time_step(team, p, s, w);
   if (w.air) dt = w.air->advance(team, w.smoothing_length, dt, s);
@@ -298,6 +322,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   measure(team, s, w);
   if (!w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) find_neighbours(team, p, s, w);
   evaluate(team, p, s, w);
+  measure_shear_rate(team, s, w);
 }
 
 }  // namespace talus::continuum

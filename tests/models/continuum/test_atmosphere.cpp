@@ -75,6 +75,28 @@ TEST(Atmosphere, MomentumOfAirAndGrainsStaysInAPeriodicBox) {
   EXPECT_LT(norm(total() - before), 1e-12 * norm(before));
 }
 
+TEST(Atmosphere, SaysWhatHoldsTheStep) {
+  using ::testing::HasSubstr;
+  using ::testing::MatchesRegex;
+  const auto limit = [](const auto& change) {
+    Parameters p = small_hopper_in_air();
+    change(p);
+    ThreadTeam team(1);
+    Continuum model = started(p, team);
+    while (model.state().time < 2e-3) model.advance(team);
+    return model.step_limit();
+  };
+  const NumericalError::Report grains = limit([](Parameters& p) { p.air.gas.response = p.air.gas.courant = 1e3; });
+  EXPECT_THAT(grains.term, HasSubstr("Courant number of the grains"));
+  EXPECT_THAT(grains.place, MatchesRegex("particle [0-9]+ at \\(.*\\) m"));
+  const NumericalError::Report drag = limit([](Parameters& p) { p.air.gas.response = 1e-3; });
+  EXPECT_THAT(drag.term, HasSubstr("drag on the grains"));
+  EXPECT_THAT(drag.place, MatchesRegex("cell \\([0-9]+, [0-9]+, [0-9]+\\) at \\(.*\\) m, solid fraction 0\\.[0-9]+"));
+  const NumericalError::Report motion = limit([](Parameters& p) { p.air.gas.courant = 1e-6; });
+  EXPECT_THAT(motion.term, HasSubstr("Courant number of the air"));
+  EXPECT_THAT(motion.advice, HasSubstr("air.courant"));
+}
+
 TEST(Atmosphere, SameBitsForAnyNumberOfThreads) {
   Parameters p = small_hopper_in_air();
   ThreadTeam one(1), two(2);
