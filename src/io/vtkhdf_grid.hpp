@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Values in the cells of a regular grid as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
 ///
-///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction; time (s), step;
+///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction; time (s),
+///     step;
 ///                            cells (along x, y, z)
 ///       PointData/NAME       columns in single precision: nz x ny x nx, or nz x ny x nx x 3, of the points
 ///

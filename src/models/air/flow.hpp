@@ -14,14 +14,24 @@
 /// on grains that move within the step (they keep their velocity; time_step() keeps that short against their response).
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "base/parallel.hpp"
+#include "models/air/convection.hpp"
 #include "models/air/parameters.hpp"
 #include "models/air/state.hpp"
-#include "models/air/transport.hpp"
+#include "models/air/viscosity.hpp"
 #include "numerics/grid/passages.hpp"
 #include "numerics/grid/poisson.hpp"
 
 namespace talus::air {
+
+/// What bounds the air's step, s: the term, and the cell.
+struct StepLimit {
+  double step;
+  std::string term, place;
+};
 
 class AirFlow {
  public:
@@ -39,6 +49,9 @@ class AirFlow {
 
   /// The longest step that the air's movement, the grains' response and the parameters allow, s.
   double time_step(ThreadTeam& team, const Solids& solids, const AirState& state);
+
+  /// The same step and what bounds it, in words for a report.
+  StepLimit explain_time_step(ThreadTeam& team, const Solids& solids, const AirState& state);
 
   /// Advances by dt.
   /// \param impulse out: momentum that a unit of solid volume in a cell receives from drag and pressure, by component,
@@ -58,27 +71,29 @@ class AirFlow {
   const Passages& passages() const { return passages_; }
 
  private:
+  struct Rates;
   void take_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
   void find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const;
   void project(ThreadTeam& team, const Stream& stream, CellField& pressure);
-  void close(CellField& pressure) const;
+  void fill_ghosts(CellField& pressure) const;
   /// Whether the grains have a share, that of their volume, in the pressure's gradient: 1, or 0 in model B.
   double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
 
   Parameters parameters_;
   Passages passages_;
-  Transport transport_;
+  Convection convection_;
+  Viscosity viscosity_;
   PoissonSolver solver_;
   bool implicit_ = false;
   int iterations_ = 0;
 
-  FaceField void_fraction_, solid_, grain_velocity_;  // on faces
-  CellField drag_;                                    // beta of cells, kg/(m^3 s)
-  FaceField decay_, pull_, base_, rate_, stress_;     // of a stage, on faces
-  FaceField before_;                                  // velocity before a stage, where viscosity is implicit
+  FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
+  CellField drag_;                                             // beta of cells, kg/(m^3 s)
+  FaceField decay_, mean_, dragged_, rate_, viscous_;          // of a stage, on faces
+  FaceField before_;                                           // velocity before a stage, where viscosity is implicit
   FaceField conductance_;
   CellField source_, guess_;
   Stream stream_;

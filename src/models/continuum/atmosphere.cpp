@@ -107,8 +107,8 @@ std::vector<Problem> check_air(const Parameters& p) {
   if (p.plate.height) {
     const double layer = *p.plate.height / grid.spacing.z;
     if (std::abs(layer - std::round(layer)) > 1e-6)
-      add("air.cell", fmt::format("plate.height is {:.6g} cells of {:.4g} mm above the floor", layer,
-                                  grid.spacing.z / millimetre),
+      add("air.cell",
+          fmt::format("plate.height is {:.6g} cells of {:.4g} mm above the floor", layer, grid.spacing.z / millimetre),
           what_meets_the_plate(p, grid));
   }
   return problems;

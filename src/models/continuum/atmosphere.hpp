@@ -39,6 +39,11 @@ class Atmosphere {
   /// converge: cell and residual
   double advance(ThreadTeam& team, std::span<const double> smoothing_length, double dt, State& state);
 
+  /// What bounds the air's step for the solids that it met last: the term and the cell.
+  air::StepLimit explain_step(ThreadTeam& team, const State& state) {
+    return flow_.explain_time_step(team, state.air.solids, state.air.flow);
+  }
+
  private:
   void move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& state);
   void deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& state);

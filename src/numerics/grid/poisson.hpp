@@ -44,11 +44,14 @@ class PoissonSolver {
   Outcome solve(ThreadTeam& team, const CellField& source, CellField& value, const Stop& stop);
 
  private:
+  struct System;
+  struct MultigridCycle;
   template <class Body>
   void for_each_range(ThreadTeam& team, Body&& body) const;
   template <class Term>
   double sum(ThreadTeam& team, Term&& term);
   double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& image);
+  double residual_square(ThreadTeam& team);
   void find_closed_regions();
   double unbalanced() const;
   void remove_means(std::vector<double>& column) const;

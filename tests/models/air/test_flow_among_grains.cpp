@@ -286,5 +286,23 @@ TEST(AirFlow, TimeStepFollowsItsThreeLimits) {
   EXPECT_NEAR(c.flow.time_step(c.team, c.solids, c.state), 0.1 * 0.16 * 1500 / beta, 1e-9);
 }
 
+TEST(AirFlow, TimeStepExplainsItself) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::periodic);
+  Case c({.count = {4, 4, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.begin();
+  EXPECT_EQ(c.flow.explain_time_step(c.team, c.solids, c.state).term, "air.longest_step");
+  c.state.velocity[0][c.grid.index(2, 1, 3)] = 20;
+  const StepLimit moved = c.flow.explain_time_step(c.team, c.solids, c.state);
+  EXPECT_EQ(moved.step, c.flow.time_step(c.team, c.solids, c.state));
+  EXPECT_THAT(moved.term, testing::HasSubstr("convection"));
+  EXPECT_THAT(moved.place, testing::HasSubstr("cell (1, 1, 3)"));  // the first of the two beside the face
+  c.set_solids(0, 4, 0.6, {});
+  c.solids.fraction[c.grid.index(3, 0, 2)] = 0.96;
+  const StepLimit dragged = c.flow.explain_time_step(c.team, c.solids, c.state);
+  EXPECT_THAT(dragged.term, testing::HasSubstr("solid fraction of 0.96"));
+  EXPECT_THAT(dragged.place, testing::HasSubstr("cell (3, 0, 2)"));
+}
+
 }  // namespace
 }  // namespace talus::air

@@ -155,8 +155,8 @@ TEST(Deposition, AStreamIsAsDenseAtTheFaceItLeavesThroughAsWithin) {
     Silo silo;
     silo.fill(20e-3 + shift * spacing, 46e-3);
     silo.gather();
-    const auto within = static_cast<double>(std::count_if(silo.position.begin(), silo.position.end(),
-                                                          [](const Vector3& x) { return x.z <= 40e-3; }));
+    const auto within = static_cast<double>(
+        std::count_if(silo.position.begin(), silo.position.end(), [](const Vector3& x) { return x.z <= 40e-3; }));
     EXPECT_NEAR(total(silo.grid, silo.fraction) / (within * silo.volume), 1, 1e-13);
     double mean = 0;
     for (int k = 30; k < 32; ++k)
