@@ -20,12 +20,20 @@ std::array<bool, 3> periodic_axes(const FlowBoundaries& boundaries) {
   return {boundaries.is_periodic(0), boundaries.is_periodic(1), boundaries.is_periodic(2)};
 }
 
+/// With the case's velocities of the walls among the boundaries.
+Parameters with_moving_walls(Parameters p) {
+  for (std::size_t face = 0; face < 6; ++face)
+    p.boundaries.wall_velocity[face] +=
+        Vector3{p.wall_velocity[face][0], p.wall_velocity[face][1], p.wall_velocity[face][2]};
+  return p;
+}
+
 }  // namespace
 
 AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates,
                  const std::vector<Panel>& panels)
-    : parameters_(parameters),
-      passages_(grid, parameters.boundaries, plates, panels),
+    : parameters_(with_moving_walls(parameters)),
+      passages_(grid, parameters_.boundaries, plates, panels),
       convection_(passages_),
       viscosity_(passages_),
       solver_(grid, periodic_axes(parameters.boundaries)),
@@ -105,7 +113,7 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
     viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream.velocity);
     press(-1);
   }
-  project(team, stream, pressure);
+  project(team, dt, stream, pressure);
   press(1);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
@@ -188,6 +196,11 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   stream_.velocity = state.velocity, stream_.mass = state.momentum;
   measure_drag(team, solids, stream_.velocity);
   guess_ = state.pressure;
+  if (parameters_.compressibility == Compressibility::isothermal) {
+    start_pressure_ = state.pressure;
+    cell_void_fraction_.resize(solids.fraction.size());
+    for (std::size_t c = 0; c < solids.fraction.size(); ++c) cell_void_fraction_[c] = 1 - solids.fraction[c];
+  }
   stage(team, 0.5 * dt, stream_, state, guess_);
   for (std::size_t a = 0; a < 3; ++a) passages_.wrap(stream_.velocity[a]);
   measure_drag(team, solids, stream_.velocity);

@@ -59,6 +59,10 @@ class AirFlow {
   /// \throws NumericalError for a void fraction out of range, or a pressure that does not converge
   void advance(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
 
+  /// What continuity lacks of the last step: adds to every cell the volume of air that has left it in dt, net of what
+  /// its pressure made of it, over the cell's volume.
+  void add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum);
+
   /// Momentum of all the air, N s.
   Vector3 momentum(const AirState& state) const;
 
@@ -76,8 +80,9 @@ class AirFlow {
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
-  void find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const;
-  void project(ThreadTeam& team, const Stream& stream, CellField& pressure);
+  void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;
+  void project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure);
+  void find_storage(ThreadTeam& team, double dt);
   void fill_ghosts(CellField& pressure) const;
   /// Whether the grains have a share, that of their volume, in the pressure's gradient: 1, or 0 in model B.
   double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
@@ -96,6 +101,7 @@ class AirFlow {
   FaceField before_;                                           // velocity before a stage, where viscosity is implicit
   FaceField conductance_;
   CellField source_, guess_;
+  CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
 };
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The pressure of the air: continuity, Eq. 19.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "models/air/flow.hpp"
 #include "models/air/flow_rows.hpp"
 #include "numerics/grid/loops.hpp"
@@ -33,9 +36,9 @@ void AirFlow::fill_ghosts(CellField& pressure) const {
   }
 }
 
-/// The volume flow through every face: of the mixture, or of the air.
-void AirFlow::find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const {
-  const double carried = parameters_.continuity == Continuity::mixture;
+/// The volume flow through every face, of air and grains or of the air.
+void AirFlow::find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const {
+  const double carried = with_grains ? 1 : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     for_each_row(team, passages_.grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -52,10 +55,31 @@ void AirFlow::find_volume_flow(ThreadTeam& team, const FaceField& velocity, Face
   }
 }
 
-/// The pressure that takes the divergence from the volume flow of a stream that has not felt it yet.
-void AirFlow::project(ThreadTeam& team, const Stream& stream, CellField& pressure) {
+/// What an ideal gas takes in for each Pa, over the time, and adds to the source: the pressure at the start of the step
+/// is where it would stay.
+void AirFlow::find_storage(ThreadTeam& team, double dt) {
   const Grid& grid = passages_.grid;
-  find_volume_flow(team, stream.velocity, rate_);
+  storage_.resize(source_.size());
+  for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t place) {
+    const auto c = static_cast<std::size_t>(place);
+    const double absolute = parameters_.pressure + start_pressure_[c];
+    if (!(absolute > 0)) {
+      const Vector3 x = grid.centre(i, j, k);
+      throw NumericalError(
+          {.what = fmt::format("the air's absolute pressure is {:.4g} Pa", absolute),
+           .term = "ideal gas, air.compressibility = \"isothermal\"",
+           .place = fmt::format("cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m", i, j, k, x.x, x.y, x.z),
+           .advice = "a shorter air.longest_step"});
+    }
+    storage_[c] = isothermal_compliance(cell_void_fraction_[c] * grid.volume(), absolute) / dt;
+    source_[c] += storage_[c] * start_pressure_[c];
+  });
+}
+
+/// The pressure that takes the divergence from the volume flow of a stream that has not felt it yet.
+void AirFlow::project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure) {
+  const Grid& grid = passages_.grid;
+  find_volume_flow(team, parameters_.continuity == Continuity::mixture, stream.velocity, rate_);
   for (auto& conductance : conductance_) passages_.wrap(conductance);
   const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
   const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
@@ -71,7 +95,9 @@ void AirFlow::project(ThreadTeam& team, const Stream& stream, CellField& pressur
       const double outside = passages_.boundaries.pressure[2 * a + (run.place == 0 ? 0 : 1)];
       for (auto f = run.begin; f < run.end; ++f) source[f + run.here] += conductance_[a][f] * outside;
     });
-  solver_.set_conductance(team, conductance_);
+  const bool stores = parameters_.compressibility == Compressibility::isothermal;
+  if (stores) find_storage(team, dt);
+  solver_.set_conductance(team, conductance_, stores ? &storage_ : nullptr);
   // No smaller than what rounding leaves of the flows that the sources are differences of.
   const double flow = largest_of_cells(team, grid, [&](std::ptrdiff_t c) {
     return std::abs(x[c]) * area.x + std::abs(y[c]) * area.y + std::abs(z[c]) * area.z;
@@ -85,11 +111,29 @@ void AirFlow::project(ThreadTeam& team, const Stream& stream, CellField& pressur
                      .iterations;
 }
 
+void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum) {
+  const Grid& grid = passages_.grid;
+  find_volume_flow(team, false, state.velocity, rate_);
+  const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
+  const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
+  const double* pressure = state.pressure.data();
+  const bool stores = parameters_.compressibility == Compressibility::isothermal;
+  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    find_source_of_row(grid.count[0], grid.stride(1), grid.stride(2), area, x + begin, y + begin, z + begin,
+                       source_.data() + begin);
+    for (auto place = begin; place < end; ++place) {
+      const auto c = static_cast<std::size_t>(place);
+      sum[c] -= source_[c] * dt / grid.volume();
+      if (stores) sum[c] += storage_[c] * dt / grid.volume() * (pressure[c] - start_pressure_[c]);
+    }
+  });
+}
+
 double AirFlow::largest_divergence(const Solids& solids, const AirState& state) {
   ThreadTeam alone;
   const Grid& grid = passages_.grid;
   take_solids(alone, solids);
-  find_volume_flow(alone, state.velocity, rate_);
+  find_volume_flow(alone, parameters_.continuity == Continuity::mixture, state.velocity, rate_);
   return largest_of_cells(alone, grid, [&](std::ptrdiff_t c) {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {

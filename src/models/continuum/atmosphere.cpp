@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/unit.hpp"
+#include "numerics/grid/loops.hpp"
 
 namespace talus::continuum {
 
@@ -80,8 +81,8 @@ std::string what_meets_the_plate(const Parameters& p, const Grid& grid) {
 }
 
 std::vector<Problem> check_air(const Parameters& p) {
-  std::vector<Problem> problems;
-  if (!p.air.enabled || !(cell_size(p) > 0)) return problems;
+  if (!p.air.enabled || !(cell_size(p) > 0)) return {};
+  std::vector<Problem> problems = air::check(p.air.gas);
   const auto add = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
@@ -150,7 +151,13 @@ double Atmosphere::advance(ThreadTeam& team, std::span<const double> smoothing_l
 
 void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& s) {
   AirAround& a = s.air;
+  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
+    a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
+  });
   deposit(team, smoothing_length, s);
+  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
+    a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
+  });
   const double longest = flow_.time_step(team, a.solids, a.flow);
   dt = std::min(dt, longest);
   a.steps_left = static_cast<std::uint64_t>(longest / dt);
@@ -162,6 +169,10 @@ void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_le
     report.step = s.step, report.time = s.time;
     throw NumericalError(report);
   }
+  flow_.add_outflow(team, duration, a.flow, a.excess);
+  const double* pressure = a.flow.pressure.data();
+  a.swing_max =
+      std::max(a.swing_max, largest_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
   received_.resize(s.position.size());
   deposition_.hand_out(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),

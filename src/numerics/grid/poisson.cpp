@@ -78,7 +78,7 @@ double PoissonSolver::sum(ThreadTeam& team, Term&& term) {
   return total;
 }
 
-void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance) {
+void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
   const std::array<int, 3> count = grid_.count;
   board_.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
@@ -90,7 +90,7 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
           const std::array<int, 3> place{2 * m + first, j, k};
           const std::size_t c = own + static_cast<std::size_t>(m);
           const auto n = static_cast<std::ptrdiff_t>(index_[c]);
-          double outside = 0;
+          double outside = storage ? (*storage)[static_cast<std::size_t>(n)] : 0;
           for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             const double low = conductance[a][static_cast<std::size_t>(n)];
