@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/air/air_case.hpp"
 #include "app/cloud/cloud_case.hpp"
 #include "app/cloud/cloud_pictures.hpp"
 #include "app/continuum/continuum_case.hpp"
@@ -20,10 +21,10 @@ namespace talus::app {
 
 namespace {
 
-bool is_continuum(const CaseFile& file) {
+std::string model_of(const CaseFile& file) {
   const CaseEntry* entry = file.find("model");
   const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-  return name && *name == "continuum";
+  return name ? *name : "";
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ bool is_continuum(const CaseFile& file) {
 // A case that names no model, or one that there is not, is read as one of a cloud all the same, so that the fault is
 // reported together with the others.
 PreparedCase prepare_case(const CaseFile& file) {
-  return is_continuum(file) ? prepare_continuum(file) : prepare_cloud(file);
+  const std::string model = model_of(file);
+  return model == "air" ? prepare_air(file) : model == "continuum" ? prepare_continuum(file) : prepare_cloud(file);
 }
 
 void check_memory(const PreparedCase& prepared, const CaseFile& file) {
@@ -54,7 +56,8 @@ std::vector<Problem> check_model(const std::string& model) {
 }
 
 std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  if (is_continuum(resolved)) return analyze_continuum_run(resolved, folder);
+  if (model_of(resolved) == "air") return analyze_air(folder);
+  if (model_of(resolved) == "continuum") return analyze_continuum_run(resolved, folder);
   const CloudStudy study = study_of(resolved);
   std::vector<NamedValue> quantities = analyze_cloud(folder, study.frame);
   draw_cloud(folder, study.frame, study.title);
@@ -64,6 +67,7 @@ std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesys
 ParameterList parameters_of(const std::string& model) {
   if (model == "cloud") return cloud_parameters();
   if (model == "continuum") return continuum_parameters();
+  if (model == "air") return air_parameters();
   throw std::invalid_argument("no model " + model);
 }
 

@@ -81,6 +81,6 @@ ParameterList parameters_of(const std::string& model);
 std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 /// The models there are.
-inline constexpr std::array<std::string_view, 2> model_names{"cloud", "continuum"};
+inline constexpr std::array<std::string_view, 3> model_names{"cloud", "continuum", "air"};
 
 }  // namespace talus::app

@@ -151,8 +151,10 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
 
   auto write_snapshot = [&](std::uint64_t number) {
     const auto n = static_cast<int>(number);
-    write_points(RunFolder(folder).snapshot(n), model.snapshot());
-    index_snapshots(RunFolder(folder), n);
+    if (const Snapshot particles = model.snapshot(); !particles.columns.empty()) {
+      write_points(RunFolder(folder).snapshot(n), particles);
+      index_snapshots(RunFolder(folder), n);
+    }
     if (const std::optional<GridSnapshot> air = model.grid()) {
       write_grid(RunFolder(folder).snapshot(n, "air"), *air);
       index_snapshots(RunFolder(folder), n, "air");

@@ -61,7 +61,7 @@ class Schema(ProgramTest):
         self.assertRegex(self.talus("check", "case.toml").stdout, r"particles\.length +- ")
 
     def test_reference_pages_are_those_of_this_program(self):
-        for model in ("cloud", "continuum"):
+        for model in ("cloud", "continuum", "air"):
             page = PROJECT / f"docs/case-reference-{model}.md"
             self.assertEqual(page.read_text(), self.talus("schema", model, "--markdown").stdout,
                              f"{page} is stale: build/talus schema {model} --markdown > {page.relative_to(PROJECT)}")

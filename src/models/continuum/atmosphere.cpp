@@ -6,7 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
+
+#include "base/unit.hpp"
+#include "numerics/grid/loops.hpp"
 
 namespace talus::continuum {
 
@@ -22,16 +26,19 @@ double cell_size(const Parameters& p) {
   return p.air.cell.value_or(0.75 * p.bed.spacing);
 }
 
-/// Layers of cells nearest to a number of them of which one ends in the plate, if a tenth more or fewer will do.
-int layers_that_meet_the_plate(const Parameters& p, int count) {
-  const auto meets = [&](int layers) {
-    const double layer = *p.plate.height / p.box.height * layers;
-    return layers > 0 && std::abs(layer - std::round(layer)) < 1e-6;
-  };
-  for (int change = 0; 10 * change <= count; ++change)
+/// Whether some faces of so many layers of cells lie in the plate.
+bool meets_the_plate(const Parameters& p, int layers) {
+  const double layer = *p.plate.height / p.box.height * layers;
+  return layers > 0 && std::abs(layer - std::round(layer)) < 1e-6;
+}
+
+/// Of the numbers of layers from least to most that are good, the nearest to `count`.
+template <class IsGood>
+std::optional<int> nearest_layers(int count, int least, int most, IsGood&& is_good) {
+  for (int change = 0; change <= std::max(count - least, most - count); ++change)
     for (const int layers : {count + change, count - change})
-      if (meets(layers)) return layers;
-  return count;
+      if (layers >= least && layers <= most && is_good(layers)) return layers;
+  return std::nullopt;
 }
 
 air::Parameters gas_of(const Parameters& p) {
@@ -77,16 +84,35 @@ Grid air_grid(const Parameters& p) {
   const Vector3 size = extent(p);
   for (int axis = 0; axis < 3; ++axis) {
     int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p))));
-    if (axis == 2 && p.plate.height && !p.air.cell) count = layers_that_meet_the_plate(p, count);
+    if (axis == 2 && p.plate.height && !p.air.cell)  // cells of 1/2 to 1 bed.spacing
+      count = nearest_layers(count, (3 * count + 3) / 4, (3 * count) / 2, [&](int layers) {
+                return meets_the_plate(p, layers);
+              }).value_or(count);
     grid.count[static_cast<std::size_t>(axis)] = count;
     grid.spacing[axis] = size[axis] / count;
   }
   return grid;
 }
 
+/// A size of the cells near the one there is, or a height of the plate, with which the plate lies on faces of cells.
+std::string what_meets_the_plate(const Parameters& p, const Grid& grid) {
+  const int count = grid.count[2];
+  const auto size = [&](int layers) { return fmt::format("{:.4g} mm", p.box.height / layers / millimetre); };
+  const auto layers = nearest_layers(count, std::max(1, count / 3), 3 * count, [&](int n) {
+    if (!meets_the_plate(p, n)) return false;
+    Parameters changed = p;
+    changed.air.cell = parse_quantity(size(n))->value;
+    return air_grid(changed).count[2] == n && check_air(changed).empty();
+  });
+  if (layers) return fmt::format("air.cell = \"{}\", of whose faces some lie in the plate", size(*layers));
+  const double layer = std::floor(*p.plate.height / grid.spacing.z);
+  return fmt::format("plate.height = \"{:.6g} mm\" or \"{:.6g} mm\", where faces of the cells are",
+                     layer * grid.spacing.z / millimetre, (layer + 1) * grid.spacing.z / millimetre);
+}
+
 std::vector<Problem> check_air(const Parameters& p) {
-  std::vector<Problem> problems;
-  if (!p.air.enabled || !(cell_size(p) > 0)) return problems;
+  if (!p.air.enabled || !(cell_size(p) > 0)) return {};
+  std::vector<Problem> problems = air::check(p.air.gas);
   const auto add = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
@@ -113,8 +139,9 @@ std::vector<Problem> check_air(const Parameters& p) {
   if (p.plate.height) {
     const double layer = *p.plate.height / grid.spacing.z;
     if (std::abs(layer - std::round(layer)) > 1e-6)
-      add("air.cell", fmt::format("plate.height is {:.6g} cells above the floor", layer),
-          "cells of whose faces some lie in the plate");
+      add("air.cell",
+          fmt::format("plate.height is {:.6g} cells of {:.4g} mm above the floor", layer, grid.spacing.z / millimetre),
+          what_meets_the_plate(p, grid));
   }
   return problems;
 }
@@ -155,7 +182,13 @@ double Atmosphere::advance(ThreadTeam& team, std::span<const double> smoothing_l
 
 void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& s) {
   AirAround& a = s.air;
+  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
+    a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
+  });
   deposit(team, smoothing_length, s);
+  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
+    a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
+  });
   const double longest = flow_.time_step(team, a.solids, a.flow);
   dt = std::min(dt, longest);
   a.steps_left = static_cast<std::uint64_t>(longest / dt);
@@ -167,6 +200,10 @@ void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_le
     report.step = s.step, report.time = s.time;
     throw NumericalError(report);
   }
+  flow_.add_outflow(team, duration, a.flow, a.excess);
+  const double* pressure = a.flow.pressure.data();
+  a.swing_max =
+      std::max(a.swing_max, largest_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
   received_.resize(s.position.size());
   deposition_.hand_out(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),

@@ -93,12 +93,34 @@ PressureRange pressure_range(const AirAround& air) {
   return range;
 }
 
-std::vector<RegimeLine> regime_of_air(const Parameters& p, const AirAround& air) {
-  const PressureRange range = pressure_range(air);
-  const double swing = std::max(std::abs(range.least), std::abs(range.most)) / p.air.gas.pressure;
+/// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
+/// continuity lacks, since what one lacks another has too much.
+double air_imbalance(const AirAround& air) {
+  double sum = 0;
+  for_each_air_cell(air, [&](std::size_t c) { sum += std::abs(air.excess[c]); });
+  return 0.5 * sum * air.grid.volume();
+}
+
+double solid_volume(const Parameters& p, const State& s) {
+  return s.mass * static_cast<double>(s.position.size()) / p.grains.density;
+}
+
+std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
+  const AirAround& air = s.air;
+  const double swing = air.swing_max / p.air.gas.pressure;
+  const bool incompressible = p.air.gas.compressibility == air::Compressibility::none;
+  const double imbalance = air_imbalance(air);
   return {{"air's pressure swing", fmt::format("{:.3g}", swing),
-           "largest difference from air.pressure over it; the air is taken for incompressible, up to about 0.1",
-           swing > 0.1},
+           incompressible ? "largest difference from air.pressure since the start, over it; the air is taken for "
+                            "incompressible, which holds up to about 0.1: above it, grains that leave a closed vessel "
+                            "are held back too strongly; air.compressibility = \"isothermal\" lets the air expand"
+                          : "largest difference from air.pressure since the start, over it",
+           incompressible && swing > 0.1},
+          {"air's imbalance", fmt::format("{:.3g} cm3", imbalance * 1e6),
+           fmt::format("room that grains left or took without air moving, {:.3g} of their volume; up to about 0.1 is "
+                       "the grid's error, more is air.continuity = \"air-alone\" where grains change places with air",
+                       imbalance / solid_volume(p, s)),
+           imbalance > 0.1 * solid_volume(p, s)},
           {"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
            "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000}};
 }
@@ -168,7 +190,9 @@ std::vector<NamedValue> Continuum::totals() const {
                                  {"air_step_size", "s", air.last_step},
                                  {"air_steps", "1", static_cast<double>(air.steps)},
                                  {"air_iterations", "1", static_cast<double>(air.iterations)},
-                                 {"particle_reynolds_max", "1", air.reynolds_max}});
+                                 {"particle_reynolds_max", "1", air.reynolds_max},
+                                 {"air_swing_max", "Pa", air.swing_max},
+                                 {"air_imbalance", "m3", air_imbalance(air)}});
   }
   return values;
 }
@@ -233,7 +257,7 @@ std::vector<RegimeLine> Continuum::regime() const {
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
   }
   if (parameters_.air.enabled)
-    for (RegimeLine& line : regime_of_air(parameters_, s.air)) lines.push_back(std::move(line));
+    for (RegimeLine& line : regime_of_air(parameters_, s)) lines.push_back(std::move(line));
   return lines;
 }
 
