@@ -107,6 +107,8 @@ class AirModel {
   const ModelState& state() const { return state_; }
   ModelState& mutable_state() { return state_; }
   double time_origin() const { return 0; }
+  double latest_origin() const { return 0; }
+  NumericalError::Report step_limit() const { return flow_->step_limit(none_, state_.flow); }
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
