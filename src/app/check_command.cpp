@@ -8,6 +8,7 @@
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/prepared_case.hpp"
+#include "base/terminal.hpp"
 #include "io/parameter_writer.hpp"
 #include "run/progress.hpp"
 
@@ -19,7 +20,7 @@ ExitStatus check(const CaseOptions& options, int threads) {
   const CaseFile file = options.read();
   const PreparedCase prepared = prepare_case(file);
 
-  fmt::print("{}: valid. In SI, with every default:\n\n", options.path);
+  say("{}: valid. In SI, with every default:\n\n", options.path);
   const std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
   std::size_t key = 0, value = 0;
   for (const ResolvedLine& line : table) {
@@ -27,19 +28,19 @@ ExitStatus check(const CaseOptions& options, int threads) {
     value = std::max(value, line.value.size() + 1 + line.unit.size());
   }
   for (const ResolvedLine& line : table)
-    fmt::print("  {:{}}  {:{}}  {:8} {}\n", line.key, key, line.value + " " + line.unit, value, line.origin, line.text);
+    say("  {:{}}  {:{}}  {:8} {}\n", line.key, key, line.value + " " + line.unit, value, line.origin, line.text);
 
-  fmt::print("\nScales and groups:\n");
+  say("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
-    fmt::print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
+    say("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
 
   const Forecast f = prepared.forecast();
-  fmt::print("\nForecast (measured on this machine now, one thread, and divided by {} threads):\n", threads);
-  fmt::print("  {:{}}  {:.0f}\n", "steps", key, f.steps);
-  fmt::print("  {:{}}  {:.0f} at {:.3g} ms\n", "evaluations", key, f.evaluations, 1e3 * f.seconds_per_evaluation);
-  fmt::print("  {:{}}  {}\n", "time", key, run::format_seconds(f.evaluations * f.seconds_per_evaluation / threads));
-  fmt::print("  {:{}}  {:.0f} MB\n", "memory", key, f.memory_bytes / 1e6);
-  fmt::print("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
+  say("\nForecast (measured on this machine now, one thread, and divided by {} threads):\n", threads);
+  say("  {:{}}  {:.0f}\n", "steps", key, f.steps);
+  say("  {:{}}  {:.0f} at {:.3g} ms\n", "evaluations", key, f.evaluations, 1e3 * f.seconds_per_evaluation);
+  say("  {:{}}  {}\n", "time", key, run::format_seconds(f.evaluations * f.seconds_per_evaluation / threads));
+  say("  {:{}}  {:.0f} MB\n", "memory", key, f.memory_bytes / 1e6);
+  say("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
   return ExitStatus::done;
 }
 

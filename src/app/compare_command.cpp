@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/comparison/evaluation.hpp"
 #include "app/comparison/overlay.hpp"
+#include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
 
 namespace talus::app {
@@ -22,13 +23,13 @@ ExitStatus compare_with_reference(const CompareOptions& options) {
   const Reference reference = read_reference(options.other);
   const std::unique_ptr<StudiedRuns> runs = read_studied_runs(options.folder, reference);
   const std::vector<EvaluatedRow> rows = evaluate(reference, *runs);
-  fmt::print("{}\n", reference.source);
-  fmt::print("{}", to_text(rows));
+  say("{}\n", reference.source);
+  say("{}", to_text(rows));
   if (!options.json.empty()) write_atomically(options.json, to_json(reference, rows));
   if (!options.markdown.empty()) write_atomically(options.markdown, to_markdown(rows));
   if (!options.figures.empty()) runs->draw(options.figures);
-  fmt::print("{} met, {} not met, {} reported, {} not evaluated\n", count(rows, Verdict::met),
-             count(rows, Verdict::not_met), count(rows, Verdict::reported), count(rows, Verdict::not_evaluated));
+  say("{} met, {} not met, {} reported, {} not evaluated\n", count(rows, Verdict::met), count(rows, Verdict::not_met),
+      count(rows, Verdict::reported), count(rows, Verdict::not_evaluated));
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;
 }
 

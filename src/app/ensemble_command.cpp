@@ -12,6 +12,7 @@
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "app/ensemble/statistics.hpp"
+#include "base/terminal.hpp"
 #include "run/interrupt.hpp"
 
 namespace talus::app {
@@ -39,17 +40,16 @@ ExitStatus ensemble(const EnsembleRequest& request) {
   for (const EnsembleGroup& group : plan.groups) {
     const auto drawn = write_group(group, request.folder / group.name);
     pictures.insert(pictures.end(), drawn.begin(), drawn.end());
-    fmt::print("{}:\n", group.name);
+    say("{}:\n", group.name);
     for (const QuantitySpread& spread : quantity_spreads(group))
       if (!spread.values.empty())
-        fmt::print("  {:28} {:>12.6g} ± {:<10.4g} {} ({} members)\n", spread.name, spread.mean, spread.deviation,
-                   spread.unit == "1" ? "" : spread.unit, spread.values.size());
+        say("  {:28} {:>12.6g} ± {:<10.4g} {} ({} members)\n", spread.name, spread.mean, spread.deviation,
+            spread.unit == "1" ? "" : spread.unit, spread.values.size());
   }
   for (const FailedRun& failed : result.failed)
-    fmt::print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
-  fmt::print("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(),
-             request.folder.string());
-  if (!pictures.empty()) fmt::print("Picture: {}\n", pictures.front().string());
+    say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+  say("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(), request.folder.string());
+  if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());
   if (result.interrupted) return ExitStatus::interrupted;
   return result.failed.empty() ? ExitStatus::done : ExitStatus::numerical;
 }

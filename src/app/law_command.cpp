@@ -10,6 +10,7 @@
 #include "app/commands.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
+#include "base/terminal.hpp"
 
 namespace talus::app {
 
@@ -80,8 +81,8 @@ ExitStatus follow(const LawOptions& options) {
   if (has_functions) draw_functions(parameters, folder / "functions.png");
 
   for (const NamedValue& quantity : quantities_of(path))
-    fmt::print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
-  fmt::print("{}: path.csv, path.png{}\n", folder.string(), has_functions ? ", functions.png" : "");
+    say("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
+  say("{}: path.csv, path.png{}\n", folder.string(), has_functions ? ", functions.png" : "");
   return ExitStatus::done;
 }
 

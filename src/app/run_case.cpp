@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
 #include "io/manifest.hpp"
@@ -47,11 +48,11 @@ std::shared_ptr<spdlog::logger> open_log(const RunFolder& folder, bool append) {
 }
 
 void print_regime(const std::vector<RegimeLine>& regime, spdlog::logger& log) {
-  fmt::print("Regime at the end:\n");
+  say("Regime at the end:\n");
   for (const RegimeLine& line : regime) {
     const std::string text =
         fmt::format("{} {} = {}: {}", line.warning ? "!" : " ", line.quantity, line.value, line.meaning);
-    fmt::print("  {}\n", text);
+    say("  {}\n", text);
     log.info("regime {}", text);
   }
 }
@@ -105,7 +106,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   const CheckpointFiles checkpoints(folder.path());
   for (const std::string& damage : checkpoints.damages()) {
     log.warn("passed over: {}", damage);
-    fmt::print(stderr, "talus: passed over: {}\n", damage);
+    complain("talus: passed over: {}\n", damage);
   }
 
   std::unique_ptr<run::AnyModel> model = prepared.make_model();
@@ -139,16 +140,16 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
 
   if (loop.interrupted) {
     log.info("interrupted by {} at t = {:.6g} s, step {}", loop.reason, model->time(), loop.steps);
-    fmt::print("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
-               folder.path().string());
+    say("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
+        folder.path().string());
     return ExitStatus::interrupted;
   }
   log.info("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
            loop.wall_seconds, loop.cpu_seconds);
   print_regime(model->regime(), log);
-  fmt::print("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
-             folder.path().string());
-  if (!pictures.empty()) fmt::print("Picture: {}\n", pictures.front().string());
+  say("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
+      folder.path().string());
+  if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());
   return ExitStatus::done;
 }
 
@@ -181,8 +182,7 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     ThreadTeam team(request.threads);
     const auto model = prepared.make_model();
     model->begin(team);
-    fmt::print("The case is valid and its start can be built: {} grains. Nothing was written.\n",
-               model->snapshot().size());
+    say("The case is valid and its start can be built: {} grains. Nothing was written.\n", model->snapshot().size());
     return ExitStatus::done;
   }
   run::catch_signals();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/terminal.hpp"
 #include "base/unit.hpp"
 
 namespace talus {
@@ -21,7 +22,7 @@ std::string plain_text(const DescribedParameter& item) {
     return text.substr(0, text.find(' '));
   };
   if (std::holds_alternative<std::monostate>(item.value)) return "-";
-  if (const auto* text = std::get_if<std::string>(&item.value)) return *text;
+  if (const auto* text = std::get_if<std::string>(&item.value)) return printable(*text);
   if (const auto* value = std::get_if<double>(&item.value)) return number(*value);
   if (const auto* values = std::get_if<std::vector<double>>(&item.value)) {
     std::vector<std::string> texts;

@@ -112,12 +112,35 @@ class BadCase(ProgramTest):
             self.assertRegex(self.problems("run", "case.toml")[0], message)
         self.assertEqual(sorted(tree(self.folder)), ["case.toml", "points.csv"])
 
+    def test_control_characters_are_not_passed_on(self):
+        hostile = "\\u001b[31m\\u009b\\u202e"
+        (self.folder / "case.toml").write_text(f'"k{hostile}" = 1\ntitle = "t{hostile}"\n' + CASE.replace(
+            'shape = "circle"', f'shape = "{hostile}"'))
+        said = self.talus("check", "case.toml", status=2).stderr
+        said += self.talus("check", "case.toml", "--set", "run.end=\x1b[2J", "--set", "\x1b=1", status=2).stderr
+        said += self.talus("check", "\x1b[2J.toml", status=4).stderr
+        said += self.talus("check", "case.toml", "--\x1b[2J", status=2).stderr + self.talus("\x1b", status=2).stderr
+        (self.folder / "case.toml").write_text(f'title = "t{hostile}"\n' + CASE)
+        said += self.talus("check", "case.toml").stdout + self.talus("run", "case.toml", "--out", "\x1b[2Jr").stdout
+        (self.folder / "points.csv").write_text("x [m],y [m],\x1b[2J [m]\n0,0,\x1b\n")
+        said += self.talus("analyze", "points.csv", "--as", "front", status=2).stderr
+        self.assertEqual([c for c in said if c != "\n" and (ord(c) < 32 or 0x7f <= ord(c) < 0xa0 or ord(c) == 0x202e)],
+                         [], repr(said))
+        self.assertIn("title", said)
+        self.assertIn("t\\u001b[31m\\u009b\\u202e", said)
+
     def test_usage(self):
         for arguments in (["rnu"], [], ["run"], ["run", "case.toml", "--thread", "2"],
                           ["run", "case.toml", "--threads", "0"], ["run", "case.toml", "--resume", "--overwrite"],
                           ["schema", "clowd"], ["run", "case.toml", "--walltime", "-1"]):
             self.assertTrue(self.talus(*arguments, status=2).stderr, arguments)
         self.assert_nothing_written()
+        for arguments in (["runn"], ["plot", "--help"], ["--help", "plot"], ["--version", "chekc", "case.toml"]):
+            self.assertRegex(self.talus(*arguments, status=2).stderr,
+                             r"^talus: there is no command '\w+'; allowed: run, check, ")
+        self.assertIn("did you mean 'run'?", self.talus("runn", status=2).stderr)
+        self.assertIn("did you mean 'check'?", self.talus("chekc", "case.toml", status=2).stderr)
+        self.assertRegex(self.talus(status=2).stderr, r"^talus: no command; allowed: run, check, ")
         for arguments in (["--help"], ["--version"], ["run", "--help"]):
             self.assertTrue(self.talus(*arguments).stdout)
 

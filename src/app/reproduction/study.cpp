@@ -10,6 +10,7 @@
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "base/nearest.hpp"
+#include "base/terminal.hpp"
 #include "base/version.hpp"
 #include "io/atomic_file.hpp"
 #include "io/manifest.hpp"
@@ -135,13 +136,13 @@ ExitStatus reproduce(const StudyRequest& request) {
 
   const int members = request.members ? request.members : request.quick ? reference.quick.members : reference.members;
   const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
-  fmt::print("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(),
-             members, request.jobs, request.folder.string());
+  say("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(), members,
+      request.jobs, request.folder.string());
   const ScheduleResult result = run_members(runs, request.jobs);
   for (const FailedRun& failed : result.failed)
-    fmt::print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+    say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
   if (result.interrupted) {
-    fmt::print("Interrupted; --resume goes on: {}\n", request.folder.string());
+    say("Interrupted; --resume goes on: {}\n", request.folder.string());
     return ExitStatus::interrupted;
   }
 
@@ -158,8 +159,8 @@ ExitStatus reproduce(const StudyRequest& request) {
   const std::filesystem::path report_path = request.folder / (reference.study + ".md");
   write_atomically(report_path, report_text(reference, request, project, runs, rows, result.failed, counts, figures));
 
-  fmt::print("{}{}\nReport: {}\n", text, counts, report_path.string());
-  if (!figures.empty()) fmt::print("Picture: {}\n", figures.front().path.string());
+  say("{}{}\nReport: {}\n", text, counts, report_path.string());
+  if (!figures.empty()) say("Picture: {}\n", figures.front().path.string());
   if (!result.failed.empty()) return ExitStatus::numerical;
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;
 }
