@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/prepared_case.hpp"
+#include "base/memory.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_writer.hpp"
 #include "run/progress.hpp"
@@ -16,31 +19,58 @@ namespace talus::app {
 
 namespace {
 
-ExitStatus check(const CaseOptions& options, int threads) {
-  const CaseFile file = options.read();
-  const PreparedCase prepared = prepare_case(file);
+constexpr double month = 30 * 86400.0;
+constexpr std::size_t widest_value = 16;  // longer ones stand out of their column
 
-  say("{}: valid. In SI, with every default:\n\n", options.path);
+void print_case(const PreparedCase& prepared, const CaseFile& file, std::size_t& key) {
   const std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
-  std::size_t key = 0, value = 0;
+  std::size_t value = 0;
   for (const ResolvedLine& line : table) {
     key = std::max(key, line.key.size());
     value = std::max(value, line.value.size() + 1 + line.unit.size());
   }
-  for (const ResolvedLine& line : table)
-    say("  {:{}}  {:{}}  {:8} {}\n", line.key, key, line.value + " " + line.unit, value, line.origin, line.text);
+  value = std::min(value, widest_value);
+  for (const ResolvedLine& line : table) {
+    const std::string head =
+        fmt::format("  {:{}}  {:{}}  {:8} ", line.key, key, line.value + " " + line.unit, value, line.origin);
+    const std::size_t indent = 4 + key + value + 2 + 9;
+    const std::size_t width = std::max(terminal_width(), indent + 24);
+    say("{}{}\n", head, wrapped(line.text, width, indent, head.size()));
+  }
+}
 
+void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) {
+  const Forecast& f = prepared.forecast;
+  ThreadTeam team(threads);
+  const double each = prepared.measure_evaluation(team);
+  say("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", threads,
+      threads == 1 ? "" : "s");
+  double seconds = 0;
+  for (const Forecast::Phase& phase : f.phases) {
+    seconds += phase.evaluations * each;
+    say("  {:{}}  about {:.2g} steps, {:.2g} evaluations of {:.3g} ms: {}\n", phase.name, key, phase.steps,
+        phase.evaluations, 1e3 * each, run::format_seconds(phase.evaluations * each));
+  }
+  say("  {:{}}  {}\n", "time", key, run::format_seconds(seconds));
+  const std::optional<double> available = available_memory();
+  say("  {:{}}  {:.0f} MB{}\n", "memory", key, f.memory_bytes / 1e6,
+      available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
+  say("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
+  if (seconds > month) say("! Such a run takes more than a month: fewer particles, or an earlier run.end.\n");
+}
+
+ExitStatus check(const CaseOptions& options, int threads) {
+  const CaseFile file = options.read();
+  const PreparedCase prepared = prepare_case(file);
+  check_memory(prepared, file);
+
+  say("{}: valid. In SI, with every default:\n\n", options.path);
+  std::size_t key = 0;
+  print_case(prepared, file, key);
   say("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
     say("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
-
-  const Forecast f = prepared.forecast();
-  say("\nForecast (measured on this machine now, one thread, and divided by {} threads):\n", threads);
-  say("  {:{}}  {:.0f}\n", "steps", key, f.steps);
-  say("  {:{}}  {:.0f} at {:.3g} ms\n", "evaluations", key, f.evaluations, 1e3 * f.seconds_per_evaluation);
-  say("  {:{}}  {}\n", "time", key, run::format_seconds(f.evaluations * f.seconds_per_evaluation / threads));
-  say("  {:{}}  {:.0f} MB\n", "memory", key, f.memory_bytes / 1e6);
-  say("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
+  print_forecast(prepared, threads, key);
   return ExitStatus::done;
 }
 

@@ -5,12 +5,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "app/cloud/cloud_case.hpp"
 #include "app/cloud/cloud_pictures.hpp"
 #include "app/continuum/continuum_case.hpp"
+#include "base/memory.hpp"
 #include "base/nearest.hpp"
+#include "io/parameter_reader.hpp"
 
 namespace talus::app {
 
@@ -28,6 +32,17 @@ bool is_continuum(const CaseFile& file) {
 // reported together with the others.
 PreparedCase prepare_case(const CaseFile& file) {
   return is_continuum(file) ? prepare_continuum(file) : prepare_cloud(file);
+}
+
+void check_memory(const PreparedCase& prepared, const CaseFile& file) {
+  const std::optional<double> available = available_memory();
+  if (!available || prepared.forecast.memory_bytes <= *available) return;
+  Problem problem = prepared.too_large(*available);
+  problem.what += fmt::format(", which need {:.3g} GB of memory; {:.3g} GB are free here",
+                              prepared.forecast.memory_bytes / 1e9, *available / 1e9);
+  ParameterReader reader(file);
+  reader.check({std::move(problem)});
+  reader.raise();
 }
 
 std::vector<Problem> check_model(const std::string& model) {

@@ -31,7 +31,9 @@ ExitStatus run(const RunOptions& options) {
                        ? std::filesystem::path("results") / std::filesystem::path(options.case_options.path).stem()
                        : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
-  return run_case(prepare_case(file), request);
+  const PreparedCase prepared = prepare_case(file);
+  check_memory(prepared, file);
+  return run_case(prepared, request);
 }
 
 }  // namespace

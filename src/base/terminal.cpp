@@ -85,12 +85,13 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
     const std::string_view word = text.substr(0, text.find(' '));
     text.remove_prefix(std::min(word.size() + 1, text.size()));
     const std::size_t size = columns(word);
-    if (!line_is_empty && column + 1 + size > width) {
+    const std::size_t blank = line_is_empty ? 0 : 1;
+    if (column + blank + size > width && column > indent) {
       result += '\n' + std::string(indent, ' ');
       column = indent;
-    } else if (!line_is_empty) {
-      result += ' ';
-      ++column;
+    } else {
+      result.append(blank, ' ');
+      column += blank;
     }
     result += word;
     column += size;

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input: every problem at once, exit status 2, and nothing written."""
+import subprocess
 import unittest
 
-from program import CASE, ProgramTest, bits, tree
+from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, tree
 
 TWELVE_FAULTS = """model = "clowd"
 seed = -1
@@ -107,10 +108,56 @@ class BadCase(ProgramTest):
         for text, message in (("x [mm],y [mm]\n1,2\n3,four\n", r"^points\.csv:3: y: "),
                               ("x [m],y [m]\n0,0\n1e9,0\n", r"^case\.toml:6: particles\.file: .*more than a million"),
                               ("x [m],y [m],z [m]\n0,0,0\n1,0,1\n", r"^case\.toml:6: particles\.file: .*plane of mot"),
-                              ("x [m],radius [m]\n0,-1\n", r"^case\.toml:6: particles\.file: 1 radii")):
+                              ("x [m],radius [m]\n0,-1\n", r"^case\.toml:6: particles\.file: 1 radii"),
+                              ("x [m],y [m]\n0.1,0\n0.3,0.25\n0.3,0.25\n",
+                               r"^case\.toml:6: particles\.file: 1 pair overlap too much; points 2 and 3 by 2 radii"),
+                              ("x [mm],y [mm]\n0,0\n4,0\n6,0\n",
+                               r"^case\.toml:6: particles\.file: 3 pairs overlap too much; points 2 and 3 by 1\.6 ")):
             (self.folder / "points.csv").write_text(text)
             self.assertRegex(self.problems("run", "case.toml")[0], message)
         self.assertEqual(sorted(tree(self.folder)), ["case.toml", "points.csv"])
+
+    def test_what_cannot_be_computed_is_told_from_counts(self):
+        hopper, slot = PROJECT / "cases/yuu2011-hopper-vacuum.toml", PROJECT / "cases/slot.toml"
+        for case, setting, message in (
+                (hopper, "bed.spacing=0.1 mm", r"bed\.spacing: 0\.1 mm makes \S+ particles(;|, which need \S+ GB of memory)"),
+                (slot, "box.width=1e6 m", r"box\.width: 1e\+06 m is 4e\+08 spacings: the bed would hold \S+ particles; "),
+                (slot, "integration.step=1 s", r"integration\.step: in 1 s pressure waves pass \S+ smoothing lengths; "),
+                (slot, "run.end=1e9 s", r"run\.end: .* take \S+ steps"),
+                ("case.toml", "fluid.viscosity=1e-300 Pa s", r"fluid\.viscosity: .*; allowed: a dynamic viscosity, from "),
+                ("case.toml", "particles.size=1e6 m", r"particles\.size: 1e\+06 m is 2e\+08 times particles\.radius; "),
+                ("case.toml", "run.end=1e9 s", r"run\.end: 1e\+09 s takes \S+ steps of at most ")):
+            for command in ("check", "run"):
+                problems = "\n".join(self.problems(command, case, "--set", setting))
+                self.assertRegex(problems, message, setting)
+        self.assert_nothing_written()
+
+    def test_memory_beyond_what_there_is_is_refused(self):
+        limit = ("bash", "-c", 'ulimit -v 3000000; exec "$0" "$@"', PROGRAM)
+        for case, setting, message in (
+                (PROJECT / "cases/slot.toml", "bed.spacing=0.1 mm", r"bed\.spacing: 0\.1 mm makes 1\.92e\+06 particles, "),
+                ("case.toml", "particles.count=10000000", r"particles\.count: 10000000 grains, which need 15 GB of mem")):
+            more = ("--set", "box.depth=0.1 mm") if case != "case.toml" else ("--set", "particles.size=30 m")
+            for command in ("check", "run", "ensemble"):
+                done = subprocess.run([*limit, command, case, "--set", setting, *more], cwd=self.folder,
+                                      capture_output=True, text=True, check=False, timeout=60)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertRegex(done.stderr, message)
+                self.assertRegex(done.stderr, r"GB of memory; \S+ GB are free here; allowed: at (least|most) ")
+        self.assert_nothing_written()
+
+    def test_check_of_many_particles_places_none(self):
+        million = self.talus("check", "case.toml", "--set", "particles.count=1000000", "--set", "particles.size=7.5 m")
+        self.assertRegex(million.stdout, r"\n! Such a run takes more than a month")
+        said = self.talus("check", PROJECT / "cases/wedge-hopper.toml", "--set", "bed.spacing=0.1 mm", "--set",
+                          "box.depth=0.1 mm").stdout
+        self.assertRegex(said, r"\n  particles +7\d{5}\n")
+
+    def test_check_keeps_to_the_width_of_a_page(self):
+        for case in (PROJECT / "cases/slot.toml", PROJECT / "cases/niiya2020-circle.toml"):
+            lines = self.talus("check", case).stdout.splitlines()
+            self.assertLessEqual(max(map(len, lines)), 100)
+            self.assertRegex("\n".join(lines), r"\n  settling +about|\n  run +about")
 
     def test_control_characters_are_not_passed_on(self):
         hostile = "\\u001b[31m\\u009b\\u202e"

@@ -46,6 +46,7 @@ TEST(Printable, HoldsInMessages) {
 TEST(Wrapped, BreaksAtBlanksAndIndents) {
   EXPECT_EQ(wrapped("one two three", 9, 2, 0), "one two\n  three");
   EXPECT_EQ(wrapped("one two three", 9, 2, 5), "one\n  two\n  three");
+  EXPECT_EQ(wrapped("one two", 9, 2, 20), "\n  one two");
   EXPECT_EQ(wrapped("", 9, 2, 5), "");
   EXPECT_EQ(wrapped("a word-longer-than-a-line b", 9, 0, 0), "a\nword-longer-than-a-line\nb");
   EXPECT_EQ(wrapped("\u00b5\u00b5\u00b5\u00b5 \u00b5\u00b5\u00b5\u00b5", 9, 0, 0),

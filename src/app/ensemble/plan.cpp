@@ -63,6 +63,7 @@ void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
   for (const std::string& setting : request.settings) file.set(setting);
   for (const std::string& setting : group.settings) file.set(setting, "--vary");
   const PreparedCase first = prepare_case(file);
+  check_memory(first, file);
   const bool random = has_seed(first);
   const std::int64_t first_seed = first.seed;
   for (int k = 0; k < (random ? request.members : 1); ++k) {

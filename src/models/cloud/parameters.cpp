@@ -64,6 +64,8 @@ double moment(const Parameters::Particles& p, int power) {
 constexpr double jamming_plane = 0.54;
 constexpr double jamming_space = 0.37;
 
+constexpr double most_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
+
 }  // namespace
 
 std::vector<Problem> check(const Parameters& p) {
@@ -101,6 +103,14 @@ std::vector<Problem> check(const Parameters& p) {
   if (grains.shape == Shape::dome && !p.slope.enabled)
     add("slope.enabled", "false, but a dome stands on the slope", "true, or shape \"ball\"");
 
+  const auto check_extent = [&](const char* key, const std::optional<double>& length) {
+    if (length && grains.radius > 0 && !(*length <= most_radii * grains.radius))
+      add(key, fmt::format("{:.4g} m is {:.3g} times particles.radius", *length, *length / grains.radius),
+          fmt::format("at most {:.0e} times", most_radii));
+  };
+  check_extent("particles.size", grains.size);
+  check_extent("particles.length", grains.length);
+  check_extent("particles.width", grains.width);
   if (const double extent = extent_of_shape(p); extent > 0 && std::isfinite(extent)) {
     const double fraction = scales(p).volume_fraction;
     const double jamming = is_plane(grains.shape) ? jamming_plane : jamming_space;

@@ -105,7 +105,8 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.particles.density);
 
   visit(Parameter{"fluid.density", dimension::density, at_least(0), "density of the fluid"}, p.fluid.density);
-  visit(Parameter{"fluid.viscosity", dimension::viscosity, above(0), "dynamic viscosity of the fluid"},
+  visit(Parameter{"fluid.viscosity", dimension::viscosity, between(1e-7, 1e9),
+                  "dynamic viscosity of the fluid: gases have 1e-5 Pa s, pitch 1e8"},
         p.fluid.viscosity);
   visit(Parameter{"fluid.mobility",
                   {},

@@ -18,11 +18,9 @@ namespace talus::cloud {
 
 namespace {
 
-constexpr double damping = 0.1;           // of the stability polynomial: stiff modes shrink by 10 % a step at least
 constexpr double stiffness_margin = 1.1;  // on the measured rate, which is a lower bound
 constexpr int steps_between_estimates = 5;
 constexpr int steps_between_sorts = 16;
-constexpr int most_stages = 250;
 constexpr double least_step_over_largest = 1e-6;
 constexpr double farthest_move = 1e4;  // of a grain within a step, in mean radii: the error control refuses less
 
@@ -128,10 +126,6 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   throw NumericalError(report);
 }
 
-double longest_stable_step(const Parameters& p, double rate) {
-  return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, damping).stability / rate;
-}
-
 /// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
 void check_stiffness(const Parameters& p, const State& state, double largest_step) {
   const double share = longest_stable_step(p, contact_rate(p)) / largest_step;  // infinite without contacts
@@ -190,7 +184,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
     const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
     const bool euler = p.integration.method == Method::euler;
     if (rate > 0) step = std::min(step, longest_stable_step(p, rate));
-    const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, damping), damping);
+    const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, stage_damping), stage_damping);
 
     bool finite = take_stages(team, state, work, scheme, step, farthest_move * a);
     double error = 0, overlap = 0;

@@ -14,6 +14,13 @@ namespace talus::cloud {
 /// mobility of touching grains is small), 6 without (a triangular lattice of springs).
 double contact_rate(const Parameters& parameters);
 
+inline constexpr double stage_damping =
+    0.1;  ///< of the stability polynomial: stiff modes shrink by 10 % a step at least
+
+/// The longest step with which a rate is stable, s: of as many stages as there may be, or of one with explicit Euler.
+/// \param rate 1/s, > 0
+double longest_stable_step(const Parameters& parameters, double rate);
+
 /// Power iteration with the velocities themselves: the largest |lambda| of dv/dx, from state.stiff_mode, which it
 /// improves. Updates state.spectral_radius and counts its evaluations.
 /// \param sweeps at most so many evaluations; fewer once the estimate changes by less than 2 %

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace talus::continuum {
 
@@ -39,6 +41,34 @@ air::Parameters gas_of(const Parameters& p) {
   return gas;
 }
 
+/// Whether the cells can be numbered; the fault is told of the side of the box that is out of proportion, or of the
+/// cells' size where none is.
+std::optional<Problem> check_number_of_cells(const Parameters& p) {
+  constexpr double most_cells = 1e9;
+  constexpr const char* sides[3] = {"box.width", "box.depth", "box.height"};
+  const Vector3 size = (1 / cell_size(p)) * extent(p);
+  double cells = 1;
+  int longest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells *= std::max(1.0, size[axis]);
+    if (size[axis] > size[longest]) longest = axis;
+  }
+  if (cells <= most_cells) return std::nullopt;
+  const double length = extent(p)[longest];
+  if (size[longest] > 1e5)
+    return Problem{
+        .key = sides[longest],
+        .what = fmt::format("{:.4g} m is {:.3g} cells of the air: {:.3g} cells in all", length, size[longest], cells),
+        .allowed = fmt::format("at most {:.3g} m with cells of this size: {:.0e} cells", length * most_cells / cells,
+                               most_cells)};
+  const double dimensions = static_cast<double>((size.x > 1) + (size.y > 1) + (size.z > 1));
+  return Problem{
+      .key = p.air.cell ? "air.cell" : "bed.spacing",
+      .what = fmt::format("makes {:.3g} cells of the air of {:.4g} mm", cells, cell_size(p) / millimetre),
+      .allowed = fmt::format("cells of at least {:.3g} mm: {:.0e} cells",
+                             cell_size(p) * std::pow(cells / most_cells, 1 / dimensions) / millimetre, most_cells)};
+}
+
 }  // namespace
 
 Grid air_grid(const Parameters& p) {
@@ -59,6 +89,7 @@ std::vector<Problem> check_air(const Parameters& p) {
   const auto add = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
+  if (auto problem = check_number_of_cells(p)) return {std::move(*problem)};
   const Grid grid = air_grid(p);
   const FaceKind grains[6] = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top};
   constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};

@@ -15,6 +15,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
+constexpr double most_particles = 1e9;  // they and their images are numbered with 32 bits
 
 void check_faces(const Parameters& p, std::vector<Problem>& problems) {
   const auto pair = [&](const char* first, FaceKind a, const char* second, FaceKind b) {
@@ -53,6 +54,35 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
   }
 }
 
+/// Whether the bed is of a size that can be numbered; the fault is told of the length that is out of proportion, or of
+/// the spacing where none is.
+bool check_size(const Parameters& p, std::vector<Problem>& problems) {
+  const Lattice lattice = lattice_of(p);
+  const double count = places_of(lattice);
+  if (count <= most_particles) return true;
+  const char* const keys[3] = {p.bed.right ? "bed.right" : "box.width", "box.depth", "bed.height"};
+  const auto longest =
+      static_cast<std::size_t>(std::max_element(lattice.count.begin(), lattice.count.end()) - lattice.count.begin());
+  const double extent = lattice.spacing[static_cast<int>(longest)] * static_cast<double>(lattice.count[longest]);
+  const double over = count / most_particles;
+  if (static_cast<double>(lattice.count[longest]) > 1e5) {
+    problems.push_back({.key = keys[longest],
+                        .what = fmt::format("{:.4g} m is {:.3g} spacings: the bed would hold {:.3g} particles", extent,
+                                            static_cast<double>(lattice.count[longest]), count),
+                        .allowed = fmt::format("at most {:.3g} m with this bed.spacing: {:.0e} particles",
+                                               extent / over, most_particles)});
+  } else {
+    const double dimensions = static_cast<double>(
+        std::count_if(lattice.count.begin(), lattice.count.end(), [](std::int64_t n) { return n > 1; }));
+    problems.push_back(
+        {.key = "bed.spacing",
+         .what = fmt::format("{:.4g} mm makes {:.3g} particles", p.bed.spacing / millimetre, count),
+         .allowed = fmt::format("at least {:.3g} mm: {:.0e} particles",
+                                p.bed.spacing * std::pow(over, 1 / dimensions) / millimetre, most_particles)});
+  }
+  return false;
+}
+
 void check_bed(const Parameters& p, std::vector<Problem>& problems) {
   const auto add = [&](const char* key, std::string what, std::string allowed) {
     problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
@@ -68,6 +98,7 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
   if (shortest < 0.5 * p.bed.spacing)
     add("bed.spacing", fmt::format("{:.4g} mm is more than twice the bed's least extent", p.bed.spacing / millimetre),
         fmt::format("at most {:.4g} mm", 2 * shortest / millimetre));
+  if (!check_size(p, problems)) return;
   const Lattice lattice = lattice_of(p);
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(lattice.spacing[axis] / p.bed.spacing - 1) > 0.15)

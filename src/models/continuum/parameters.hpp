@@ -247,7 +247,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.integration.courant);
   visit(Parameter{"integration.step", dimension::time, above(0), "a fixed time step in place of the Courant number's"},
         p.integration.step);
-  visit(Parameter{"integration.skin", dimension::none, at_least(0),
+  visit(Parameter{"integration.skin", dimension::none, between(0, 2),
                   "skin of the neighbour lists, in particle spacings: wider lists last longer and cost more"},
         p.integration.skin);
   visit(
@@ -287,6 +287,13 @@ Lattice lattice_of(const Parameters& parameters);
 /// Where the particles stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
 /// between, and farther than a quarter of the spacing from plates at any angle.
 std::vector<Vector3> bed_positions(const Parameters& parameters);
+
+/// Places of a lattice, whether or not a plate hides them.
+double places_of(const Lattice& lattice);
+
+/// Number of those particles, without placing them; exact unless plates stand in a bed of more than a million places
+/// a layer, of which then only some are looked at.
+double bed_count(const Parameters& parameters);
 
 }  // namespace talus::continuum
 

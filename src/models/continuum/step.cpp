@@ -127,7 +127,7 @@ struct Possible {
   bool velocity(const Vector3& v) const { return norm(v) <= most_speed; }
 };
 
-[[noreturn]] void give_up(const State& s, const Possible& possible, std::size_t i) {
+[[noreturn]] void give_up(const Parameters& p, const State& s, const Possible& possible, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !possible.density(s.density[i]);
   const double speed = norm(s.velocity[i]);
@@ -139,7 +139,8 @@ struct Possible {
                         .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
                         .step = s.step,
                         .time = s.time,
-                        .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
+                        .advice = fmt::format("a smaller {}, a larger sph.viscosity_alpha",
+                                              p.integration.step ? "integration.step" : "integration.courant")});
 }
 
 void check_possible(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w, double dt) {
@@ -149,7 +150,7 @@ void check_possible(ThreadTeam& team, const Parameters& p, const State& s, const
       team, s.position.size(), none,
       [&](std::size_t i) { return possible.velocity(s.velocity[i]) && possible.density(s.density[i]) ? none : i; },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (worst != none) give_up(s, possible, worst);
+  if (worst != none) give_up(p, s, possible, worst);
 }
 
 void measure(ThreadTeam& team, const State& s, Workspace& w) {
