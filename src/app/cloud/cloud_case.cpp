@@ -17,7 +17,7 @@
 #include "io/points_csv.hpp"
 #include "models/cloud/forecast.hpp"
 #include "models/cloud/model.hpp"
-#include "models/cloud/stiffness.hpp"
+#include "models/cloud/stability.hpp"
 
 namespace talus::app {
 

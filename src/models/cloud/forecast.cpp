@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/cloud/stiffness.hpp"
+#include "models/cloud/stability.hpp"
 #include "numerics/chebyshev.hpp"
 
 namespace talus::cloud {

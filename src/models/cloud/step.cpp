@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/cloud/stability.hpp"
 #include "models/cloud/stiffness.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/chebyshev.hpp"

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "numerics/chebyshev.hpp"
-#include "physics/hydrodynamics/stokes.hpp"
+#include "models/cloud/stability.hpp"
 
 namespace talus::cloud {
 
@@ -18,17 +17,6 @@ double length(ThreadTeam& team, const std::vector<Vector3>& v) {
 }
 
 }  // namespace
-
-double contact_rate(const Parameters& p) {
-  if (!p.contact.enabled) return 0;
-  const double lattice = p.fluid.mobility == hydrodynamics::Mobility::none ? 6.0 : 1.5;
-  return lattice * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
-}
-
-double longest_stable_step(const Parameters& p, double rate) {
-  constexpr int most_stages = 250;
-  return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, stage_damping).stability / rate;
-}
 
 void estimate_stiffness(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, int sweeps) {
   const std::size_t count = state.position.size();
