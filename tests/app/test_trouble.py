@@ -136,8 +136,8 @@ class Numbers(ProgramTest):
         self.assertEqual(int(found["step"]), 0)
 
     def test_step_too_long_is_told_as_such(self):
-        said = self.talus("run", PROJECT / "cases/slot.toml", "--out", "r", "--set", "box.depth=2.5 mm", "--set",
-                          "integration.step=60 us", status=3).stderr.splitlines()[-1]
+        said = self.talus("run", PROJECT / "cases/slot.toml", "--out", "r", "--set", "bed.height=20 mm", "--set",
+                          "integration.step=100 us", status=3).stderr.splitlines()[-1]
         self.assertRegex(said, r"; try: a smaller integration\.step, ")
 
     def test_shape_that_random_packing_cannot_fill(self):

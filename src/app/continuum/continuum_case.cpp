@@ -60,7 +60,8 @@ double measure_step(const Parameters& p, ThreadTeam& team) {
   Continuum model(count <= most ? p : continuum::sample(p, most));
   const double share = count / static_cast<double>(model.state().position.size());
   model.begin(team);
-  return share * seconds_of(0.2, [&] { model.advance(team); });
+  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
+  return share * seconds_of(duration, [&] { model.advance(team); });
 }
 
 Problem too_large(const Parameters& p, double available) {

@@ -13,8 +13,9 @@ namespace talus::cloud {
 
 namespace {
 
-constexpr double most_steps = 1e12;            // at a microsecond each, twelve days
-constexpr double impact_steps = 7;             // over integration.overlap_growth
+constexpr double most_steps = 1e12;  // at a microsecond each, twelve days
+constexpr double impact_steps = 7;   // over integration.overlap_growth
+constexpr double most_impact_steps = 1e6;
 constexpr double impact_time = 4;              // in a_p/v_s
 constexpr double impact_stages = 10;           // of those steps
 constexpr double contact_rate_on_slope = 3.2;  // over contact_rate(), in a plane
@@ -48,7 +49,7 @@ Forecast forecast(const Parameters& p, double end, double grains) {
   f.evaluations = f.steps * (stages + stiffness_estimates);
   if (lies_on_slope(p)) {
     const double share = 1 - std::exp(-end / (impact_time * scales(p).stokes_time));
-    const double steps = std::round(share * impact_steps / p.integration.overlap_growth);
+    const double steps = std::round(share * std::min(impact_steps / p.integration.overlap_growth, most_impact_steps));
     f.steps += steps;
     f.evaluations += steps * std::min(stages, impact_stages);
   }
@@ -56,7 +57,13 @@ Forecast forecast(const Parameters& p, double end, double grains) {
 }
 
 std::optional<Problem> check_steps(const Parameters& p, double end) {
-  const double step = longest_step(p, stiffest_rate(p, 1));
+  const double time = scales(p).stokes_time, step = longest_step(p, stiffest_rate(p, 1));
+  if (!(time > 0 && std::isfinite(time)))
+    return Problem{.key = "particles.radius",
+                   .what = fmt::format("the unit of time a_p/v_s is {} s (particles.density, fluid.density, "
+                                       "fluid.viscosity, gravity.acceleration)",
+                                       time),
+                   .allowed = "grains with a Stokes speed"};
   if (end / step <= most_steps) return std::nullopt;
   return Problem{.key = "run.end",
                  .what = fmt::format("{:.3g} s takes {:.2g} steps of at most {:.2g} s (integration.largest_step of "

@@ -65,11 +65,23 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
          .allowed = fmt::format("at most {:.2g} s, better {:.2g} s (integration.courant = {:g})",
                                 hopeless_courant * length / speed, p.integration.courant * length / speed,
                                 p.integration.courant)});
-  const double simulated = end + settling_time(p);
-  if (simulated / step > most_steps)
+  if (!(step > 0 && std::isfinite(step))) {
+    problems.push_back({.key = "integration.courant",
+                        .what = fmt::format("the time step would be {} s: pressure waves run at {} m/s over {} m "
+                                            "(bed.spacing, grains.density, law.scale)",
+                                            step, speed, length),
+                        .allowed = "a step above 0 s"});
+    return problems;
+  }
+  const double settling = settling_time(p);
+  const char* const key = p.integration.step ? "integration.step"
+                          : settling <= end  ? "run.end"
+                          : p.gate.time > 0  ? "gate.time"
+                                             : "settle.duration";
+  if (!((end + settling) / step <= most_steps))
     problems.push_back(
-        {.key = p.integration.step ? "integration.step" : "run.end",
-         .what = fmt::format("{:.3g} s take {:.2g} steps of {:.2g} s", simulated, simulated / step, step),
+        {.key = key,
+         .what = fmt::format("{:.3g} s take {:.2g} steps of {:.2g} s", end + settling, (end + settling) / step, step),
          .allowed = fmt::format("at most {:.0e} steps", most_steps)});
   return problems;
 }
