@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -21,6 +22,13 @@ namespace {
 
 constexpr double month = 30 * 86400.0;
 constexpr std::size_t widest_value = 16;  // longer ones stand out of their column
+
+/// To two digits: "3800".
+std::string count_text(double count) {
+  if (!(count >= 100 && count < 1e9)) return fmt::format("{:.2g}", count);
+  const double unit = std::pow(10, std::floor(std::log10(count)) - 1);
+  return fmt::format("{:.0f}", std::round(count / unit) * unit);
+}
 
 void print_case(const PreparedCase& prepared, const CaseFile& file, std::size_t& key) {
   const std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
@@ -48,8 +56,10 @@ void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) 
   double seconds = 0;
   for (const Forecast::Phase& phase : f.phases) {
     seconds += phase.evaluations * each;
-    say("  {:{}}  about {:.2g} steps, {:.2g} evaluations of {:.3g} ms: {}\n", phase.name, key, phase.steps,
-        phase.evaluations, 1e3 * each, run::format_seconds(phase.evaluations * each));
+    const std::string evaluations =
+        phase.evaluations == phase.steps ? "" : fmt::format(", {} evaluations", count_text(phase.evaluations));
+    say("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, key, count_text(phase.steps), evaluations,
+        1e3 * each, run::format_seconds(phase.evaluations * each));
   }
   say("  {:{}}  {}\n", "time", key, run::format_seconds(seconds));
   const std::optional<double> available = available_memory();

@@ -50,7 +50,7 @@ class BadCase(ProgramTest):
             (8, "particles.radius", "mn", "a length, above 0 mm"),
             (9, "particles.radius_spread", "2", "from 0 to 0.9"),
             (10, "particles.density", "20 kg/m", "a density, above 0 kg/m3"),
-            (12, "fluid.viscosity", "0 Pa s", "above 0 Pa s"),
+            (12, "fluid.viscosity", "0 Pa s", "from 1e-07 Pa s to 1000000000 Pa s"),
             (13, "slop", "unknown table", "did you mean 'slope'?"),
             (0, "run.end", "missing", "a time, above 0"),
         ]

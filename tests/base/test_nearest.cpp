@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include <array>
+#include <string>
 
 namespace talus {
 namespace {
