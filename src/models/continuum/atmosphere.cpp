@@ -55,7 +55,8 @@ std::optional<Problem> check_number_of_cells(const Parameters& p) {
   }
   if (cells <= most_cells) return std::nullopt;
   const double length = extent(p)[longest];
-  if (size[longest] > 1e5)
+  const double next = std::max({1.0, size[(longest + 1) % 3], size[(longest + 2) % 3]});
+  if (size[longest] > 100 * next || !std::isfinite(size[longest]))
     return Problem{
         .key = sides[longest],
         .what = fmt::format("{:.4g} m is {:.3g} cells of the air: {:.3g} cells in all", length, size[longest], cells),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -65,7 +66,9 @@ bool check_size(const Parameters& p, std::vector<Problem>& problems) {
       static_cast<std::size_t>(std::max_element(lattice.count.begin(), lattice.count.end()) - lattice.count.begin());
   const double extent = lattice.spacing[static_cast<int>(longest)] * static_cast<double>(lattice.count[longest]);
   const double over = count / most_particles;
-  if (static_cast<double>(lattice.count[longest]) > 1e5) {
+  std::array<std::int64_t, 3> sorted = lattice.count;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted[2] > 100 * sorted[1]) {
     problems.push_back({.key = keys[longest],
                         .what = fmt::format("{:.4g} m is {:.3g} spacings: the bed would hold {:.3g} particles", extent,
                                             static_cast<double>(lattice.count[longest]), count),

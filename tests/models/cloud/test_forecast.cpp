@@ -13,7 +13,7 @@ namespace {
 
 /// The steps and evaluations that a run takes are those of its forecast, within a factor of 1.5 either way.
 void expect_forecast(const std::string& name, const Parameters& p, double end) {
-  ThreadTeam team(2);
+  ThreadTeam team(1);
   Cloud cloud = started(p, team);
   run_until(cloud, team, end);
   const Forecast f = forecast(p, end, static_cast<double>(p.particles.count));

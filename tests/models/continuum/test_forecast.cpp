@@ -25,7 +25,7 @@ Parameters section(double width, double height) {
 
 /// The steps until the gate opens and from then on are those of the forecast, within a factor of 1.5 either way.
 void expect_forecast(const std::string& name, const Parameters& p, double end) {
-  ThreadTeam team(2);
+  ThreadTeam team(1);
   Continuum model = started(p, team);
   const State& s = model.state();
   while (s.gate_time < 0) model.advance(team);
