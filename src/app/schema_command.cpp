@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/prepared_case.hpp"
+#include "base/terminal.hpp"
 #include "io/parameter_schema.hpp"
 
 namespace talus::app {
@@ -15,14 +16,14 @@ namespace talus::app {
 namespace {
 
 std::string page_head(const std::string& model) {
-  return fmt::format(
-      "# Case reference: {0}\n\n"
+  constexpr std::size_t width = 100;
+  const std::string text = fmt::format(
       "Every key of a case of the model `{0}`. This page is the output of `talus schema {0} --markdown`; the texts "
-      "stand\n"
-      "beside the parameters in `src/models/{0}/parameters.hpp`. Quantities are strings with a unit (`\"5 mm\"`), of "
-      "any\n"
-      "unit of their dimension; the unit below is that of the default and of the output of `talus check`.\n",
+      "stand beside the parameters in `src/models/{0}/parameters.hpp`. Quantities are strings with a unit (`\"5 "
+      "mm\"`), "
+      "of any unit of their dimension; the unit below is that of the default and of the output of `talus check`.",
       model);
+  return fmt::format("# Case reference: {}\n\n{}\n", model, wrapped(text, width, 0, 0));
 }
 
 }  // namespace

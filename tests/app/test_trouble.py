@@ -135,11 +135,6 @@ class Numbers(ProgramTest):
         self.assertIn("smaller contact.stiffness", found["advice"])
         self.assertEqual(int(found["step"]), 0)
 
-    def test_step_too_long_is_told_as_such(self):
-        said = self.talus("run", PROJECT / "cases/slot.toml", "--out", "r", "--set", "bed.height=20 mm", "--set",
-                          "integration.step=100 us", status=3).stderr.splitlines()[-1]
-        self.assertRegex(said, r"; try: a smaller integration\.step, ")
-
     def test_shape_that_random_packing_cannot_fill(self):
         # A strip of one and a half diameters, filled to 0.52: two rows, which are not met with by chance.
         (self.folder / "case.toml").write_text(CASE.replace(

@@ -15,8 +15,9 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double most_steps = 1e12;     // at a microsecond each, twelve days
-constexpr double hopeless_courant = 5;  // of a fixed step: ten times what holds with the bound on the wave's speed
+constexpr double most_steps = 1e12;  // at a microsecond each, twelve days
+constexpr double hopeless_courant =
+    50;  // of a fixed step, with the bound on the speed of waves; 5 may yet hold in a loose bed
 
 double wave_speed(const Parameters& p) {
   return Material(p).sound_speed(p.bed.packing * p.grains.density);

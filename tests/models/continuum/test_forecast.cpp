@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/forecast.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,6 +109,10 @@ TEST(CheckSize, CountsTheCellsOfTheAirToo) {
   EXPECT_EQ(problems[0].key, "air.cell");
 }
 
+double time_step_of_courant_one(const Parameters& p) {
+  return p.bed.spacing / Material(p).sound_speed(bulk_density(p));
+}
+
 TEST(CheckSteps, RefusesAStepThatNoRunSurvives) {
   Parameters p = section(10e-3, 30e-3);
   p.integration.step = 2e-6;
@@ -119,6 +124,20 @@ TEST(CheckSteps, RefusesAStepThatNoRunSurvives) {
   ASSERT_EQ(check_steps(p, 1).size(), 1u);
   p.integration.step.reset();
   EXPECT_EQ(check_steps(p, 1e9)[0].key, "run.end");
+}
+
+TEST(CheckSteps, AFixedStepThatIsTooLongIsToldAsSuch) {
+  Parameters p = column(4, 4, 8);
+  p.integration.method = Method::leapfrog;
+  p.integration.step = 3 * time_step_of_courant_one(p);
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  try {
+    while (model.state().step < 5000) model.advance(team);
+    FAIL() << "the run survives";
+  } catch (const NumericalError& error) {
+    EXPECT_THAT(error.report().advice, testing::HasSubstr("a smaller integration.step"));
+  }
 }
 
 TEST(ContinuumSample, StartsWithoutThePlates) {
