@@ -1,38 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/atmosphere.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <optional>
-#include <utility>
 
 namespace talus::continuum {
 
 namespace {
-
-constexpr double millimetre = 1e-3;
-
-Vector3 extent(const Parameters& p) {
-  return {p.box.width, p.box.depth, p.box.height};
-}
-
-double cell_size(const Parameters& p) {
-  return p.air.cell.value_or(0.75 * p.bed.spacing);
-}
-
-/// Layers of cells nearest to a number of them of which one ends in the plate, if a tenth more or fewer will do.
-int layers_that_meet_the_plate(const Parameters& p, int count) {
-  const auto meets = [&](int layers) {
-    const double layer = *p.plate.height / p.box.height * layers;
-    return layers > 0 && std::abs(layer - std::round(layer)) < 1e-6;
-  };
-  for (int change = 0; 10 * change <= count; ++change)
-    for (const int layers : {count + change, count - change})
-      if (meets(layers)) return layers;
-  return count;
-}
 
 air::Parameters gas_of(const Parameters& p) {
   air::Parameters gas = p.air.gas;
@@ -41,83 +14,7 @@ air::Parameters gas_of(const Parameters& p) {
   return gas;
 }
 
-/// Whether the cells can be numbered; the fault is told of the side of the box that is out of proportion, or of the
-/// cells' size where none is.
-std::optional<Problem> check_number_of_cells(const Parameters& p) {
-  constexpr double most_cells = 1e9;
-  constexpr const char* sides[3] = {"box.width", "box.depth", "box.height"};
-  const Vector3 size = (1 / cell_size(p)) * extent(p);
-  double cells = 1;
-  int longest = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    cells *= std::max(1.0, size[axis]);
-    if (size[axis] > size[longest]) longest = axis;
-  }
-  if (cells <= most_cells) return std::nullopt;
-  const double length = extent(p)[longest];
-  const double next = std::max({1.0, size[(longest + 1) % 3], size[(longest + 2) % 3]});
-  if (size[longest] > 100 * next || !std::isfinite(size[longest]))
-    return Problem{
-        .key = sides[longest],
-        .what = fmt::format("{:.4g} m is {:.3g} cells of the air: {:.3g} cells in all", length, size[longest], cells),
-        .allowed = fmt::format("at most {:.3g} m with cells of this size: {:.0e} cells", length * most_cells / cells,
-                               most_cells)};
-  const double dimensions = static_cast<double>((size.x > 1) + (size.y > 1) + (size.z > 1));
-  return Problem{
-      .key = p.air.cell ? "air.cell" : "bed.spacing",
-      .what = fmt::format("makes {:.3g} cells of the air of {:.4g} mm", cells, cell_size(p) / millimetre),
-      .allowed = fmt::format("cells of at least {:.3g} mm: {:.0e} cells",
-                             cell_size(p) * std::pow(cells / most_cells, 1 / dimensions) / millimetre, most_cells)};
-}
-
 }  // namespace
-
-Grid air_grid(const Parameters& p) {
-  Grid grid;
-  const Vector3 size = extent(p);
-  for (int axis = 0; axis < 3; ++axis) {
-    int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p))));
-    if (axis == 2 && p.plate.height && !p.air.cell) count = layers_that_meet_the_plate(p, count);
-    grid.count[static_cast<std::size_t>(axis)] = count;
-    grid.spacing[axis] = size[axis] / count;
-  }
-  return grid;
-}
-
-std::vector<Problem> check_air(const Parameters& p) {
-  std::vector<Problem> problems;
-  if (!p.air.enabled || !(cell_size(p) > 0)) return problems;
-  const auto add = [&](std::string key, std::string what, std::string allowed) {
-    problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
-  };
-  if (auto problem = check_number_of_cells(p)) return {std::move(*problem)};
-  const Grid grid = air_grid(p);
-  const FaceKind grains[6] = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top};
-  constexpr const char* names[6] = {"left", "right", "front", "rear", "floor", "top"};
-  for (std::size_t face = 0; face < 6; ++face)
-    if ((p.air.gas.boundaries.kind[face] == FlowBoundary::periodic) != (grains[face] == FaceKind::periodic))
-      add(fmt::format("air.{}", names[face]),
-          fmt::format("is {}periodic, but box.{} is {}", grains[face] == FaceKind::periodic ? "not " : "", names[face],
-                      choice_name(grains[face])),
-          "periodic for both air and grains, or for neither");
-  for (int axis = 0; axis < 3; ++axis) {
-    const int count = grid.count[static_cast<std::size_t>(axis)];
-    if (std::abs(grid.spacing[axis] / cell_size(p) - 1) > 0.5)
-      add("air.cell",
-          fmt::format("along {} the cells would be {:.4g} mm long", "xyz"[axis], grid.spacing[axis] / millimetre),
-          "a length that divides the box's sides nearly evenly");
-    if (p.air.gas.boundaries.is_periodic(axis) && count > 1 && count % 2 == 1)
-      add("air.cell", fmt::format("makes {} cells along {}, where the air is periodic", count, "xyz"[axis]),
-          "an even number, or one");
-  }
-  if (p.plate.height) {
-    const double layer = *p.plate.height / grid.spacing.z;
-    if (std::abs(layer - std::round(layer)) > 1e-6)
-      add("air.cell", fmt::format("plate.height is {:.6g} cells above the floor", layer),
-          "cells of whose faces some lie in the plate");
-  }
-  return problems;
-}
 
 Atmosphere::Atmosphere(const Parameters& p)
     : domain_(domain_of(p)),
