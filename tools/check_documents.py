@@ -12,7 +12,7 @@ import sys
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\s]+)`")
 WIDTH = 100  # of prose; tables, code and what cannot be broken may be wider
-FOLDERS = ("src/", "tests/", "cases/", "docs/", "tools/", "validation/", "benchmarks/", "web/")
+FOLDERS = ("src/", "tests/", "cases/", "docs/", "tools/", "validation/", "benchmarks/", "web/", "python/")
 
 
 def tracked(root, *patterns):

@@ -6,7 +6,6 @@
 #include "analysis/avalanche_quantities.hpp"
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/cloud/cloud_case.hpp"
-#include "app/reproduction/niiya2020_figures.hpp"
 
 namespace talus::app {
 
@@ -35,10 +34,6 @@ class AvalancheEnsembles : public StudiedRuns {
     }
     if (row.from == From::variants) return {radii_quantity(row, of_radii)};
     return values;
-  }
-
-  std::vector<FigureOfStudy> draw(const std::filesystem::path& folder) const override {
-    return draw_niiya2020(ensembles_, folder);
   }
 
  private:

@@ -6,8 +6,7 @@
 
 namespace talus::app {
 
-std::unique_ptr<StudiedRuns> read_studied_runs(const std::filesystem::path& folder, const Reference& reference) {
-  const std::vector<FoundEnsemble> found = find_ensembles(folder, reference);
+std::unique_ptr<StudiedRuns> read_studied_runs(const std::vector<FoundEnsemble>& found) {
   const CaseEntry* model = found.front().files.front().find("model");
   const auto* name = model ? std::get_if<std::string>(&model->value.value) : nullptr;
   if (name && *name == "continuum") return read_hopper_ensembles(found);

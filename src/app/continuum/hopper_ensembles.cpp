@@ -7,7 +7,6 @@
 #include "analysis/hopper_quantities.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_case.hpp"
-#include "app/reproduction/yuu2011_figures.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 
@@ -34,10 +33,6 @@ class HopperEnsembles : public StudiedRuns {
     for (const HopperEnsemble* ensemble : of_variants)
       values.push_back(ensemble ? of_members(row, *ensemble) : std::nullopt);
     return values;
-  }
-
-  std::vector<FigureOfStudy> draw(const std::filesystem::path& folder) const override {
-    return draw_yuu2011(ensembles_, folder);
   }
 
  private:

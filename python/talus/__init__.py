@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reads what a run of Talus leaves in its folder, as numpy arrays that carry their units.
+
+    import talus
+    run = talus.Run("results/yuu2011-hopper-air")
+    run.series["time"].units                      # "s"
+    run.snapshots.at(0.2)["velocity"]             # one row a particle
+    run.summary["discharge_rate_plateau"].units   # "kg/s"
+
+`talus.draw` (matplotlib) draws particles, fields of the air and curves into axes of your own.
+"""
+from talus.column import Column, Value
+from talus.run import Run, find_runs
+from talus.snapshots import AirSnapshot, ParticleSnapshot, Snapshots
+from talus.table import Table
+from talus.trouble import RunError
+
+__all__ = ["AirSnapshot", "Column", "ParticleSnapshot", "Run", "RunError", "Snapshots", "Table", "Value", "find_runs"]

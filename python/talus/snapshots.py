@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Snapshots of particles and of the air: VTKHDF files, a file a frame, of which only what is asked for is read."""
+import re
+from collections.abc import Mapping
+from functools import cached_property
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from talus.column import Column
+from talus.trouble import RunError, unknown
+
+
+def _text(value):
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+class _Frame(Mapping):
+    """The columns of one file by name."""
+
+    kind = None  # the VTKHDF type
+
+    def __init__(self, path, number):
+        self.path, self.number = Path(path), number
+        self._read = {}
+        with self._open() as file:
+            self._columns = list(file["VTKHDF/PointData"])
+
+    def _open(self):
+        try:
+            file = h5py.File(self.path, "r")
+        except OSError as error:
+            raise RunError(f"{self.path}: is no HDF5 file, or cannot be read: {error}") from error
+        root = file.get("VTKHDF")
+        if root is None or _text(root.attrs.get("Type", "")) != self.kind:
+            file.close()
+            raise RunError(f"{self.path}: holds no snapshot (VTKHDF of the type {self.kind})")
+        return file
+
+    def __getitem__(self, name):
+        if name not in self._columns:
+            raise unknown(self.path, "column", name, self._columns)
+        if name not in self._read:
+            with self._open() as file:
+                data = file["VTKHDF/PointData"][name]
+                self._read[name] = Column(self._shaped(data[()]), _text(data.attrs.get("units", "1")))
+        return self._read[name]
+
+    def __contains__(self, name):
+        return name in self._columns
+
+    def __iter__(self):
+        return iter(self._columns)
+
+    def __len__(self):
+        return len(self._columns)
+
+    @staticmethod
+    def _shaped(values):
+        return values
+
+    def __repr__(self):
+        return f"<{type(self).__name__} {self.number} at {self.time:.6g} s: {', '.join(self)}>"
+
+
+class ParticleSnapshot(_Frame):
+    """Particles at one time: `positions` (n, 3), `time`, `step`, and the columns by name, a row a particle."""
+
+    kind = "UnstructuredGrid"
+
+    @cached_property
+    def positions(self):
+        with self._open() as file:
+            return Column(file["VTKHDF/Points"][()], "m")
+
+    @cached_property
+    def time(self):
+        with self._open() as file:
+            return float(file["VTKHDF/FieldData/time"][0])
+
+    @cached_property
+    def step(self):
+        with self._open() as file:
+            return int(file["VTKHDF/FieldData/step"][0])
+
+
+class AirSnapshot(_Frame):
+    """The air at one time, on cells: a column has the shape `shape` = (nx, ny, nz), a vector (nx, ny, nz, 3).
+    `x`, `y`, `z` are the centres of the cells, `spacing` their edges, m."""
+
+    kind = "ImageData"
+
+    @cached_property
+    def _head(self):
+        with self._open() as file:
+            return {name: np.array(value) for name, value in file["VTKHDF"].attrs.items() if name != "Type"}
+
+    @property
+    def time(self):
+        return float(self._head["time"][0])
+
+    @property
+    def step(self):
+        return int(self._head["step"][0])
+
+    @property
+    def shape(self):
+        return tuple(int(n) for n in self._head["WholeExtent"][1::2] + 1)
+
+    @property
+    def spacing(self):
+        return Column(self._head["Spacing"], "m")
+
+    def _centres(self, axis):
+        return Column(self._head["Origin"][axis] + self._head["Spacing"][axis] * np.arange(self.shape[axis]), "m")
+
+    x = property(lambda self: self._centres(0))
+    y = property(lambda self: self._centres(1))
+    z = property(lambda self: self._centres(2))
+
+    @staticmethod
+    def _shaped(values):
+        return np.ascontiguousarray(np.moveaxis(values, (0, 1, 2), (2, 1, 0)))  # the file has z first
+
+    def layer(self, name, y=None):
+        """A column over x and z, (nx, nz[, 3]): in the cells at the depth `y`, or in the middle of the depth."""
+        j = self.shape[1] // 2 if y is None else int(np.abs(self.y - y).argmin())
+        return self[name][:, j]
+
+
+class Snapshots:
+    """The snapshots of one kind of a run: `snapshots[12]` is that of number 12 (of its file), `snapshots[-1]` the last,
+    `snapshots.at(0.2)` the one nearest in time; to be iterated over in the order of time."""
+
+    def __init__(self, folder, kind, frame):
+        self.folder, self._kind, self._frame = Path(folder), kind, frame
+        name = re.compile(kind + r"_(\d{4,})\.vtkhdf\Z")
+        found = (name.match(path.name) for path in self.folder.glob(kind + "_*.vtkhdf"))
+        self.numbers = sorted(int(match[1]) for match in found if match)
+        self._times = {}  # of what was looked at: files are renamed into place whole and do not change
+
+    def __len__(self):
+        return len(self.numbers)
+
+    def __iter__(self):
+        return (self._load(number) for number in self.numbers)
+
+    def __getitem__(self, number):
+        if not isinstance(number, (int, np.integer)):
+            raise TypeError(f"a snapshot is asked for by its number, not by {number!r}; by time: .at(time)")
+        self._need_some()
+        if number < 0 and -number <= len(self.numbers):
+            number = self.numbers[number]
+        if number not in self.numbers:
+            raise RunError(f"{self.folder}: there is no snapshot {number} of the {self._kind}; there are "
+                           f"{self.numbers[0]} to {self.numbers[-1]} ({len(self)} of them)")
+        return self._load(number)
+
+    def at(self, time):
+        """The snapshot nearest to a time of the run, s (of equally near ones the first)."""
+        self._need_some()
+        return self._load(self.numbers[int(np.abs(self.times - time).argmin())])
+
+    @property
+    def times(self):
+        """Of all snapshots, s."""
+        for number in self.numbers:
+            if number not in self._times:
+                self._times[number] = self._load(number).time
+        return Column([self._times[number] for number in self.numbers], "s")
+
+    def _need_some(self):
+        if not self.numbers:
+            raise RunError(f"{self.folder}: holds no snapshots of the {self._kind}")
+
+    def _load(self, number):
+        return self._frame(self.folder / f"{self._kind}_{number:04d}.vtkhdf", number)
+
+    def __repr__(self):
+        return f"<{len(self)} snapshots of the {self._kind} in {self.folder}>"

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The package python/talus: what it reads, on runs of the program, and what it says of what it cannot read.
+
+Usage: test_talus.py TALUS
+"""
+import json
+import pickle
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = Path(sys.argv.pop()).resolve()
+PROJECT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(PROJECT / "python"))
+
+import h5py  # noqa: E402
+import matplotlib  # noqa: E402
+matplotlib.use("Agg")
+import numpy as np  # noqa: E402
+import talus  # noqa: E402
+import talus.draw  # noqa: E402
+from matplotlib import pyplot as plt  # noqa: E402
+from talus.case import walls  # noqa: E402
+
+BOX = """model = "continuum"
+[box]
+width = "20 mm"
+depth = "2.5 mm"
+height = "60 mm"
+[plate]
+height = "30 mm"
+slit_left = "5 mm"
+slit_right = "15 mm"
+[gate]
+opens = "at-time"
+time = "1 ms"
+[grains]
+density = "2500 kg/m3"
+diameter = "200 um"
+[bed]
+packing = 0.6
+spacing = "2.5 mm"
+height = "10 mm"
+[air]
+enabled = true
+cell = "2.5 mm"
+[run]
+end = "3 ms"
+[output]
+snapshots = "1 ms"
+series = "0.1 ms"
+pictures = false
+"""
+
+
+class OnARun(unittest.TestCase):
+    """A small box of grains in air."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="talus-python-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "case.toml").write_text(BOX)
+        subprocess.run([PROGRAM, "run", "case.toml", "--out", "run"], cwd=cls.folder, check=True, capture_output=True)
+        cls.run_folder = cls.folder / "run"
+        cls.read = talus.Run(cls.run_folder)
+
+    def copy(self):
+        """The run once more, to be damaged."""
+        copy = Path(tempfile.mkdtemp(dir=self.folder)) / "run"
+        shutil.copytree(self.run_folder, copy)
+        return copy
+
+
+class Reading(OnARun):
+    def test_case_has_units(self):
+        case = self.read.case
+        self.assertEqual(case["model"], "continuum")
+        self.assertAlmostEqual(case["box"]["width"], 0.02)
+        self.assertEqual(case["box"]["width"].units, "m")
+        self.assertEqual(str(case["grains"]["density"]), "2500.0 kg/m3")
+        self.assertEqual(case["bed"]["packing"], 0.6)
+
+    def test_series_are_arrays_with_units(self):
+        lines = (self.run_folder / "series.csv").read_text().splitlines()
+        series = self.read.series
+        self.assertEqual(len(series), len(lines) - 1)
+        self.assertEqual([f"{n} [{series.units[n]}]" for n in series], lines[0].split(","))
+        for n, name in enumerate(series):
+            np.testing.assert_array_equal(series[name], [float(line.split(",")[n]) for line in lines[1:]], name)
+        time = series["time"]
+        self.assertEqual((time.units, time[3:].units), ("s", "s"))
+        self.assertNotIsInstance(time * time, talus.Column, "nobody has worked out the unit")
+        self.assertIsInstance(pickle.loads(pickle.dumps(time)), talus.Column)
+        with self.assertRaisesRegex(talus.RunError, 'no column "tme"; did you mean "time"'):
+            series["tme"]
+
+    def test_summary_and_status(self):
+        written = json.loads((self.run_folder / "summary.json").read_text())
+        self.assertEqual(self.read.status, "done")
+        self.assertEqual(set(self.read.summary), set(written["quantities"]))
+        for name, value in self.read.summary.items():
+            expected = written["quantities"][name]
+            self.assertEqual(value.units, expected["unit"])
+            self.assertTrue(value == expected["value"] or (np.isnan(value) and expected["value"] is None), name)
+        with self.assertRaisesRegex(talus.RunError, 'no quantity "wall_second"; did you mean "wall_seconds"'):
+            self.read.summary["wall_second"]
+
+    def test_snapshots_by_number_and_time(self):
+        snapshots = self.read.snapshots
+        self.assertEqual(snapshots.numbers, [0, 1, 2, 3, 4])
+        self.assertEqual([s.number for s in snapshots], snapshots.numbers)
+        self.assertEqual(snapshots[-1].number, 4)
+        self.assertEqual(snapshots.at(1.4e-3).number, 1)
+        self.assertEqual(snapshots.at(99).number, 4)
+        self.assertEqual(snapshots.times.units, "s")
+        last = snapshots[4]
+        with h5py.File(last.path) as file:
+            np.testing.assert_array_equal(last.positions, file["VTKHDF/Points"])
+            self.assertEqual(set(last), set(file["VTKHDF/PointData"]))
+            for name in last:
+                np.testing.assert_array_equal(last[name], file["VTKHDF/PointData"][name])
+                self.assertEqual(last[name].units, file["VTKHDF/PointData"][name].attrs["units"].decode())
+        self.assertAlmostEqual(last.time, 4e-3, delta=1e-4)
+        with self.assertRaisesRegex(talus.RunError, "no snapshot 17 of the particles; there are 0 to 4"):
+            snapshots[17]
+        with self.assertRaisesRegex(talus.RunError, 'no column "velocty"; did you mean "velocity"'):
+            last["velocty"]
+        with self.assertRaises(TypeError):
+            snapshots[0.2]
+
+    def test_columns_are_read_when_asked_for(self):
+        copy = self.copy()
+        snapshot = talus.Run(copy).snapshots[2]
+        density = snapshot["density"]
+        snapshot.path.unlink()
+        np.testing.assert_array_equal(snapshot["density"], density)
+        with self.assertRaisesRegex(talus.RunError, "particles_0002.vtkhdf"):
+            snapshot["velocity"]
+
+    def test_air_lies_on_its_grid(self):
+        air = self.read.air[-1]
+        self.assertEqual(air.shape, (8, 1, 24))
+        self.assertAlmostEqual(air.x[0], 1.25e-3)
+        self.assertAlmostEqual(air.z[-1], 60e-3 - 1.25e-3)
+        self.assertEqual(air["velocity"].shape, (8, 1, 24, 3))
+        with h5py.File(air.path) as file:
+            raw = file["VTKHDF/PointData/velocity"][()]
+        self.assertEqual(tuple(air["velocity"][5, 0, 11]), tuple(raw[11, 0, 5]))
+        solid = air.layer("solid_fraction")
+        self.assertEqual(solid.shape, (8, 24))
+        self.assertGreater(solid[4, 14], 0.3, "the bed stands on the plate")
+        self.assertEqual(solid[4, 2], 0, "and nothing has fallen so far yet")
+
+    def test_the_gate_and_a_table(self):
+        self.assertAlmostEqual(self.read.gate_time, 1e-3, delta=1e-4)
+        self.assertEqual(self.read.table("snapshots").units["time"], "s")
+        with self.assertRaisesRegex(talus.RunError, 'no table "snapshot"; did you mean "snapshots"'):
+            self.read.table("snapshot")
+
+    def test_walls_leave_the_slit_open(self):
+        level = [line for line in walls(self.read.case) if line[0][1] == line[1][1]]
+        np.testing.assert_allclose(level, [[(0, 0), (0.02, 0)], [(0, 0.03), (0.005, 0.03)], [(0.015, 0.03), (0.02, 0.03)]])
+        self.assertIn(((0, 0.03), (0.02, 0.03)), walls(self.read.case, shut=True))
+        inclined = {"box": {"width": 1.0, "height": 1.0, "floor": "open", "left": "open", "right": "open", "top": "open"},
+                    "plates": {"1": {"from": [0.0, 0.0], "to": [0.6, 0.8], "openings": [0.25, 0.5]}}}
+        np.testing.assert_allclose(walls(inclined), [[(0, 0), (0.15, 0.2)], [(0.3, 0.4), (0.6, 0.8)]])
+        wedge = {"box": {"width": 1.0, "height": 2.0, "left": "open", "right": "open", "floor": "open", "top": "open"},
+                 "wedge": {"half_angle": 45.0, "outlet": 0.2, "height": 0.5}}
+        np.testing.assert_allclose(walls(wedge), [[(0, 0.9), (0.4, 0.5)], [(1, 0.9), (0.6, 0.5)]])
+
+    def test_what_is_no_run(self):
+        with self.assertRaisesRegex(talus.RunError, "is no folder"):
+            talus.Run(self.folder / "none")
+        with self.assertRaisesRegex(talus.RunError, "no manifest.json"):
+            talus.Run(self.folder)
+        self.assertEqual([run.folder for run in talus.find_runs(self.run_folder)], [self.run_folder])
+
+    def test_damaged_files_are_named(self):
+        copy = self.copy()
+        (copy / "summary.json").write_text("{")
+        with self.assertRaisesRegex(talus.RunError, "summary.json:1: is no JSON"):
+            talus.Run(copy).summary
+        (copy / "series.csv").write_text("time,speed\n1,2\n")
+        with self.assertRaisesRegex(talus.RunError, "is no table of Talus"):
+            talus.Run(copy).series
+        (copy / "snapshots/particles_0001.vtkhdf").write_bytes(b"none")
+        with self.assertRaisesRegex(talus.RunError, "particles_0001.vtkhdf: is no HDF5 file"):
+            talus.Run(copy).snapshots[1]
+        shutil.copy(copy / "snapshots/air_0000.vtkhdf", copy / "snapshots/particles_0002.vtkhdf")
+        with self.assertRaisesRegex(talus.RunError, "of the type UnstructuredGrid"):
+            talus.Run(copy).snapshots[2]
+        shutil.rmtree(copy / "snapshots")
+        with self.assertRaisesRegex(talus.RunError, "holds no snapshots of the particles"):
+            talus.Run(copy).snapshots.at(0)
+
+    def test_a_line_that_is_being_written_is_left_out(self):
+        copy = self.copy()
+        with open(copy / "series.csv", "a", encoding="utf-8") as file:
+            file.write("0.5,12")
+        self.assertEqual(len(talus.Run(copy).series), len(self.read.series))
+        with open(copy / "series.csv", "a", encoding="utf-8") as file:
+            file.write("\n")
+        with self.assertRaisesRegex(talus.RunError, rf"series.csv:{len(self.read.series) + 2}: has 2 numbers"):
+            talus.Run(copy).series
+
+
+class Drawing(OnARun):
+    """What is drawn is where it is."""
+
+    def setUp(self):
+        self.figure, self.ax = plt.subplots()
+        self.addCleanup(plt.close, self.figure)
+
+    def test_particles_have_their_places_sizes_and_colours(self):
+        snapshot = self.read.snapshots[-1]
+        discs = talus.draw.particles(self.ax, snapshot, "density", radius=1.25e-3, unit=1e-3)
+        places = discs.get_offsets()
+        order = np.argsort(-snapshot.positions[:, 1], kind="stable")
+        np.testing.assert_allclose(places, snapshot.positions[order][:, [0, 2]] * 1e3)
+        np.testing.assert_allclose(discs.get_array(), snapshot["density"][order])
+        self.assertTrue((discs._widths == discs._heights).all())
+        np.testing.assert_allclose(2 * discs._widths, 2.5)  # matplotlib keeps half of what it is given
+        downhill = talus.draw.particles(self.ax, snapshot, view="y-x", radius=1e-3)
+        self.assertAlmostEqual(downhill.get_offsets()[:, 1].min(), -snapshot.positions[:, 0].max())
+        for view in ("xx", "x", "xyz", "up"):
+            with self.assertRaises(ValueError):
+                talus.draw.particles(self.ax, snapshot, view=view, radius=1e-3)
+        with self.assertRaisesRegex(talus.RunError, "give the radius"):
+            talus.draw.particles(self.ax, snapshot)
+
+    def test_fields_arrows_walls_and_curves(self):
+        air = self.read.air[-1]
+        mesh = talus.draw.field(self.ax, air, "velocity", component="z", unit=1e-3)
+        np.testing.assert_array_equal(mesh.get_array().reshape(24, 8), air.layer("velocity")[:, :, 2].T)
+        np.testing.assert_allclose(self.ax.get_xlim(), (0, 20), atol=1e-12)
+        arrows = talus.draw.arrows(self.ax, air, apart=5e-3, unit=1e-3)
+        self.assertEqual(arrows.N, 4 * 12)
+        lines = talus.draw.walls(self.ax, self.read, top=0.05, unit=1e-3)
+        self.assertEqual(len(lines.get_segments()), 5)
+        line = talus.draw.curve(self.ax, self.read.series, "speed_max", start=1e-3)
+        np.testing.assert_allclose(line.get_xdata(), self.read.series["time"] - 1e-3)
+        self.assertEqual((self.ax.get_xlabel(), self.ax.get_ylabel()), ("time (s)", "speed max (m/s)"))
+
+    def test_pictures_are_small_files_of_a_palette(self):
+        talus.draw.particles(self.ax, self.read.snapshots[-1], "density", radius=1.25e-3)
+        path = self.folder / "picture.png"
+        talus.draw.save(self.figure, path)
+        content = path.read_bytes()
+        self.assertEqual(content[:4], b"\x89PNG")
+        self.assertEqual(content[25], 3, "colours from a palette")
+
+
+if __name__ == "__main__":
+    unittest.main()
