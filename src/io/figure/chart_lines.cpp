@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lines, bands and references.
+/// Lines, with a band about them.
 #include <algorithm>
 
 #include "io/figure/chart_layers.hpp"
@@ -8,7 +8,7 @@ namespace talus::figure {
 
 namespace {
 
-constexpr double band_opacity = 0.22, range_opacity = 0.10, reference_width = 1.0;
+constexpr double band_opacity = 0.22;
 
 /// Fills between two curves, one polygon for each stretch without gaps.
 void fill_between(ChartPage& page, const std::vector<double>& x, const std::vector<double>& low,
@@ -39,38 +39,6 @@ void keep_clear(ChartPage& page, const ChartPage::Place& from, const ChartPage::
 
 }  // namespace
 
-void paint(ChartPage& page, const Reference& reference) {
-  const bool on_x = reference.on == Reference::On::x, line = reference.low == reference.high;
-  const double from = (on_x ? page.frame.x : page.frame.y)(reference.low);
-  const double to = (on_x ? page.frame.x : page.frame.y)(reference.high);
-  if (!std::isfinite(from) || !std::isfinite(to)) return;
-  const Rectangle& plot = page.plot;
-  const Saved saved(page.context);
-  page.clip();
-  if (!line) {
-    const double low = std::min(from, to), size = std::abs(to - from);
-    fill_rectangle(page.context,
-                   on_x ? Rectangle{low, plot.y, size, plot.height} : Rectangle{plot.x, low, plot.width, size},
-                   with_alpha(reference.colour, range_opacity));
-  }
-  set_pen(page.context, reference.colour, line ? reference_width : 0.6 * reference_width, Dash::dashed);
-  for (const double at : {from, to}) {
-    const ChartPage::Place begin{on_x ? at : plot.x, on_x ? plot.y : at};
-    keep_clear(page, begin, {on_x ? at : plot.right(), on_x ? plot.bottom() : at});
-    if (on_x) stroke_line(page.context, at, plot.y, at, plot.bottom());
-    if (!on_x) stroke_line(page.context, plot.x, at, plot.right(), at);
-    if (line) break;
-  }
-  page.name(reference.label, [line, colour = reference.colour](cairo_t* context, const Rectangle& swatch) {
-    if (!line) fill_rectangle(context, swatch, with_alpha(colour, range_opacity));
-    set_pen(context, colour, line ? reference_width : 0.6 * reference_width, Dash::dashed);
-    const double middle = swatch.y + 0.5 * swatch.height;
-    if (line) stroke_line(context, swatch.x, middle, swatch.right(), middle);
-    if (!line) stroke_line(context, swatch.x, swatch.y, swatch.right(), swatch.y);
-    if (!line) stroke_line(context, swatch.x, swatch.bottom(), swatch.right(), swatch.bottom());
-  });
-}
-
 void paint(ChartPage& page, const Line& line, const Colour& colour) {
   const Saved saved(page.context);
   page.clip();
@@ -98,15 +66,6 @@ void paint(ChartPage& page, const Line& line, const Colour& colour) {
     set_pen(context, colour, width, dash);
     const double middle = swatch.y + 0.5 * swatch.height;
     stroke_line(context, swatch.x, middle, swatch.right(), middle);
-  });
-}
-
-void paint(ChartPage& page, const Band& band, const Colour& colour) {
-  const Saved saved(page.context);
-  page.clip();
-  fill_between(page, band.x, band.low, band.high, colour);
-  page.name(band.label, [colour](cairo_t* context, const Rectangle& swatch) {
-    fill_rectangle(context, swatch, with_alpha(colour, band_opacity));
   });
 }
 
