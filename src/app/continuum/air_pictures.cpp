@@ -20,8 +20,7 @@ namespace {
 
 using namespace figure;
 
-constexpr double printed_times[] = {0.17, 0.2, 1.0};  // s
-constexpr double between_arrows = 9;                  // units of the page
+constexpr double between_arrows = 9;  // units of the page
 
 struct Layer {
   std::vector<Vector3> centre, velocity;
@@ -42,12 +41,10 @@ Layer middle_layer(const GridSnapshot& air) {
   return layer;
 }
 
-/// Those nearest to the paper's times, each once; the last one of a shorter run.
+/// Three after the start, close in time at first.
 std::vector<std::size_t> chosen(const std::vector<double>& times) {
   std::vector<std::size_t> frames;
-  for (const double time : printed_times)
-    if (time <= times.back() + 0.01) frames.push_back(nearest_point(times, time));
-  if (frames.empty()) frames.push_back(times.size() - 1);
+  for (const double share : {0.2, 0.5, 1.0}) frames.push_back(nearest_point(times, share * times.back()));
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   return frames;
 }

@@ -20,7 +20,6 @@ namespace {
 
 using namespace figure;
 
-constexpr double printed_times[] = {0, 0.17, 0.2, 0.3, 0.4, 0.5, 1.0};  // s, Figure 4
 constexpr Colour dot_colour = rgb(0x5b4a33);
 constexpr int dots_of_particle = 50;
 constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
@@ -38,18 +37,12 @@ Frames snapshots_of(const std::filesystem::path& run_folder) {
   return frames;
 }
 
-/// Of a hopper those nearest to the paper's times, each once; of a run that does not reach the third of them, or of
-/// grains that leave no hopper, four of its own, close in time at first.
-std::vector<std::size_t> chosen_frames(const Frames& frames, bool of_hopper) {
-  std::vector<double> times;
+/// Six of a run, close in time at first.
+std::vector<std::size_t> chosen_frames(const Frames& frames) {
   const double end = frames.time.back(), begin = end > 0 ? 0 : frames.time.front();
-  if (of_hopper && end >= printed_times[2])
-    std::copy_if(std::begin(printed_times), std::end(printed_times), std::back_inserter(times),
-                 [&](double time) { return time <= end + 0.01; });
-  else
-    for (const double share : {0.0, 0.1, 0.25, 1.0}) times.push_back(begin + share * (end - begin));
   std::vector<std::size_t> chosen;
-  for (const double time : times) chosen.push_back(nearest_point(frames.time, time));
+  for (const double share : {0.0, 0.1, 0.2, 0.3, 0.5, 1.0})
+    chosen.push_back(nearest_point(frames.time, begin + share * (end - begin)));
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
@@ -135,13 +128,12 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
   return true;
 }
 
-}  // namespace
-
+/// The grains over time, particles as dots.
 void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
                  const std::filesystem::path& path) {
   const Frames frames = snapshots_of(run_folder);
   if (frames.paths.empty()) throw FileError(run_folder.string(), "holds no snapshots");
-  const std::vector<std::size_t> chosen = chosen_frames(frames, setting.shape.plate.has_value());
+  const std::vector<std::size_t> chosen = chosen_frames(frames);
   std::vector<std::vector<Vector3>> dots;
   double top = 0;
   for (const std::size_t n : chosen) {
@@ -169,9 +161,11 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
     picture.window = window_of(setting.shape, top);
     figure.panels.emplace_back(std::move(picture));
   }
-  figure.columns = static_cast<int>(std::min<std::size_t>(4, chosen.size()));
+  figure.columns = static_cast<int>(std::min<std::size_t>(3, chosen.size()));
   write_png(figure, path);
 }
+
+}  // namespace
 
 figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span<const Vector3> positions,
                                          std::span<const double> radii, figure::ByValue values) {
