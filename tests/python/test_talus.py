@@ -254,5 +254,19 @@ class Drawing(OnARun):
         self.assertEqual(content[25], 3, "colours from a palette")
 
 
+class Installing(unittest.TestCase):
+    def test_pip_installs_it_from_the_checkout(self):
+        folder = Path(tempfile.mkdtemp(prefix="talus-pip-"))
+        self.addCleanup(shutil.rmtree, folder)
+        shutil.copytree(PROJECT / "python", folder / "source", ignore=shutil.ignore_patterns("__pycache__"))
+        subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-build-isolation", "--no-deps",
+                        "--target", folder / "installed", folder / "source"], check=True, capture_output=True)
+        names = {path.name for path in (folder / "installed" / "talus").glob("*.py")}
+        self.assertEqual(names, {path.name for path in (PROJECT / "python" / "talus").glob("*.py")})
+        said = subprocess.run([sys.executable, "-c", "import talus, talus.draw; print(talus.__file__)"], cwd=folder,
+                              env={"PYTHONPATH": str(folder / "installed")}, check=True, capture_output=True, text=True)
+        self.assertTrue(said.stdout.startswith(str(folder / "installed")), said.stdout)
+
+
 if __name__ == "__main__":
     unittest.main()
