@@ -39,7 +39,8 @@ std::optional<std::filesystem::path> find_python() {
 
 bool run_figures_script(const std::filesystem::path& python, const std::filesystem::path& script,
                         const std::filesystem::path& folder) {
-  return succeeds({python.string(), script.string(), folder.string()}, folder / "figures.txt");
+  // -B: nothing is left beside the script.
+  return succeeds({python.string(), "-B", script.string(), folder.string()}, folder / "figures.txt");
 }
 
 }  // namespace talus::app
