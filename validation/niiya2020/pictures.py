@@ -33,7 +33,7 @@ def draw(ax, run, snapshot, row, view, colours=GRAIN, column=None, **options):
     across, up = view.replace("-", "")
     ax.set(xlabel=f"${across}$ ($a_p$)", ylabel=f"${up}$ ($a_p$)")
     if "-x" in view:  # down the page
-        ax.yaxis.set_major_formatter(lambda value, _: f"{-value:g}")
+        ax.yaxis.set_major_formatter(lambda value, _: f"{0.0 - value:g}")
     return discs
 
 
