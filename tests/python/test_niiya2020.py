@@ -65,6 +65,7 @@ class Numbers(unittest.TestCase):
     def test_the_nearest_gaussian(self):
         x = np.arange(1, 31, 2.0)
         np.testing.assert_allclose(nearest_gaussian(x, gaussian(x, 12.3, 2.7)), (12.3, 2.7), rtol=1e-8)
+        self.assertIsNone(nearest_gaussian(x, np.where(x == 7, 0.5, 0)), "all in one bin")
 
 
 if __name__ == "__main__":

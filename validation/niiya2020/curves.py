@@ -50,7 +50,9 @@ def points(ax, x, y, k, *, xerr=None, yerr=None, hollow=False, label=None):
 
 def time_axis(ax):
     """From the start to a round time at or after the last one."""
-    ax.set(xlabel=TIME, xlim=(min(0, ax.dataLim.x0) - 0.5, 5 * np.ceil((1 - 1e-3) * ax.dataLim.x1 / 5)))
+    ax.set_xlabel(TIME)
+    if np.isfinite(ax.dataLim.x1):  # else there is nothing to see
+        ax.set_xlim(min(0, ax.dataLim.x0) - 0.5, 5 * np.ceil((1 - 1e-3) * ax.dataLim.x1 / 5))
 
 
 def front_speed(ax, radii, printed=None):
@@ -118,7 +120,9 @@ def widths_at_end(ensemble):
 
 def nearest_gaussian(x, density):
     """Mean and deviation of the Gaussian of least squares, by Gauss-Newton steps from the moments; None if they leave
-    the range."""
+    the range, or if fewer than three densities say something of it."""
+    if np.count_nonzero(density) < 3:
+        return None
     mean = (x * density).sum() / density.sum()
     deviation = np.sqrt(((x - mean) ** 2 * density).sum() / density.sum())
     for _ in range(100):
@@ -138,17 +142,20 @@ def gaussian(x, mean, deviation):
 
 
 def width_distribution(ax, radii):
-    widths = [widths_at_end(ensemble) for ensemble in radii]
-    edges = np.arange(0, max(w.max() for w in widths) + 2 * BIN, BIN)
+    ax.set(xlabel=r"width $\tilde{w}_h$", ylabel="probability density")
+    widths = [(ensemble, w) for ensemble in radii if len(w := widths_at_end(ensemble))]
+    if not widths:
+        return
+    edges = np.arange(0, max(w.max() for _, w in widths) + 2 * BIN, BIN)
     middle = (edges[1:] + edges[:-1]) / 2
-    for k, (ensemble, w) in enumerate(zip(radii, widths)):
+    for k, (ensemble, w) in enumerate(widths):
         density = np.histogram(w, edges, density=True)[0]
         ax.plot(middle, density, color=PALETTE[k], linewidth=0.7)
         points(ax, middle, density, k, label=f"{label_of(ensemble)}, {len(w)} heads")
     if (fit := nearest_gaussian(middle, density)) is not None:
         x = np.linspace(0, edges[-1], 121)
         ax.plot(x, gaussian(x, *fit), "--", color=INK, linewidth=0.8, label=f"Gaussian {fit[0]:.1f} ± {fit[1]:.1f}")
-    ax.set(xlabel=r"width $\tilde{w}_h$", ylabel="probability density", xlim=(0, None), ylim=(0, None))
+    ax.set(xlim=(0, None), ylim=(0, None))
     ax.legend()
 
 
