@@ -14,6 +14,7 @@
 #include "io/checkpoint.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
+#include "io/series.hpp"
 #include "io/summary.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
@@ -145,7 +146,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   }
   log.info("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
            loop.wall_seconds, loop.cpu_seconds);
-  print_regime(model->regime(), log);
+  print_regime(model->regime({read_series(folder.series()), summary.quantities}), log);
   fmt::print("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
              folder.path().string());
   if (!pictures.empty()) fmt::print("Picture: {}\n", pictures.front().string());

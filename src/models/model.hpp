@@ -7,13 +7,14 @@
 
 #include "base/parallel.hpp"
 #include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus {
 
 /// \tparam M a type with the members below. A for_each_field(visit, state) and a for_each_parameter(visit, parameters)
 ///           stand in the namespace of its State and Parameters.
 template <class M>
-concept Model = requires(M model, const M constant, ThreadTeam& team) {
+concept Model = requires(M model, const M constant, ThreadTeam& team, const RunRecord& record) {
   typename M::Parameters;
   typename M::State;
   { constant.state() } -> std::same_as<const typename M::State&>;
@@ -22,8 +23,8 @@ concept Model = requires(M model, const M constant, ThreadTeam& team) {
   model.resume(team);   // completes a state whose kept fields were read into mutable_state()
   model.advance(team);  // one step; throws NumericalError
   { constant.time_origin() } -> std::same_as<double>;  // from which run.end counts; infinite while it has not come
-  { constant.totals() } -> std::same_as<std::vector<NamedValue>>;  // the same names every time
-  { constant.regime() } -> std::same_as<std::vector<RegimeLine>>;  // at the end of a run
+  { constant.totals() } -> std::same_as<std::vector<NamedValue>>;        // the same names every time
+  { constant.regime(record) } -> std::same_as<std::vector<RegimeLine>>;  // at the end of a run
 };
 
 }  // namespace talus

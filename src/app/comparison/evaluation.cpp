@@ -32,6 +32,22 @@ std::string variants_text(const ComparisonRow& row) {
   return text;
 }
 
+/// How the number of the members or variants is made where it is not plain; empty if it is.
+std::string statistic_text(const ComparisonRow& row) {
+  switch (row.statistic) {
+    case Statistic::standard_deviation:
+      return "standard deviation";
+    case Statistic::ratio:
+      return "ratio";
+    case Statistic::difference:
+      return "difference";
+    case Statistic::mean:
+    case Statistic::median:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs) {
@@ -39,7 +55,7 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns
   for (const ComparisonRow& row : reference.rows) {
     EvaluatedRow evaluated{.row = &row, .values = {}, .verdict = Verdict::reported};
     try {
-      evaluated.values = runs.values(row);
+      evaluated.values = runs(row);
     } catch (const std::logic_error& error) {
       throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
     }
@@ -53,10 +69,12 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns
 std::string to_text(const std::vector<EvaluatedRow>& rows) {
   std::string text = fmt::format("{:>3}  {:38} {:14} {:24} {:14} {}\n", "row", "quantity", "printed/met if", "computed",
                                  "verdict", "case");
-  for (const EvaluatedRow& e : rows)
-    text +=
-        fmt::format("{:>3}  {:38} {:14} {:24} {:14} {}\n", e.row->number, e.row->quantity, to_string(e.row->criterion),
-                    values_text(e), to_string(e.verdict), e.row->case_name + " (" + variants_text(*e.row) + ")");
+  for (const EvaluatedRow& e : rows) {
+    const std::string statistic = statistic_text(*e.row);
+    text += fmt::format("{:>3}  {:38} {:14} {:24} {:14} {}\n", e.row->number,
+                        e.row->quantity + (statistic.empty() ? "" : ", " + statistic), to_string(e.row->criterion),
+                        values_text(e), to_string(e.verdict), e.row->case_name + " (" + variants_text(*e.row) + ")");
+  }
   return text;
 }
 
@@ -73,7 +91,7 @@ std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>&
     row["quantity"] = e.row->quantity;
     row["case"] = e.row->case_name;
     row["variants"] = e.row->variants;
-    row["statistic"] = e.row->statistic == Statistic::standard_deviation ? "standard deviation" : "";
+    row["statistic"] = statistic_text(*e.row);
     row["printed"] = e.row->printed;
     row["source"] = e.row->source;
     row["criterion"] = to_string(e.row->criterion);

@@ -8,6 +8,7 @@
 
 #include "analysis/curve.hpp"
 #include "app/continuum/continuum_pictures.hpp"
+#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -20,6 +21,7 @@ namespace {
 
 using namespace figure;
 
+constexpr std::size_t pictures = 3;
 constexpr double between_arrows = 9;  // units of the page
 
 struct Layer {
@@ -41,14 +43,6 @@ Layer middle_layer(const GridSnapshot& air) {
   return layer;
 }
 
-/// Three after the start, close in time at first.
-std::vector<std::size_t> chosen(const std::vector<double>& times) {
-  std::vector<std::size_t> frames;
-  for (const double share : {0.2, 0.5, 1.0}) frames.push_back(nearest_point(times, share * times.back()));
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  return frames;
-}
-
 }  // namespace
 
 bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
@@ -60,7 +54,7 @@ bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& sett
   std::vector<double> times;
   for (const int number : numbers) times.push_back(read_points_time(folder.snapshot(number, "air")) - gate);
   std::vector<Layer> layers;
-  const std::vector<std::size_t> frames = chosen(times);
+  const std::vector<std::size_t> frames = chosen_snapshots(times, pictures);
   for (const std::size_t n : frames) layers.push_back(middle_layer(read_grid(folder.snapshot(numbers[n], "air"))));
   Figure figure{.title = title};
   for (std::size_t n = 0; n < frames.size(); ++n) {

@@ -8,6 +8,7 @@
 
 #include "analysis/curve.hpp"
 #include "app/continuum/air_pictures.hpp"
+#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
 #include "io/run_folder.hpp"
@@ -21,6 +22,7 @@ namespace {
 using namespace figure;
 
 constexpr Colour dot_colour = rgb(0x5b4a33);
+constexpr std::size_t pictures_of_a_run = 8;
 constexpr int dots_of_particle = 50;
 constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
 const figure::Unit millimetre{1e-3, "mm"};
@@ -31,20 +33,10 @@ struct Frames {
 };
 
 Frames snapshots_of(const std::filesystem::path& run_folder) {
-  Frames frames{particle_snapshots(run_folder), {}};
+  Frames frames{snapshot_paths(run_folder), {}};
   const double gate = gate_time_of(read_series(RunFolder(run_folder).series()));
   for (const auto& path : frames.paths) frames.time.push_back(read_points_time(path) - gate);
   return frames;
-}
-
-/// Six of a run, close in time at first.
-std::vector<std::size_t> chosen_frames(const Frames& frames) {
-  const double end = frames.time.back(), begin = end > 0 ? 0 : frames.time.front();
-  std::vector<std::size_t> chosen;
-  for (const double share : {0.0, 0.1, 0.2, 0.3, 0.5, 1.0})
-    chosen.push_back(nearest_point(frames.time, begin + share * (end - begin)));
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  return chosen;
 }
 
 /// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
@@ -57,7 +49,7 @@ std::string title_of(double time) {
   return fmt::format("*t* = {:.2f} s", std::abs(time) < 5e-3 ? 0.0 : time);
 }
 
-Window window_of(const HopperShape& shape, double top) {
+figure::Window window_of(const HopperShape& shape, double top) {
   return {0, shape.width, 0, std::min(shape.height, top)};
 }
 
@@ -116,6 +108,7 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
                 const std::filesystem::path& path) {
   if (!std::filesystem::exists(table)) return false;
   const talus::Series series = read_series(table);
+  if (!series.has(column)) return false;
   const auto time = series.column("time"), value = series.column(column);
   Line line;
   for (std::size_t n = 0; n < time.size(); ++n)
@@ -133,7 +126,7 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
                  const std::filesystem::path& path) {
   const Frames frames = snapshots_of(run_folder);
   if (frames.paths.empty()) throw FileError(run_folder.string(), "holds no snapshots");
-  const std::vector<std::size_t> chosen = chosen_frames(frames);
+  const std::vector<std::size_t> chosen = chosen_snapshots(frames.time, pictures_of_a_run);
   std::vector<std::vector<Vector3>> dots;
   double top = 0;
   for (const std::size_t n : chosen) {

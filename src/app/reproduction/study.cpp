@@ -129,7 +129,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   }
 
   const std::vector<FoundEnsemble> found = find_ensembles(request.folder, reference);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, *read_studied_runs(found));
+  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
   const std::string text = to_text(rows) + counts_text(rows) + "\n";
   write_atomically(request.folder / "comparison.txt", text);
   write_atomically(request.folder / "comparison.json", to_json(reference, rows, found, request.folder));

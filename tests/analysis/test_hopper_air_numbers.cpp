@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/hopper_air.hpp"
+#include "analysis/hopper_numbers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -51,32 +51,39 @@ HopperSetting setting() {
           .gravity = 9.81};
 }
 
-TEST(MeasureAir, DragIsComparedWithTheWeightOfTheSameCells) {
+/// A number of the air with no particles around.
+double number(HopperRun::Numbers::Number of, const Air& air, const Place& place) {
+  const HopperSetting paper = setting();
+  HopperSnapshot snapshot(paper, Snapshot{}, 0);
+  EXPECT_TRUE(std::isnan(of(snapshot, place))) << "there is no air";
+  const GridSnapshot grid = air.snapshot();
+  snapshot.air = [&] { return &grid; };
+  return of(snapshot, place);
+}
+
+TEST(AirNumbers, DragIsComparedWithTheWeightOfTheSameCells) {
   Air air;
   air.for_each_cell([&](const Vector3& x, std::size_t c) {
     const bool counts = x.x > 20e-3 && x.x < 80e-3;
     air.fraction[c] = counts ? 0.6 : 0.1;
     air.drag[c] = {7, 7, counts ? 0.5 * 1500 * 9.81 : 1e6};
   });
-  HopperFrame frame;
-  measure_air(frame, air.snapshot(), setting());
-  EXPECT_NEAR(frame.drag_to_weight, 0.5, 1e-12);
+  EXPECT_NEAR(number(hopper::drag_to_weight, air, {{"height", 0.12}, {"left", 0.02}, {"right", 0.08}}), 0.5, 1e-12);
 }
 
-TEST(MeasureAir, FindsWhereThePressureDropsAndWhereItIsHigher) {
+TEST(AirNumbers, FindsWhereThePressureDropsAndWhereItIsHigher) {
   Air air;
   air.for_each_cell([&](const Vector3& x, std::size_t c) {
     const bool stream = std::abs(x.x - 0.05) < 0.015;
     air.pressure[c] = -10 * std::tanh((x.z - 103e-3) / 5e-3) - (stream ? 3 : 0);
     air.fraction[c] = stream ? 0.4 : 0;
   });
-  HopperFrame frame;
-  measure_air(frame, air.snapshot(), setting());
-  EXPECT_NEAR(frame.air_pressure_drop_height, 103e-3, 1.25e-3);
-  EXPECT_NEAR(frame.air_pressure_outside_inside, 3, 1e-12);
+  EXPECT_NEAR(number(hopper::air_pressure_drop_height, air, {{"x", 0.031}, {"from", 0.02}, {"to", 0.19}}), 103e-3,
+              1.25e-3);
+  EXPECT_NEAR(number(hopper::air_pressure_outside_inside, air, {{"height", 0.05}}), 3, 1e-12);
 }
 
-TEST(MeasureAir, TellsThePlugFromWhatIsBesideIt) {
+TEST(AirNumbers, TellsThePlugFromWhatIsBesideIt) {
   Air air;
   air.for_each_cell([&](const Vector3& x, std::size_t c) {
     const bool plug = std::abs(x.x - 0.05) < 0.02, creeps = std::abs(x.x - 0.05) < 0.03;
@@ -84,11 +91,9 @@ TEST(MeasureAir, TellsThePlugFromWhatIsBesideIt) {
     air.grains[c] = {0, 0, plug ? -0.2 : creeps ? -0.05 : 0};
     air.velocity[c] = {0, 0, plug ? -0.08 : creeps ? 0.01 : 0.02};
   });
-  HopperFrame frame;
-  measure_air(frame, air.snapshot(), setting());
-  EXPECT_NEAR(frame.air_velocity_within_plug, -0.08, 1e-12);
-  EXPECT_NEAR(frame.air_velocity_beside_plug, 0.02, 1e-12);
-  EXPECT_NEAR(frame.air_velocity_slowness, 0.4, 1e-12);
+  EXPECT_NEAR(number(hopper::air_velocity_within_plug, air, {{"height", 0.12}}), -0.08, 1e-12);
+  EXPECT_NEAR(number(hopper::air_velocity_beside_plug, air, {{"height", 0.12}}), 0.02, 1e-12);
+  EXPECT_NEAR(number(hopper::air_velocity_slowness, air, {{"height", 0.12}}), 0.4, 1e-12);
 }
 
 TEST(Circulation, OfAVortexIsTheLineIntegralAroundIt) {
@@ -101,10 +106,10 @@ TEST(Circulation, OfAVortexIsTheLineIntegralAroundIt) {
   });
   // du_x/dz - du_z/dx = -u pi (1/h + h/w^2) sin a sin b; the integral of sin a sin b is 4 w h/pi^2.
   const double exact = -u * pi * (1 / height + height / (width * width)) * 4 * width * height / (pi * pi);
-  EXPECT_NEAR(circulation(air.snapshot(), 0, width, 0, height), exact, 0.01 * std::abs(exact));
-  EXPECT_NEAR(circulation(air.snapshot(), width, 2 * width, 0, height), -exact, 0.01 * std::abs(exact));
+  EXPECT_NEAR(hopper::circulation(air.snapshot(), 0, width, 0, height), exact, 0.01 * std::abs(exact));
+  EXPECT_NEAR(hopper::circulation(air.snapshot(), width, 2 * width, 0, height), -exact, 0.01 * std::abs(exact));
   std::fill(air.fraction.begin(), air.fraction.end(), 0.5);
-  EXPECT_EQ(circulation(air.snapshot(), 0, width, 0, height), 0);
+  EXPECT_EQ(hopper::circulation(air.snapshot(), 0, width, 0, height), 0);
 }
 
 }  // namespace
