@@ -46,13 +46,13 @@ void isotropic_in_lanes(benchmark::State& state) {
   update_bed<Lanes<double>>(state, {});
 }
 void printed(benchmark::State& state) {
-  update_bed<double>(state, {.form = Form::printed});
+  update_bed<double>(state, YuuUmekagePrinted::Parameters{});
 }
 void drucker_prager(benchmark::State& state) {
-  update_bed<double>(state, {.name = LawName::drucker_prager});
+  update_bed<double>(state, DruckerPrager::Parameters{});
 }
 void linear_elastic(benchmark::State& state) {
-  update_bed<double>(state, {.name = LawName::linear_elastic});
+  update_bed<double>(state, LinearElastic::Parameters{});
 }
 BENCHMARK(isotropic);
 BENCHMARK(isotropic_in_lanes);

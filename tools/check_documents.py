@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the documents against the tree: the width of prose, links, paths in backticks, and the functions and tests that
-EQUATIONS.md names."""
+EQUATIONS.md names: a function that it credits has a caller in src/, so that what stands there is what is computed."""
 
 import argparse
 import pathlib
@@ -59,13 +59,32 @@ def check_paths(root, documents):
                         yield f"{path.relative_to(root)}:{number}: there is no {name}"
 
 
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
+
+
+def is_declared_at(source, begin):
+    """Whether the name that begins there is declared or defined, not used: a type stands before it."""
+    before = re.sub(r"(?:\w+\s*(?:<[^<>]*>)?::\s*)+$", "", source[max(0, begin - 200) : begin])
+    word = re.search(r"(?<!\w)(\w+)\s+$", before)
+    if word:
+        return word.group(1) not in ("return", "else", "do", "case", "throw", "co_return", "co_yield", "and", "or", "not")
+    return re.search(r"\S[*&>]+\s+$|~$", before) is not None  # "Vector& f(", but "a * f(" has a space before the star
+
+
+def is_used(name, source):
+    """Whether a function is called, or handed on by its name; an operator is used without being named."""
+    uses = (not is_declared_at(source, found.start()) for found in re.finditer(rf"\b{name}\b(?!\s*::)", source))
+    return name == "operator" or any(uses)
+
+
 def check_equations(root):
-    """In the tables of EQUATIONS.md, `name()` is a function of src/ and `Suite.Test` a test of tests/."""
+    """In the tables of EQUATIONS.md, `name()` is a function of src/ that is called there and `Suite.Test` a test of tests/."""
     document = root / "EQUATIONS.md"
     if not document.exists():
         yield "EQUATIONS.md:1: is missing"
         return
-    source = "\n".join(p.read_text(encoding="utf-8") for p in (root / "src").rglob("*.?pp"))
+    source = "\n".join(without_comments(p.read_text(encoding="utf-8")) for p in sorted((root / "src").rglob("*.?pp")))
     tests = "\n".join(p.read_text(encoding="utf-8") for p in (root / "tests").rglob("*.*p*") if p.suffix in {".cpp", ".py"})
     for number, line in lines_of(document):
         if not line.startswith("|"):
@@ -75,6 +94,8 @@ def check_equations(root):
             test = re.fullmatch(r"([A-Z]\w+)\.(\w+)", name)
             if function and not re.search(rf"\b{function.group(1)}\(", source):
                 yield f"EQUATIONS.md:{number}: src/ has no function {name}"
+            elif function and not is_used(function.group(1), source):
+                yield f"EQUATIONS.md:{number}: nothing in src/ calls {name}"
             if test and not re.search(rf"\(\s*{test.group(1)}\s*,\s*{test.group(2)}\s*\)", tests):
                 yield f"EQUATIONS.md:{number}: there is no test {name}"
 

@@ -11,6 +11,7 @@
 #include "app/points/measures.hpp"
 #include "app/prepared_case.hpp"
 #include "base/nearest.hpp"
+#include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/case_file.hpp"
 #include "io/manifest.hpp"
@@ -70,7 +71,7 @@ ExitStatus analyze_file(const AnalyzeOptions& options) {
 
   const Measured measured = measure->of(PointsToMeasure(options.file, points.view(), radius), options.column,
                                         static_cast<std::size_t>(options.bins));
-  fmt::print("{}", options.json ? to_json(measured, options.file, measure->name) : to_text(measured));
+  say("{}", options.json ? to_json(measured, options.file, measure->name) : to_text(measured));
   return ExitStatus::done;
 }
 
@@ -91,7 +92,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   summary.quantities.insert(summary.quantities.begin(), quantities.begin(), quantities.end());
   write_summary(folder.summary(), summary);
   const Measured measured{.quantities = quantities, .columns = {}, .rows = {}};
-  fmt::print("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
+  say("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
   return ExitStatus::done;
 }
 

@@ -22,6 +22,12 @@ CaseFile CaseOptions::read() const {
   return file;
 }
 
+void add_out_option(CLI::App& command, std::string& out, const std::string& text) {
+  command.add_option("--out", out, text)
+      ->check(
+          CLI::Validator([](std::string& given) { return given.empty() ? "is empty; allowed: a folder" : ""; }, ""));
+}
+
 void add_threads_option(CLI::App& command, int& threads) {
   threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   command.add_option("--threads", threads, "threads; the results do not depend on it")

@@ -22,6 +22,9 @@ struct CaseOptions {
   CaseFile read() const;
 };
 
+/// Adds --out DIR; none given leaves `out` empty, an empty one is an error.
+void add_out_option(CLI::App& command, std::string& out, const std::string& text);
+
 /// Adds --threads N with the number of processors as default.
 void add_threads_option(CLI::App& command, int& threads);
 

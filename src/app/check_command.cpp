@@ -3,43 +3,89 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/prepared_case.hpp"
+#include "base/memory.hpp"
+#include "base/terminal.hpp"
 #include "io/parameter_writer.hpp"
+#include "numerics/warning.hpp"
 #include "run/progress.hpp"
 
 namespace talus::app {
 
 namespace {
 
-ExitStatus check(const CaseOptions& options, int threads) {
-  const CaseFile file = options.read();
-  const PreparedCase prepared = prepare_case(file);
+constexpr double month = 30 * 86400.0;
+constexpr std::size_t widest_value = 16;  // longer ones stand out of their column
 
-  fmt::print("{}: valid. In SI, with every default:\n\n", options.path);
+/// To two digits: "3800".
+std::string count_text(double count) {
+  if (!(count >= 100 && count < 1e9)) return fmt::format("{:.2g}", count);
+  const double unit = std::pow(10, std::floor(std::log10(count)) - 1);
+  return fmt::format("{:.0f}", std::round(count / unit) * unit);
+}
+
+void print_case(const PreparedCase& prepared, const CaseFile& file, std::size_t& key) {
   const std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
-  std::size_t key = 0, value = 0;
+  std::size_t value = 0;
   for (const ResolvedLine& line : table) {
     key = std::max(key, line.key.size());
     value = std::max(value, line.value.size() + 1 + line.unit.size());
   }
-  for (const ResolvedLine& line : table)
-    fmt::print("  {:{}}  {:{}}  {:8} {}\n", line.key, key, line.value + " " + line.unit, value, line.origin, line.text);
+  value = std::min(value, widest_value);
+  for (const ResolvedLine& line : table) {
+    const std::string head =
+        fmt::format("  {:{}}  {:{}}  {:8} ", line.key, key, line.value + " " + line.unit, value, line.origin);
+    const std::size_t indent = 4 + key + value + 2 + 9;
+    const std::size_t width = std::max(terminal_width(), indent + 24);
+    say("{}{}\n", head, wrapped(line.text, width, indent, head.size()));
+  }
+}
 
-  fmt::print("\nScales and groups:\n");
+void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) {
+  const Forecast& f = prepared.forecast;
+  ThreadTeam team(threads);
+  const double each = prepared.measure_evaluation(team);
+  say("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", threads,
+      threads == 1 ? "" : "s");
+  double seconds = 0;
+  for (const Forecast::Phase& phase : f.phases) {
+    seconds += phase.evaluations * each;
+    const std::string evaluations =
+        phase.evaluations == phase.steps ? "" : fmt::format(", {} evaluations", count_text(phase.evaluations));
+    say("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, key, count_text(phase.steps), evaluations,
+        1e3 * each, run::format_seconds(phase.evaluations * each));
+  }
+  say("  {:{}}  {}\n", "time", key, run::format_seconds(seconds));
+  const std::optional<double> available = available_memory();
+  say("  {:{}}  {:.0f} MB{}\n", "memory", key, f.memory_bytes / 1e6,
+      available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
+  say("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
+  if (seconds > month) say("! Such a run takes more than a month: fewer particles, or an earlier run.end.\n");
+}
+
+ExitStatus check(const CaseOptions& options, int threads) {
+  const CaseFile file = options.read();
+  const PreparedCase prepared = prepare_case(file);
+  check_memory(prepared, file);
+
+  say("{}: valid. In SI, with every default:\n\n", options.path);
+  std::size_t key = 0;
+  print_case(prepared, file, key);
+  say("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
-    fmt::print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
-
-  const Forecast f = prepared.forecast();
-  fmt::print("\nForecast (measured on this machine now, one thread, and divided by {} threads):\n", threads);
-  fmt::print("  {:{}}  {:.0f}\n", "steps", key, f.steps);
-  fmt::print("  {:{}}  {:.0f} at {:.3g} ms\n", "evaluations", key, f.evaluations, 1e3 * f.seconds_per_evaluation);
-  fmt::print("  {:{}}  {}\n", "time", key, run::format_seconds(f.evaluations * f.seconds_per_evaluation / threads));
-  fmt::print("  {:{}}  {:.0f} MB\n", "memory", key, f.memory_bytes / 1e6);
-  fmt::print("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
+    say("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
+  if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
+    say("\nWarnings: the case leaves what its laws and the method assume:\n");
+    for (const Warning& warning : warnings) say("  ! {}\n", warning.text);
+  }
+  print_forecast(prepared, threads, key);
   return ExitStatus::done;
 }
 

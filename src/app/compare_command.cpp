@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/comparison/evaluation.hpp"
 #include "app/comparison/overlay.hpp"
+#include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
 
 namespace talus::app {
@@ -22,7 +23,7 @@ ExitStatus compare_with_reference(const CompareOptions& options) {
   const Reference reference = read_reference(options.other);
   const std::vector<FoundEnsemble> found = find_ensembles(options.folder, reference);
   const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
-  fmt::print("{}\n{}{}\n", reference.source, to_text(rows), counts_text(rows));
+  say("{}\n{}{}\n", reference.source, to_text(rows), counts_text(rows));
   if (!options.json.empty()) write_atomically(options.json, to_json(reference, rows, found, options.folder));
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;
 }

@@ -12,44 +12,37 @@
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "app/ensemble/statistics.hpp"
+#include "base/terminal.hpp"
+#include "io/file_list.hpp"
 #include "run/interrupt.hpp"
 
 namespace talus::app {
 
 namespace {
 
-void refuse_foreign_folder(const EnsembleRequest& request) {
-  std::error_code none;
-  if (!request.resume && std::filesystem::exists(request.folder) && !std::filesystem::is_empty(request.folder, none))
-    throw InputError({{.where = request.folder.string(),
-                       .what = "the folder is there and not empty",
-                       .allowed = "--resume to go on with the ensemble in it, or another --out"}});
-}
-
 ExitStatus ensemble(const EnsembleRequest& request) {
   run::catch_signals();
   const EnsemblePlan plan = plan_ensemble(request);
-  refuse_foreign_folder(request);
   std::vector<ScheduledRun> runs;
   for (const EnsembleGroup& group : plan.groups)
     for (const EnsembleMember& member : group.members) runs.push_back({request.case_path, member});
+  begin_output(request.folder, request.resume ? Existing::resume : Existing::refuse, "--resume", has_begun(runs));
 
   const ScheduleResult result = run_members(runs, request.jobs);
   std::vector<std::filesystem::path> pictures;
   for (const EnsembleGroup& group : plan.groups) {
     const auto drawn = write_group(group, request.folder / group.name);
     pictures.insert(pictures.end(), drawn.begin(), drawn.end());
-    fmt::print("{}:\n", group.name);
+    say("{}:\n", group.name);
     for (const QuantitySpread& spread : quantity_spreads(group))
       if (!spread.values.empty())
-        fmt::print("  {:28} {:>12.6g} ± {:<10.4g} {} ({} members)\n", spread.name, spread.mean, spread.deviation,
-                   spread.unit == "1" ? "" : spread.unit, spread.values.size());
+        say("  {:28} {:>12.6g} ± {:<10.4g} {} ({} members)\n", spread.name, spread.mean, spread.deviation,
+            spread.unit == "1" ? "" : spread.unit, spread.values.size());
   }
   for (const FailedRun& failed : result.failed)
-    fmt::print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
-  fmt::print("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(),
-             request.folder.string());
-  if (!pictures.empty()) fmt::print("Picture: {}\n", pictures.front().string());
+    say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+  say("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(), request.folder.string());
+  if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());
   if (result.interrupted) return ExitStatus::interrupted;
   return result.failed.empty() ? ExitStatus::done : ExitStatus::numerical;
 }
@@ -79,7 +72,7 @@ void add_ensemble_command(CLI::App& app, Action& action) {
                    "runs at a time, each on one thread; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder of the results; results/NAME-ensemble if not given");
+  add_out_option(*command, options->out, "folder of the results; results/NAME-ensemble if not given");
   command->add_flag("--resume", options->request.resume, "go on with the ensemble in the folder");
   command->footer(
       "Each member is an ordinary run's folder, FOLDER/GROUP/seed_0001. Beside them: members.csv, quantities.csv "

@@ -5,11 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
+#include "base/terminal.hpp"
+#include "io/file_list.hpp"
 
 namespace talus::app {
 
@@ -48,15 +51,18 @@ void check_finite(const FollowedPath& path) {
   }
 }
 
+Existing existing_of(const LawOptions& options) {
+  return options.overwrite ? Existing::overwrite : Existing::refuse;
+}
+
+/// \throws InputError if it may not be used
 std::filesystem::path folder_of(const LawOptions& options) {
   const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem().string(); };
   const std::filesystem::path folder =
       options.out.empty()
           ? std::filesystem::path("results") / (stem(options.case_options.path) + "-" + stem(options.path))
           : std::filesystem::path(options.out);
-  if (!options.overwrite && std::filesystem::is_directory(folder) && !std::filesystem::is_empty(folder))
-    throw InputError(
-        {{.where = folder.string(), .what = "is not empty", .allowed = "--overwrite, or another folder by --out"}});
+  check_output(folder, existing_of(options), "--overwrite");
   return folder;
 }
 
@@ -73,15 +79,19 @@ ExitStatus follow(const LawOptions& options) {
   path.points = granular::follow_path(path.law, path.stretches, path.options);
   check_finite(path);
 
-  std::filesystem::create_directories(folder);
+  begin_output(folder, existing_of(options), "--overwrite");
   write_path_table(path, folder / "path.csv");
   draw_path(path, folder / "path.png");
-  const bool has_functions = parameters.law.name != granular::LawName::linear_elastic;
-  if (has_functions) draw_functions(parameters, folder / "functions.png");
+  const auto fits = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
+    std::optional<granular::Fits> fits;
+    if constexpr (requires { own.fits; }) fits = own.fits;
+    return fits;
+  });
+  if (fits) draw_functions(*fits, folder / "functions.png");
 
   for (const NamedValue& quantity : quantities_of(path))
-    fmt::print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
-  fmt::print("{}: path.csv, path.png{}\n", folder.string(), has_functions ? ", functions.png" : "");
+    say("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
+  say("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
   return ExitStatus::done;
 }
 
@@ -93,12 +103,12 @@ void add_law_command(CLI::App& app, Action& action) {
       app.add_subcommand("law", "lead one material point through a path of strain: its stress as table and plot");
   options->case_options.add_to(*command);
   command->add_option("--path", options->path, "the path (CSV); see below")->required();
-  command->add_option("--out", options->out, "folder of the results; results/CASE-PATH if not given");
+  add_out_option(*command, options->out, "folder of the results; results/CASE-PATH if not given");
   command->add_flag("--overwrite", options->overwrite, "replace what an earlier path left in the folder");
   command->footer(
-      "CASE holds a table [law], and if it likes grains.density, grains.diameter and gravity.acceleration, as a case\n"
-      "of the model continuum does; of such a case the rest is passed over. Its table [path] has packing, points and\n"
-      "largest_increment.\n\n"
+      "CASE holds a table [law] with that of its law, [law.NAME], and may hold [collisions], grains.density,\n"
+      "grains.diameter and gravity.acceleration, as a case of the model continuum does; of such a case the rest is\n"
+      "passed over. Its table [path] has packing, points and largest_increment.\n\n"
       "A line of the path is a stretch: how long it lasts, and the velocity gradient du_x/dz as gradient_xz, ...;\n"
       "components left out are zero. The grains are squashed by 0.02 %, then sheared, back, and on:\n"
       "  duration [s],gradient_zz [1/s],gradient_xz [1/s]\n"
@@ -107,7 +117,7 @@ void add_law_command(CLI::App& app, Action& action) {
       "  1,0,-0.0001\n"
       "  1,0,0.002\n\n"
       "Stress and strain are positive in compression, and the law's answer does not depend on the durations but for\n"
-      "law.smoothing_time and the stress by collisions.");
+      "a law's smoothing_time and the stress by collisions.");
   command->callback([options, &action] { action = [options] { return follow(*options); }; });
 }
 

@@ -1,15 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The program `talus`: parses the command line, runs one command, and turns errors into messages and exit statuses.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
+#include "base/nearest.hpp"
+#include "base/terminal.hpp"
 #include "base/version.hpp"
+
+namespace {
+
+/// What is wrong with the command's name, if anything. The first word must be one, whatever options stand around it:
+/// `talus plto --help` is a slip, not a question.
+std::optional<talus::Problem> check_command(const CLI::App& app, const std::vector<std::string_view>& arguments) {
+  const auto word = std::find_if(arguments.begin(), arguments.end(),
+                                 [](std::string_view argument) { return !argument.starts_with('-'); });
+  const bool none = word == arguments.end();
+  if (none && !arguments.empty()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (!none && std::find(names.begin(), names.end(), *word) != names.end()) return std::nullopt;
+  const std::vector<std::string_view> commands(names.begin(), names.end());
+  return talus::Problem{.where = "talus",
+                        .what = none ? "no command" : fmt::format("there is no command '{}'", *word),
+                        .allowed = fmt::format("{}; talus --help says more", fmt::join(names, ", ")),
+                        .nearest = none ? std::string() : std::string(talus::nearest(*word, commands))};
+}
+
+/// What the command line's parser says, help or fault.
+int answer(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream out, fault;
+  const int status = app.exit(error, out, fault);
+  talus::say("{}", out.str());
+  talus::complain("{}", fault.str());
+  return static_cast<int>(status == 0 ? talus::ExitStatus::done : talus::ExitStatus::bad_input);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using talus::ExitStatus;
@@ -33,16 +71,20 @@ int main(int argc, char** argv) {
   talus::app::add_schema_command(app, action);
 
   auto fail = [](ExitStatus status, const std::string& message) {
-    fmt::print(stderr, "talus: {}\n", message);
+    talus::complain("talus: {}\n", message);
     return static_cast<int>(status);
   };
   try {
+    if (const auto problem = check_command(app, {argv + 1, argv + argc})) {
+      talus::complain("{}\n", talus::to_string(*problem));
+      return static_cast<int>(ExitStatus::bad_input);
+    }
     app.parse(argc, argv);
     return static_cast<int>(action());
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::bad_input);
+    return answer(app, error);
   } catch (const talus::InputError& error) {
-    for (const talus::Problem& problem : error.problems()) fmt::print(stderr, "{}\n", talus::to_string(problem));
+    for (const talus::Problem& problem : error.problems()) talus::complain("{}\n", talus::to_string(problem));
     const std::size_t count = error.problems().size();
     return fail(ExitStatus::bad_input, fmt::format("{} problem{} in the input", count, count == 1 ? "" : "s"));
   } catch (const talus::NumericalError& error) {

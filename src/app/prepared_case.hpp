@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "numerics/named_value.hpp"
@@ -20,11 +21,15 @@
 
 namespace talus::app {
 
-/// What a run will take, estimated before it begins.
+/// What a run will take, from counts alone.
 struct Forecast {
-  double steps = 0;
-  double evaluations = 0;             ///< of the costliest stage
-  double seconds_per_evaluation = 0;  ///< measured now, on one thread
+  /// A part of the run: what settles before the gate opens, what flows after it.
+  struct Phase {
+    std::string name;
+    double steps = 0;
+    double evaluations = 0;  ///< of the costliest stage
+  };
+  std::vector<Phase> phases;
   double memory_bytes = 0;
   double disk_bytes = 0;
 };
@@ -41,9 +46,16 @@ struct PreparedCase {
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
   std::vector<run::Observer> observers;
+  run::Headline headline;  ///< what the line of progress shows
   /// Dimensionless groups and scales, for `check` and the log.
   std::vector<NamedValue> groups;
-  std::function<Forecast()> forecast;
+  /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.
+  std::vector<RegimeLine> regime;
+  Forecast forecast;
+  /// Seconds that an evaluation takes, measured now on a small sample.
+  std::function<double(ThreadTeam& team)> measure_evaluation;
+  /// What to change where memory_bytes is more than there is. \param available bytes
+  std::function<Problem(double available)> too_large;
   /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
   std::function<std::vector<NamedValue>(const std::filesystem::path& folder)> analyze;
   /// Draws a run's pictures and returns their paths, the one to look at first first.
@@ -53,6 +65,10 @@ struct PreparedCase {
 /// Reads a case: the model it names, then all parameters of model and run.
 /// \throws InputError with every problem
 PreparedCase prepare_case(const CaseFile& file);
+
+/// \throws InputError if the run needs more memory than there is now, on this machine, with the line of the case that
+/// asks for it
+void check_memory(const PreparedCase& prepared, const CaseFile& file);
 
 /// A problem if there is no such model.
 std::vector<Problem> check_model(const std::string& model);
@@ -65,6 +81,6 @@ ParameterList parameters_of(const std::string& model);
 std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 /// The models there are.
-inline constexpr std::array<std::string_view, 2> model_names{"cloud", "continuum"};
+inline constexpr std::array<std::string_view, 3> model_names{"cloud", "continuum", "air"};
 
 }  // namespace talus::app

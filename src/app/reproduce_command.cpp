@@ -5,6 +5,7 @@
 #include <memory>
 #include <thread>
 
+#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/reproduction/study.hpp"
 
@@ -34,7 +35,7 @@ void add_reproduce_command(CLI::App& app, Action& action) {
                    "runs at a time, each on one thread; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder; results/STUDY, or results/STUDY-quick");
+  add_out_option(*command, options->out, "folder; results/STUDY, or results/STUDY-quick");
   command->add_flag("--resume", options->request.resume, "go on with what is in the folder");
   command->footer("Exit status 1 if a row of the paper is not met.");
   command->callback([options, &action] {

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/run_case.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 
+#include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
+#include "io/descriptor.hpp"
+#include "io/file_list.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/series.hpp"
 #include "io/summary.hpp"
+#include "numerics/warning.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
 
@@ -33,28 +39,53 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+/// A file that no link leads elsewhere.
+class LogFile final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  LogFile(const std::filesystem::path& path, bool append) {
+    claim_file(path);
+    file_ = Descriptor(path.string(), O_WRONLY | O_CREAT | O_NOFOLLOW | (append ? O_APPEND : O_TRUNC));
+  }
+
+ private:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    file_.write({line.data(), line.size()});
+  }
+  void flush_() override {}
+
+  Descriptor file_;
+};
+
 /// log.txt. A log that cannot be written must not end a run: the numbers' own files say so if the disk is full.
 std::shared_ptr<spdlog::logger> open_log(const RunFolder& folder, bool append) {
   std::shared_ptr<spdlog::sinks::sink> sink = std::make_shared<spdlog::sinks::null_sink_mt>();
   try {
-    sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(folder.log().string(), !append);
-  } catch (const spdlog::spdlog_ex&) {
+    sink = std::make_shared<LogFile>(folder.log(), append);
+  } catch (const FileError&) {
   }
   auto log = std::make_shared<spdlog::logger>("run", sink);
   log->set_pattern("%Y-%m-%d %H:%M:%S  %v");
-  log->flush_on(spdlog::level::info);
   log->set_error_handler([](const std::string&) {});
   return log;
 }
 
 void print_regime(const std::vector<RegimeLine>& regime, spdlog::logger& log) {
-  fmt::print("Regime at the end:\n");
+  say("Regime at the end:\n");
   for (const RegimeLine& line : regime) {
     const std::string text =
         fmt::format("{} {} = {}: {}", line.warning ? "!" : " ", line.quantity, line.value, line.meaning);
-    fmt::print("  {}\n", text);
+    say("  {}\n", text);
     log.info("regime {}", text);
   }
+}
+
+/// The warnings of a card, for the summary.
+std::vector<std::string> texts_of(const std::vector<RegimeLine>& regime) {
+  std::vector<std::string> texts;
+  for (const Warning& warning : warnings_of(regime)) texts.push_back(to_string(warning));
+  return texts;
 }
 
 Manifest manifest_of(const PreparedCase& prepared, int threads) {
@@ -102,11 +133,11 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   const bool resume = request.existing == Existing::resume;
   write_summary(
       folder.summary(),
-      {.status = "running", .wall_seconds = 0, .instruction_set = manifest.instruction_set, .quantities = {}});
+      {.status = "running", .instruction_set = manifest.instruction_set, .warnings = texts_of(prepared.regime)});
   const CheckpointFiles checkpoints(folder.path());
   for (const std::string& damage : checkpoints.damages()) {
     log.warn("passed over: {}", damage);
-    fmt::print(stderr, "talus: passed over: {}\n", damage);
+    complain("talus: passed over: {}\n", damage);
   }
 
   std::unique_ptr<run::AnyModel> model = prepared.make_model();
@@ -118,18 +149,21 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                                               .checkpoint_interval = prepared.run.checkpoint_interval,
                                               .walltime = request.walltime,
                                               .fingerprint = manifest.fingerprint,
-                                              .resume = resume},
+                                              .resume = resume,
+                                              .headline = prepared.headline,
+                                              .log = [&log](const std::string& line) { log.info("{}", line); }},
                                              prepared.observers);
 
   Summary summary{.status = loop.interrupted ? "interrupted" : "done",
                   .wall_seconds = loop.wall_seconds,
-                  .instruction_set = manifest.instruction_set,
-                  .quantities = {}};
+                  .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
     summary.quantities = prepared.analyze(folder.path());
     if (prepared.run.pictures) pictures = prepared.draw(folder.path());
   }
+  const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
+  summary.warnings = texts_of(regime);
   for (const NamedValue& value : {NamedValue{"wall_seconds", "s", loop.wall_seconds},
                                   {"cpu_seconds", "s", loop.cpu_seconds},
                                   {"peak_memory", "B", peak_memory_bytes()},
@@ -140,25 +174,25 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
 
   if (loop.interrupted) {
     log.info("interrupted by {} at t = {:.6g} s, step {}", loop.reason, model->time(), loop.steps);
-    fmt::print("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
-               folder.path().string());
+    say("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
+        folder.path().string());
     return ExitStatus::interrupted;
   }
   log.info("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
            loop.wall_seconds, loop.cpu_seconds);
-  print_regime(model->regime({read_series(folder.series()), summary.quantities}), log);
-  fmt::print("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
-             folder.path().string());
-  if (!pictures.empty()) fmt::print("Picture: {}\n", pictures.front().string());
+  print_regime(regime, log);
+  say("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
+      folder.path().string());
+  if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());
   return ExitStatus::done;
 }
 
 /// Where even this cannot be written, the trouble that led here is the one to tell.
-void summarize_failure(const RunFolder& folder, const Manifest& manifest) {
+void summarize_failure(const PreparedCase& prepared, const RunFolder& folder, const Manifest& manifest) {
   try {
     write_summary(
         folder.summary(),
-        {.status = "failed", .wall_seconds = 0, .instruction_set = manifest.instruction_set, .quantities = {}});
+        {.status = "failed", .instruction_set = manifest.instruction_set, .warnings = texts_of(prepared.regime)});
   } catch (const FileError&) {
   }
 }
@@ -168,6 +202,19 @@ void summarize_failure(const RunFolder& folder, const Manifest& manifest) {
 std::string case_fingerprint(const PreparedCase& prepared) {
   std::string all = fingerprint(prepared.parameters, not_in_fingerprint) + "-" + prepared.instruction_set;
   return prepared.inputs.empty() ? all : all + "-" + prepared.inputs;
+}
+
+void keep_snapshot_interval(CaseFile& file, const std::filesystem::path& folder) {
+  if (const CaseEntry* given = file.find("output.snapshots")) {
+    const auto* text = std::get_if<std::string>(&given->value.value);
+    const auto interval = text ? parse_quantity(*text) : std::nullopt;
+    if (!interval || interval->value != 0) return;
+  }
+  const RunFolder run(folder);
+  if (!std::filesystem::exists(run.manifest())) return;
+  const auto values = resolved_values(read_manifest(run.manifest()).case_text);
+  if (const auto interval = values.find("output.snapshots"); interval != values.end())
+    file.set("output.snapshots=" + interval->second, run.manifest().string());
 }
 
 double end_of(const Manifest& manifest) {
@@ -182,8 +229,7 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     ThreadTeam team(request.threads);
     const auto model = prepared.make_model();
     model->begin(team);
-    fmt::print("The case is valid and its start can be built: {} grains. Nothing was written.\n",
-               model->snapshot().size());
+    say("The case is valid and its start can be built: {} grains. Nothing was written.\n", model->snapshot().size());
     return ExitStatus::done;
   }
   run::catch_signals();
@@ -198,11 +244,11 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     return run_in_folder(prepared, request, folder, manifest, *log);
   } catch (const NumericalError& error) {
     log->error("numerical failure: {}", error.what());
-    summarize_failure(folder, manifest);
+    summarize_failure(prepared, folder, manifest);
     throw;
   } catch (const FileError& error) {
     log->error("file trouble: {}", error.what());
-    summarize_failure(folder, manifest);
+    summarize_failure(prepared, folder, manifest);
     throw;
   }
 }

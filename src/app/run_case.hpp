@@ -24,6 +24,10 @@ struct RunRequest {
 /// names, and the instruction set that its wish resolves to. A run may be resumed with a later end.
 std::string case_fingerprint(const PreparedCase& prepared);
 
+/// A case that leaves output.snapshots to its default, a share of run.end, keeps the interval of the run in the folder
+/// that it is to go on with, whose end it may change. \throws FileError if there is a manifest that cannot be read
+void keep_snapshot_interval(CaseFile& file, const std::filesystem::path& folder);
+
 /// The end of the run that a manifest describes, s. \throws FileError if it says none
 double end_of(const Manifest& manifest);
 

@@ -25,13 +25,16 @@ struct RunOptions {
 };
 
 ExitStatus run(const RunOptions& options) {
-  const CaseFile file = options.case_options.read();
+  CaseFile file = options.case_options.read();
   RunRequest request = options.request;
   request.folder = options.out.empty()
                        ? std::filesystem::path("results") / std::filesystem::path(options.case_options.path).stem()
                        : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
-  return run_case(prepare_case(file), request);
+  if (options.resume) keep_snapshot_interval(file, request.folder);
+  const PreparedCase prepared = prepare_case(file);
+  check_memory(prepared, file);
+  return run_case(prepared, request);
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ void add_run_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "run a case");
   options->case_options.add_to(*command);
-  command->add_option("--out", options->out, "folder of the results; results/NAME of the case if not given");
+  add_out_option(*command, options->out, "folder of the results; results/NAME of the case if not given");
   add_threads_option(*command, options->request.threads);
   auto* resume = command->add_flag("--resume", options->resume, "go on with the run in the folder");
   command->add_flag("--overwrite", options->overwrite, "replace the run in the folder")->excludes(resume);

@@ -5,17 +5,19 @@
 
 #include <utility>
 
+#include "base/terminal.hpp"
+
 namespace talus {
 
 std::string to_string(const Problem& problem) {
-  std::string text = problem.where;
+  std::string text = printable(problem.where);
   if (problem.line > 0) text += fmt::format(":{}", problem.line);
   if (problem.column > 0) text += fmt::format(":{}", problem.column);
   if (!text.empty()) text += ": ";
-  if (!problem.key.empty()) text += problem.key + ": ";
-  text += problem.what;
-  if (!problem.allowed.empty()) text += "; allowed: " + problem.allowed;
-  if (!problem.nearest.empty()) text += fmt::format("; did you mean '{}'?", problem.nearest);
+  if (!problem.key.empty()) text += printable(problem.key) + ": ";
+  text += printable(problem.what);
+  if (!problem.allowed.empty()) text += "; allowed: " + printable(problem.allowed);
+  if (!problem.nearest.empty()) text += fmt::format("; did you mean '{}'?", printable(problem.nearest));
   return text;
 }
 
@@ -43,6 +45,6 @@ InputError::InputError(std::vector<Problem> problems)
 NumericalError::NumericalError(Report report) : std::runtime_error(sentence(report)), report_(std::move(report)) {}
 
 FileError::FileError(std::string path, const std::string& what)
-    : std::runtime_error(path + ": " + what), path_(std::move(path)) {}
+    : std::runtime_error(printable(path + ": " + what)), path_(std::move(path)) {}
 
 }  // namespace talus

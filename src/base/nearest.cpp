@@ -35,10 +35,13 @@ std::size_t edit_distance(std::string_view first, std::string_view second) {
 }
 
 std::optional<std::size_t> slips(std::string_view word, std::string_view candidate) {
+  const std::size_t most = 1 + word.size() / 4;
+  const bool far_shorter = candidate.size() + most < word.size();  // which would cost their product to find out
+  if (far_shorter) return std::nullopt;
   const std::size_t distance = edit_distance(word, candidate);
   const bool begins = word.size() >= 3 && folded(candidate).starts_with(folded(word));
   if (begins) return std::min<std::size_t>(distance, 1);
-  return distance <= 1 + word.size() / 4 ? std::optional(distance) : std::nullopt;
+  return distance <= most ? std::optional(distance) : std::nullopt;
 }
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates) {

@@ -11,11 +11,26 @@
 /// none), std::int64_t, bool, std::string, std::array<double, 3>, std::vector<double> (any number of values), an
 /// enumeration with `choices`, or std::optional of one of these (may be left out). The member's initial value is the
 /// default, except where `required` is set.
+///
+/// A choice owns its keys: those that mean something under one choice alone are visited under a condition, those of one
+/// of many alike in a table of its own,
+///
+///     auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
+///     timed(Parameter{"gate.time", ...}, p.gate.time);
+///
+///     auto own = in_table("law.drucker-prager", visit);
+///     own(Parameter{"friction", ...}, law.friction);
+///
+/// and a case that gives such a key where the condition fails is at fault.
 #pragma once
 
 #include <array>
 #include <limits>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "base/unit.hpp"
 
@@ -27,6 +42,7 @@ struct Range {
   double most = std::numeric_limits<double>::infinity();
   bool least_excluded = false;
   bool most_excluded = false;
+  std::string (*hint)(double value) = nullptr;  ///< what a value beyond the bounds was probably meant for; may be empty
 
   constexpr bool contains(double value) const {
     return (least_excluded ? value > least : value >= least) && (most_excluded ? value < most : value <= most);
@@ -46,12 +62,30 @@ constexpr Range between(double least, double most) {
   return {.least = least, .most = most};
 }
 
+/// A coefficient of friction, the tangent of an angle: one beyond 2 (63 degrees) was probably meant for the angle.
+Range friction_coefficient();
+
+/// What has to hold for a key to mean something.
+struct Condition {
+  std::string key = {};     ///< of the choice: "gate.opens"; empty: the key always means something
+  std::string found = {};   ///< what the case has: `is "when-settled"`
+  std::string needed = {};  ///< what it would take: `= "at-time"`
+  bool holds = true;
+};
+
 struct Parameter {
-  std::string_view key;  ///< dotted: "particles.radius"
+  std::string key;  ///< dotted: "particles.radius"
   Dimension dimension = dimension::none;
   Range range = {};
-  std::string_view text;  ///< one sentence for the reference page
+  std::string_view text = {};  ///< one sentence for the reference page
   bool required = false;
+  Condition condition = {};
+};
+
+/// A key that was: where a case has it, the fault says what stands in its place.
+struct RenamedKey {
+  std::string_view old;
+  std::string_view now;  ///< a key, or in words what to write
 };
 
 /// Names of an enumeration's values, in the order of the values from 0. Specialise beside the enumeration:
@@ -63,6 +97,52 @@ inline constexpr std::array<std::string_view, 0> choices{};
 template <class Enumeration>
 constexpr std::string_view choice_name(Enumeration value) {
   return choices<Enumeration>[static_cast<std::size_t>(value)];
+}
+
+/// A choice's value as a case file has it.
+template <class T>
+std::string value_text(const T& value) {
+  if constexpr (std::is_same_v<T, bool>)
+    return value ? "true" : "false";
+  else
+    return "\"" + std::string(choice_name(value)) + "\"";
+}
+
+/// That a choice has one value.
+template <class T>
+Condition where(std::string key, const T& value, const std::type_identity_t<T>& wanted) {
+  return {std::move(key), "is " + value_text(value), "= " + value_text(wanted), value == wanted};
+}
+
+/// That a choice has another value than one.
+template <class T>
+Condition unless(std::string key, const T& value, const std::type_identity_t<T>& unwanted) {
+  return {std::move(key), "is " + value_text(value), "other than " + value_text(unwanted), value != unwanted};
+}
+
+/// That an optional key is not given.
+template <class T>
+Condition without(std::string key, const std::optional<T>& value) {
+  return {std::move(key), "is given", "left out", !value.has_value()};
+}
+
+/// Visits keys that mean nothing unless a condition holds. Of several, the outermost that fails is told.
+template <class Visit>
+auto only_if(Condition condition, Visit& visit) {
+  return [condition = std::move(condition), &visit](Parameter parameter, auto& member) {
+    if (!condition.holds) parameter.condition = condition;
+    visit(parameter, member);
+  };
+}
+
+/// Visits keys of a table, whose conditions are on keys of the same table.
+template <class Visit>
+auto in_table(std::string table, Visit& visit) {
+  return [table = std::move(table), &visit](Parameter parameter, auto& member) {
+    parameter.key = table + "." + parameter.key;
+    if (!parameter.condition.key.empty()) parameter.condition.key = table + "." + parameter.condition.key;
+    visit(parameter, member);
+  };
 }
 
 }  // namespace talus

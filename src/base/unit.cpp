@@ -207,13 +207,13 @@ class UnitReader {
     const bool sign_due = take("**") || take("^");
     const bool negative = take("-");
     if (!negative) take("+");
-    int value = 0;
     std::size_t digits = 0;
-    for (; !rest_.empty() && is_digit(rest_.front()); rest_.remove_prefix(1), ++digits)
-      value = 10 * value + (rest_.front() - '0');
+    while (digits < rest_.size() && is_digit(rest_[digits])) ++digits;
+    const int value = digits == 1 ? rest_.front() - '0' : 0;  // longer ones are refused whatever they say
+    rest_.remove_prefix(digits);
     if (digits == 0 && !sign_due && !negative) return 1;
     const bool fraction = rest_.size() > 1 && rest_[0] == '.' && is_digit(rest_[1]);
-    if (digits != 1 || value == 0 || fraction) return fail("has a power that is no digit from 1 to 9"), std::nullopt;
+    if (value == 0 || fraction) return fail("has a power that is no digit from 1 to 9"), std::nullopt;
     return negative ? -value : value;
   }
 

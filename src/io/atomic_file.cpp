@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "io/descriptor.hpp"
+#include "io/file_list.hpp"
 
 namespace talus {
 
@@ -21,7 +22,7 @@ namespace {
 
 /// \throws FileError about `path`, whose content stands under the name `temporary` until the end
 void write_and_rename(const std::string& path, const std::string& temporary, std::string_view content, Flush flush) {
-  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC, path);
+  Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, path);
   file.write(content);
   if (flush == Flush::now) file.sync();
   file.close();
@@ -34,6 +35,7 @@ void write_and_rename(const std::string& path, const std::string& temporary, std
 void write_atomically(const std::filesystem::path& path, std::string_view content, Flush flush) {
   const std::string temporary = path.string() + std::string(temporary_suffix);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  claim_file(path);
   // Opened first, so that a folder that cannot be flushed is told before anything has changed.
   Descriptor folder_file(folder.string(), O_RDONLY | O_DIRECTORY, path.string());
   try {

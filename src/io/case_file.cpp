@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +17,8 @@
 namespace talus {
 
 namespace {
+
+constexpr std::size_t most_parts = 64;  // of a dotted key
 
 bool is_bare(std::string_view part) {
   return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) {
@@ -75,8 +79,32 @@ std::string_view line_of(std::string_view text, std::size_t line) {
   return text.substr(0, text.find('\n'));
 }
 
+/// Line of the first key of more parts than any case has, 0 if there is none. The parser, and the keys' full names,
+/// take memory and stack for each of them. Quoted text and comments are passed over.
+int line_of_deep_key(std::string_view text) {
+  int line = 1;
+  std::size_t dots = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      std::size_t end = i + 1;
+      while (end < text.size() && text[end] != c && text[end] != '\n') end += c == '"' && text[end] == '\\' ? 2 : 1;
+      i = end < text.size() && text[end] == c ? end : std::min(end, text.size()) - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '.') {
+      if (++dots > most_parts) return line;
+    } else if (c == '\n' || c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}') {
+      dots = 0;
+      line += c == '\n';
+    }
+  }
+  return 0;
+}
+
 /// Nothing if it is no TOML value.
 std::optional<toml::table> parse_value(std::string_view value) {
+  if (line_of_deep_key(value) > 0) return std::nullopt;
   try {
     toml::table table = toml::parse(fmt::format("value = {}\n", value));
     if (table.size() == 1) return table;
@@ -130,6 +158,11 @@ CaseFile CaseFile::read(const std::string& path) {
 CaseFile CaseFile::from_text(std::string_view text, std::string name) {
   CaseFile file;
   file.name_ = std::move(name);
+  if (const int line = line_of_deep_key(text); line > 0)
+    throw InputError({{.where = file.name_,
+                       .line = line,
+                       .what = fmt::format("a key has more than {} parts", most_parts),
+                       .allowed = "table.key"}});
   try {
     flatten(toml::parse(text), "", file.entries_);
   } catch (const toml::parse_error& error) {
@@ -147,7 +180,8 @@ void CaseFile::set(std::string_view assignment, std::string_view option_name) {
       option.begin(), option.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); }, ' ');
   const std::size_t equals = assignment.find('=');
   const std::string_view key = trimmed(assignment.substr(0, equals));
-  if (equals == std::string_view::npos || !is_dotted_key(key)) {
+  const bool deep = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.')) > most_parts;
+  if (equals == std::string_view::npos || deep || !is_dotted_key(key)) {
     const std::string what = equals == std::string_view::npos ? "has no '='" : fmt::format("'{}' is no key", key);
     problems_.push_back({.where = option, .key = {}, .what = what, .allowed = "table.key=value"});
     return;
@@ -187,12 +221,17 @@ const CaseEntry* CaseFile::find(std::string_view key) const {
 }
 
 std::size_t CaseFile::tables(std::string_view key) const {
+  std::set<std::size_t> numbers;
+  for (const CaseEntry& entry : entries_) {
+    if (!lies_in(entry.key, key)) continue;
+    const std::string_view rest = std::string_view(entry.key).substr(key.size() + 1);
+    const std::string_view part = rest.substr(0, rest.find('.'));
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+    if (error == std::errc() && end == part.data() + part.size() && part.front() != '0') numbers.insert(number);
+  }
   std::size_t count = 0;
-  const auto has = [&](const std::string& table) {
-    return std::any_of(entries_.begin(), entries_.end(),
-                       [&](const CaseEntry& entry) { return entry.key == table || lies_in(entry.key, table); });
-  };
-  while (has(fmt::format("{}.{}", key, count + 1))) ++count;
+  while (numbers.contains(count + 1)) ++count;
   return count;
 }
 

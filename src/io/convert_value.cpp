@@ -72,8 +72,15 @@ class Converter {
     else
       return fail(fmt::format("{} is not {}", as_written(value), type_text(parameter_, {})));
     if (result && !parameter_.range.contains(*result))
-      return fail(fmt::format("{} is out of range", as_written(value)));
+      return fail(fmt::format("{} is out of range{}", as_written(value), hint(*result)));
+
     return result;
+  }
+
+  /// ": what a value was probably meant for", or nothing.
+  std::string hint(double value) const {
+    const std::string text = parameter_.range.hint ? parameter_.range.hint(value) : std::string();
+    return text.empty() ? text : ": " + text;
   }
 
   std::optional<double> plain(double value, const CaseValue& written) {
@@ -89,7 +96,10 @@ class Converter {
     if (!read) return fail(fmt::format("{} {}", written, why));
     if (parameter_.dimension == dimension::none) {
       if (read->dimension == dimension::none) return wrong_type({text});
-      return fail(fmt::format("{} has a unit where a plain number is due", written));
+      constexpr double degrees = 57.29577951308232;
+      const bool is_angle = read->dimension == dimension::angle;
+      return fail(fmt::format("{} has a unit where a plain number is due{}", written,
+                              hint(is_angle ? degrees * read->value : 0)));
     }
     if (read->dimension == dimension::none) return fail(fmt::format("{} has no unit", written));
     if (read->dimension != parameter_.dimension)

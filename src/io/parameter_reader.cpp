@@ -46,20 +46,26 @@ std::string_view nearest_key(std::string_view word, const std::vector<std::strin
 
 }  // namespace
 
-ParameterReader::ParameterReader(const CaseFile& file) : file_(file) {
+ParameterReader::ParameterReader(const CaseFile& file, std::span<const RenamedKey> renamed)
+    : file_(file), renamed_(renamed) {
   for (const Problem& problem : file.problems()) found_.push_back({problem, false, true});
 }
 
 std::optional<ParameterValue> ParameterReader::read(const Parameter& parameter, const ValueType& type) {
   keys_.emplace_back(parameter.key);
   const CaseEntry* entry = file_.find(parameter.key);
+  if (const Condition& condition = parameter.condition; !condition.holds) {
+    if (entry)
+      check({{.key = parameter.key,
+              .what = fmt::format("given, but {} {}", condition.key, condition.found),
+              .allowed = fmt::format("{} {}", condition.key, condition.needed)}});
+    return std::nullopt;
+  }
   if (!entry) {
     if (parameter.required)
-      found_.push_back({{.where = file_.name(),
-                         .key = std::string(parameter.key),
-                         .what = "missing",
-                         .allowed = allowed_text(parameter, type)},
-                        true});
+      found_.push_back(
+          {{.where = file_.name(), .key = parameter.key, .what = "missing", .allowed = allowed_text(parameter, type)},
+           true});
     return std::nullopt;
   }
   ValueFault fault;
@@ -167,7 +173,17 @@ void ParameterReader::report_unknown_table(const CaseEntry& table, const std::ve
       std::string(best));
 }
 
+bool ParameterReader::report_renamed_key(const CaseEntry& entry) {
+  const auto found =
+      std::find_if(renamed_.begin(), renamed_.end(), [&](const RenamedKey& key) { return key.old == entry.key; });
+  if (found == renamed_.end()) return false;
+  meant_.emplace(found->now);
+  add(entry, "has another name now", std::string(found->now));
+  return true;
+}
+
 void ParameterReader::report_unknown_key(const CaseEntry& entry) {
+  if (report_renamed_key(entry)) return;
   std::string_view table = table_of(entry.key);
   const bool in_parameter = std::find(keys_.begin(), keys_.end(), table) != keys_.end();
   const std::string_view best = in_parameter ? table : nearest_key(entry.key, keys_);

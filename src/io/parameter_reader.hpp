@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,10 +25,11 @@ namespace talus {
 
 class ParameterReader {
  public:
-  /// \param file outlives the reader
-  explicit ParameterReader(const CaseFile& file);
+  /// \param file outlives the reader; \param renamed keys that were, to tell what stands in their place
+  explicit ParameterReader(const CaseFile& file, std::span<const RenamedKey> renamed = {});
 
-  /// Reads one parameter. The member keeps its initial value if the key is missing or faulty.
+  /// Reads one parameter. The member keeps its initial value if the key is missing or faulty, or where its condition
+  /// fails; there a key that is given is a fault.
   template <class T>
   void operator()(const Parameter& parameter, T& member) {
     if (const auto value = read(parameter, value_type<T>())) from_value(*value, member);
@@ -57,8 +59,10 @@ class ParameterReader {
   void report_unknown_keys();
   void report_unknown_table(const CaseEntry& table, const std::vector<const CaseEntry*>& keys);
   void report_unknown_key(const CaseEntry& entry);
+  bool report_renamed_key(const CaseEntry& entry);
 
   const CaseFile& file_;
+  std::span<const RenamedKey> renamed_;
   std::vector<std::string> keys_;  // of the parameters visited, in their order
   std::vector<Found> found_;
   std::set<std::string, std::less<>> meant_;  // keys that unknown ones were meant to be

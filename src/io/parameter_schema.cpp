@@ -148,7 +148,7 @@ std::string json_schema(const ParameterList& defaults, std::string_view title) {
   Json root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
   root.update(object());
   for (const DescribedParameter& item : defaults) {
-    const std::string_view key = item.parameter.key;
+    const std::string& key = item.parameter.key;
     schema_of_table(root, table_of(key))["properties"][std::string(last_part(key))] = schema_of(item);
     if (item.parameter.required) require(root, key);
   }

@@ -53,6 +53,12 @@ std::string number_literal(double value, std::string_view unit) {
 
 }  // namespace
 
+ParameterList ParameterList::that_hold() const {
+  ParameterList list = *this;
+  std::erase_if(list.items_, [](const DescribedParameter& item) { return !item.parameter.condition.holds; });
+  return list;
+}
+
 std::vector<std::string_view> ParameterList::tables() const {
   std::vector<std::string_view> tables;
   for (const DescribedParameter& item : items_) {

@@ -98,7 +98,7 @@ struct DescribedParameter {
 ///     ParameterList list;
 ///     for_each_parameter(list, model_parameters);
 ///     for_each_parameter(list, run_parameters);
-/// Keys and texts are not copied; they are literals.
+/// Texts are not copied; they are literals.
 class ParameterList {
  public:
   template <class T>
@@ -107,6 +107,9 @@ class ParameterList {
   }
   auto begin() const { return items_.begin(); }
   auto end() const { return items_.end(); }
+
+  /// Those whose conditions hold: what a case consists of.
+  ParameterList that_hold() const;
 
   /// Names of the tables in the order of their first keys; "" for the keys at the top is the first, if there are such.
   std::vector<std::string_view> tables() const;

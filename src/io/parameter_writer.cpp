@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "base/terminal.hpp"
 #include "base/unit.hpp"
 
 namespace talus {
@@ -21,7 +22,7 @@ std::string plain_text(const DescribedParameter& item) {
     return text.substr(0, text.find(' '));
   };
   if (std::holds_alternative<std::monostate>(item.value)) return "-";
-  if (const auto* text = std::get_if<std::string>(&item.value)) return *text;
+  if (const auto* text = std::get_if<std::string>(&item.value)) return printable(*text);
   if (const auto* value = std::get_if<double>(&item.value)) return number(*value);
   if (const auto* values = std::get_if<std::vector<double>>(&item.value)) {
     std::vector<std::string> texts;
@@ -38,7 +39,8 @@ bool is_excluded(std::string_view key, std::span<const std::string_view> exclude
 
 }  // namespace
 
-std::string resolved_case(const ParameterList& list) {
+std::string resolved_case(const ParameterList& all) {
+  const ParameterList list = all.that_hold();
   std::string text;
   for (const std::string_view table : list.tables()) {  // the keys at the top first: TOML asks for it
     if (!table.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
@@ -72,8 +74,9 @@ std::map<std::string, std::string> resolved_values(std::string_view resolved_cas
 std::vector<ResolvedLine> resolved_table(const ParameterList& list, const CaseFile& file) {
   std::vector<ResolvedLine> lines;
   for (const DescribedParameter& item : list) {
+    if (!item.parameter.condition.holds) continue;
     const CaseEntry* entry = file.find(item.parameter.key);
-    lines.push_back({.key = std::string(item.parameter.key),
+    lines.push_back({.key = item.parameter.key,
                      .value = plain_text(item),
                      .unit = unit_name(item.parameter.dimension),
                      .origin = !entry             ? "default"
@@ -93,7 +96,7 @@ std::string digest(std::string_view bytes) {
 std::string fingerprint(const ParameterList& list, std::span<const std::string_view> excluded) {
   std::vector<std::string> lines;
   for (const DescribedParameter& item : list)
-    if (!is_excluded(item.parameter.key, excluded))
+    if (item.parameter.condition.holds && !is_excluded(item.parameter.key, excluded))
       lines.push_back(fmt::format("{} = {}\n", item.parameter.key, toml_text(item.parameter, item.value)));
   std::sort(lines.begin(), lines.end());
   return digest(fmt::format("{}", fmt::join(lines, "")));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The resolved case: every parameter with the value that holds, in SI, whether it was given or is a default.
+/// The resolved case: every parameter that means something in it with the value that holds, in SI, whether it was given
+/// or is a default.
 #pragma once
 
 #include <map>

@@ -25,24 +25,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 2> snapshot_kinds{"particles", "air"};
 constexpr std::string_view snapshot_ending = ".vtkhdf";
 constexpr std::string_view index_ending = ".hdf.series";
 
-/// Files of a run beside its snapshots. The manifest is last, so that a removal that is cut short can be repeated.
-constexpr std::array<std::string_view, 8> file_names{CheckpointFiles::names[0],
-                                                     CheckpointFiles::names[1],
-                                                     "series.csv",
-                                                     "summary.json",
-                                                     "report.html",
-                                                     "log.txt",
-                                                     "stop",
-                                                     "manifest.json"};
+/// Files of a run beside its snapshots.
+constexpr std::array<std::string_view, 7> file_names{
+    "manifest.json", CheckpointFiles::names[0], CheckpointFiles::names[1], "series.csv", "summary.json", "report.html",
+    "log.txt"};
 
-/// Folders of what is made from a run, with the ending of their files: what is left of another case, whatever its name,
-/// would be taken for this one's.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> derived_files{
-    {{"analysis", ".csv"}, {"pictures", ".png"}}};
+constexpr std::array<std::string_view, 3> folder_names{"snapshots", "analysis", "pictures"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& what, const std::string& allowed = {}) {
   throw InputError({{.where = path.string(), .key = {}, .what = what, .allowed = allowed}});
@@ -79,60 +70,83 @@ std::optional<int> snapshot_number(std::string_view name, std::string_view kind)
   return number;
 }
 
-std::string_view without_suffix(std::string_view name) {
-  return name.ends_with(temporary_suffix) ? name.substr(0, name.size() - temporary_suffix.size()) : name;
-}
-
-bool is_snapshot_file(std::string_view name) {
-  const std::string_view whole = without_suffix(name);
-  return std::any_of(snapshot_kinds.begin(), snapshot_kinds.end(), [&](std::string_view kind) {
-    return snapshot_number(whole, kind) || (whole.starts_with(kind) && whole.substr(kind.size()) == index_ending);
-  });
-}
-
-bool is_run_file(std::string_view name) {
-  return std::find(file_names.begin(), file_names.end(), without_suffix(name)) != file_names.end();
-}
-
-bool holds_manifest(const RunFolder& folder) {
-  if (!fs::exists(folder.manifest())) return false;
+/// Why the manifest is none, nothing if it is one.
+std::optional<std::string> fault_of_manifest(const RunFolder& folder) {
+  if (!fs::exists(folder.manifest())) return "no manifest.json";
   try {
     read_manifest(folder.manifest());
-    return true;
-  } catch (const FileError&) {
-    return false;  // another program's
+    return std::nullopt;
+  } catch (const FileError& error) {
+    return error.what();
   }
 }
 
 /// Whether the folder holds nothing but what a run leaves that is killed before its manifest is in place.
 bool is_fresh(const RunFolder& folder) {
   const std::vector<std::string> names = names_in(folder.path());
-  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-    return name == folder.manifest().filename().string() + std::string(temporary_suffix) ||
-           (name == folder.snapshots().filename() && names_in(folder.snapshots()).empty());
+  return std::all_of(names.begin(), names.end(), [&](std::string_view name) {
+    if (name == "snapshots")
+      return !fs::is_symlink(folder.snapshots()) && fs::is_directory(folder.snapshots()) &&
+             names_in(folder.snapshots()).empty();
+    if (name == FileList::file_name) return FileList::read(folder.path()).has_value();
+    return name == "manifest.json.part" || name == "files.txt.part";
   });
+}
+
+/// \throws InputError with every link where a file or folder of a run would be
+void refuse_links(const fs::path& folder) {
+  std::vector<Problem> problems;
+  const auto look_at = [&](const std::string& name) {
+    if (fs::is_symlink(folder / name))
+      problems.push_back({.where = (folder / name).string(),
+                          .what = "is a symbolic link; within a run's folder none is followed",
+                          .allowed = "files and folders of its own"});
+  };
+  for (const std::string_view name : file_names) {
+    look_at(std::string(name));
+    look_at(std::string(name) + std::string(temporary_suffix));
+  }
+  for (const std::string_view name : folder_names) look_at(std::string(name));
+  look_at(std::string(FileList::file_name));
+  if (!problems.empty()) throw InputError(problems);
+}
+
+/// Whether the folder may be overwritten. Changes nothing.
+void check_overwritable(const RunFolder& folder, const std::optional<std::string>& fault) {
+  const std::optional<FileList> list = FileList::read(folder.path());
+  if (!list)
+    refuse(folder.path(),
+           fault
+               ? fmt::format("holds no run of Talus ({}); nothing is overwritten", *fault)
+               : fmt::format("has no {} that says what Talus wrote there; nothing is overwritten", FileList::file_name),
+           "--out for another folder");
+  for (const std::string_view name : file_names)
+    if (fs::exists(folder.path() / name) && !list->holds(std::string(name)))
+      refuse(folder.path(),
+             fmt::format("holds '{}', and {} does not say that Talus wrote it", name, FileList::file_name),
+             "--out for another folder, or move it away");
 }
 
 /// Whether the folder may be used. Changes nothing.
 void check(const RunFolder& folder, Existing existing) {
   if (is_fresh(folder)) return;
-  const bool has_run = holds_manifest(folder);
-  switch (existing) {
-    case Existing::refuse:
-      refuse(folder.path(), has_run ? "holds a run already" : "is not empty",
-             has_run ? "--resume to go on with it, --overwrite to replace it, --out for another folder"
-                     : "--out for another folder");
-    case Existing::resume:
-      if (!has_run) refuse(folder.path(), "holds no run to resume: no manifest.json from Talus");
-      return;
-    case Existing::overwrite:
-      if (has_run) return;
-      for (const std::string& name : names_in(folder.path()))
-        if (is_run_file(name) || name == folder.snapshots().filename())
-          refuse(folder.path(),
-                 fmt::format("holds '{}', but no run of Talus (no manifest.json); nothing is overwritten", name),
-                 "--out for another folder");
-  }
+  const std::optional<std::string> fault = fault_of_manifest(folder);
+  if (existing == Existing::refuse)
+    refuse(folder.path(), fault ? "is not empty" : "holds a run already",
+           fault ? "--out for another folder"
+                 : "--resume to go on with it, --overwrite to replace it, --out for another folder");
+  refuse_links(folder.path());
+  if (existing == Existing::overwrite) return check_overwritable(folder, fault);
+  if (fault) refuse(folder.path(), fmt::format("holds no run to resume: {}", *fault));
+}
+
+/// A list in a new folder, or in one whose run's files are removed first. A run of a version that kept none goes on
+/// without.
+void begin_list(const RunFolder& folder, Existing existing) {
+  if (is_fresh(folder))
+    FileList::begin(folder.path());
+  else if (existing == Existing::overwrite)
+    FileList::read(folder.path())->remove_files("manifest.json");
 }
 
 }  // namespace
@@ -146,9 +160,9 @@ RunFolder RunFolder::create(std::filesystem::path path, Existing existing) {
     fs::create_directories(folder.path_);
     folder.lock(existing);
     check(folder, existing);
-    if (existing == Existing::overwrite) folder.remove_run();
+    begin_list(folder, existing);
     fs::remove(folder.stop());
-    fs::create_directories(folder.snapshots());
+    make_folder(folder.snapshots());
     return folder;
   });
 }
@@ -164,10 +178,22 @@ std::filesystem::path RunFolder::snapshot_index(std::string_view kind) const {
 std::vector<int> RunFolder::snapshot_numbers(std::string_view kind) const {
   std::vector<int> numbers;
   if (!at(snapshots(), "cannot read the folder", [&] { return fs::exists(snapshots()); })) return numbers;
+  const std::optional<FileList> list = FileList::read(path_);
   for (const std::string& name : names_in(snapshots()))
-    if (const std::optional<int> number = snapshot_number(name, kind)) numbers.push_back(*number);
+    if (const std::optional<int> number = snapshot_number(name, kind))
+      if (!list || list->holds("snapshots/" + name)) numbers.push_back(*number);
   std::sort(numbers.begin(), numbers.end());
   return numbers;
+}
+
+bool RunFolder::remove_snapshots(int first, std::string_view kind) const {
+  if (!FileList::read(path_)) return false;
+  bool any = false;
+  for (const int number : snapshot_numbers(kind)) {
+    if (number < first) continue;
+    any = at(snapshot(number, kind), "cannot remove", [&] { return fs::remove(snapshot(number, kind)); }) || any;
+  }
+  return any;
 }
 
 std::optional<int> RunFolder::latest_snapshot(std::string_view kind) const {
@@ -184,21 +210,6 @@ void RunFolder::lock(Existing existing) {
     if (std::chrono::steady_clock::now() >= patience)
       refuse(path_, "another run is writing into this folder", "--out for another folder");
     std::this_thread::sleep_for(20ms);
-  }
-}
-
-void RunFolder::remove_run() const {
-  const auto remove = [](const fs::path& path) { at(path, "cannot remove", [&] { return fs::remove(path); }); };
-  if (fs::is_directory(snapshots()))
-    for (const std::string& name : names_in(snapshots()))
-      if (is_snapshot_file(name)) remove(snapshots() / name);
-  for (const auto& [folder, ending] : derived_files)
-    if (fs::is_directory(path_ / folder))
-      for (const std::string& name : names_in(path_ / folder))
-        if (without_suffix(name).ends_with(ending)) remove(path_ / folder / name);
-  for (const std::string_view name : file_names) {
-    remove(path_ / (std::string(name) + std::string(temporary_suffix)));
-    remove(path_ / name);
   }
 }
 

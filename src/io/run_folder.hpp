@@ -3,7 +3,7 @@
 ///
 ///     manifest.json  series.csv  checkpoint_a.h5  checkpoint_b.h5  summary.json  report.html  log.txt  stop
 ///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf ...
-///     analysis/*.csv  pictures/*.png
+///     analysis/*.csv  pictures/*.png  files.txt (what of these Talus wrote: file_list.hpp)
 #pragma once
 
 #include <filesystem>
@@ -13,15 +13,9 @@
 #include <vector>
 
 #include "io/descriptor.hpp"
+#include "io/file_list.hpp"
 
 namespace talus {
-
-/// What to do with a folder that is there and not empty.
-enum class Existing {
-  refuse,
-  resume,    ///< go on with the run in it
-  overwrite  ///< remove that run's files, with all tables in analysis/ and all PNGs in pictures/, and no others
-};
 
 class RunFolder {
  public:
@@ -30,10 +24,12 @@ class RunFolder {
 
   /// The folder of a run to write: made with its parents if it is not there, and locked against other processes for as
   /// long as a copy of the result lives. Resuming waits two seconds for a run there that has been asked to leave. The
-  /// manifest is to be written first: it marks the folder as a run's. A stop file from before is removed. \throws
-  /// InputError, before anything is changed, if the folder is not empty and `existing` is refuse; if there is
-  ///         no run in it to resume; if it holds files of these names, but not from Talus, that would be overwritten;
-  ///         if another process writes there; if it is a file
+  /// manifest is to be written first: it marks the folder as a run's. A stop file from before is removed. The folder
+  /// itself may be reached through a link; within it none is followed.
+  /// \throws InputError, before anything is changed, if the folder is not empty and `existing` is refuse; if there is
+  ///         no run in it to resume; if it keeps no list of what was written, or holds files of these names that are
+  ///         not in it, and is to be overwritten; if one of them or of its folders is a symbolic link; if another
+  ///         process writes there; if it is a file
   /// \throws FileError with the system's reason
   static RunFolder create(std::filesystem::path path, Existing existing);
 
@@ -52,13 +48,16 @@ class RunFolder {
   /// What ParaView is given to open (snapshot_index.hpp).
   std::filesystem::path snapshot_index(std::string_view kind = "particles") const;
 
-  /// Numbers of the snapshots that are there, rising. \throws FileError if the folder cannot be read
+  /// Numbers of the snapshots that are there, rising; where the folder keeps a list of what Talus wrote, of those in
+  /// it. \throws FileError if the folder cannot be read
   std::vector<int> snapshot_numbers(std::string_view kind = "particles") const;
+  /// Removes the snapshots with this number and above that the list names: a resumed run makes them again.
+  /// \returns whether there were any \throws FileError
+  bool remove_snapshots(int first, std::string_view kind = "particles") const;
   std::optional<int> latest_snapshot(std::string_view kind = "particles") const;
 
  private:
   void lock(Existing existing);
-  void remove_run() const;
 
   std::filesystem::path path_;
   std::shared_ptr<Descriptor> lock_;

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_list.hpp"
 
 namespace talus {
 
@@ -29,7 +30,9 @@ std::string header_of(const std::vector<SeriesColumn>& columns) {
 }  // namespace
 
 SeriesWriter::SeriesWriter(std::filesystem::path path, const std::vector<SeriesColumn>& columns)
-    : file_(path.string(), O_WRONLY | O_CREAT | O_TRUNC), columns_(columns.size()) {
+    : columns_(columns.size()) {
+  claim_file(path);
+  file_ = Descriptor(path.string(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
   const std::string header = header_of(columns);
   file_.write(header);
   bytes_ = header.size();
@@ -38,7 +41,8 @@ SeriesWriter::SeriesWriter(std::filesystem::path path, const std::vector<SeriesC
 SeriesWriter SeriesWriter::resume(std::filesystem::path path, const std::vector<SeriesColumn>& columns,
                                   std::uint64_t rows) {
   SeriesWriter writer;
-  writer.file_ = Descriptor(path.string(), O_RDWR);
+  claim_file(path);
+  writer.file_ = Descriptor(path.string(), O_RDWR | O_NOFOLLOW);
   writer.columns_ = columns.size();
   const std::string content = writer.file_.read();
   const std::string header = header_of(columns);
@@ -61,11 +65,26 @@ SeriesWriter SeriesWriter::resume(std::filesystem::path path, const std::vector<
   return writer;
 }
 
+namespace {
+
+void add_row(std::span<const double> values, std::size_t columns, std::string& text) {
+  if (values.size() != columns)
+    throw std::invalid_argument(fmt::format("series: {} values for {} columns", values.size(), columns));
+  fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(values, ","));
+}
+
+}  // namespace
+
+void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
+                 const std::vector<std::vector<double>>& rows) {
+  std::string text = header_of(columns);
+  for (const std::vector<double>& row : rows) add_row(row, columns.size(), text);
+  write_atomically(path, text, Flush::later);
+}
+
 void SeriesWriter::append(std::span<const double> values) {
-  if (values.size() != columns_)
-    throw std::invalid_argument(fmt::format("series: {} values for {} columns", values.size(), columns_));
   line_.clear();
-  fmt::format_to(std::back_inserter(line_), "{}\n", fmt::join(values, ","));
+  add_row(values, columns_, line_);
   try {
     file_.write(line_);
   } catch (const FileError&) {

@@ -24,7 +24,7 @@ struct SeriesColumn {
 /// back, so that the rows before stay as they are.
 class SeriesWriter {
  public:
-  /// Starts a new file; one that is there is replaced.
+  /// Starts a new file; one that is there is replaced. No link is followed.
   SeriesWriter(std::filesystem::path path, const std::vector<SeriesColumn>& columns);
 
   /// Goes on after the first `rows` rows of a file; what stands behind them, a half-written line too, is cut off.
@@ -50,6 +50,11 @@ class SeriesWriter {
   std::size_t bytes_ = 0;
   std::uint64_t rows_ = 0;
 };
+
+/// Writes a table of such rows, whole or not at all. \param rows of as many values as there are columns
+/// \throws FileError, std::invalid_argument
+void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
+                 const std::vector<std::vector<double>>& rows);
 
 /// Reads a series; a last line without its end (a run in progress, or killed) is left out.
 /// \throws FileError if the file cannot be read or a row is not what the header says, with its line

@@ -44,6 +44,7 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
   write_json(path, {{"status", summary.status},
                     {"wall_seconds", summary.wall_seconds},
                     {"instruction_set", summary.instruction_set},
+                    {"warnings", summary.warnings},
                     {"quantities", quantities}});
 }
 
@@ -52,9 +53,11 @@ Summary read_summary(const std::filesystem::path& path) {
     Summary summary{.status = json.at("status"),
                     .wall_seconds = json.at("wall_seconds"),
                     .instruction_set = json.value("instruction_set", ""),
-                    .quantities = {}};
+                    .quantities = {},
+                    .warnings = {}};
     for (const auto& [name, entry] : json.at("quantities").items())
       summary.quantities.push_back({name, entry.at("unit"), value_of(entry)});
+    summary.warnings = json.value("warnings", std::vector<std::string>());
     return summary;
   });
 }

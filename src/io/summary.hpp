@@ -2,6 +2,7 @@
 /// summary.json: the numbers in which a run ended.
 ///
 ///     {"status": "done", "wall_seconds": 12.3, "instruction_set": "avx2",
+///      "warnings": ["mach-number: Mach number = 0.4: ..."],
 ///      "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
 ///
 /// JSON has no numbers that are not finite: such a quantity has the value null and a "reason", one of "not a number",
@@ -22,6 +23,7 @@ struct Summary {
   double wall_seconds = 0;                  ///< s
   std::string instruction_set = {};         ///< of the sum over pairs: the bits belong to it
   std::vector<NamedValue> quantities = {};  ///< names unique
+  std::vector<std::string> warnings = {};   ///< where case or run leave what the laws assume, each after its name
 
   /// \returns null if there is none
   const NamedValue* find(std::string_view name) const;

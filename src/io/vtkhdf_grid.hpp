@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Values in the cells of a regular grid as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
 ///
-///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction; time (s), step
-///       PointData/NAME       columns in single precision: nz x ny x nx, or nz x ny x nx x 3
+///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction; time (s),
+///     step;
+///                            cells (along x, y, z)
+///       PointData/NAME       columns in single precision: nz x ny x nx, or nz x ny x nx x 3, of the points
 ///
 /// The points of the image are the centres of the cells: VTK 9.1 asks data of an image's cells, and its field data, for
-/// the wrong shape. Every column carries its unit in the attribute "units".
+/// the wrong shape. Nor does it survive an image that is one point deep: along an axis of one cell the points are its
+/// two faces, with the cell's value at both, so that a section is shown as the slab that it is. Every column carries
+/// its unit in the attribute "units".
 /// Source: VTK File Formats, "VTKHDF file format", https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/
 #pragma once
 

@@ -12,9 +12,9 @@ struct NamedValue {
   double value;
 };
 
-/// A remark on whether a run stays within what its laws assume.
+/// A remark on whether a case or a run stays within what its laws assume.
 struct RegimeLine {
-  std::string quantity;
+  std::string quantity;  ///< names the warning (warning.hpp): it stays
   std::string value;
   std::string meaning;
   bool warning = false;

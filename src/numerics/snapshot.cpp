@@ -24,7 +24,7 @@ std::span<const T> column(const Snapshot& snapshot, std::string_view name) {
 }  // namespace
 
 std::size_t Snapshot::size() const {
-  return positions().size();
+  return columns.empty() ? 0 : positions().size();
 }
 std::span<const double> Snapshot::scalars(std::string_view name) const {
   return column<double>(*this, name);

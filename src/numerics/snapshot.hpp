@@ -27,7 +27,7 @@ struct Snapshot {
   std::uint64_t step = 0;
   std::vector<ColumnView> columns;
 
-  /// Number of particles.
+  /// Number of particles; 0 where a model has none, and no columns.
   std::size_t size() const;
   /// \throws std::out_of_range naming the column and those that are there
   std::span<const double> scalars(std::string_view name) const;

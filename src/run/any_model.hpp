@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
 #include "numerics/grid_snapshot.hpp"
@@ -22,7 +23,10 @@ class AnyModel {
   virtual ~AnyModel() = default;
   virtual double time() const = 0;
   virtual std::uint64_t step() const = 0;
-  virtual double time_origin() const = 0;  ///< from which run.end counts, s; infinite while it has not come
+  virtual double time_origin() const = 0;    ///< from which run.end counts, s; infinite while it has not come
+  virtual double latest_origin() const = 0;  ///< when it has come at the latest, s
+  /// What holds the last step as short as it is, where, and what to try; the rest of the report is empty.
+  virtual NumericalError::Report step_limit() const = 0;
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
   virtual Snapshot snapshot() const = 0;                 ///< valid until the next step
@@ -42,6 +46,8 @@ class ModelAdapter final : public AnyModel {
   double time() const override { return model_.state().time; }
   std::uint64_t step() const override { return model_.state().step; }
   double time_origin() const override { return model_.time_origin(); }
+  double latest_origin() const override { return model_.latest_origin(); }
+  NumericalError::Report step_limit() const override { return model_.step_limit(); }
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }
   Snapshot snapshot() const override { return snapshot_of(model_.state()); }

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/error.hpp"
+#include "io/file_list.hpp"
 
 namespace talus::run {
 
@@ -27,7 +28,8 @@ struct Running {
 };
 
 pid_t start(const Job& job) {
-  const int output = open(job.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  claim_file(job.output);
+  const int output = open(job.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (output < 0) throw FileError(job.output.string(), std::string("cannot be opened: ") + std::strerror(errno));
   std::vector<char*> arguments;
   for (const std::string& argument : job.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "base/error.hpp"
 #include "io/checkpoint.hpp"
@@ -17,6 +18,7 @@
 #include "io/vtkhdf_grid.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
+#include "run/step_guard.hpp"
 
 namespace talus::run {
 
@@ -62,12 +64,86 @@ void append(SeriesWriter& series, const std::vector<NamedValue>& row) {
   series.append(values);
 }
 
+/// \throws NumericalError if the step has fallen too far
+void check_step(StepGuard& guard, const AnyModel& model, double time_before, bool begun) {
+  const auto fault = guard.take(model.time() - time_before, begun);
+  if (!fault) return;
+  NumericalError::Report report = model.step_limit();
+  report.what = *fault;
+  report.step = model.step();
+  report.time = model.time();
+  throw NumericalError(report);
+}
+
+/// The line of progress: where the run is, how fast, and its headline. Speeds are those since the line before.
+class LiveLine {
+ public:
+  LiveLine(const AnyModel& model, const LoopOptions& options)
+      : model_(model), options_(options), progress_(stderr, options.log) {
+    begin_phase();
+  }
+
+  /// \param row the last that was made
+  void update(const std::vector<NamedValue>& row) {
+    if (std::isinf(model_.time_origin()) != settling_) begin_phase();
+    progress_.update(now(), [&] { return text(row); });
+  }
+  void finish() { progress_.finish(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Mark {
+    Clock::time_point clock;
+    double step, time, value;
+  };
+
+  double now() const { return settling_ ? model_.time() : std::max(model_.time() - model_.time_origin(), 0.0); }
+
+  void begin_phase() {
+    settling_ = std::isinf(model_.time_origin());
+    mark_.reset();
+    if (settling_)
+      progress_.begin(
+          {.start = model_.time(), .end = model_.latest_origin(), .name = "settling", .after = options_.end});
+    else
+      progress_.begin({.start = now(), .end = options_.end});
+  }
+
+  std::string text(const std::vector<NamedValue>& row) {
+    const auto found = std::find_if(row.begin(), row.end(),
+                                    [&](const NamedValue& value) { return value.name == options_.headline.column; });
+    const bool has_headline = !settling_ && found != row.end();
+    const Mark here{Clock::now(), static_cast<double>(model_.step()), row.front().value,
+                    has_headline ? found->value : 0};
+    std::string line = settling_ ? fmt::format("t = {:.4g} s", model_.time())
+                                 : fmt::format("t = {:.4g} s of {:.4g} s", now(), options_.end);
+    line += fmt::format("  step {}", model_.step());
+    const auto before = std::exchange(mark_, here);
+    if (before && here.clock > before->clock)
+      line += fmt::format("  {:.3g} steps/s", (here.step - before->step) /
+                                                  std::chrono::duration<double>(here.clock - before->clock).count());
+    if (!has_headline) return line;
+    const Headline& headline = options_.headline;
+    if (!headline.is_rate) return line + fmt::format("  {} {:.3g} {}", headline.name, here.value, found->unit);
+    if (!before || !(here.time > before->time)) return line;
+    return line + fmt::format("  {} {:.3g} {}/s", headline.name,
+                              (here.value - before->value) / (here.time - before->time), found->unit);
+  }
+
+  const AnyModel& model_;
+  const LoopOptions& options_;
+  Progress progress_;
+  bool settling_ = false;
+  std::optional<Mark> mark_;
+};
+
 }  // namespace
 
 LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
                     const std::vector<Observer>& observers) {
   Clock clock;
   CheckpointFiles checkpoints(folder);
+  StepGuard guard;
   std::uint64_t snapshots = 0;      // taken
   std::uint64_t snapshot_step = 0;  // of the last one
   double next_snapshot_time = 0;
@@ -75,8 +151,10 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
 
   auto write_snapshot = [&](std::uint64_t number) {
     const auto n = static_cast<int>(number);
-    write_points(RunFolder(folder).snapshot(n), model.snapshot());
-    index_snapshots(RunFolder(folder), n);
+    if (const Snapshot particles = model.snapshot(); !particles.columns.empty()) {
+      write_points(RunFolder(folder).snapshot(n), particles);
+      index_snapshots(RunFolder(folder), n);
+    }
     if (const std::optional<GridSnapshot> air = model.grid()) {
       write_grid(RunFolder(folder).snapshot(n, "air"), *air);
       index_snapshots(RunFolder(folder), n, "air");
@@ -89,8 +167,10 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     next_snapshot_time = options.snapshot_interval * (std::floor(model.time() / options.snapshot_interval) + 1);
   };
 
+  std::vector<NamedValue> row;  // the last
   auto add_row = [&](SeriesWriter& series) {
-    append(series, row_of(model, observers));
+    row = row_of(model, observers);
+    append(series, row);
     if (options.series_interval > 0)
       next_row_time = options.series_interval * (std::floor(model.time() / options.series_interval) + 1);
   };
@@ -115,7 +195,12 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     checkpoint->get("run/wall_seconds", wall);
     checkpoint->get("run/cpu_seconds", cpu);
     clock.add(wall, cpu);
-    series = SeriesWriter::resume(folder / "series.csv", columns_of(row_of(model, observers)), rows);
+    guard.resume(*checkpoint);
+    row = row_of(model, observers);
+    series = SeriesWriter::resume(folder / "series.csv", columns_of(row), rows);
+    const auto taken = static_cast<int>(snapshots);
+    for (const char* kind : {"particles", "air"})
+      if (RunFolder(folder).remove_snapshots(taken, kind)) index_snapshots(RunFolder(folder), taken - 1, kind);
   } else {
     model.begin(team);
     series.emplace(folder / "series.csv", columns_of(row_of(model, observers)));
@@ -134,6 +219,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     writer.put("run/next_row_time", next_row_time, "s");
     writer.put("run/wall_seconds", clock.wall());
     writer.put("run/cpu_seconds", clock.cpu());
+    guard.save(writer);
     checkpoints.save(writer);
   };
   if (!checkpoint) save();
@@ -141,9 +227,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   Interrupt interrupt(folder / "stop", options.walltime
                                            ? std::optional(std::chrono::duration<double>(*options.walltime))
                                            : std::nullopt);
-  // Until its origin has come, a run makes no progress that could be told.
-  auto elapsed = [&] { return std::max(model.time() - model.time_origin(), 0.0); };
-  Progress progress(stderr, elapsed(), options.end);
+  LiveLine line(model, options);
   double last_checkpoint = clock.wall();
   LoopResult result;
   while (!(model.time() >= model.time_origin() + options.end)) {
@@ -152,22 +236,19 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
       result.reason = *reason;
       break;
     }
+    const double time_before = model.time();
+    const bool begun = !std::isinf(model.time_origin());
     model.advance(team);
+    check_step(guard, model, time_before, begun);
     if (model.time() >= next_row_time) add_row(*series);
     if (model.time() >= next_snapshot_time) take_snapshot();
     if (clock.wall() - last_checkpoint > options.checkpoint_interval) {
       save();
       last_checkpoint = clock.wall();
     }
-    progress.update(elapsed(), [&] {
-      const std::string where = std::isinf(model.time_origin())
-                                    ? fmt::format("t = {:.4g} s, settling", model.time())
-                                    : fmt::format("t = {:.4g} s of {:.4g} s", elapsed(), options.end);
-      return fmt::format("{}  step {}  {:.3g} steps/s", where, model.step(),
-                         static_cast<double>(model.step()) / clock.wall());
-    });
+    line.update(row);
   }
-  progress.finish();
+  line.finish();
   save();
   // Where the end falls between two snapshots its state is written all the same, but not counted: a later end takes the
   // number.

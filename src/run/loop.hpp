@@ -19,14 +19,23 @@ namespace talus::run {
 /// Looks at the particles after every step; its numbers become columns of series.csv. The same names every time.
 using Observer = std::function<std::vector<NamedValue>(const Snapshot&)>;
 
+/// The one number of a row that the line of progress shows.
+struct Headline {
+  std::string column = {};  ///< of series.csv; empty: none
+  std::string name = {};    ///< "discharge"
+  bool is_rate = false;     ///< its change in a second of simulated time is shown
+};
+
 struct LoopOptions {
   double end = 0;  ///< simulated time after the model's origin, s: the first step that reaches it is the last
-  double series_interval = 0;       ///< simulated time between rows of series.csv, s; 0: a row a step
-  double snapshot_interval = 0;     ///< simulated time between snapshots, s, > 0
-  double checkpoint_interval = 30;  ///< wall time between checkpoints, s
-  std::optional<double> walltime;   ///< wall time after which the run leaves with a checkpoint, s
-  std::string fingerprint;          ///< of the case: a checkpoint of another case is refused
+  double series_interval = 0;           ///< simulated time between rows of series.csv, s; 0: a row a step
+  double snapshot_interval = 0;         ///< simulated time between snapshots, s, > 0
+  double checkpoint_interval = 30;      ///< wall time between checkpoints, s
+  std::optional<double> walltime = {};  ///< wall time after which the run leaves with a checkpoint, s
+  std::string fingerprint = {};         ///< of the case: a checkpoint of another case is refused
   bool resume = false;
+  Headline headline = {};
+  std::function<void(const std::string& line)> log = {};  ///< is given the line of each tenth of the way
 };
 
 struct LoopResult {
@@ -42,7 +51,8 @@ struct LoopResult {
 /// last snapshot. A checkpoint is written at the start, now and then, on interruption and at the end. With `resume` it
 /// goes on from the newest whole checkpoint, or begins where there is none; rows and snapshots written after that
 /// checkpoint are replaced. \param folder of the run, with a folder `snapshots` \throws NumericalError, FileError;
-/// checkpoints written before stay whole \throws InputError if the checkpoint belongs to another case
+/// checkpoints written before stay whole; NumericalError also if the step has fallen by more than StepGuard allows
+/// \throws InputError if the checkpoint belongs to another case
 LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
                     const std::vector<Observer>& observers);
 

@@ -2,11 +2,35 @@
 #include "run/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace talus::run {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto between_live_lines = 200ms;
+constexpr auto between_lines = 1s;  // a run of a second needs no ten lines
+constexpr auto first_line = 5s;     // of a phase whose first tenth takes long
+constexpr int samples_of_a_phase = 200;
+
+double seconds(std::chrono::steady_clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+std::size_t width_of(std::FILE* stream) {
+  winsize size{};
+  const bool known = ::ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? size.ws_col : 80;
+}
+
+}  // namespace
 
 std::string format_seconds(double seconds) {
   if (!std::isfinite(seconds)) return "?";
@@ -17,26 +41,74 @@ std::string format_seconds(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
 }
 
-Progress::Progress(std::FILE* stream, double start, double end)
-    : stream_(stream),
-      terminal_(isatty(fileno(stream)) != 0),
-      start_(start),
-      end_(end),
-      began_(Clock::now()),
-      next_(began_ + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(5000))) {}
+std::string cut(std::string_view text, std::size_t width) {
+  std::size_t characters = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = (static_cast<unsigned char>(text[i]) & 0xC0) != 0x80;
+    if (begins && ++characters > width) return std::string(text.substr(0, i));
+  }
+  return std::string(text);
+}
+
+Progress::Progress(std::FILE* stream, Log log)
+    : stream_(stream), log_(std::move(log)), terminal_(isatty(fileno(stream)) != 0) {
+  begin({});
+}
 
 Progress::~Progress() {
   finish();
 }
 
-void Progress::show(double now, const std::string& text) {
-  const Clock::time_point clock = Clock::now();
-  next_ = clock + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000));
-  const double done = (now - start_) / (end_ - start_);
-  const double elapsed = std::chrono::duration<double>(clock - began_).count();
-  const std::string line =
-      fmt::format("{}  {:3.0f} %  ETA {}", text, 100 * done, format_seconds(elapsed * (1 - done) / done));
-  std::fprintf(stream_, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
+void Progress::begin(const Phase& phase) {
+  phase_ = phase;
+  began_ = Clock::now();
+  next_live_ = began_ + between_live_lines;
+  samples_.assign(1, {began_, phase.start});
+  tenths_ = 0;
+  told_ = false;
+}
+
+void Progress::take_sample(Clock::time_point clock, double now) {
+  const auto gap = std::max<Clock::duration>(100ms, (clock - began_) / samples_of_a_phase);
+  if (clock - samples_.back().clock < gap) return;
+  samples_.push_back({clock, now});
+  const double recent = std::max(phase_.recent * seconds(clock - began_), 10.0);
+  while (samples_.size() > 2 && phase_.recent < 1 && seconds(clock - samples_[1].clock) >= recent) samples_.pop_front();
+}
+
+double Progress::share_done(double now) const {
+  return phase_.end > phase_.start ? std::clamp((now - phase_.start) / (phase_.end - phase_.start), 0.0, 1.0) : 1;
+}
+
+bool Progress::is_line_due(Clock::time_point clock, double now) const {
+  if (clock - last_line_ < between_lines) return false;
+  return std::floor(10 * share_done(now)) > tenths_ || (!told_ && clock - began_ >= first_line);
+}
+
+bool Progress::is_due(Clock::time_point clock, double now) const {
+  return (terminal_ && clock >= next_live_) || is_line_due(clock, now);
+}
+
+std::string Progress::time_left(Clock::time_point clock, double now) const {
+  const double speed = (now - samples_.front().now) / seconds(clock - samples_.front().clock);
+  const auto lasts = [&](double way) { return format_seconds(way / speed); };
+  if (!phase_.name.empty())
+    return fmt::format("{}, at most {}{}", phase_.name, speed > 0 ? lasts(phase_.end - now) : "until its limit",
+                       speed > 0 && phase_.after > 0 ? ", then about " + lasts(phase_.after) : "");
+  return fmt::format("{:3.0f} %{}", 100 * share_done(now), speed > 0 ? "  ETA " + lasts(phase_.end - now) : "");
+}
+
+void Progress::show(Clock::time_point clock, double now, const std::string& text) {
+  const std::string line = text + "  " + time_left(clock, now);
+  if (is_line_due(clock, now)) {
+    if (log_) log_(line);
+    if (!terminal_) std::fprintf(stream_, "%s\n", line.c_str());
+    tenths_ = static_cast<int>(std::floor(10 * share_done(now)));
+    told_ = true;
+    last_line_ = clock;
+  }
+  if (terminal_) std::fprintf(stream_, "\r\033[K%s", cut(line, width_of(stream_) - 1).c_str());
+  next_live_ = clock + between_live_lines;
   std::fflush(stream_);
   shown_ = true;
 }

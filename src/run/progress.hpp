@@ -1,28 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The line that lives: how far a run is, how fast, and when it will end. Rewritten in place on a terminal; elsewhere a
-/// plain line now and then.
+/// How far a run is, and when it will end. On a terminal one line that lives, rewritten in place and cut to its width;
+/// elsewhere, and in a log, a line a tenth of the way.
+///
+/// The forecast knows phases (a bed settles, then the run): each has a speed of its own, measured over its latest
+/// quarter, since steps grow dearer or cheaper as a run goes on.
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
+#include <deque>
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace talus::run {
 
 class Progress {
  public:
-  /// \param stream where lines go, usually stderr; \param start, end of the quantity that grows (simulated time,
-  /// members)
-  Progress(std::FILE* stream, double start, double end);
+  using Log = std::function<void(const std::string& line)>;
+
+  /// \param stream where lines go, usually stderr; \param log is given the line of each tenth
+  explicit Progress(std::FILE* stream, Log log = {});
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the line if the last one is old enough. \param text what stands before the share done and the ETA
+  /// A part of the way, in the quantity that grows: simulated time, members.
+  struct Phase {
+    double start = 0, end = 1;
+    std::string name = {};  ///< of a phase that may end before `end`: it then lasts "at most" so long
+    double after = 0;       ///< what comes after this phase, in the same quantity
+    double recent = 0.25;   ///< share of the phase's time, the latest, over which its speed is measured
+  };
+  void begin(const Phase& phase);
+
+  /// Shows the line if one is due. \param text what stands before the share done and the time left
   template <class Text>
   void update(double now, Text&& text) {
-    if (is_due()) show(now, text());
+    const Clock::time_point clock = Clock::now();
+    take_sample(clock, now);
+    if (is_due(clock, now)) show(clock, now, text());
   }
 
   /// Ends the living line, so that other text can follow.
@@ -30,17 +47,32 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  bool is_due() const { return Clock::now() >= next_; }
-  void show(double now, const std::string& text);
+  struct Sample {
+    Clock::time_point clock;
+    double now;
+  };
+  void take_sample(Clock::time_point clock, double now);
+  bool is_due(Clock::time_point clock, double now) const;
+  bool is_line_due(Clock::time_point clock, double now) const;
+  void show(Clock::time_point clock, double now, const std::string& text);
+  double share_done(double now) const;
+  std::string time_left(Clock::time_point clock, double now) const;
 
   std::FILE* stream_;
+  Log log_;
   bool terminal_;
   bool shown_ = false;
-  double start_, end_;
-  Clock::time_point began_, next_;
+  Phase phase_;
+  std::deque<Sample> samples_;  ///< the first is where the phase's recent part began
+  Clock::time_point began_, next_live_, last_line_;
+  int tenths_ = 0;  ///< of the phase, told as lines
+  bool told_ = false;
 };
 
 /// 75 -> "1 min 15 s".
 std::string format_seconds(double seconds);
+
+/// The first `width` characters (code points) of a text in UTF-8.
+std::string cut(std::string_view text, std::size_t width);
 
 }  // namespace talus::run

@@ -20,7 +20,7 @@ struct RunParameters {
 
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
-  visit(Parameter{"model", {}, {}, "which model: cloud or continuum", true}, p.model);
+  visit(Parameter{"model", {}, {}, "which model: cloud, continuum or air", true}, p.model);
   visit(Parameter{"title", {}, {}, "one line for pictures and reports"}, p.title);
   visit(Parameter{"run.end", dimension::time, above(0),
                   "simulated time at which the run ends; of a model with a gate counted from its opening", true},

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input: every problem at once, exit status 2, and nothing written."""
+import json
+import subprocess
 import unittest
 
-from program import CASE, ProgramTest, bits, tree
+from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, tree
 
 TWELVE_FAULTS = """model = "clowd"
 seed = -1
@@ -26,7 +28,7 @@ snapshots = "0.1 ms"
 POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
-class BadCase(ProgramTest):
+class Input(ProgramTest):
     def problems(self, *arguments, status=2):
         """The messages, without the last line, which counts them."""
         lines = self.talus(*arguments, status=status).stderr.splitlines()
@@ -37,6 +39,8 @@ class BadCase(ProgramTest):
     def assert_nothing_written(self):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["case.toml"])
 
+
+class BadCase(Input):
     def test_twelve_faults_are_twelve_messages_by_line(self):
         (self.folder / "case.toml").write_text(TWELVE_FAULTS)
         expected = [
@@ -49,7 +53,7 @@ class BadCase(ProgramTest):
             (8, "particles.radius", "mn", "a length, above 0 mm"),
             (9, "particles.radius_spread", "2", "from 0 to 0.9"),
             (10, "particles.density", "20 kg/m", "a density, above 0 kg/m3"),
-            (12, "fluid.viscosity", "0 Pa s", "above 0 Pa s"),
+            (12, "fluid.viscosity", "0 Pa s", "from 1e-07 Pa s to 1000000000 Pa s"),
             (13, "slop", "unknown table", "did you mean 'slope'?"),
             (0, "run.end", "missing", "a time, above 0"),
         ]
@@ -107,10 +111,74 @@ class BadCase(ProgramTest):
         for text, message in (("x [mm],y [mm]\n1,2\n3,four\n", r"^points\.csv:3: y: "),
                               ("x [m],y [m]\n0,0\n1e9,0\n", r"^case\.toml:6: particles\.file: .*more than a million"),
                               ("x [m],y [m],z [m]\n0,0,0\n1,0,1\n", r"^case\.toml:6: particles\.file: .*plane of mot"),
-                              ("x [m],radius [m]\n0,-1\n", r"^case\.toml:6: particles\.file: 1 radii")):
+                              ("x [m],radius [m]\n0,-1\n", r"^case\.toml:6: particles\.file: 1 radii"),
+                              ("x [m],y [m]\n0.1,0\n0.3,0.25\n0.3,0.25\n",
+                               r"^case\.toml:6: particles\.file: 1 pair overlap too much; points 2 and 3 by 2 radii"),
+                              ("x [mm],y [mm]\n0,0\n4,0\n6,0\n",
+                               r"^case\.toml:6: particles\.file: 3 pairs overlap too much; points 2 and 3 by 1\.6 ")):
             (self.folder / "points.csv").write_text(text)
             self.assertRegex(self.problems("run", "case.toml")[0], message)
         self.assertEqual(sorted(tree(self.folder)), ["case.toml", "points.csv"])
+
+    def test_what_cannot_be_computed_is_told_from_counts(self):
+        hopper, slot = PROJECT / "cases/yuu2011-hopper-vacuum.toml", PROJECT / "cases/slot.toml"
+        for case, setting, message in (
+                (hopper, "bed.spacing=0.02 mm", r"bed\.spacing: 0\.02 mm makes \S+ particles(;|, which need \S+ GB of memory)"),
+                (slot, "box.width=1e6 m", r"box\.width: 1e\+06 m is 4e\+08 spacings: the bed would hold \S+ particles; "),
+                (slot, "integration.step=1 s", r"integration\.step: in 1 s pressure waves pass \S+ smoothing lengths; "),
+                (slot, "run.end=1e9 s", r"run\.end: .* take \S+ steps"),
+                ("case.toml", "fluid.viscosity=1e-300 Pa s", r"fluid\.viscosity: .*; allowed: a dynamic viscosity, from "),
+                ("case.toml", "particles.size=1e6 m", r"particles\.size: 1e\+06 m is 2e\+08 times particles\.radius; "),
+                ("case.toml", "run.end=1e9 s", r"run\.end: 1e\+09 s takes \S+ steps of at most ")):
+            for command in ("check", "run"):
+                problems = "\n".join(self.problems(command, case, "--set", setting))
+                self.assertRegex(problems, message, setting)
+        self.assert_nothing_written()
+
+    def test_memory_beyond_what_there_is_is_refused(self):
+        limit = ("bash", "-c", 'ulimit -v 3000000; exec "$0" "$@"', PROGRAM)
+        for case, setting, message in (
+                (PROJECT / "cases/slot.toml", "bed.spacing=0.1 mm", r"bed\.spacing: 0\.1 mm makes 1\.92e\+06 particles, "),
+                ("case.toml", "particles.count=10000000", r"particles\.count: 10000000 grains, which need 15 GB of mem")):
+            more = ("--set", "box.depth=0.1 mm") if case != "case.toml" else ("--set", "particles.size=30 m")
+            for command in ("check", "run", "ensemble"):
+                done = subprocess.run([*limit, command, case, "--set", setting, *more], cwd=self.folder,
+                                      capture_output=True, text=True, check=False, timeout=60)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertRegex(done.stderr, message)
+                self.assertRegex(done.stderr, r"GB of memory; \S+ GB are free here; allowed: at (least|most) ")
+        self.assert_nothing_written()
+
+    def test_check_of_many_particles_places_none(self):
+        million = self.talus("check", "case.toml", "--set", "particles.count=1000000", "--set", "particles.size=7.5 m",
+                             "--set", "run.end=1 s")
+        self.assertRegex(million.stdout, r"\n! Such a run takes more than a month")
+        said = self.talus("check", PROJECT / "cases/wedge-hopper.toml", "--set", "bed.spacing=0.1 mm", "--set",
+                          "box.depth=0.1 mm").stdout
+        self.assertRegex(said, r"\n  particles +7\d{5}\n")
+
+    def test_check_keeps_to_the_width_of_a_page(self):
+        for case in (PROJECT / "cases/slot.toml", PROJECT / "cases/niiya2020-circle.toml"):
+            lines = self.talus("check", case).stdout.splitlines()
+            self.assertLessEqual(max(map(len, lines)), 100)
+            self.assertRegex("\n".join(lines), r"\n  settling +about|\n  run +about")
+
+    def test_control_characters_are_not_passed_on(self):
+        hostile = "\\u001b[31m\\u009b\\u202e"
+        (self.folder / "case.toml").write_text(f'"k{hostile}" = 1\ntitle = "t{hostile}"\n' + CASE.replace(
+            'shape = "circle"', f'shape = "{hostile}"'))
+        said = self.talus("check", "case.toml", status=2).stderr
+        said += self.talus("check", "case.toml", "--set", "run.end=\x1b[2J", "--set", "\x1b=1", status=2).stderr
+        said += self.talus("check", "\x1b[2J.toml", status=4).stderr
+        said += self.talus("check", "case.toml", "--\x1b[2J", status=2).stderr + self.talus("\x1b", status=2).stderr
+        (self.folder / "case.toml").write_text(f'title = "t{hostile}"\n' + CASE)
+        said += self.talus("check", "case.toml").stdout + self.talus("run", "case.toml", "--out", "\x1b[2Jr").stdout
+        (self.folder / "points.csv").write_text("x [m],y [m],\x1b[2J [m]\n0,0,\x1b\n")
+        said += self.talus("analyze", "points.csv", "--as", "front", status=2).stderr
+        self.assertEqual([c for c in said if c != "\n" and (ord(c) < 32 or 0x7f <= ord(c) < 0xa0 or ord(c) == 0x202e)],
+                         [], repr(said))
+        self.assertIn("title", said)
+        self.assertIn("t\\u001b[31m\\u009b\\u202e", said)
 
     def test_usage(self):
         for arguments in (["rnu"], [], ["run"], ["run", "case.toml", "--thread", "2"],
@@ -118,8 +186,130 @@ class BadCase(ProgramTest):
                           ["schema", "clowd"], ["run", "case.toml", "--walltime", "-1"]):
             self.assertTrue(self.talus(*arguments, status=2).stderr, arguments)
         self.assert_nothing_written()
+        for arguments in (["runn"], ["plot", "--help"], ["--help", "plot"], ["--version", "chekc", "case.toml"]):
+            self.assertRegex(self.talus(*arguments, status=2).stderr,
+                             r"^talus: there is no command '\w+'; allowed: run, check, ")
+        self.assertIn("did you mean 'run'?", self.talus("runn", status=2).stderr)
+        self.assertIn("did you mean 'check'?", self.talus("chekc", "case.toml", status=2).stderr)
+        self.assertRegex(self.talus(status=2).stderr, r"^talus: no command; allowed: run, check, ")
         for arguments in (["--help"], ["--version"], ["run", "--help"]):
             self.assertTrue(self.talus(*arguments).stdout)
+
+
+HOPPER = """model = "continuum"
+[box]
+width = "100 mm"
+depth = "5 mm"
+height = "100 mm"
+[plate]
+height = "40 mm"
+slit_left = "20 mm"
+slit_right = "80 mm"
+[bed]
+spacing = "5 mm"
+height = "40 mm"
+[run]
+end = "1 ms"
+"""
+
+
+class Choices(Input):
+    """Keys that mean nothing under the choices of a case, and those that have another name now."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "case.toml").write_text(HOPPER)
+
+    def given(self, *settings, command="check"):
+        return self.problems(command, "case.toml", *(part for s in settings for part in ("--set", s)))
+
+    def assert_one(self, setting, *parts, others=()):
+        [problem] = self.given(*others, setting)
+        self.assertTrue(problem.startswith(f"--set {setting}: {setting.split('=')[0]}: "), problem)
+        for part in parts:
+            self.assertIn(part, problem)
+
+    def test_a_key_of_another_law(self):
+        self.assert_one("law.drucker-prager.friction=0.5", 'given, but law.name is "yuu-umekage"',
+                        'allowed: law.name = "drucker-prager"')
+        self.assert_one("law.linear-elastic.lambda=1 MPa", 'but law.name is "drucker-prager"',
+                        others=["law.name=drucker-prager"])
+
+    def test_a_key_of_the_chosen_law(self):
+        said = self.talus("check", "case.toml", "--set", "law.name=drucker-prager", "--set",
+                          "law.drucker-prager.friction=0.5").stdout
+        self.assertIn("law.drucker-prager.friction", said)
+        self.assertNotIn("law.yuu-umekage.", said)
+
+    def test_a_key_of_an_option_that_is_not_taken(self):
+        for setting, but, *others in (
+                ("air.pressure=10 Pa", "air.enabled is false"),
+                ("air.cell=5 mm", "air.enabled is false", "air.enabled=false"),
+                ("air.top_pressure=1 Pa", 'air.top is "wall"', "air.enabled=true", "air.top=wall"),
+                ("air.upwind=0.5", 'air.motion is "frozen"', "air.enabled=true", "air.motion=frozen"),
+                ("gate.time=1 ms", 'gate.opens is "when-settled"'),
+                ("settle.speed=1 mm/s", 'gate.opens is "at-time"', "gate.opens=at-time"),
+                ("walls.coefficient=0.5", 'walls.friction is "none"', "walls.friction=none"),
+                ("integration.courant=0.2", "integration.step is given", "integration.step=1 us"),
+                ("collisions.normal=1", 'collisions.form is "none"', "collisions.form=none"),
+                ("law.yuu-umekage.compaction=1", 'law.yuu-umekage.volume is "density"')):
+            self.assert_one(setting, f"given, but {but}", others=others)
+
+    def test_keys_of_the_cloud_too(self):
+        (self.folder / "case.toml").write_text(CASE)
+        self.assert_one("contact.stiffness=1 N/m", "contact.enabled is false", others=["contact.enabled=false"])
+        self.assert_one("fluid.precision=single", 'fluid.mobility is "none"', others=["fluid.mobility=none"])
+
+    def test_old_names_tell_the_new_ones(self):
+        (self.folder / "case.toml").write_text(HOPPER + '[law]\nscale = 4\nform = "printed"\ncollisions = "none"\n'
+                                               'friction = 0.4\n')
+        problems = self.problems("run", "case.toml")
+        for problem, (line, key, now) in zip(problems, ((16, "scale", "law.yuu-umekage.scale"),
+                                                        (17, "form", 'law.name = "yuu-umekage"'),
+                                                        (18, "collisions", "collisions.form"),
+                                                        (19, "friction", "law.drucker-prager.friction")), strict=True):
+            self.assertTrue(problem.startswith(f"case.toml:{line}: law.{key}: has another name now"), problem)
+            self.assertIn(now, problem)
+        self.assert_nothing_written()
+
+    def test_an_angle_for_a_friction(self):
+        self.assert_one("walls.coefficient=35", "35 looks like an angle in degrees, whose tangent is 0.70")
+        self.assert_one("law.drucker-prager.friction=35", "35 looks like an angle", "0.70",
+                        others=["law.name=drucker-prager"])
+
+    def warnings(self, *settings):
+        """Names of the warnings of a run's summary; `check` and the card have the same before and at the end."""
+        options = [part for s in settings for part in ("--set", s)]
+        checked = self.talus("check", "case.toml", *options).stdout
+        out = f"r{len(list(self.folder.iterdir()))}"
+        said = self.talus("run", "case.toml", "--out", out, *options, "--set", "output.pictures=false", "--set",
+                          "gate.opens=from-the-start").stdout
+        found = json.loads((self.folder / out / "summary.json").read_text())["warnings"]
+        for warning in found:
+            self.assertIn("! " + warning.split(": ", 1)[1], said)
+        names = [warning.split(":")[0] for warning in found]
+        for name in ("grain-diameter", "particles-across-the-outlet", "particle-spacing-over-grain-diameter",
+                     "weight-of-the-bed-over-its-area", "grains-across-the-outlet"):
+            self.assertEqual(name in names, f"! {name.replace('-', ' ')} = " in checked, checked)
+        return names
+
+    def test_what_leaves_the_range_of_the_law_is_warned_of(self):
+        self.assertEqual([n for n in self.warnings() if "grain" in n or "particle" in n or "weight" in n], [])
+        self.assertIn("grain-diameter", self.warnings("grains.diameter=1 mm"))
+        self.assertNotIn("grain-diameter", self.warnings("grains.diameter=1 mm", "law.name=drucker-prager",
+                                                         "law.drucker-prager.friction=0.5"))
+        metre = self.warnings("grains.diameter=1 m")
+        for name in ("grain-diameter", "particle-spacing-over-grain-diameter", "grains-across-the-outlet"):
+            self.assertIn(name, metre)
+        self.assertIn("particles-across-the-outlet", self.warnings("plate.slit_left=40 mm", "plate.slit_right=65 mm"))
+        self.assertIn("weight-of-the-bed-over-its-area", self.warnings("law.yuu-umekage.scale=0.5"))
+
+    def test_warnings_of_a_cloud(self):
+        (self.folder / "case.toml").write_text(CASE)
+        self.assertIn("Reynolds number of a single grain", self.talus("check", "case.toml").stdout.split("Warnings")[1])
+        self.talus("run", "case.toml", "--out", "r")
+        found = json.loads((self.folder / "r/summary.json").read_text())["warnings"]
+        self.assertIn("reynolds-number-of-a-single-grain", [warning.split(":")[0] for warning in found])
 
 
 class ExistingFolder(ProgramTest):

@@ -69,6 +69,7 @@ class LawCommand : public testing::Test {
 
 const char* const elastic = R"([law]
 name = "linear-elastic"
+[law.linear-elastic]
 lambda = "2 MPa"
 shear_modulus = "1 MPa"
 )";
@@ -99,9 +100,10 @@ TEST_F(LawCommand, TableHoldsHookesAnswer) {
 TEST_F(LawCommand, DrawsTheCasesOfTheRepository) {
   const std::filesystem::path cases = std::filesystem::path(TALUS_SOURCE_DIR) / "cases" / "law";
   for (const char* path : {"shear.csv", "uniaxial.csv"})
-    for (const char* setting : {"law.form=isotropic", "law.form=printed", "law.name=drucker-prager"}) {
-      ASSERT_EQ(run({(cases / "yuu2011.toml").string(), "--path", (cases / path).string(), "--out", out(), "--set",
-                     setting, "--overwrite"}),
+    for (const char* name : {"yuu-umekage", "yuu-umekage-printed", "drucker-prager"}) {
+      const std::string law = file("case.toml", "[law]\nname = \"" + std::string(name) + "\"\n");
+      ASSERT_EQ(run({name == std::string("yuu-umekage") ? (cases / "yuu2011.toml").string() : law, "--path",
+                     (cases / path).string(), "--out", out(), "--overwrite"}),
                 ExitStatus::done);
       const Series table = read_series(folder_ / "out" / "path.csv");
       EXPECT_GE(table.rows(), 600u);
@@ -114,20 +116,21 @@ TEST_F(LawCommand, TakesTheLawOutOfAWholeCaseAndNothingElse) {
   const LawCase part =
       read_law_case(CaseFile::from_text("model = \"continuum\"\n[bed]\nheight = \"80 mm\"\n"
                                         "[grains]\ndensity = \"2600 kg/m3\"\nshape = \"round\"\n"
-                                        "[law]\nname = \"drucker-prager\"\nscale = 4\n",
+                                        "[law]\nname = \"drucker-prager\"\n[law.drucker-prager]\nscale = 4\n",
                                         "case.toml"));
-  EXPECT_EQ(part.law.name, granular::LawName::drucker_prager);
-  EXPECT_EQ(part.law.scale, 4);
+  EXPECT_TRUE(part.law.is<granular::DruckerPrager>());
+  EXPECT_EQ(part.law.of<granular::DruckerPrager>().fits.scale, 4);
   EXPECT_EQ(part.grains.density, 2600);
-  EXPECT_THAT(problems({file("case.toml", "model = \"continuum\"\n[law]\nscael = 4\n"), "--path", "none.csv"}),
-              ElementsAre("case.toml:3: law.scael: unknown key; did you mean 'law.scale'?"));
+  EXPECT_THAT(
+      problems({file("case.toml", "model = \"continuum\"\n[law.yuu-umekage]\nscael = 4\n"), "--path", "none.csv"}),
+      ElementsAre("case.toml:3: law.yuu-umekage.scael: unknown key; did you mean 'law.yuu-umekage.scale'?"));
 }
 
 TEST_F(LawCommand, NamesEveryProblemOfTheCase) {
-  const std::string text = "[bed]\nheight = 3\n[law]\nreset = \"strain\"\nname = \"yuu\"\n";
-  EXPECT_THAT(problems({file("case.toml", text), "--path", "none.csv", "--set", "law.scale=-1"}),
-              ElementsAre(HasSubstr("case.toml:1: bed: unknown table"), HasSubstr("case.toml:4: law.reset: "),
-                          HasSubstr("case.toml:5: law.name: "), HasSubstr("--set")));
+  const std::string text = "[bed]\nheight = 3\n[law]\nname = \"yuu\"\n[law.yuu-umekage]\nreset = \"strain\"\n";
+  EXPECT_THAT(problems({file("case.toml", text), "--path", "none.csv", "--set", "law.yuu-umekage.scale=-1"}),
+              ElementsAre(HasSubstr("case.toml:1: bed: unknown table"), HasSubstr("case.toml:4: law.name: "),
+                          HasSubstr("case.toml:6: law.yuu-umekage.reset: "), HasSubstr("--set")));
 }
 
 TEST_F(LawCommand, NamesEveryBadLineOfThePath) {

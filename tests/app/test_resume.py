@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The same bits on any number of threads, and from any interruption on: kills, signals, the stop file, the wall time."""
 import json
+import re
 import resource
 import shutil
 import signal
 import subprocess
 import unittest
 
-from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, checkpoints, rows, scratch_folder, state
+from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, checkpoints, rows, scratch_folder, state, tree
 
 # 700 grains are three chunks of work, one for each of three threads.
 LARGE = ("--set", "particles.count=700", "--set", "particles.size=206 mm", "--set", "run.end=0.2 ms")
@@ -92,12 +93,59 @@ class Hopper(ProgramTest):
         self.talus("run", self.case, "--out", "r", "--threads", 2, "--resume", *self.settings)
         self.assertEqual(bits(self.folder / "r"), bits(self.folder / "1"))
         self.assertEqual(state(self.folder / "r"), state(self.folder / "1"))
+        # A run that was killed behind its last checkpoint writes its last snapshot without a step.
+        tables = tree(self.folder / "1/analysis")
+        self.assertTrue(tables)
+        self.assertEqual(tree(self.folder / "r/analysis"), tables)
+        last = max((self.folder / "r/snapshots").glob("particles_*.vtkhdf"))
+        last.unlink()
+        shutil.rmtree(self.folder / "r/analysis")
+        self.talus("run", self.case, "--out", "r", "--resume", *self.settings)
+        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "1"))
+        self.assertEqual(tree(self.folder / "r/analysis"), tables)
+        self.assertEqual(self.slow_flow("r"), self.slow_flow("1"))
+
+    def slow_flow(self, folder):
+        """What the card said at each end of the run."""
+        return set(re.findall("share of slow flow = (\\S+):", (self.folder / folder / "log.txt").read_text()))
 
 
 class HopperInAir(Hopper):
     """The same with air in cells of 5 mm."""
     settings = (*Hopper.settings, "--set", "box.depth=5 mm", "--set", "air.cell=5 mm")
     case = PROJECT / "cases/yuu2011-section-air.toml"
+
+
+class Extended(ProgramTest):
+    """A run that is done and goes on to a later end: the commonest resume."""
+
+    def snapshots(self, folder):
+        return json.loads((self.folder / folder / "snapshots/particles.hdf.series").read_text())["files"]
+
+    def test_with_snapshots_left_to_their_default(self):
+        (self.folder / "case.toml").write_text(CASE.replace('snapshots = "0.1 ms"\n', ""))
+        self.talus("run", "case.toml", "--out", "r", "--set", "run.end=0.5 ms")
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--set", "run.end=1 ms")
+        self.talus("run", "case.toml", "--out", "r", "--resume", "--set", "run.end=1.1 ms")
+        self.talus("run", "case.toml", "--out", "whole", "--set", "run.end=1.1 ms", "--set",
+                   "output.snapshots=0.025 ms")
+        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "whole"))
+        self.assertEqual(tree(self.folder / "r/analysis"), tree(self.folder / "whole/analysis"))
+        self.assertEqual(len(self.snapshots("r")), 45)
+        # Another interval is another run, and so is an earlier end.
+        said = self.talus("run", "case.toml", "--out", "r", "--resume", "--set", "run.end=2 ms", "--set",
+                          "output.snapshots=0.1 ms", status=2).stderr
+        self.assertIn("output.snapshots", said)
+        self.talus("run", "case.toml", "--out", "r", "--resume", status=2)
+
+    def test_of_an_ensemble(self):
+        (self.folder / "case.toml").write_text(CASE.replace('snapshots = "0.1 ms"\n', ""))
+        command = ("ensemble", "case.toml", "--out", "e", "--members", 2, "--jobs", 1)
+        self.talus(*command, "--set", "run.end=0.1 ms")
+        self.talus(*command, "--resume", "--set", "run.end=0.2 ms")
+        self.assertEqual(len(self.snapshots("e/all/seed_0004")), 41)
+        said = self.talus(*command, "--resume", "--set", "run.end=0.2 ms").stdout
+        self.assertIn("2 of 2 runs done", said)
 
 
 class Interrupted(Resumed):

@@ -10,6 +10,15 @@ from program import PROJECT, ProgramTest
 ROWS = "x [mm],y [mm],radius [mm]\n" + "".join(f"{9 * i},{9 * j},5\n" for i in range(5) for j in range(3)) + "240,0,5\n"
 
 
+def keys_of(table, prefix=""):
+    """The dotted keys of a case."""
+    for name, value in table.items():
+        if isinstance(value, dict):
+            yield from keys_of(value, f"{prefix}{name}.")
+        else:
+            yield prefix + name
+
+
 class Schema(ProgramTest):
     def properties(self, model="cloud"):
         """Keys with their tables' names, and their schemas."""
@@ -24,9 +33,7 @@ class Schema(ProgramTest):
     def test_lists_the_keys_that_a_resolved_case_has(self):
         self.talus("run", "case.toml", "--out", "r")
         resolved = tomllib.loads(json.loads((self.folder / "r/manifest.json").read_text())["case"])
-        keys = {f"{table}.{key}" if table else key for table, entries in
-                [("", {k: v for k, v in resolved.items() if not isinstance(v, dict)})]
-                + [(k, v) for k, v in resolved.items() if isinstance(v, dict)] for key in entries}
+        keys = set(keys_of(resolved))
         properties = self.properties()
         optional = {"particles.length", "particles.width", "gravity.direction"}
         self.assertEqual(keys | optional, set(properties))
@@ -42,9 +49,8 @@ class Schema(ProgramTest):
         for path in cases:
             case = tomllib.loads(path.read_text())
             properties = self.properties(case["model"])
-            for table, entries in case.items():
-                for key in entries if isinstance(entries, dict) else [None]:
-                    self.assertIn(f"{table}.{key}" if key else table, properties, path.name)
+            for key in keys_of(case):
+                self.assertIn(key, properties, path.name)
 
     def test_cases_of_the_project_are_valid(self):
         for path in sorted((PROJECT / "cases").glob("*.toml")):
@@ -55,7 +61,7 @@ class Schema(ProgramTest):
         self.assertRegex(self.talus("check", "case.toml").stdout, r"particles\.length +- ")
 
     def test_reference_pages_are_those_of_this_program(self):
-        for model in ("cloud", "continuum"):
+        for model in ("cloud", "continuum", "air"):
             page = PROJECT / f"docs/case-reference-{model}.md"
             self.assertEqual(page.read_text(), self.talus("schema", model, "--markdown").stdout,
                              f"{page} is stale: build/talus schema {model} --markdown > {page.relative_to(PROJECT)}")

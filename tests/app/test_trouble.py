@@ -12,7 +12,6 @@ from program import CASE, PROJECT, ProgramTest, bits, checkpoints, rows, state, 
 # Snapshots of 15 kB after every step, 160 of them.
 FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", "--set",
            "integration.largest_step=0.005")
-POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
 class Disk(ProgramTest):
@@ -59,7 +58,7 @@ class Disk(ProgramTest):
         (disk / "filler").write_bytes(b"x" * (os.statvfs(disk).f_bavail * os.statvfs(disk).f_frsize))
         before = tree(disk / "r")
         said = self.talus("run", "case.toml", "--out", "disk/s", status=4).stderr
-        self.assertIn("disk/s/manifest.json: cannot write: No space left on device", said)
+        self.assertIn("disk/s/files.txt: cannot write: No space left on device", said)
         self.assertEqual(tree(disk / "r"), before)
         self.assertEqual(tree(disk / "s"), {})
 
@@ -136,20 +135,10 @@ class Numbers(ProgramTest):
         self.assertIn("smaller contact.stiffness", found["advice"])
         self.assertEqual(int(found["step"]), 0)
 
-    def test_two_grains_at_one_place(self):
-        (self.folder / "case.toml").write_text(POINTS)
-        (self.folder / "points.csv").write_text("x [m],y [m]\n0.1,0\n0.3,0.25\n0.3,0.25\n")
-        found = self.blow_up()
-        self.assertEqual(found["what"], "the velocity is not finite")
-        self.assertEqual(found["place"], "grain 1 at (0.3, 0.25, 0) m")
-        self.assertIn("no two grains at one place", found["advice"])
-
-    def test_grains_within_each_other(self):
-        (self.folder / "case.toml").write_text(POINTS)
-        (self.folder / "points.csv").write_text("x [m],y [m]\n0.1,0\n0.3,0.25\n0.300000001,0.25\n")
-        found = self.blow_up()
-        self.assertRegex(found["what"], r"the largest overlap is (2|1\.\d+) radii")
-        self.assertRegex(found["place"], r"^grain [12] at ")
+    def test_step_too_long_is_told_as_such(self):
+        said = self.talus("run", PROJECT / "cases/slot.toml", "--out", "r", "--set", "bed.height=20 mm", "--set",
+                          "integration.step=100 us", status=3).stderr.splitlines()[-1]
+        self.assertRegex(said, r"; try: a smaller integration\.step, ")
 
     def test_shape_that_random_packing_cannot_fill(self):
         # A strip of one and a half diameters, filled to 0.52: two rows, which are not met with by chance.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
 
 namespace talus {
 namespace {
@@ -32,6 +33,12 @@ TEST(Nearest, FindsTheSlipAndNothingFarOff) {
   EXPECT_EQ(nearest("bal", shapes), "ball");
   constexpr auto equals = std::to_array<std::string_view>({"xy", "xz"});
   EXPECT_EQ(nearest("xx", equals), "xy");  // of equals the first
+}
+
+// The edit distance of long words costs the product of their lengths: over a hundred keys, minutes.
+TEST(Slips, OfAVeryLongWordAreNotCounted) {
+  const std::string word(30'000'000, 'a');
+  for (int n = 0; n < 100; ++n) EXPECT_FALSE(slips(word, "particles.radius"));
 }
 
 }  // namespace

@@ -48,6 +48,14 @@ TEST(ParseQuantity, RoundsOnceFromWhatWasWritten) {
   EXPECT_EQ(value_of("1 N/deg"), 57.295779513082320876798);
 }
 
+// Each overflowed an int: undefined behaviour.
+TEST(ParseQuantity, RefusesPowersOfAnyLength) {
+  for (const char* text : {"1 m2147483648", "1 m^99999999999999999999", "1 s^-99999999999", "1 (m s)99999999999"})
+    EXPECT_EQ(why_not(text), "has a power that is no digit from 1 to 9") << text;
+  EXPECT_EQ(why_not("1 m^00000000000000000002"), "has a power that is no digit from 1 to 9");
+  EXPECT_EQ(why_not("1 ((((m9)9)9)9)9"), "has a power above 9");
+}
+
 // The product in double-double, which carries twice the digits of a double, must round to the same number.
 TEST(ParseQuantity, DegreesAreCorrectlyRounded) {
   struct Factor {

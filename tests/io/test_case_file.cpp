@@ -192,5 +192,33 @@ TEST(Keys, TableAndLastPart) {
   EXPECT_EQ(last_part("a"), "a");
 }
 
+// Each took the parser's stack, or memory for the square of the number of parts.
+TEST(CaseFile, RefusesKeysOfThousandsOfParts) {
+  std::string deep = "a";
+  for (int n = 0; n < 100000; ++n) deep += ".a";
+  for (const std::string& text : {deep + " = 1", "[" + deep + "]", "x = {" + deep + " = 1}"}) {
+    try {
+      CaseFile::from_text("y = 1\n" + text, "case.toml");
+      ADD_FAILURE() << "taken";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems().front().what, "a key has more than 64 parts");
+      EXPECT_EQ(error.problems().front().line, 2);
+    }
+  }
+  CaseFile file =
+      CaseFile::from_text("title = \"" + std::string(200, '.') + "\" # " + std::string(200, '.'), "case.toml");
+  file.set(deep + "=1");
+  file.set("x={" + deep + "=1}");
+  EXPECT_EQ(file.problems().size(), 1u);
+  EXPECT_EQ(file.entries().size(), 2u);  // what is no TOML value is text
+}
+
+TEST(CaseFile, CountsManyTablesInAMoment) {
+  std::string text;
+  for (int n = 0; n < 30000; ++n) text += "[[plates]]\nfrom = 1\n";
+  EXPECT_EQ(CaseFile::from_text(text, "case.toml").tables("plates"), 30000u);
+  EXPECT_EQ(CaseFile::from_text("[plates.1]\n[plates.3]\n[plates.02]\n[plates.x]", "c").tables("plates"), 1u);
+}
+
 }  // namespace
 }  // namespace talus

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/manifest.hpp"
 #include "io/scratch_folder.hpp"
 
@@ -23,12 +24,17 @@ void run_in(const std::filesystem::path& path) {
   const RunFolder folder = RunFolder::create(path, Existing::refuse);
   write_manifest(folder.manifest(), {});
   for (const char* name : {"series.csv", "checkpoint_a.h5", "checkpoint_b.h5", "summary.json", "report.html", "log.txt",
-                           "stop", "series.csv.part"})
-    put_content(path / name, name);
-  for (const int number : {0, 9, 10}) put_content(folder.snapshot(number), "");
-  put_content(folder.snapshot(10000, "air"), "");
-  put_content(folder.snapshot(11).string() + ".part", "");
-  put_content(folder.snapshot_index(), "");
+                           "pictures/frames.png", "analysis/snapshots.csv"}) {
+    make_folder((path / name).parent_path());
+    write_atomically(path / name, name);
+  }
+  for (const int number : {0, 9, 10, 11}) write_atomically(folder.snapshot(number), "");
+  std::filesystem::remove(folder.snapshot(11));
+  write_atomically(folder.snapshot(10000, "air"), "");
+  write_atomically(folder.snapshot_index(), "");
+  for (const auto& left_by_a_kill : {folder.snapshot(11), folder.summary()})
+    put_content(left_by_a_kill.string() + ".part", "");
+  put_content(folder.stop(), "");
 }
 
 TEST(RunFolder, IsMadeWithItsParents) {
@@ -36,7 +42,7 @@ TEST(RunFolder, IsMadeWithItsParents) {
   for (const Existing existing : {Existing::refuse, Existing::overwrite}) {
     const auto path = scratch / (existing == Existing::refuse ? "a/b" : "c/d");
     EXPECT_EQ(RunFolder::create(path, existing).path(), path);
-    EXPECT_THAT(names_in(path), ElementsAre("snapshots"));
+    EXPECT_THAT(names_in(path), ElementsAre("files.txt", "snapshots"));
   }
 }
 
@@ -50,7 +56,7 @@ TEST(RunFolder, IsAsGoodAsNewUntilItsManifestIsInPlace) {
     EXPECT_EQ(RunFolder::create(scratch / "killed", existing).path(), scratch / "killed");
   }
   put_content(scratch / "killed/snapshots/mine", "");
-  EXPECT_THAT(refusal(scratch / "killed", Existing::overwrite), HasSubstr("holds 'snapshots', but no run of Talus"));
+  EXPECT_THAT(refusal(scratch / "killed", Existing::resume), HasSubstr("holds no run to resume"));
 }
 
 TEST(RunFolder, NamesSnapshotsSoThatTheyAreASeries) {
@@ -66,11 +72,21 @@ TEST(RunFolder, FindsTheLatestSnapshotByNumber) {
   run_in(scratch / "run");
   const RunFolder folder(scratch / "run");
   for (const char* name : {"particles_99.vtkhdf.part", "particles_x9.vtkhdf", "particles_.vtkhdf", "particles_88.h5",
-                           "particles_-5.vtkhdf", "my_particles_0077.vtkhdf"})
+                           "particles_-5.vtkhdf", "my_particles_0077.vtkhdf", "particles_0050.vtkhdf"})
     put_content(folder.snapshots() / name, "");
   EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0, 9, 10));
   EXPECT_EQ(folder.latest_snapshot(), 10);
   EXPECT_EQ(folder.latest_snapshot("air"), 10000);
+  // What the user put there is no snapshot of the run, and stays.
+  EXPECT_TRUE(folder.remove_snapshots(9));
+  EXPECT_FALSE(folder.remove_snapshots(9));
+  EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0));
+  EXPECT_EQ(folder.latest_snapshot("air"), 10000);
+  EXPECT_TRUE(std::filesystem::exists(folder.snapshot(50)));
+  // Without a list the names decide, and nothing is removed.
+  std::filesystem::remove(scratch / "run/files.txt");
+  EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0, 50));
+  EXPECT_FALSE(folder.remove_snapshots(0));
 }
 
 TEST(RunFolder, RefusesAFolderInUseUnlessTold) {
@@ -105,27 +121,99 @@ TEST(RunFolder, OverwritingRemovesTheRunsFilesAndNoOthers) {
   const ScratchFolder scratch;
   run_in(scratch / "run");
   std::filesystem::create_directories(scratch / "run/snapshots/pictures");
-  for (const char* name : {"run/notes.txt", "run/series.csv.bak", "run/snapshots/particles_0001.vtu",
-                           "run/snapshots/pictures/particles_0001.vtkhdf", "run/snapshots/particles_0001.vtkhdf.txt",
-                           "run/snapshots/mine.hdf.series"})
-    put_content(scratch / name, name);
+  const std::vector<std::string> mine{"notes.txt",
+                                      "series.csv.bak",
+                                      "pictures/photo.png",
+                                      "analysis/mine.csv",
+                                      "snapshots/particles_0001.vtu",
+                                      "snapshots/particles_0005.vtkhdf",
+                                      "snapshots/pictures/particles_0001.vtkhdf",
+                                      "snapshots/mine.hdf.series"};
+  for (const std::string& name : mine) put_content(scratch / "run" / name, name);
   RunFolder::create(scratch / "run", Existing::overwrite);
-  EXPECT_THAT(names_in(scratch / "run"), ElementsAre("notes.txt", "series.csv.bak", "snapshots"));
+  EXPECT_THAT(names_in(scratch / "run"),
+              ElementsAre("analysis", "files.txt", "notes.txt", "pictures", "series.csv.bak", "snapshots"));
+  EXPECT_THAT(names_in(scratch / "run/analysis"), ElementsAre("mine.csv"));
+  EXPECT_THAT(names_in(scratch / "run/pictures"), ElementsAre("photo.png"));
   EXPECT_THAT(names_in(scratch / "run/snapshots"),
-              ElementsAre("mine.hdf.series", "particles_0001.vtkhdf.txt", "particles_0001.vtu", "pictures"));
-  EXPECT_THAT(names_in(scratch / "run/snapshots/pictures"), ElementsAre("particles_0001.vtkhdf"));
-  EXPECT_EQ(content_of(scratch / "run/notes.txt"), "run/notes.txt");
+              ElementsAre("mine.hdf.series", "particles_0001.vtu", "particles_0005.vtkhdf", "pictures"));
+  for (const std::string& name : mine) EXPECT_EQ(content_of(scratch / "run" / name), name);
 }
 
 TEST(RunFolder, OverwritesNothingThatIsNotFromTalus) {
   const ScratchFolder scratch;
+  const auto refused = [&](const std::string& why) {
+    EXPECT_THAT(refusal(scratch.path(), Existing::overwrite), HasSubstr(why));
+  };
+  std::filesystem::create_directory(scratch / "pictures");
+  put_content(scratch / "pictures/holiday.png", "precious");
+  refused("holds no run of Talus (no manifest.json); nothing is overwritten");
   put_content(scratch / "log.txt", "precious");
-  EXPECT_THAT(refusal(scratch.path(), Existing::overwrite), HasSubstr("holds 'log.txt', but no run of Talus"));
+  put_content(scratch / "files.txt", "bread, milk");
   put_content(scratch / "manifest.json", R"({"name": "a web page"})");
-  EXPECT_THAT(refusal(scratch.path(), Existing::overwrite), HasSubstr("but no run of Talus"));
-  EXPECT_THAT(refusal(scratch.path(), Existing::resume), HasSubstr("holds no run to resume"));
-  EXPECT_THAT(names_in(scratch.path()), ElementsAre("log.txt", "manifest.json"));
+  refused("holds no run of Talus (");
+  EXPECT_THAT(refusal(scratch.path(), Existing::resume), HasSubstr("holds no run to resume: "));
+  EXPECT_THAT(names_in(scratch.path()), ElementsAre("files.txt", "log.txt", "manifest.json", "pictures"));
+  // A run of a version that kept no list: nobody knows what is whose.
+  write_manifest(scratch / "manifest.json", {});
+  refused("has no files.txt that says what Talus wrote there; nothing is overwritten");
   EXPECT_EQ(content_of(scratch / "log.txt"), "precious");
+  EXPECT_EQ(content_of(scratch / "pictures/holiday.png"), "precious");
+  EXPECT_EQ(content_of(scratch / "files.txt"), "bread, milk");
+}
+
+TEST(RunFolder, OverwritesNoFileOfTheseNamesThatTheUserPutThere) {
+  const ScratchFolder scratch;
+  {
+    const RunFolder folder = RunFolder::create(scratch / "run", Existing::refuse);
+    write_manifest(folder.manifest(), {});
+  }
+  put_content(scratch / "run/log.txt", "precious");
+  EXPECT_THAT(refusal(scratch / "run", Existing::overwrite),
+              HasSubstr("holds 'log.txt', and files.txt does not say that Talus wrote it"));
+  EXPECT_THAT(names_in(scratch / "run"), ElementsAre("files.txt", "log.txt", "manifest.json", "snapshots"));
+}
+
+TEST(RunFolder, FollowsNoLinkWithin) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directory(scratch / "elsewhere");
+  for (const char* name : {"snapshots", "analysis", "pictures", "series.csv", "log.txt", "summary.json.part",
+                           "checkpoint_a.h5", "manifest.json.part"}) {
+    const auto run = scratch / ("run of " + std::string(name));
+    run_in(run);
+    std::filesystem::remove_all(run / name);
+    std::filesystem::create_symlink(scratch / "elsewhere", run / name);
+    const auto before = names_in(run);
+    for (const Existing existing : {Existing::resume, Existing::overwrite})
+      EXPECT_THAT(refusal(run, existing), HasSubstr(std::string(name) + ": is a symbolic link; ")) << name;
+    EXPECT_EQ(names_in(run), before);
+  }
+  EXPECT_THAT(names_in(scratch / "elsewhere"), ElementsAre());
+  // The folder itself may be somewhere else.
+  std::filesystem::create_symlink(scratch / "elsewhere", scratch / "results");
+  RunFolder::create(scratch / "results", Existing::refuse);
+  EXPECT_THAT(names_in(scratch / "elsewhere"), ElementsAre("files.txt", "snapshots"));
+}
+
+TEST(RunFolder, ATornManifestIsToldAndNothingChanged) {
+  const ScratchFolder scratch;
+  run_in(scratch / "run");
+  const std::string whole = content_of(scratch / "run/manifest.json");
+  put_content(scratch / "run/manifest.json", whole.substr(0, whole.size() / 2));
+  const auto before = names_in(scratch / "run");
+  EXPECT_THAT(refusal(scratch / "run", Existing::resume), HasSubstr("holds no run to resume: "));
+  EXPECT_THAT(refusal(scratch / "run", Existing::resume), HasSubstr("manifest.json: is not a manifest of Talus"));
+  EXPECT_THAT(refusal(scratch / "run", Existing::refuse), HasSubstr("is not empty"));
+  EXPECT_EQ(names_in(scratch / "run"), before);
+}
+
+TEST(RunFolder, ARemovalThatWasCutShortIsRepeated) {
+  const ScratchFolder scratch;
+  run_in(scratch / "run");
+  put_content(scratch / "run/mine", "mine");
+  for (const char* name : {"series.csv", "manifest.json"}) std::filesystem::remove(scratch / "run" / name);
+  RunFolder::create(scratch / "run", Existing::overwrite);
+  EXPECT_THAT(names_in(scratch / "run"), ElementsAre("analysis", "files.txt", "mine", "pictures", "snapshots"));
 }
 
 TEST(RunFolder, IsLockedWhileARunWritesIntoIt) {
@@ -135,7 +223,7 @@ TEST(RunFolder, IsLockedWhileARunWritesIntoIt) {
     write_manifest(first.manifest(), {});
     for (const Existing existing : {Existing::refuse, Existing::resume, Existing::overwrite})
       EXPECT_THAT(refusal(scratch / "run", existing), HasSubstr("run: another run is writing into this folder"));
-    EXPECT_THAT(names_in(scratch / "run"), ElementsAre("manifest.json", "snapshots"));
+    EXPECT_THAT(names_in(scratch / "run"), ElementsAre("files.txt", "manifest.json", "snapshots"));
   }
   RunFolder::create(scratch / "run", Existing::resume);
 }

@@ -25,9 +25,11 @@ TEST(Summary, StandsInTheDocumentedForm) {
   write_summary(folder / "summary.json", {.status = "done",
                                           .wall_seconds = 1.5,
                                           .instruction_set = "avx2",
-                                          .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}}});
+                                          .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}},
+                                          .warnings = {"mach-number: Mach number = 0.4: too fast"}});
   EXPECT_EQ(nlohmann::json::parse(content_of(folder / "summary.json")), nlohmann::json::parse(R"({
-    "status": "done", "wall_seconds": 1.5, "instruction_set": "avx2", "quantities": {
+    "status": "done", "wall_seconds": 1.5, "instruction_set": "avx2",
+    "warnings": ["mach-number: Mach number = 0.4: too fast"], "quantities": {
       "front_speed_max": {"value": 0.1, "unit": "1"},
       "angle": {"value": null, "unit": "deg", "reason": "not a number"}}})"));
 }
@@ -36,7 +38,7 @@ TEST(Summary, ReadsBackEveryValueInOrder) {
   const ScratchFolder folder;
   const std::vector<double> values{1.0 / 3, -0.0, 0x1.0p-1074, 1.7976931348623157e308, infinity, -infinity, NAN, 1e22};
   Summary written{
-      .status = "stopped: \"walltime\"", .wall_seconds = 0.1, .instruction_set = "avx512", .quantities = {}};
+      .status = "stopped: \"walltime\"", .wall_seconds = 0.1, .instruction_set = "avx512", .warnings = {"a: b", "c"}};
   for (std::size_t i = 0; i < values.size(); ++i)
     written.quantities.push_back({fmt::format("z{}", 10 - i), "m/s", values[i]});
   write_summary(folder / "summary.json", written);
@@ -44,6 +46,7 @@ TEST(Summary, ReadsBackEveryValueInOrder) {
   EXPECT_EQ(read.status, written.status);
   EXPECT_EQ(read.wall_seconds, 0.1);
   EXPECT_EQ(read.instruction_set, "avx512");
+  EXPECT_EQ(read.warnings, written.warnings);
   ASSERT_EQ(read.quantities.size(), values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     EXPECT_EQ(read.quantities[i].name, written.quantities[i].name);

@@ -117,6 +117,24 @@ class Files(unittest.TestCase):
                 self.assertEqual(root.attrs["time"], 0.25 * frame)
                 np.testing.assert_array_equal(root["PointData/pressure"][()].ravel(), 10.0 + cells)
 
+    def test_vtk_and_h5py_see_the_cells_of_a_section(self):
+        cells = np.arange(24)
+        file = self.files[0].parent / "section_0001.vtkhdf"
+        grid = self.read_with_vtk(file)
+        self.assertEqual(grid.GetDimensions(), (6, 2, 4))  # front and rear of the only layer
+        self.assertEqual(grid.GetOrigin(), (1.25, 2.0, 3.0625))
+        self.assertEqual(grid.GetSpacing(), (0.5, 0.25, 0.125))
+        self.assertEqual(grid.GetNumberOfCells(), 5 * 1 * 3)
+        data = grid.GetPointData()
+        pressure = vtk_to_numpy(data.GetArray("pressure")).reshape(4, 2, 6)
+        velocity = vtk_to_numpy(data.GetArray("velocity")).reshape(4, 2, 6, 3)
+        for face in (0, 1):
+            np.testing.assert_array_equal(pressure[:, face].ravel(), 10.0 + cells)
+            np.testing.assert_array_equal(velocity[:, face].reshape(24, 3),
+                                          np.stack([cells, -2.0 * cells, np.ones(24)], axis=1))
+        with h5py.File(file, "r") as opened:
+            np.testing.assert_array_equal(opened["VTKHDF"].attrs["cells"], [6, 1, 4])
+
     def test_h5py_sees_checkpoints(self):
         for frame, letter in enumerate("ab"):
             with h5py.File(self.files[0].parent / f"checkpoint_{letter}.h5", "r") as opened:

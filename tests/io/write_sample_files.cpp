@@ -35,6 +35,9 @@ int main(int, char** arguments) {
     for (int c = 0; c < 24; ++c) wind.push_back({1.0 * c, -2.0 * c, 1.0 * frame}), pressure.push_back(10.0 + c);
     grid.columns = {{"velocity", "m/s", wind}, {"pressure", "Pa", pressure}};
     talus::write_grid(std::string(arguments[1]) + "/air_000" + std::to_string(frame) + ".vtkhdf", grid);
+    // The same cells as a section: six long, one deep, four high.
+    grid.count = {6, 1, 4};
+    talus::write_grid(std::string(arguments[1]) + "/section_000" + std::to_string(frame) + ".vtkhdf", grid);
     talus::CheckpointWriter checkpoint("f00d");
     checkpoint(talus::Field{"position", "m"}, position);
     checkpoint(talus::Field{"step", "1"}, points.step);

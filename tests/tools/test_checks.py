@@ -102,13 +102,24 @@ class Documents(Tree):
         )
 
     def test_functions_and_tests_of_the_equations_are_looked_up(self):
-        self.write("src/base/law.hpp", "double law(double x);\n")
+        self.write("src/base/law.hpp", "double law(double x);\ndouble twice(double x) { return 2 * law(x); }\n")
         self.write("tests/base/test_law.cpp", "TEST(Law, Holds) {}\n")
         self.write("EQUATIONS.md", "| 1 | `law()` | `Law.Holds` |\n| 2 | `lore()` | `Law.Breaks` |\n")
         problems = list(check_documents.check_equations(self.root))
         self.assertEqual(len(problems), 2)
         self.assertIn("lore()", problems[0])
         self.assertIn("Law.Breaks", problems[1])
+
+
+    def test_a_function_of_the_equations_that_nothing_calls_is_found(self):
+        self.write("EQUATIONS.md", "| 1 | `law()` | |\n")
+        self.write("src/base/law.hpp", "/// law() is fast.\nconstexpr double law(double x) {\n  return x;  // as law(x)\n}\n")
+        self.write("src/base/law.cpp", "double& Class::law(int i) {}\nstd::vector<int> law(std::string s);\n")
+        problem = ["EQUATIONS.md:1: nothing in src/ calls law()"]
+        self.assertEqual(list(check_documents.check_equations(self.root)), problem)
+        for use in ("y = law(x);", "f(x,\n  law(x));", "return sph::law(x);", "a * law(x);", "  law(x);", "each(team, law);"):
+            self.write("src/base/user.cpp", f"void user() {{\n  {use}\n}}\n")
+            self.assertEqual(list(check_documents.check_equations(self.root)), [], use)
 
 
 class Packages(unittest.TestCase):

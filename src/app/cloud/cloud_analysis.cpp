@@ -7,6 +7,7 @@
 
 #include "app/run_tables.hpp"
 #include "base/error.hpp"
+#include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -72,7 +73,7 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
 std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame) {
   const AvalancheRun run = read_avalanche(run_folder, frame);
   const std::filesystem::path folder = run_folder / "analysis";
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   if (run.view != AvalancheView::unseen) write_snapshots(folder / "snapshots.csv", run, avalanche_measures(), "a/v_s");
   if (frame.has_slope)
     write_table(folder / "front_speed.csv", {{"time", "a/v_s"}, {"front_speed", "v_s"}}, run.front_speed);

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cloud/cloud_case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "analysis/fronts.hpp"
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/cloud/cloud_pictures.hpp"
+#include "app/stopwatch.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
+#include "models/cloud/forecast.hpp"
 #include "models/cloud/model.hpp"
-#include "models/cloud/stiffness.hpp"
-#include "numerics/chebyshev.hpp"
+#include "models/cloud/stability.hpp"
 
 namespace talus::app {
 
@@ -58,39 +61,43 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const cloud::Scales s = cloud::scales(p);
   const double a = p.particles.radius;
   const double reynolds = p.fluid.density * a * s.stokes_speed / p.fluid.viscosity;
-  return {{"stokes_speed", "m/s", s.stokes_speed}, {"stokes_time", "s", s.stokes_time},
-          {"contact_ratio", "1", s.contact_ratio}, {"volume_fraction", "1", s.volume_fraction},
-          {"reynolds_number", "1", reynolds},      {"stiffness_ratio", "1", cloud::contact_rate(p) * s.stokes_time}};
+  return {{"particles", "1", static_cast<double>(p.particles.count)},
+          {"stokes_speed", "m/s", s.stokes_speed},
+          {"stokes_time", "s", s.stokes_time},
+          {"contact_ratio", "1", s.contact_ratio},
+          {"volume_fraction", "1", s.volume_fraction},
+          {"reynolds_number", "1", reynolds},
+          {"stiffness_ratio", "1", cloud::contact_rate(p) * s.stokes_time}};
 }
 
-Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grains& grains) {
-  const cloud::Scales s = cloud::scales(p);
-  const double step = p.integration.largest_step * s.stokes_time;
-  const double rate = cloud::contact_rate(p);
-  const bool euler = p.integration.method == cloud::Method::euler;
-  const double n = static_cast<double>(grains.radius.size());
-  Forecast f;
-  f.steps = std::ceil(run.end / (euler && rate > 0 ? std::min(step, 1.9 / rate) : step));
-  // A step ends with an evaluation, and every fifth measures the stiffest rate with one or two.
-  f.evaluations = f.steps * ((euler ? 1 : stages_for(step * rate, 0.1)) + 0.3);
+Forecast forecast(const Parameters& p, const run::RunParameters& run) {
+  const auto n = static_cast<double>(p.particles.count);
+  const cloud::Forecast f = cloud::forecast(p, run.end, n);
+  const double snapshots = run.end / run.snapshots + 1;
+  return {.phases = {{"run", f.steps, f.evaluations}},
+          .memory_bytes = cloud::memory_of(n),
+          .disk_bytes = snapshots * (104 * n + 20e3) + 2 * (88 * n + 20e3) + f.steps * 200 + 1e6};
+}
 
-  ThreadTeam team(1);
+/// Of all velocities. The pairs are the work, unless there are none to be summed.
+double measure_evaluation(const Parameters& p, ThreadTeam& team) {
+  const auto count = static_cast<double>(p.particles.count);
+  const double measured = std::min(count, 3000.0);
+  const Grains grains = cloud::sample(p, static_cast<std::size_t>(measured));
   cloud::Velocities velocities(p, grains.radius);
   std::vector<Vector3> velocity(grains.radius.size());
-  velocities(team, grains.position, velocity);
-  const auto start = std::chrono::steady_clock::now();
-  int evaluations = 0;
-  double elapsed = 0;
-  do {
-    velocities(team, grains.position, velocity);
-    ++evaluations;
-    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  } while (elapsed < 0.1);
-  f.seconds_per_evaluation = elapsed / evaluations;
-  f.memory_bytes = 20e6 + 1500 * n;  // libraries; columns, packed copies and accumulators of a grain
-  const double snapshots = run.end / run.snapshots + 1;
-  f.disk_bytes = snapshots * (104 * n + 20e3) + 2 * (88 * n + 20e3) + f.steps * 200 + 1e6;
-  return f;
+  const double seconds = seconds_of(0.1, [&] { velocities(team, grains.position, velocity); });
+  const int power = p.fluid.mobility == hydrodynamics::Mobility::none ? 1 : 2;
+  return seconds * std::pow(count / measured, power);
+}
+
+Problem too_large(const Parameters& p, double available) {
+  const double each = cloud::memory_of(1) - cloud::memory_of(0);
+  const double most = std::max(1.0, (available - cloud::memory_of(0)) / each);
+  const bool file = p.particles.shape == cloud::Shape::file;
+  return {.key = file ? "particles.file" : "particles.count",
+          .what = fmt::format("{} grains", p.particles.count),
+          .allowed = fmt::format("at most {:.3g} grains", most)};
 }
 
 CloudFrame frame_of(const Parameters& p) {
@@ -129,6 +136,10 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   reader.check(cloud::check(p));
   reader.finish();
   if (run.snapshots == 0) run.snapshots = run.end / 20;
+  if (auto problem = cloud::check_steps(p, run.end)) {
+    reader.check({std::move(*problem)});
+    reader.raise();
+  }
 
   std::optional<Grains> given;
   if (p.particles.shape == cloud::Shape::file) {
@@ -150,11 +161,15 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   cloud::for_each_parameter(prepared.parameters, p);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
+  prepared.regime = cloud::regime_of_case(p);
   auto grains = [p, given] { return given ? *given : cloud::pack(p); };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
-  prepared.forecast = [p, run, grains] { return forecast(p, run, grains()); };
+  prepared.forecast = forecast(p, run);
+  prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
+  prepared.too_large = [p](double available) { return too_large(p, available); };
+  prepared.headline = {.column = "front_x", .name = p.slope.enabled ? "front" : "foremost grain", .is_rate = true};
   const CloudFrame frame = frame_of(p);
   prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
   prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {

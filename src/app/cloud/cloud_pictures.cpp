@@ -15,6 +15,7 @@
 #include "analysis/statistics.hpp"
 #include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
+#include "io/file_list.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
 
@@ -168,7 +169,7 @@ std::vector<std::pair<std::string, Figure>> fall_figures(Frames& frames, const C
 std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame,
                                               const std::string& title) {
   const std::filesystem::path pictures = run_folder / "pictures";
-  std::filesystem::create_directories(pictures);
+  make_folder(pictures);
   std::vector<std::filesystem::path> drawn;
 
   const std::vector<std::filesystem::path> snapshots = snapshot_paths(run_folder);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/terminal.hpp"
 #include "io/figure/figure.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
@@ -19,7 +20,7 @@ void print_different_keys(const Manifest& a, const Manifest& b) {
   for (const auto& [key, value] : second) first.try_emplace(key);
   for (const auto& [key, value] : first)
     if (value != second[key])
-      fmt::print("  {}: {}   |   {}\n", key, value.empty() ? "-" : value, second[key].empty() ? "-" : second[key]);
+      say("  {}: {}   |   {}\n", key, value.empty() ? "-" : value, second[key].empty() ? "-" : second[key]);
 }
 
 /// The last part of a path, also of one that ends in '/'.
@@ -32,15 +33,15 @@ std::string name_of(const std::filesystem::path& path) {
 ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::path& b,
                         const std::filesystem::path& picture) {
   const RunFolder first(a), second(b);
-  fmt::print("Keys that differ:\n");
+  say("Keys that differ:\n");
   print_different_keys(read_manifest(first.manifest()), read_manifest(second.manifest()));
 
   const Summary one = read_summary(first.summary()), two = read_summary(second.summary());
-  fmt::print("{:32} {:>14} {:>14} {:>12}\n", "quantity", name_of(a), name_of(b), "difference");
+  say("{:32} {:>14} {:>14} {:>12}\n", "quantity", name_of(a), name_of(b), "difference");
   for (const NamedValue& value : one.quantities)
     if (const NamedValue* other = two.find(value.name))
-      fmt::print("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value,
-                 other->value - value.value, value.unit == "1" ? "" : value.unit);
+      say("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value, other->value - value.value,
+          value.unit == "1" ? "" : value.unit);
 
   const Series s = read_series(first.series()), t = read_series(second.series());
   figure::Figure figure{.title = name_of(a) + " and " + name_of(b)};
@@ -58,7 +59,7 @@ ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::p
   }
   if (!figure.panels.empty()) {
     figure::write_png(figure, picture);
-    fmt::print("Picture: {}\n", picture.string());
+    say("Picture: {}\n", picture.string());
   }
   return ExitStatus::done;
 }

@@ -7,6 +7,7 @@
 
 #include "analysis/discharge.hpp"
 #include "app/run_tables.hpp"
+#include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -132,7 +133,7 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
 std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting) {
   const HopperRun run = read_hopper(run_folder, setting);
   const std::filesystem::path folder = run_folder / "analysis";
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   write_snapshots(folder / "snapshots.csv", run, hopper_measures(), "s");
   if (setting.shape.plate)
     write_table(folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hopper_observers.hpp"
+#include "app/stopwatch.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
-#include "models/continuum/atmosphere.hpp"
+#include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
+#include "models/continuum/regime.hpp"
+#include "models/continuum/renamed_keys.hpp"
 
 namespace talus::app {
 
@@ -22,16 +26,13 @@ namespace {
 using continuum::Continuum;
 using continuum::Parameters;
 
-double bed_mass(const Parameters& p) {
-  return continuum::lattice_of(p).mass * static_cast<double>(continuum::bed_positions(p).size());
-}
-
 std::vector<NamedValue> groups(const Parameters& p) {
   const double density = p.bed.packing * p.grains.density;
   const double sound = continuum::Material(p).sound_speed(density);
+  const double count = continuum::bed_count(p);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
-  std::vector<NamedValue> groups = {{"particles", "1", static_cast<double>(continuum::bed_positions(p).size())},
-                                    {"mass", "kg", bed_mass(p)},
+  std::vector<NamedValue> groups = {{"particles", "1", count},
+                                    {"mass", "kg", continuum::lattice_of(p).mass * count},
                                     {"sound_speed", "m/s", sound},
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
@@ -44,30 +45,36 @@ std::vector<NamedValue> groups(const Parameters& p) {
 }
 
 Forecast forecast(const Parameters& p, const run::RunParameters& run) {
-  Continuum model(p);
-  const double n = static_cast<double>(model.state().position.size());
-  ThreadTeam team(1);
+  const continuum::Forecast f = continuum::forecast(p, run.end);
+  Forecast forecast{.phases = {}, .memory_bytes = continuum::memory_of(f), .disk_bytes = 0};
+  if (f.settling_steps > 0) forecast.phases.push_back({"settling", f.settling_steps, f.settling_steps});
+  forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
+  const double rows = run.series > 0 ? run.end / run.series : f.settling_steps + f.flow_steps;
+  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
+                        2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
+  return forecast;
+}
+
+/// Of a step of all particles. A bed of some thousand is measured as it is, a larger one by a sample.
+double measure_step(const Parameters& p, ThreadTeam& team) {
+  constexpr double most = 8000;
+  const double count = continuum::bed_count(p);
+  Continuum model(count <= most ? p : continuum::sample(p, most));
+  const double share = count / static_cast<double>(model.state().position.size());
   model.begin(team);
-  const auto start = std::chrono::steady_clock::now();
-  int steps = 0;
-  double elapsed = 0;
-  do {
-    model.advance(team);
-    ++steps;
-    elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  } while (elapsed < 0.2);
-  Forecast f;
-  const double settling = p.gate.opens == continuum::GateOpens::when_settled
-                              ? p.settle.duration + 5 * p.settle.damping_time.value_or(p.settle.longest / 10)
-                              : p.gate.time;
-  f.steps = std::ceil((run.end + settling) / model.state().last_step);
-  f.evaluations = f.steps;
-  f.seconds_per_evaluation = elapsed / steps;
-  const double cells = p.air.enabled ? static_cast<double>(continuum::air_grid(p).cells()) : 0;
-  f.memory_bytes = 20e6 + 3500 * n + 900 * cells;  // libraries; columns, records and lists of a particle and its images
-  f.disk_bytes = (run.end / run.snapshots + 1) * (150 * n + 45 * cells + 20e3) + 2 * (350 * n + 250 * cells + 20e3) +
-                 (run.series > 0 ? run.end / run.series : f.steps) * 600;
-  return f;
+  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
+  return share * seconds_of(duration, [&] { model.advance(team); });
+}
+
+Problem too_large(const Parameters& p, double available) {
+  const continuum::Forecast f = continuum::forecast(p, 1);
+  const auto count = continuum::lattice_of(p).count;
+  const auto dimensions = static_cast<double>(std::count_if(count.begin(), count.end(), [](auto n) { return n > 1; }));
+  const double least = std::pow(continuum::memory_of(f) / available, 1 / std::max(1.0, dimensions));
+  std::string what = fmt::format("{:.4g} mm makes {:.3g} particles", 1e3 * p.bed.spacing, f.particles);
+  if (f.cells > 0) what += fmt::format(" and {:.3g} cells of the air", f.cells);
+  return {
+      .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
 }
 
 }  // namespace
@@ -86,11 +93,13 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   Parameters p;
   run::RunParameters run;
   p.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
-  ParameterReader reader(file);
+  ParameterReader reader(file, continuum::renamed_keys);
   run::for_each_parameter(reader, run);
   continuum::for_each_parameter(reader, p);
   reader.check(continuum::check(p));
   reader.finish();
+  reader.check(continuum::check_steps(p, run.end));
+  reader.raise();
   if (run.snapshots == 0) run.snapshots = run.end / 20;
 
   PreparedCase prepared;
@@ -101,9 +110,13 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   continuum::for_each_parameter(prepared.parameters, p);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
+  prepared.regime = continuum::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
-  prepared.forecast = [p, run] { return forecast(p, run); };
+  prepared.forecast = forecast(p, run);
+  prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
+  prepared.too_large = [p](double available) { return too_large(p, available); };
+  if (p.plate.height || continuum::outlet_of(p)) prepared.headline = {.column = "discharge_rate", .name = "discharge"};
   prepared.analyze = [p](const std::filesystem::path& folder) { return analyze_continuum(folder, hopper_setting(p)); };
   prepared.draw = [p, title = run.title](const std::filesystem::path& folder) {
     return draw_continuum(folder, hopper_setting(p), title);

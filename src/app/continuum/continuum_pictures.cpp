@@ -11,6 +11,7 @@
 #include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
+#include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
@@ -177,7 +178,7 @@ figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting,
                                                   const std::string& title) {
   const std::filesystem::path pictures = run_folder / "pictures", tables = run_folder / "analysis";
-  std::filesystem::create_directories(pictures);
+  make_folder(pictures);
   std::vector<std::filesystem::path> drawn;
   if (const Frames frames = snapshots_of(run_folder); !frames.paths.empty()) {
     drawn.push_back(pictures / "frames.png");

@@ -63,6 +63,7 @@ void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
   for (const std::string& setting : request.settings) file.set(setting);
   for (const std::string& setting : group.settings) file.set(setting, "--vary");
   const PreparedCase first = prepare_case(file);
+  check_memory(first, file);
   const bool random = has_seed(first);
   const std::int64_t first_seed = first.seed;
   for (int k = 0; k < (random ? request.members : 1); ++k) {
@@ -72,11 +73,13 @@ void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
       member.settings.push_back(fmt::format("seed={}", member.seed));
       file.set(member.settings.back());
     }
-    const PreparedCase prepared = prepare_case(file);
-    member.fingerprint = case_fingerprint(prepared);
-    member.end = prepared.run.end;
     member.folder = request.folder / group.name;
     if (random) member.folder /= fmt::format("seed_{:04}", member.seed);
+    CaseFile case_of_member = file;
+    if (request.resume) keep_snapshot_interval(case_of_member, member.folder);
+    const PreparedCase prepared = prepare_case(case_of_member);
+    member.fingerprint = case_fingerprint(prepared);
+    member.end = prepared.run.end;
     group.members.push_back(std::move(member));
   }
 }

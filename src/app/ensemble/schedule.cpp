@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
 #include "app/run_case.hpp"
 #include "base/error.hpp"
+#include "io/file_list.hpp"
 #include "io/manifest.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
@@ -60,6 +62,12 @@ bool is_done(const EnsembleMember& member) {
   return end_of(manifest) == member.end;
 }
 
+bool has_begun(const std::vector<ScheduledRun>& runs) {
+  return std::any_of(runs.begin(), runs.end(), [](const ScheduledRun& run) {
+    return std::filesystem::exists(RunFolder(run.member.folder).manifest());
+  });
+}
+
 ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {
   ScheduleResult result;
   std::vector<const ScheduledRun*> open;
@@ -72,13 +80,14 @@ ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {
 
   std::vector<run::Job> list;
   for (const ScheduledRun* run : open) {
-    std::filesystem::create_directories(run->member.folder.parent_path());
+    make_folder(run->member.folder.parent_path());
     std::filesystem::path output = run->member.folder;
     output += ".out";
     list.push_back(job_of(*run, output));
   }
 
-  run::Progress progress(stderr, 0, static_cast<double>(list.size()));
+  run::Progress progress(stderr);
+  progress.begin({.start = 0, .end = static_cast<double>(list.size()), .recent = 1});
   std::size_t ended = 0;
   const bool complete = run::run_jobs(
       list, jobs,

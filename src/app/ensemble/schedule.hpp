@@ -34,6 +34,9 @@ struct ScheduleResult {
 /// \throws InputError if it holds another case's, or a later end's
 bool is_done(const EnsembleMember& member);
 
+/// Whether one of the runs has been begun in its folder.
+bool has_begun(const std::vector<ScheduledRun>& runs);
+
 /// Runs what is not done yet, `jobs` at a time, each on one thread and without pictures; a run that was interrupted is
 /// resumed. Shows one line of progress with an ETA for the whole.
 /// \throws FileError, InputError

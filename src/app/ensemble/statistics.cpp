@@ -10,6 +10,7 @@
 #include "app/ensemble/schedule.hpp"
 #include "io/atomic_file.hpp"
 #include "io/figure/figure.hpp"
+#include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/summary.hpp"
@@ -40,15 +41,13 @@ std::vector<Series> read_tables(const EnsembleGroup& group, const std::filesyste
 }
 
 void write_series(const std::filesystem::path& path, const Series& series) {
-  std::string text;
-  for (std::size_t c = 0; c < series.names.size(); ++c)
-    text += fmt::format("{}{} [{}]", c ? "," : "", series.names[c], series.units[c]);
-  for (std::size_t row = 0; row < series.rows(); ++row) {
-    text += '\n';
-    for (std::size_t c = 0; c < series.columns.size(); ++c)
-      text += fmt::format("{}{}", c ? "," : "", series.columns[c][row]);
+  std::vector<SeriesColumn> columns;
+  std::vector<std::vector<double>> rows(series.rows());
+  for (std::size_t c = 0; c < series.names.size(); ++c) {
+    columns.push_back({series.names[c], series.units[c]});
+    for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(series.columns[c][row]);
   }
-  write_atomically(path, text + "\n");
+  write_table(path, columns, rows);
 }
 
 figure::Figure bands_figure(const Series& bands, const std::string& title) {
@@ -172,7 +171,7 @@ std::vector<std::filesystem::path> write_group(const EnsembleGroup& group, const
   }
   write_atomically(folder / "quantities.csv", quantities + "\n");
 
-  std::filesystem::create_directories(folder / "pictures");
+  make_folder(folder / "pictures");
   std::vector<std::filesystem::path> pictures;
   for (const std::string& table : time_tables(group)) {
     const Series bands = table_spread(group, std::filesystem::path("analysis") / (table + ".csv"));

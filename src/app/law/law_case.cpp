@@ -8,16 +8,17 @@
 
 #include "io/csv_table.hpp"
 #include "io/parameter_reader.hpp"
+#include "models/continuum/renamed_keys.hpp"
 
 namespace talus::app {
 
 LawCase read_law_case(const CaseFile& file) {
-  static constexpr std::array<std::string_view, 5> concerned{"law", "path", "grains.density", "grains.diameter",
-                                                             "gravity.acceleration"};
+  static constexpr std::array<std::string_view, 6> concerned{
+      "law", "collisions", "path", "grains.density", "grains.diameter", "gravity.acceleration"};
   const CaseFile part = file.contains("model") ? file.part(concerned) : file;
   LawCase parameters;
   std::string title;
-  ParameterReader reader(part);
+  ParameterReader reader(part, continuum::renamed_keys);
   reader(Parameter{.key = "title", .text = "one line"}, title);
   for_each_parameter(reader, parameters);
   reader.check(granular::check(parameters.law));
@@ -63,7 +64,11 @@ std::vector<granular::PathStretch> read_path(const std::filesystem::path& path) 
 granular::PathOptions path_options(const LawCase& parameters, std::size_t stretches) {
   const auto& path = parameters.path;
   constexpr std::size_t rows = 600;
-  return {.density = path.packing.value_or(parameters.law.reference_packing) * parameters.grains.density,
+  const double at_touch = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
+    if constexpr (requires { own.contact; }) return own.contact.reference_packing;
+    return granular::Contact{}.reference_packing;
+  });
+  return {.density = path.packing.value_or(at_touch) * parameters.grains.density,
           .largest_increment = path.largest_increment,
           .points = path.points > 0 ? static_cast<int>(path.points)
                                     : static_cast<int>((rows + stretches - 1) / std::max<std::size_t>(stretches, 1))};

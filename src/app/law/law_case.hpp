@@ -11,7 +11,8 @@
 
 #include "base/parameter.hpp"
 #include "io/case_file.hpp"
-#include "physics/granular/law_options.hpp"
+#include "physics/granular/collisional_stress.hpp"
+#include "physics/granular/law.hpp"
 #include "physics/granular/material_path.hpp"
 
 namespace talus::app {
@@ -20,6 +21,7 @@ namespace talus::app {
 /// the table [path].
 struct LawCase {
   granular::LawParameters law;
+  granular::CollisionParameters collisions;
   struct Grains {
     double density = 2500;
     double diameter = 200e-6;
@@ -38,13 +40,14 @@ struct LawCase {
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_const_t<P>, LawCase> {
   granular::for_each_parameter(visit, p.law);
+  granular::for_each_parameter(visit, p.collisions);
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
   visit(Parameter{"gravity.acceleration", dimension::acceleration, above(0), "g of Eqs 13 and 14"},
         p.gravity.acceleration);
   visit(Parameter{"path.packing", dimension::none, between(0.01, 0.74),
-                  "packing at the start, free of stress; left out: law.reference_packing"},
+                  "packing at the start, free of stress; left out: that at which the law's grains touch"},
         p.path.packing);
   visit(Parameter{"path.largest_increment", dimension::none, between(1e-9, 1e-3), "largest strain within a step"},
         p.path.largest_increment);

@@ -126,12 +126,11 @@ void draw_path(const FollowedPath& path, const std::filesystem::path& file) {
   write_png({.panels = std::move(panels), .columns = 2}, file);
 }
 
-void draw_functions(const LawCase& parameters, const std::filesystem::path& file) {
+void draw_functions(const granular::Fits& fits, const std::filesystem::path& file) {
   const std::vector<double> strain = strains();
-  const bool repaired = parameters.law.tables == granular::Tables::repaired;
-  const Curves printed = curves_of(granular::printed_2011, strain, parameters.law.scale);
-  const Curves chosen =
-      curves_of(repaired ? granular::repaired_2011 : granular::printed_2011, strain, parameters.law.scale);
+  const bool repaired = fits.tables == granular::Tables::repaired;
+  const Curves printed = curves_of(granular::printed_2011, strain, fits.scale);
+  const Curves chosen = curves_of(fits.functions(), strain, fits.scale);
   const auto chart = [&](std::string title, Axis x, Axis y, const std::vector<double>& one,
                          const std::vector<double>& other) {
     Chart chart{.title = std::move(title), .x = std::move(x), .y = std::move(y), .series = {}};

@@ -32,8 +32,8 @@ void write_path_table(const FollowedPath& path, const std::filesystem::path& fil
 /// Stresses against strains, friction, packing: of a path of shear with loops, the paper's Figure 2. \throws FileError
 void draw_path(const FollowedPath& path, const std::filesystem::path& file);
 
-/// A1 to A4 of the law over the printed ones (the paper's Figure 1), the friction and the pressure that follow.
+/// A1 to A4 of a fitted law over the printed ones (the paper's Figure 1), the friction and the pressure that follow.
 /// \throws FileError
-void draw_functions(const LawCase& parameters, const std::filesystem::path& file);
+void draw_functions(const granular::Fits& fits, const std::filesystem::path& file);
 
 }  // namespace talus::app

@@ -52,9 +52,9 @@ std::vector<NamedValue> quantities_of(const FollowedPath& path) {
 }
 
 void write_path_table(const FollowedPath& path, const std::filesystem::path& file) {
-  const bool collide = path.parameters.law.collisions != granular::Collisions::none;
-  const granular::CollisionOptions collisions = granular::collision_options(
-      path.parameters.law, path.parameters.grains.diameter, path.parameters.gravity.acceleration);
+  const granular::CollisionParameters& collisions = path.parameters.collisions;
+  const bool collide = collisions.form != granular::Collisions::none;
+  const double fall_time = std::sqrt(path.parameters.grains.diameter / path.parameters.gravity.acceleration);
   std::vector<SeriesColumn> columns{{"time", "s"},      {"stretch", "1"},       {"packing", "1"},
                                     {"pressure", "Pa"}, {"shear_stress", "Pa"}, {"friction", "1"}};
   add_columns(columns, "strain", "1");
@@ -78,7 +78,7 @@ void write_path_table(const FollowedPath& path, const std::filesystem::path& fil
     add_values(values, point.strain);
     add_values(values, point.stress);
     if (collide)
-      add_values(values, granular::collisional_stress(collisions, std::max(pressure_of(point), 0.0),
+      add_values(values, granular::collisional_stress(collisions, fall_time, std::max(pressure_of(point), 0.0),
                                                       path.stretches[stretch].velocity_gradient));
     values.insert(values.end(), point.history.begin(), point.history.end());
     writer.append(values);

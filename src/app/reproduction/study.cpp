@@ -11,7 +11,9 @@
 #include "app/ensemble/schedule.hpp"
 #include "app/reproduction/figures_script.hpp"
 #include "base/nearest.hpp"
+#include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_list.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 
@@ -75,7 +77,8 @@ std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyReques
                                      .settings = std::move(settings),
                                      .vary = {},
                                      .members = members,
-                                     .folder = request.folder / folder_of(c.name, variant.label)};
+                                     .folder = request.folder / folder_of(c.name, variant.label),
+                                     .resume = request.resume};
       const EnsemblePlan plan = plan_ensemble(ensemble);
       for (EnsembleMember member : plan.groups.front().members) runs.push_back({ensemble.case_path, std::move(member)});
     }
@@ -98,7 +101,7 @@ bool draw_page(const std::filesystem::path& project, const StudyRequest& request
                read_whole_file(request.folder / "figures.txt"));
     return false;
   }
-  fmt::print("{}", read_whole_file(request.folder / "figures.txt"));
+  say("{}", read_whole_file(request.folder / "figures.txt"));
   return true;
 }
 
@@ -110,21 +113,16 @@ ExitStatus reproduce(const StudyRequest& request) {
   const Reference reference =
       read_reference((project / "validation" / request.study / "reference.toml").lexically_normal().string());
   check_variants(reference, request);
-  std::error_code none;
-  if (!request.resume && std::filesystem::exists(request.folder) && !std::filesystem::is_empty(request.folder, none))
-    throw InputError({{.where = request.folder.string(),
-                       .what = "the folder is there and not empty",
-                       .allowed = "--resume to go on with what is in it, or another --out"}});
-
   const int members = request.members ? request.members : request.quick ? reference.quick.members : reference.members;
   const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
-  fmt::print("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(),
-             members, request.jobs, request.folder.string());
+  begin_output(request.folder, request.resume ? Existing::resume : Existing::refuse, "--resume", has_begun(runs));
+  say("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(), members,
+      request.jobs, request.folder.string());
   const ScheduleResult result = run_members(runs, request.jobs);
   for (const FailedRun& failed : result.failed)
-    fmt::print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+    say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
   if (result.interrupted) {
-    fmt::print("Interrupted; --resume goes on: {}\n", request.folder.string());
+    say("Interrupted; --resume goes on: {}\n", request.folder.string());
     return ExitStatus::interrupted;
   }
 
@@ -133,7 +131,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   const std::string text = to_text(rows) + counts_text(rows) + "\n";
   write_atomically(request.folder / "comparison.txt", text);
   write_atomically(request.folder / "comparison.json", to_json(reference, rows, found, request.folder));
-  fmt::print("{}", text);
+  say("{}", text);
 
   if (!draw_page(project, request)) return ExitStatus::files;
   if (!result.failed.empty()) return ExitStatus::numerical;

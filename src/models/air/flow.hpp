@@ -14,10 +14,14 @@
 /// on grains that move within the step (they keep their velocity; time_step() keeps that short against their response).
 #pragma once
 
+#include <vector>
+
+#include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "models/air/convection.hpp"
 #include "models/air/parameters.hpp"
 #include "models/air/state.hpp"
-#include "models/air/transport.hpp"
+#include "models/air/viscosity.hpp"
 #include "numerics/grid/passages.hpp"
 #include "numerics/grid/poisson.hpp"
 
@@ -40,11 +44,18 @@ class AirFlow {
   /// The longest step that the air's movement, the grains' response and the parameters allow, s.
   double time_step(ThreadTeam& team, const Solids& solids, const AirState& state);
 
+  /// What holds such a step, and in which cell; the rest of the report is empty. After a step has been taken.
+  NumericalError::Report step_limit(const Solids& solids, const AirState& state) const;
+
   /// Advances by dt.
   /// \param impulse out: momentum that a unit of solid volume in a cell receives from drag and pressure, by component,
   ///        N s/m^3
   /// \throws NumericalError for a void fraction out of range, or a pressure that does not converge
   void advance(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
+
+  /// What continuity lacks of the last step: adds to every cell the volume of air that has left it in dt, net of what
+  /// its pressure made of it, over the cell's volume.
+  void add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum);
 
   /// Momentum of all the air, N s.
   Vector3 momentum(const AirState& state) const;
@@ -58,29 +69,33 @@ class AirFlow {
   const Passages& passages() const { return passages_; }
 
  private:
+  struct Rates;
   void take_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
-  void find_volume_flow(ThreadTeam& team, const FaceField& velocity, FaceField& flow) const;
-  void project(ThreadTeam& team, const Stream& stream, CellField& pressure);
-  void close(CellField& pressure) const;
+  void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;
+  void project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure);
+  void find_storage(ThreadTeam& team, double dt);
+  void fill_ghosts(CellField& pressure) const;
   /// Whether the grains have a share, that of their volume, in the pressure's gradient: 1, or 0 in model B.
   double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
 
   Parameters parameters_;
   Passages passages_;
-  Transport transport_;
+  Convection convection_;
+  Viscosity viscosity_;
   PoissonSolver solver_;
   bool implicit_ = false;
   int iterations_ = 0;
 
-  FaceField void_fraction_, solid_, grain_velocity_;  // on faces
-  CellField drag_;                                    // beta of cells, kg/(m^3 s)
-  FaceField decay_, pull_, base_, rate_, stress_;     // of a stage, on faces
-  FaceField before_;                                  // velocity before a stage, where viscosity is implicit
+  FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
+  CellField drag_;                                             // beta of cells, kg/(m^3 s)
+  FaceField decay_, mean_, dragged_, rate_, viscous_;          // of a stage, on faces
+  FaceField before_;                                           // velocity before a stage, where viscosity is implicit
   FaceField conductance_;
   CellField source_, guess_;
+  CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
 };
 

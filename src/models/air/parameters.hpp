@@ -5,8 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "numerics/grid/passages.hpp"
 #include "physics/air/gas.hpp"
@@ -27,6 +30,12 @@ enum class Formulation {
   model_b   ///< the air; the grains feel the drag of Eq. 20 and nothing else
 };
 
+/// Whether the air makes room by a change of its density.
+enum class Compressibility {
+  none,       ///< Eq. 19: one density everywhere, always
+  isothermal  ///< an ideal gas at one temperature: a closed volume that grows loses pressure, P V = const
+};
+
 enum class Motion {
   flowing,  ///< Eqs 18 and 19
   frozen    ///< at rest and everywhere at one pressure: it only drags
@@ -39,6 +48,7 @@ struct Parameters {
   Motion motion = Motion::flowing;
   Continuity continuity = Continuity::mixture;
   Formulation formulation = Formulation::model_a;
+  Compressibility compressibility = Compressibility::none;
   coupling::DragLaw drag = coupling::DragLaw::schiller_naumann_umekage_yuu;
   double grain_diameter = 200e-6;  ///< m
   double grain_density = 2500;     ///< kg/m^3
@@ -53,6 +63,7 @@ struct Parameters {
                                      FlowBoundary::free_slip, FlowBoundary::no_slip, FlowBoundary::open},
                             .pressure = {},
                             .wall_velocity = {}};
+  std::array<std::array<double, 3>, 6> wall_velocity{};  ///< of faces that are walls, by face_number, m/s
 
   double density() const { return air::density(pressure, temperature); }
   coupling::DragMedium medium() const {
@@ -63,35 +74,16 @@ struct Parameters {
   }
 };
 
-/// Every key of the air, once; those of a grain are the grains' own.
-template <class Visit, class P>
-void for_each_parameter(Visit&& visit, P& p) {
+/// Walls that move across themselves, or faces that move and are no walls.
+std::vector<Problem> check(const Parameters& parameters);
+
+/// The keys of any flow of air, once. \param flowing visits those that mean something only where the air flows
+template <class Visit, class Flowing, class P>
+void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
   visit(Parameter{"air.pressure", dimension::pressure, above(0),
                   "pressure of the surroundings; density (dry air at 20 degrees C) and slip factor of the drag follow"},
         p.pressure);
   visit(Parameter{"air.viscosity", dimension::viscosity, above(0), "viscosity of the air"}, p.viscosity);
-  visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest and of one pressure, so that it only drags"},
-        p.motion);
-  visit(Parameter{"air.continuity",
-                  {},
-                  {},
-                  "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
-                  "if the void fraction did not change with time"},
-        p.continuity);
-  visit(
-      Parameter{
-          "air.formulation",
-          {},
-          {},
-          "whom the gradient of the pressure moves: air and grains by their shares of the volume (model A, Eqs 17 "
-          "and 18), or the air alone, so that the drag is all that the grains feel (model B)"},
-      p.formulation);
-  visit(Parameter{"air.drag",
-                  {},
-                  {},
-                  "law of the drag: Schiller and Naumann's with Umekage and Yuu's factor (Eqs 20-21), or Gidaspow's of "
-                  "Ergun, Wen and Yu"},
-        p.drag);
   visit(Parameter{"air.left",
                   {},
                   {},
@@ -103,31 +95,75 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"air.rear", {}, {}, "the rear face"}, p.boundaries.kind[3]);
   visit(Parameter{"air.floor", {}, {}, "the floor"}, p.boundaries.kind[4]);
   visit(Parameter{"air.top", {}, {}, "the top"}, p.boundaries.kind[5]);
-  visit(Parameter{"air.left_pressure", dimension::pressure, any(),
-                  "pressure beyond the left face where it is open, against air.pressure"},
-        p.boundaries.pressure[0]);
-  visit(Parameter{"air.right_pressure", dimension::pressure, any(), "beyond the right face"}, p.boundaries.pressure[1]);
-  visit(Parameter{"air.front_pressure", dimension::pressure, any(), "beyond the front face"}, p.boundaries.pressure[2]);
-  visit(Parameter{"air.rear_pressure", dimension::pressure, any(), "beyond the rear face"}, p.boundaries.pressure[3]);
-  visit(Parameter{"air.floor_pressure", dimension::pressure, any(), "below the floor"}, p.boundaries.pressure[4]);
-  visit(Parameter{"air.top_pressure", dimension::pressure, any(), "above the top"}, p.boundaries.pressure[5]);
-  visit(Parameter{"air.upwind", dimension::none, between(0, 1),
-                  "upstream weight of the air's convection: 0 the printed central scheme of fourth order, 1 the "
-                  "upstream-biased one of third"},
-        p.upwind);
+  constexpr struct {
+    const char *face, *pressure, *velocity;
+  } faces[6] = {{"left", "pressure beyond the left face where it is open, against air.pressure",
+                 "along x, y and z: of the left face where it is a wall that moves along itself"},
+                {"right", "beyond the right face", "of the right face"},
+                {"front", "beyond the front face", "of the front face"},
+                {"rear", "beyond the rear face", "of the rear face"},
+                {"floor", "below the floor", "of the floor"},
+                {"top", "above the top", "of the top"}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const std::string key = std::string("air.") + faces[k].face;
+    auto open = only_if(where(key, p.boundaries.kind[k], FlowBoundary::open), visit);
+    open(Parameter{key + "_pressure", dimension::pressure, any(), faces[k].pressure}, p.boundaries.pressure[k]);
+    visit(Parameter{key + "_velocity", dimension::velocity, any(), faces[k].velocity}, p.wall_velocity[k]);
+  }
+  flowing(Parameter{"air.upwind", dimension::none, between(0, 1),
+                    "upstream weight of the air's convection: 0 the printed central scheme of fourth order, 1 the "
+                    "upstream-biased one of third"},
+          p.upwind);
   visit(Parameter{"air.courant", dimension::none, above(0), "most cells that the air moves in one of its steps"},
         p.courant);
+  visit(Parameter{"air.longest_step", dimension::time, above(0), "longest step of the air in any case"},
+        p.longest_step);
+  flowing(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
+                    "residual of the pressure equation over its source at which it is solved"},
+          p.tolerance);
+  flowing(Parameter{"air.most_iterations", dimension::none, at_least(1),
+                    "iterations after which a pressure that is not solved ends the run"},
+          p.most_iterations);
+}
+
+/// Every key of the air among grains, once; those of a grain are the grains' own.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest and of one pressure, so that it only drags"},
+        p.motion);
+  auto flowing = only_if(where("air.motion", p.motion, Motion::flowing), visit);
+  flowing(
+      Parameter{"air.continuity",
+                {},
+                {},
+                "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
+                "if the void fraction did not change with time"},
+      p.continuity);
+  flowing(
+      Parameter{
+          "air.formulation",
+          {},
+          {},
+          "whom the gradient of the pressure moves: air and grains by their shares of the volume (model A, Eqs 17 "
+          "and 18), or the air alone, so that the drag is all that the grains feel (model B)"},
+      p.formulation);
+  flowing(Parameter{"air.compressibility",
+                    {},
+                    {},
+                    "none: the pressure does not change the air's density, which holds while pressures differ by less "
+                    "than a tenth of air.pressure; or isothermal, for thin air in closed vessels: an ideal gas whose "
+                    "pressure falls where its volume grows"},
+          p.compressibility);
+  visit(Parameter{"air.drag",
+                  {},
+                  {},
+                  "law of the drag: Schiller and Naumann's with Umekage and Yuu's factor (Eqs 20-21), or Gidaspow's of "
+                  "Ergun, Wen and Yu"},
+        p.drag);
   visit(Parameter{"air.response", dimension::none, above(0),
                   "longest step of the air over the time in which the pressure it takes stops a bed that dilates"},
         p.response);
-  visit(Parameter{"air.longest_step", dimension::time, above(0), "longest step of the air in any case"},
-        p.longest_step);
-  visit(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
-                  "residual of the pressure equation over its source at which it is solved"},
-        p.tolerance);
-  visit(Parameter{"air.most_iterations", dimension::none, at_least(1),
-                  "iterations after which a pressure that is not solved ends the run"},
-        p.most_iterations);
+  for_each_parameter_of_flow(visit, flowing, p);
 }
 
 }  // namespace talus::air
@@ -139,6 +175,8 @@ template <>
 inline constexpr auto choices<air::Continuity> = std::to_array<std::string_view>({"mixture", "air-alone"});
 template <>
 inline constexpr auto choices<air::Formulation> = std::to_array<std::string_view>({"model-a", "model-b"});
+template <>
+inline constexpr auto choices<air::Compressibility> = std::to_array<std::string_view>({"none", "isothermal"});
 template <>
 inline constexpr auto choices<coupling::DragLaw> = std::to_array<std::string_view>({"schiller-naumann+umekage-yuu",
                                                                                     "ergun-wen-yu"});

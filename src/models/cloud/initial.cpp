@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "base/random.hpp"
+#include "numerics/cell_grid.hpp"
 
 namespace talus::cloud {
 
@@ -148,6 +149,29 @@ double extent(const std::vector<Vector3>& points) {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
+/// Pairs of grains that overlap by more than any run lets pass, or whose tensor is not finite.
+struct Overlaps {
+  std::size_t count = 0, first = 0, second = 0;
+  double largest = 0;  ///< m
+};
+
+Overlaps overlaps_beyond(const Parameters& p, const Grains& grains) {
+  Overlaps found;
+  const double widest = 2 * *std::max_element(grains.radius.begin(), grains.radius.end());
+  const double limit = p.integration.largest_overlap * p.particles.radius;
+  const bool singular = p.fluid.mobility == hydrodynamics::Mobility::rotne_prager_1969;
+  const CellGrid grid(grains.position, std::max(widest, extent(grains.position) / (1 << 19)));
+  for (std::size_t i = 0; i < grains.position.size(); ++i)
+    grid.for_each_candidate(grains.position[i], [&](std::uint32_t j) {
+      if (j <= i) return;
+      const double distance = norm(grains.position[j] - grains.position[i]);
+      const double overlap = grains.radius[i] + grains.radius[j] - distance;
+      if (!(p.contact.enabled && overlap > limit) && !(singular && distance == 0)) return;
+      if (found.count++ == 0 || overlap > found.largest) found.first = i, found.second = j, found.largest = overlap;
+    });
+  return found;
+}
+
 }  // namespace
 
 Grains pack(const Parameters& parameters) {
@@ -196,6 +220,23 @@ std::vector<Problem> check_grains(const Parameters& parameters, const Grains& gr
   if (out_of_plane)
     add(fmt::format("{} points lie outside the plane of motion \"{}\"", out_of_plane, choice_name(parameters.motion)),
         "points in that plane, or motion = \"xyz\"");
+  if (!problems.empty()) return problems;
+  const double a = parameters.particles.radius, limit = parameters.integration.largest_overlap;
+  const std::string allowed = fmt::format("overlaps up to integration.largest_overlap = {:g} radii", limit);
+  if (const Overlaps overlaps = overlaps_beyond(parameters, grains); overlaps.count > 0)
+    add(fmt::format("{} pair{} overlap too much; points {} and {} by {:.3g} radii", overlaps.count,
+                    overlaps.count == 1 ? "" : "s", overlaps.first + 1, overlaps.second + 1, overlaps.largest / a),
+        allowed);
+  std::size_t sunk = 0, deepest = 0;
+  if (parameters.slope.enabled && parameters.contact.enabled && parameters.motion != Motion::xy)
+    for (std::size_t n = 0; n < grains.position.size(); ++n) {
+      const auto depth = [&](std::size_t k) { return grains.radius[k] - grains.position[k].z; };
+      if (depth(n) > limit * a && (sunk++ == 0 || depth(n) > depth(deepest))) deepest = n;
+    }
+  if (sunk > 0)
+    add(fmt::format("{} point{} of grains within the slope; point {} lies at z = {:.4g} m", sunk, sunk == 1 ? "" : "s",
+                    deepest + 1, grains.position[deepest].z),
+        allowed);
   return problems;
 }
 

@@ -20,8 +20,8 @@ struct Grains {
 /// \throws NumericalError if a grain finds no place after 10^6 trials (the fraction is too high)
 Grains pack(const Parameters& parameters);
 
-/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion, or
-/// too far apart.
+/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion, too far
+/// apart, or within each other or the slope deeper than integration.largest_overlap.
 std::vector<Problem> check_grains(const Parameters& parameters, const Grains& grains);
 
 }  // namespace talus::cloud

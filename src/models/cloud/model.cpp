@@ -41,6 +41,10 @@ void Cloud::advance(ThreadTeam& team) {
   cloud::advance(team, parameters_, state_, *workspace_);
 }
 
+NumericalError::Report Cloud::step_limit() const {
+  return cloud::step_limit(parameters_, state_);
+}
+
 std::vector<NamedValue> Cloud::totals() const {
   double centre = 0;
   for (const Vector3& x : state_.position) centre += x.x;
@@ -55,27 +59,15 @@ std::vector<NamedValue> Cloud::totals() const {
 }
 
 std::vector<RegimeLine> Cloud::regime(const RunRecord& record) const {
-  const Scales s = scales(parameters_);
   const double a = parameters_.particles.radius;
-  const double per_speed = parameters_.fluid.density * a / parameters_.fluid.viscosity;
-  const double stokes = s.stokes_speed * per_speed;
-  const double fastest = record.largest("speed_max") * per_speed;
-  // Time in which a free grain reaches its Stokes speed over the time in which it passes its own radius.
-  const double relaxation = 2.0 / 9.0 * parameters_.particles.density * a * a / parameters_.fluid.viscosity;
+  const double fastest = record.largest("speed_max") * parameters_.fluid.density * a / parameters_.fluid.viscosity;
   const double overlap = record.largest("overlap_max") / a;
-  return {
-      {"Reynolds number of a single grain", fmt::format("{:.3g}", stokes),
-       "a v_s rho_f/mu; the Stokes drag and the tensor hold for less than about 0.1", stokes > 0.1},
-      {"Reynolds number of the fastest grain", fmt::format("{:.3g}", fastest),
-       "the same at the largest speed of the run", fastest > 0.1},
-      {"inertia of a grain", fmt::format("{:.3g}", relaxation / s.stokes_time),
-       "relaxation time over a_p/v_s; the model leaves inertia out, which holds for less than about 0.1",
-       relaxation / s.stokes_time > 0.1},
-      {"largest overlap", fmt::format("{:.3g} a_p", overlap),
-       "of the run, overlap_max; hard grains: a few hundredths at most", overlap > 0.1},
-      {"contact over weight (gamma, Eq. 9)", fmt::format("{:.3g}", s.contact_ratio),
-       "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart", s.contact_ratio < 1},
-  };
+  std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  lines.push_back({"Reynolds number of the fastest grain", fmt::format("{:.3g}", fastest),
+                   "the same at the largest speed of the run", fastest > 0.1});
+  lines.push_back(
+      {"largest overlap", fmt::format("{:.3g} a_p", overlap), "of the run, overlap_max; hard grains: a few hundredths at most", overlap > 0.1});
+  return lines;
 }
 
 }  // namespace talus::cloud

@@ -24,6 +24,8 @@ class Cloud {
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
   double time_origin() const { return 0; }
+  double latest_origin() const { return 0; }
+  NumericalError::Report step_limit() const;
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);

@@ -64,6 +64,8 @@ double moment(const Parameters::Particles& p, int power) {
 constexpr double jamming_plane = 0.54;
 constexpr double jamming_space = 0.37;
 
+constexpr double most_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
+
 }  // namespace
 
 std::vector<Problem> check(const Parameters& p) {
@@ -101,6 +103,14 @@ std::vector<Problem> check(const Parameters& p) {
   if (grains.shape == Shape::dome && !p.slope.enabled)
     add("slope.enabled", "false, but a dome stands on the slope", "true, or shape \"ball\"");
 
+  const auto check_extent = [&](const char* key, const std::optional<double>& length) {
+    if (length && grains.radius > 0 && !(*length <= most_radii * grains.radius))
+      add(key, fmt::format("{:.4g} m is {:.3g} times particles.radius", *length, *length / grains.radius),
+          fmt::format("at most {:.0e} times", most_radii));
+  };
+  check_extent("particles.size", grains.size);
+  check_extent("particles.length", grains.length);
+  check_extent("particles.width", grains.width);
   if (const double extent = extent_of_shape(p); extent > 0 && std::isfinite(extent)) {
     const double fraction = scales(p).volume_fraction;
     const double jamming = is_plane(grains.shape) ? jamming_plane : jamming_space;
@@ -147,6 +157,25 @@ Scales scales(const Parameters& p) {
                                                     : n * 4.0 / 3.0 * pi * a * a * a * moment(p.particles, 3) / extent;
   }
   return s;
+}
+
+std::vector<RegimeLine> regime_of_case(const Parameters& p) {
+  const Scales s = scales(p);
+  const double a = p.particles.radius;
+  const double stokes = s.stokes_speed * p.fluid.density * a / p.fluid.viscosity;
+  // Time in which a free grain reaches its Stokes speed over the time in which it passes its own radius.
+  const double inertia = 2.0 / 9.0 * p.particles.density * a * a / p.fluid.viscosity / s.stokes_time;
+  std::vector<RegimeLine> lines = {
+      {"Reynolds number of a single grain", fmt::format("{:.3g}", stokes),
+       "a v_s rho_f/mu; the Stokes drag and the tensor hold for less than about 0.1", stokes > 0.1},
+      {"inertia of a grain", fmt::format("{:.3g}", inertia),
+       "relaxation time over a_p/v_s; the model leaves inertia out, which holds for less than about 0.1",
+       inertia > 0.1}};
+  if (p.contact.enabled)
+    lines.push_back({"contact over weight (gamma, Eq. 9)", fmt::format("{:.3g}", s.contact_ratio),
+                     "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart",
+                     s.contact_ratio < 1});
+  return lines;
 }
 
 }  // namespace talus::cloud

@@ -13,6 +13,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/cloud/pair_sum.hpp"
+#include "numerics/named_value.hpp"
 #include "physics/hydrodynamics/mobility_names.hpp"
 
 namespace talus::cloud {
@@ -78,8 +79,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                 "in space, or a file of points",
                 true},
       p.particles.shape);
-  visit(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains; with a file, its points"},
-        p.particles.count);
+  auto packed = only_if(unless("particles.shape", p.particles.shape, Shape::file), visit);
+  packed(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains"}, p.particles.count);
   visit(
       Parameter{"particles.size", dimension::length, above(0),
                 "radius of the circle, ball or dome; height of the triangle, whose base on the slope is twice as long; "
@@ -93,19 +94,21 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"particles.radius", dimension::length, above(0), "mean radius a_p; the unit of length of the results",
                   true},
         p.particles.radius);
-  visit(Parameter{"particles.radius_spread", dimension::none, between(0, 0.9),
-                  "half the width of the radii's uniform "
-                  "distribution, or the standard deviation of the normal one (cut at 3), over the mean radius"},
-        p.particles.radius_spread);
-  visit(Parameter{"particles.radius_distribution", {}, {}, "distribution of the radii"},
-        p.particles.radius_distribution);
-  visit(Parameter{"particles.boundary", {}, {}, "whether the grains' centres or the whole grains lie inside the shape"},
-        p.particles.boundary);
+  packed(Parameter{"particles.radius_spread", dimension::none, between(0, 0.9),
+                   "half the width of the radii's uniform "
+                   "distribution, or the standard deviation of the normal one (cut at 3), over the mean radius"},
+         p.particles.radius_spread);
+  packed(Parameter{"particles.radius_distribution", {}, {}, "distribution of the radii"},
+         p.particles.radius_distribution);
+  packed(
+      Parameter{"particles.boundary", {}, {}, "whether the grains' centres or the whole grains lie inside the shape"},
+      p.particles.boundary);
   visit(Parameter{"particles.density", dimension::density, above(0), "true density of the grains", true},
         p.particles.density);
 
   visit(Parameter{"fluid.density", dimension::density, at_least(0), "density of the fluid"}, p.fluid.density);
-  visit(Parameter{"fluid.viscosity", dimension::viscosity, above(0), "dynamic viscosity of the fluid"},
+  visit(Parameter{"fluid.viscosity", dimension::viscosity, between(1e-7, 1e9),
+                  "dynamic viscosity of the fluid: gases have 1e-5 Pa s, pitch 1e8"},
         p.fluid.viscosity);
   visit(Parameter{"fluid.mobility",
                   {},
@@ -113,13 +116,15 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "how grains drag each other: the printed tensor, its symmetric form for "
                   "unequal and overlapping spheres, or not at all"},
         p.fluid.mobility);
-  visit(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
-        p.fluid.precision);
+  auto dragged = only_if(unless("fluid.mobility", p.fluid.mobility, hydrodynamics::Mobility::none), visit);
+  dragged(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
+          p.fluid.precision);
 
   visit(Parameter{"contact.enabled", {}, {}, "whether grains that overlap repel each other and the slope"},
         p.contact.enabled);
-  visit(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
-        p.contact.stiffness);
+  auto touching = only_if(where("contact.enabled", p.contact.enabled, true), visit);
+  touching(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
+           p.contact.stiffness);
 
   visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 carries the grains (a wall for contacts only)"},
         p.slope.enabled);
@@ -145,10 +150,11 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.integration.method);
   visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
         p.integration.largest_step);
-  visit(Parameter{"integration.tolerance", dimension::none, above(0),
-                  "allowed root mean square of the local error of a "
-                  "step, in a_p"},
-        p.integration.tolerance);
+  auto adaptive = only_if(where("integration.method", p.integration.method, Method::chebyshev), visit);
+  adaptive(Parameter{"integration.tolerance", dimension::none, above(0),
+                     "allowed root mean square of the local error of a "
+                     "step, in a_p"},
+           p.integration.tolerance);
   visit(Parameter{"integration.overlap_growth", dimension::none, above(0),
                   "a step that makes the largest overlap grow "
                   "by more than this, in a_p, is repeated at half its length"},
@@ -164,6 +170,9 @@ void for_each_parameter(Visit&& visit, P& p) {
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
+
+/// How far a case is from what the model assumes: the lines of the regime card that are known before the run.
+std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
 
 /// Quantities that follow from the parameters alone.
 struct Scales {

@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
 
+#include "models/cloud/stability.hpp"
 #include "models/cloud/stiffness.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/chebyshev.hpp"
@@ -18,11 +21,9 @@ namespace talus::cloud {
 
 namespace {
 
-constexpr double damping = 0.1;           // of the stability polynomial: stiff modes shrink by 10 % a step at least
 constexpr double stiffness_margin = 1.1;  // on the measured rate, which is a lower bound
 constexpr int steps_between_estimates = 5;
 constexpr int steps_between_sorts = 16;
-constexpr int most_stages = 250;
 constexpr double least_step_over_largest = 1e-6;
 constexpr double farthest_move = 1e4;  // of a grain within a step, in mean radii: the error control refuses less
 
@@ -93,6 +94,11 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   work.velocities.reorder(state.packing_order);
 }
 
+std::string place_of(const State& state, std::size_t grain) {
+  const Vector3& x = state.position[grain];
+  return fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m", grain, x.x, x.y, x.z);
+}
+
 [[noreturn]] void give_up(const Parameters& p, const State& state, const Workspace& work, bool finite,
                           double largest_overlap) {
   NumericalError::Report report{
@@ -123,13 +129,8 @@ void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
     report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
     report.advice = "no two grains at one place at the start, a smaller integration.largest_step";
   }
-  const Vector3& x = state.position[worst];
-  report.place = fmt::format("grain {} at ({:.6g}, {:.6g}, {:.6g}) m", worst, x.x, x.y, x.z);
+  report.place = place_of(state, worst);
   throw NumericalError(report);
-}
-
-double longest_stable_step(const Parameters& p, double rate) {
-  return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, damping).stability / rate;
 }
 
 /// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
@@ -145,6 +146,27 @@ void check_stiffness(const Parameters& p, const State& state, double largest_ste
 }
 
 }  // namespace
+
+NumericalError::Report step_limit(const Parameters& p, const State& state) {
+  const auto most = [](const auto& column, auto&& less) {
+    return static_cast<std::size_t>(std::max_element(column.begin(), column.end(), less) - column.begin());
+  };
+  const auto shorter = [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); };
+  const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
+  NumericalError::Report report{};
+  if (rate > 0 && state.last_step > 0.9 * longest_stable_step(p, rate)) {
+    report.term = fmt::format("stability of the contacts, whose stiffest rate is {:.3g} 1/s, Eq. 2", rate);
+    report.place = state.stiff_mode.empty() ? "every contact" : place_of(state, most(state.stiff_mode, shorter));
+    report.advice = "a smaller contact.stiffness";
+  } else {
+    const std::size_t tightest = most(state.overlap, std::less<>());
+    const bool touches = state.overlap[tightest] > 0;
+    report.term = "error of a step or growth of an overlap, Eq. 4a";
+    report.place = place_of(state, touches ? tightest : most(state.velocity, shorter));
+    report.advice = "a larger contact.stiffness, a larger integration.tolerance or integration.overlap_growth";
+  }
+  return report;
+}
 
 Workspace::Workspace(const Parameters& parameters, const State& state)
     : velocities(parameters, state.radius),
@@ -190,7 +212,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
     const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
     const bool euler = p.integration.method == Method::euler;
     if (rate > 0) step = std::min(step, longest_stable_step(p, rate));
-    const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, damping), damping);
+    const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, stage_damping), stage_damping);
 
     bool finite = take_stages(team, state, work, scheme, step, farthest_move * a);
     double error = 0, overlap = 0;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "models/cloud/parameters.hpp"
 #include "models/cloud/state.hpp"
@@ -25,6 +26,9 @@ void begin(ThreadTeam& team, const Parameters& parameters, State& state, Workspa
 
 /// Recomputes the derived columns, from kept ones, after a checkpoint was read.
 void derive(ThreadTeam& team, State& state, Workspace& workspace);
+
+/// What holds the last step as short as it is, and where: the contacts' stiffness, or the error control.
+NumericalError::Report step_limit(const Parameters& parameters, const State& state);
 
 /// Advances by one step of at most integration.largest_step.
 /// \throws NumericalError if velocities stop being finite or overlaps grow beyond integration.largest_overlap even at

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "physics/hydrodynamics/stokes.hpp"
+#include "models/cloud/stability.hpp"
 
 namespace talus::cloud {
 
@@ -17,12 +17,6 @@ double length(ThreadTeam& team, const std::vector<Vector3>& v) {
 }
 
 }  // namespace
-
-double contact_rate(const Parameters& p) {
-  if (!p.contact.enabled) return 0;
-  const double lattice = p.fluid.mobility == hydrodynamics::Mobility::none ? 6.0 : 1.5;
-  return lattice * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
-}
 
 void estimate_stiffness(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, int sweeps) {
   const std::size_t count = state.position.size();

@@ -9,11 +9,6 @@
 
 namespace talus::cloud {
 
-/// Rate at which contacts that form within a step relax, 1/s: a floor for the estimate, since the power iteration sees
-/// only the contacts of the start. In units of k_n/(6 pi mu a_p): 1.5 with drag between the grains (the relative
-/// mobility of touching grains is small), 6 without (a triangular lattice of springs).
-double contact_rate(const Parameters& parameters);
-
 /// Power iteration with the velocities themselves: the largest |lambda| of dv/dx, from state.stiff_mode, which it
 /// improves. Updates state.spectral_radius and counts its evaluations.
 /// \param sweeps at most so many evaluations; fewer once the estimate changes by less than 2 %

@@ -39,6 +39,11 @@ class Atmosphere {
   /// converge: cell and residual
   double advance(ThreadTeam& team, std::span<const double> smoothing_length, double dt, State& state);
 
+  /// What holds the air's last step, and in which cell.
+  NumericalError::Report step_limit(const State& state) const {
+    return flow_.step_limit(state.air.solids, state.air.flow);
+  }
+
  private:
   void move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& state);
   void deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& state);

@@ -22,6 +22,7 @@ State initial_state(const Parameters& parameters, const Material& material) {
     state.air.grid = air_grid(parameters);
     state.air.flow = air::AirState(state.air.grid);
     state.air.solids = air::Solids(state.air.grid);
+    state.air.excess = state.air.grid.cell_field();
     state.air.acceleration.assign(count, Vector3{});
   }
   return state;

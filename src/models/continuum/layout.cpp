@@ -12,6 +12,9 @@ namespace talus::continuum {
 
 namespace {
 
+constexpr std::int64_t most_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
+constexpr double most_places_looked_at = 1e6;                   // to count the particles of a bed
+
 Panel panel_between(std::string name, double x0, double z0, double x1, double z1) {
   return {.name = std::move(name), .from = {x0, 0, z0}, .to = {x1, 0, z1}, .openings = {}};
 }
@@ -96,7 +99,9 @@ Lattice lattice_of(const Parameters& p) {
   const Vector3 extent{x.high - x.low, p.box.depth, p.bed.height};
   Lattice lattice{.corner = {x.low, 0, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto count = std::max<std::int64_t>(1, std::llround(extent[axis] / p.bed.spacing));
+    const double spacings = extent[axis] / p.bed.spacing;
+    const auto count = spacings < most_along_an_axis ? std::max<std::int64_t>(1, std::llround(spacings))
+                                                     : std::int64_t{most_along_an_axis};
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }
@@ -104,23 +109,55 @@ Lattice lattice_of(const Parameters& p) {
   return lattice;
 }
 
-std::vector<Vector3> bed_positions(const Parameters& p) {
-  const Lattice lattice = lattice_of(p);
-  const Domain domain = domain_of(p);
-  const auto at = [&](double i, double j, double k) {
+namespace {
+
+/// The places of the lattice and which of them hold particles: plates go through the whole depth, so all places along y
+/// are alike.
+struct Bed {
+  const Parameters& parameters;
+  Lattice lattice = lattice_of(parameters);
+  Domain domain = domain_of(parameters);
+  Vector3 top = at(0.5 * static_cast<double>(lattice.count[0] - 1), 0, static_cast<double>(lattice.count[2] - 1));
+
+  Vector3 at(double i, double j, double k) const {
     return lattice.corner +
            Vector3{(i + 0.5) * lattice.spacing.x, (j + 0.5) * lattice.spacing.y, (k + 0.5) * lattice.spacing.z};
-  };
-  const Vector3 top = at(0.5 * static_cast<double>(lattice.count[0] - 1), 0, static_cast<double>(lattice.count[2] - 1));
+  }
+  bool holds(const Vector3& x) const {
+    return domain.panels().empty() ||
+           (!domain.is_near_panel(x, 0.25 * parameters.bed.spacing) && !domain.blocks(x, top));
+  }
+};
+
+}  // namespace
+
+std::vector<Vector3> bed_positions(const Parameters& p) {
+  const Bed bed{p};
+  const auto& count = bed.lattice.count;
   std::vector<Vector3> positions;
-  for (std::int64_t k = 0; k < lattice.count[2]; ++k)
-    for (std::int64_t j = 0; j < lattice.count[1]; ++j)
-      for (std::int64_t i = 0; i < lattice.count[0]; ++i) {
-        const Vector3 x = at(double(i), double(j), double(k));
-        if (domain.panels().empty() || (!domain.is_near_panel(x, 0.25 * p.bed.spacing) && !domain.blocks(x, top)))
-          positions.push_back(x);
-      }
+  for (std::int64_t k = 0; k < count[2]; ++k)
+    for (std::int64_t j = 0; j < count[1]; ++j)
+      for (std::int64_t i = 0; i < count[0]; ++i)
+        if (const Vector3 x = bed.at(double(i), double(j), double(k)); bed.holds(x)) positions.push_back(x);
   return positions;
+}
+
+double places_of(const Lattice& lattice) {
+  return static_cast<double>(lattice.count[0]) * static_cast<double>(lattice.count[1]) *
+         static_cast<double>(lattice.count[2]);
+}
+
+double bed_count(const Parameters& p) {
+  const Bed bed{p};
+  const auto& count = bed.lattice.count;
+  if (bed.domain.panels().empty()) return places_of(bed.lattice);
+  const double layer = static_cast<double>(count[0]) * static_cast<double>(count[2]);
+  const auto stride = static_cast<std::int64_t>(std::ceil(std::sqrt(std::max(1.0, layer / most_places_looked_at))));
+  double held = 0, looked_at = 0;
+  for (std::int64_t k = stride / 2; k < count[2]; k += stride)
+    for (std::int64_t i = stride / 2; i < count[0]; i += stride, ++looked_at)
+      held += bed.holds(bed.at(double(i), 0, double(k))) ? 1 : 0;
+  return looked_at > 0 ? std::round(held / looked_at * layer) * static_cast<double>(count[1]) : 0;
 }
 
 }  // namespace talus::continuum

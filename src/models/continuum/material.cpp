@@ -2,6 +2,7 @@
 #include "models/continuum/material.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace talus::continuum {
@@ -41,8 +42,10 @@ Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grain
     if (remembered[k].name == std::string_view("strain_xx")) first_strain_slot_ = k;
     if (remembered[k].name == std::string_view("resets")) resets_slot_ = k;
   }
-  if (p.law.collisions != granular::Collisions::none)
-    collisions_ = granular::collision_options(p.law, p.grains.diameter, p.gravity.acceleration);
+  if (p.collisions.form != granular::Collisions::none) {
+    collisions_ = p.collisions;
+    fall_time_ = std::sqrt(p.grains.diameter / p.gravity.acceleration);
+  }
 }
 
 std::vector<granular::HistorySlot> Material::slots() const {
@@ -63,6 +66,14 @@ bool Material::by_displacements() const {
         return false;
       },
       law_);
+}
+
+bool Material::bears_tension() const {
+  return std::visit([]<class Law>(const Law&) { return Law::bears_tension; }, law_);
+}
+
+granular::LawRange Material::range() const {
+  return std::visit([](const auto& law) { return law.range(); }, law_);
 }
 
 double Material::sound_speed(double density) const {
@@ -86,7 +97,8 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, std::span<co
           store(point, next, i, keep_history);
           if (!collisions_) return;
           const double mean_stress = std::max(trace(point.stress) / 3, 0.0);
-          set(next.collisional, i, granular::collisional_stress(*collisions_, mean_stress, velocity_gradient[i]));
+          set(next.collisional, i,
+              granular::collisional_stress(*collisions_, fall_time_, mean_stress, velocity_gradient[i]));
         });
       },
       law_);

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
+#include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
 
 namespace talus::continuum {
@@ -22,6 +23,12 @@ class Material {
 
   /// Whether the law takes the strain from displacements (displacement.hpp) in place of its rate.
   bool by_displacements() const;
+
+  /// Whether a free surface of the law stays one, being pulled at.
+  bool bears_tension() const;
+
+  /// What the law was made for.
+  granular::LawRange range() const;
 
   /// Upper bound of the speed of pressure waves, m/s.
   double sound_speed(double density) const;
@@ -46,7 +53,8 @@ class Material {
  private:
   granular::AnyLaw law_;
   std::optional<std::size_t> first_strain_slot_, resets_slot_;
-  std::optional<granular::CollisionOptions> collisions_;
+  std::optional<granular::CollisionParameters> collisions_;
+  double fall_time_ = 0;  // (D_p/g)^(1/2), s
 };
 
 inline SymmetricTensor3<> tensor_at(const std::array<std::vector<double>, 6>& s, std::size_t i) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/continuum/regime.hpp"
+
 namespace talus::continuum {
 
 namespace {
@@ -41,6 +43,14 @@ std::string wall_name(const Domain& domain, std::size_t wall) {
   return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
 
+/// Of the particles, without the stress by collisions, Pa.
+double largest_pressure(const State& s) {
+  double pressure = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    pressure = std::max(pressure, trace(tensor_at(s.material.stress, i)) / 3);
+  return pressure;
+}
+
 template <class Body>
 void for_each_air_cell(const AirAround& air, Body&& body) {
   for (int k = 0; k < air.grid.count[2]; ++k)
@@ -70,12 +80,34 @@ PressureRange pressure_range(const AirAround& air) {
   return range;
 }
 
-std::vector<RegimeLine> regime_of_air(const Parameters& p, const AirAround& air) {
-  const PressureRange range = pressure_range(air);
-  const double swing = std::max(std::abs(range.least), std::abs(range.most)) / p.air.gas.pressure;
+/// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
+/// continuity lacks, since what one lacks another has too much.
+double air_imbalance(const AirAround& air) {
+  double sum = 0;
+  for_each_air_cell(air, [&](std::size_t c) { sum += std::abs(air.excess[c]); });
+  return 0.5 * sum * air.grid.volume();
+}
+
+double solid_volume(const Parameters& p, const State& s) {
+  return s.mass * static_cast<double>(s.position.size()) / p.grains.density;
+}
+
+std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
+  const AirAround& air = s.air;
+  const double swing = air.swing_max / p.air.gas.pressure;
+  const bool incompressible = p.air.gas.compressibility == air::Compressibility::none;
+  const double imbalance = air_imbalance(air);
   return {{"air's pressure swing", fmt::format("{:.3g}", swing),
-           "largest difference from air.pressure over it; the air is taken for incompressible, up to about 0.1",
-           swing > 0.1},
+           incompressible ? "largest difference from air.pressure since the start, over it; the air is taken for "
+                            "incompressible, which holds up to about 0.1: above it, grains that leave a closed vessel "
+                            "are held back too strongly; air.compressibility = \"isothermal\" lets the air expand"
+                          : "largest difference from air.pressure since the start, over it",
+           incompressible && swing > 0.1},
+          {"air's imbalance", fmt::format("{:.3g} cm3", imbalance * 1e6),
+           fmt::format("room that grains left or took without air moving, {:.3g} of their volume; up to about 0.1 is "
+                       "the grid's error, more is air.continuity = \"air-alone\" where grains change places with air",
+                       imbalance / solid_volume(p, s)),
+           imbalance > 0.1 * solid_volume(p, s)},
           {"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
            "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000}};
 }
@@ -101,6 +133,16 @@ void Continuum::advance(ThreadTeam& team) {
 
 double Continuum::time_origin() const {
   return state_.gate_time >= 0 ? state_.gate_time : std::numeric_limits<double>::infinity();
+}
+
+double Continuum::latest_origin() const {
+  if (state_.gate_time >= 0) return state_.gate_time;
+  if (parameters_.gate.opens == GateOpens::from_the_start) return 0;
+  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time : parameters_.settle.longest;
+}
+
+NumericalError::Report Continuum::step_limit() const {
+  return continuum::step_limit(parameters_, state_, *workspace_);
 }
 
 std::vector<NamedValue> Continuum::totals() const {
@@ -135,7 +177,9 @@ std::vector<NamedValue> Continuum::totals() const {
                                  {"air_step_size", "s", air.last_step},
                                  {"air_steps", "1", static_cast<double>(air.steps)},
                                  {"air_iterations", "1", static_cast<double>(air.iterations)},
-                                 {"particle_reynolds_max", "1", air.reynolds_max}});
+                                 {"particle_reynolds_max", "1", air.reynolds_max},
+                                 {"air_swing_max", "Pa", air.swing_max},
+                                 {"air_imbalance", "m3", air_imbalance(air)}});
   }
   return values;
 }
@@ -178,7 +222,8 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double courant = s.last_step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max");
   const double slow = record.value("inertial_share");
-  std::vector<RegimeLine> lines = {
+  std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  const std::vector<RegimeLine> of_run = {
       {"Courant number", fmt::format("{:.3g}", courant),
        "time step times the speed of pressure waves over the least smoothing length; stable below about 0.5 "
        "(Runge-Kutta), 1 (leapfrog)",
@@ -191,8 +236,14 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
        "inertial_share: particles with an inertial number below 0.01, where the stress does not depend on the rate",
        slow < 0.5},
   };
+  lines.insert(lines.end(), of_run.begin(), of_run.end());
+  if (const double most = workspace_->material.range().largest_pressure; std::isfinite(most)) {
+    const double pressure = largest_pressure(s);
+    lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
+                     fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
+  }
   if (parameters_.air.enabled)
-    for (RegimeLine& line : regime_of_air(parameters_, s.air)) lines.push_back(std::move(line));
+    for (RegimeLine& line : regime_of_air(parameters_, s)) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -26,6 +26,8 @@ class Continuum {
   State& mutable_state() { return state_; }
   /// When the gate opened, s.
   double time_origin() const;
+  double latest_origin() const;
+  NumericalError::Report step_limit() const;
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -15,6 +16,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
+constexpr double most_particles = 1e9;  // they and their images are numbered with 32 bits
 
 void check_faces(const Parameters& p, std::vector<Problem>& problems) {
   const auto pair = [&](const char* first, FaceKind a, const char* second, FaceKind b) {
@@ -53,6 +55,37 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
   }
 }
 
+/// Whether the bed is of a size that can be numbered; the fault is told of the length that is out of proportion, or of
+/// the spacing where none is.
+bool check_size(const Parameters& p, std::vector<Problem>& problems) {
+  const Lattice lattice = lattice_of(p);
+  const double count = places_of(lattice);
+  if (count <= most_particles) return true;
+  const char* const keys[3] = {p.bed.right ? "bed.right" : "box.width", "box.depth", "bed.height"};
+  const auto longest =
+      static_cast<std::size_t>(std::max_element(lattice.count.begin(), lattice.count.end()) - lattice.count.begin());
+  const double extent = lattice.spacing[static_cast<int>(longest)] * static_cast<double>(lattice.count[longest]);
+  const double over = count / most_particles;
+  std::array<std::int64_t, 3> sorted = lattice.count;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted[2] > 100 * sorted[1]) {
+    problems.push_back({.key = keys[longest],
+                        .what = fmt::format("{:.4g} m is {:.3g} spacings: the bed would hold {:.3g} particles", extent,
+                                            static_cast<double>(lattice.count[longest]), count),
+                        .allowed = fmt::format("at most {:.3g} m with this bed.spacing: {:.0e} particles",
+                                               extent / over, most_particles)});
+  } else {
+    const double dimensions = static_cast<double>(
+        std::count_if(lattice.count.begin(), lattice.count.end(), [](std::int64_t n) { return n > 1; }));
+    problems.push_back(
+        {.key = "bed.spacing",
+         .what = fmt::format("{:.4g} mm makes {:.3g} particles", p.bed.spacing / millimetre, count),
+         .allowed = fmt::format("at least {:.3g} mm: {:.0e} particles",
+                                p.bed.spacing * std::pow(over, 1 / dimensions) / millimetre, most_particles)});
+  }
+  return false;
+}
+
 void check_bed(const Parameters& p, std::vector<Problem>& problems) {
   const auto add = [&](const char* key, std::string what, std::string allowed) {
     problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
@@ -68,6 +101,7 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
   if (shortest < 0.5 * p.bed.spacing)
     add("bed.spacing", fmt::format("{:.4g} mm is more than twice the bed's least extent", p.bed.spacing / millimetre),
         fmt::format("at most {:.4g} mm", 2 * shortest / millimetre));
+  if (!check_size(p, problems)) return;
   const Lattice lattice = lattice_of(p);
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(lattice.spacing[axis] / p.bed.spacing - 1) > 0.15)
@@ -108,8 +142,7 @@ void check_inclined_plates(const Parameters& p, std::vector<Problem>& problems) 
   for (std::size_t n = 0; n < p.plates.size(); ++n) {
     const auto& plate = p.plates[n];
     const auto add = [&](int key, std::string what, std::string allowed) {
-      problems.push_back(
-          {.key = std::string(plate_key(n, key)), .what = std::move(what), .allowed = std::move(allowed)});
+      problems.push_back({.key = plate_key(n, key), .what = std::move(what), .allowed = std::move(allowed)});
     };
     if (plate.from.size() != 2 || plate.to.size() != 2) {
       add(plate.from.size() != 2 ? 0 : 1, "is no place", "two lengths, x and z: [\"10 mm\", \"50 mm\"]");
@@ -129,16 +162,9 @@ void check_inclined_plates(const Parameters& p, std::vector<Problem>& problems) 
 
 }  // namespace
 
-std::string_view plate_key(std::size_t n, int key) {
-  constexpr std::size_t most = most_plates + 1;  // one more than allowed, for the message
-  static const auto keys = [] {
-    std::array<std::array<std::string, 4>, most> all;
-    constexpr const char* names[4] = {"from", "to", "openings", "opens_after"};
-    for (std::size_t k = 0; k < most; ++k)
-      for (std::size_t name = 0; name < 4; ++name) all[k][name] = fmt::format("plates.{}.{}", k + 1, names[name]);
-    return all;
-  }();
-  return keys.at(n)[static_cast<std::size_t>(key)];
+std::string plate_key(std::size_t n, int key) {
+  constexpr const char* names[4] = {"from", "to", "openings", "opens_after"};
+  return fmt::format("plates.{}.{}", n + 1, names[key]);
 }
 
 std::vector<Problem> check(const Parameters& p) {
@@ -150,14 +176,10 @@ std::vector<Problem> check(const Parameters& p) {
   check_bed(p, problems);
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   for (const Problem& problem : check_air(p)) problems.push_back(problem);
-  if (p.law.collisions != granular::Collisions::none && !(p.gravity.acceleration > 0))
-    problems.push_back({.key = "law.collisions",
+  if (p.collisions.form != granular::Collisions::none && !(p.gravity.acceleration > 0))
+    problems.push_back({.key = "collisions.form",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
                         .allowed = "none without gravity"});
-  if (p.gate.opens != GateOpens::at_time && p.gate.time > 0)
-    problems.push_back({.key = "gate.time",
-                        .what = fmt::format("given, but gate.opens is \"{}\"", choice_name(p.gate.opens)),
-                        .allowed = "gate.opens = \"at-time\""});
   return problems;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +16,8 @@
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
 #include "numerics/geometry/domain.hpp"
-#include "physics/granular/law_options.hpp"
+#include "physics/granular/collisional_stress.hpp"
+#include "physics/granular/law.hpp"
 #include "physics/sph/balance.hpp"
 
 namespace talus::continuum {
@@ -30,7 +32,7 @@ enum class Method { runge_kutta, leapfrog };
 inline constexpr double half_turn = std::numbers::pi;
 
 /// The keys of the nth of [[plates]]: 0 from, 1 to, 2 openings, 3 opens_after.
-std::string_view plate_key(std::size_t n, int key);
+std::string plate_key(std::size_t n, int key);
 
 struct Parameters {
   struct BoxSize {
@@ -71,6 +73,7 @@ struct Parameters {
     std::optional<double> left, right;
   } bed;
   granular::LawParameters law;
+  granular::CollisionParameters collisions;
   struct Sph {
     Smoothing smoothing = Smoothing::local;
     Continuity continuity = Continuity::printed;
@@ -163,7 +166,8 @@ void for_each_parameter(Visit&& visit, P& p) {
           p.plates[n].opens_after);
   }
   visit(Parameter{"gate.opens", {}, {}, "when the gate that shuts the slit or the wedge's outlet goes"}, p.gate.opens);
-  visit(Parameter{"gate.time", dimension::time, at_least(0), "with gate.opens = \"at-time\": when"}, p.gate.time);
+  auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
+  timed(Parameter{"gate.time", dimension::time, at_least(0), "with gate.opens = \"at-time\": when"}, p.gate.time);
 
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
@@ -187,6 +191,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.bed.right);
 
   granular::for_each_parameter(visit, p.law);
+  granular::for_each_parameter(visit, p.collisions);
 
   visit(
       Parameter{
@@ -214,40 +219,46 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   visit(Parameter{"walls.friction", {}, {}, "friction of walls and plate: Coulomb's, the printed rule, or none"},
         p.walls.friction);
-  visit(Parameter{"walls.coefficient", dimension::none, at_least(0), "coefficient of wall friction"},
+  auto rough = only_if(unless("walls.friction", p.walls.friction, Friction::none), visit);
+  rough(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
+                  "coefficient of wall friction, the tangent of the angle of wall friction"},
         p.walls.coefficient);
-  visit(Parameter{"walls.friction_from", {}, {}, "whether walls are rough from the start or once the gate has opened"},
+  rough(Parameter{"walls.friction_from", {}, {}, "whether walls are rough from the start or once the gate has opened"},
         p.walls.friction_from);
 
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
 
-  visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it the other keys of the air mean nothing"},
+  visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it no other key of the air may be given"},
         p.air.enabled);
-  visit(Parameter{"air.cell", dimension::length, above(0),
-                  "size of the air's cells, fitted to whole numbers along each side of the box; left out: three "
-                  "quarters of bed.spacing, fitted to the plate too"},
-        p.air.cell);
-  air::for_each_parameter(visit, p.air.gas);
+  auto airy = only_if(where("air.enabled", p.air.enabled, true), visit);
+  airy(Parameter{"air.cell", dimension::length, above(0),
+                 "size of the air's cells, fitted to whole numbers along each side of the box; left out: three "
+                 "quarters of bed.spacing, fitted to the plate too"},
+       p.air.cell);
+  air::for_each_parameter(airy, p.air.gas);
 
-  visit(Parameter{"settle.speed", dimension::velocity, above(0),
-                  "the bed has settled when 99 of 100 particles are slower than this"},
-        p.settle.speed);
-  visit(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
-  visit(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
-        p.settle.longest);
-  visit(Parameter{"settle.damping_time", dimension::time, above(0),
+  auto settling = only_if(where("gate.opens", p.gate.opens, GateOpens::when_settled), visit);
+  settling(Parameter{"settle.speed", dimension::velocity, above(0),
+                     "the bed has settled when 99 of 100 particles are slower than this"},
+           p.settle.speed);
+  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
+  settling(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
+           p.settle.longest);
+  auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
+  gated(Parameter{"settle.damping_time", dimension::time, above(0),
                   "time in which velocities decay by a factor e until the gate opens, which spares waiting; left out: "
                   "no such damping"},
         p.settle.damping_time);
 
   visit(Parameter{"integration.method", {}, {}, "second-order Runge-Kutta, or leapfrog"}, p.integration.method);
-  visit(Parameter{"integration.courant", dimension::none, above(0),
-                  "time step times the speed of pressure waves over the smallest smoothing length"},
-        p.integration.courant);
   visit(Parameter{"integration.step", dimension::time, above(0), "a fixed time step in place of the Courant number's"},
         p.integration.step);
-  visit(Parameter{"integration.skin", dimension::none, at_least(0),
+  auto stepping = only_if(without("integration.step", p.integration.step), visit);
+  stepping(Parameter{"integration.courant", dimension::none, above(0),
+                     "time step times the speed of pressure waves over the smallest smoothing length"},
+           p.integration.courant);
+  visit(Parameter{"integration.skin", dimension::none, between(0, 2),
                   "skin of the neighbour lists, in particle spacings: wider lists last longer and cost more"},
         p.integration.skin);
   visit(
@@ -287,6 +298,13 @@ Lattice lattice_of(const Parameters& parameters);
 /// Where the particles stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
 /// between, and farther than a quarter of the spacing from plates at any angle.
 std::vector<Vector3> bed_positions(const Parameters& parameters);
+
+/// Places of a lattice, whether or not a plate hides them.
+double places_of(const Lattice& lattice);
+
+/// Number of those particles, without placing them; exact unless plates stand in a bed of more than a million places
+/// a layer, of which then only some are looked at.
+double bed_count(const Parameters& parameters);
 
 }  // namespace talus::continuum
 

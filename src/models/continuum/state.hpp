@@ -29,9 +29,12 @@ inline constexpr std::array<const char*, most_walls> wall_names = {
 
 /// The air around the particles, and what it does to them until its next step.
 struct AirAround {
-  Grid grid;                          ///< from the case, not a field
-  air::AirState flow;                 ///< empty: no air
-  air::Solids solids;                 ///< as the last step met them
+  Grid grid;           ///< from the case, not a field
+  air::AirState flow;  ///< empty: no air
+  air::Solids solids;  ///< as the last step met them
+  /// Of every cell, what continuity of the air lacks since the start, over the cell's volume: how much more room there
+  /// is for air than flowed in. What the grains' motion and air.continuity leave.
+  CellField excess;
   std::vector<Vector3> acceleration;  ///< of each particle, m/s^2
   Vector3 force;                      ///< the same on all particles, N
   Vector3 impulse;                    ///< what they have received, N s
@@ -40,6 +43,7 @@ struct AirAround {
   std::uint64_t iterations = 0;       ///< of the pressure, last step
   double last_step = 0;               ///< s
   double reynolds_max = 0;            ///< largest Reynolds number of a grain since the start
+  double swing_max = 0;               ///< largest difference of a cell's pressure from air.pressure since then, Pa
 };
 
 struct State {
@@ -111,6 +115,7 @@ void for_each_field_of_air(Visit&& visit, A& a) {
   };
   grid("air_pressure", "Pa", a.flow.pressure);
   grid("air_solid_fraction", "1", a.solids.fraction);
+  grid("air_excess", "1", a.excess);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& names = detail::air_names[axis];
     grid(names.velocity, "m/s", a.flow.velocity[axis]);
@@ -125,6 +130,7 @@ void for_each_field_of_air(Visit&& visit, A& a) {
   visit(Field{"air_iterations", "1"}, a.iterations);
   visit(Field{"air_last_step", "s"}, a.last_step);
   visit(Field{"air_reynolds_max", "1"}, a.reynolds_max);
+  visit(Field{"air_swing_max", "Pa"}, a.swing_max);
 }
 
 template <class Visit, class S>

@@ -127,7 +127,7 @@ struct Possible {
   bool velocity(const Vector3& v) const { return norm(v) <= most_speed; }
 };
 
-[[noreturn]] void give_up(const State& s, const Possible& possible, std::size_t i) {
+[[noreturn]] void give_up(const Parameters& p, const State& s, const Possible& possible, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !possible.density(s.density[i]);
   const double speed = norm(s.velocity[i]);
@@ -139,7 +139,8 @@ struct Possible {
                         .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
                         .step = s.step,
                         .time = s.time,
-                        .advice = "a smaller integration.courant, a larger sph.viscosity_alpha"});
+                        .advice = fmt::format("a smaller {}, a larger sph.viscosity_alpha",
+                                              p.integration.step ? "integration.step" : "integration.courant")});
 }
 
 void check_possible(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w, double dt) {
@@ -149,7 +150,7 @@ void check_possible(ThreadTeam& team, const Parameters& p, const State& s, const
       team, s.position.size(), none,
       [&](std::size_t i) { return possible.velocity(s.velocity[i]) && possible.density(s.density[i]) ? none : i; },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (worst != none) give_up(s, possible, worst);
+  if (worst != none) give_up(p, s, possible, worst);
 }
 
 void measure(ThreadTeam& team, const State& s, Workspace& w) {
@@ -178,11 +179,18 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const bool all = p.integration.method == Method::runge_kutta;
   w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? Wanted::all : Wanted::forces, w.rates);
   s.packing.resize(s.position.size());
-  s.shear_rate.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
     s.strain[i] = w.material.strain(s.material, i);
+  });
+}
+
+/// From the gradients last evaluated: with the leapfrog those in the middle of the step, which the state at its end
+/// cannot give again. A resumed run has it from its checkpoint.
+void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {
+  s.shear_rate.resize(s.position.size());
+  for_each(team, s.position.size(), [&](std::size_t i) {
     const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
     s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
   });
@@ -192,14 +200,14 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 /// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
 /// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
 /// tension would pull its own skin in; its surfaces stay surfaces.
-bool is_loose_where_free(const Parameters& p) {
-  return p.sph.continuity == Continuity::printed && p.law.name != granular::LawName::linear_elastic;
+bool is_loose_where_free(const Parameters& p, const Material& material) {
+  return p.sph.continuity == Continuity::printed && !material.bears_tension();
 }
 
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!is_loose_where_free(p)) return;
+  if (!is_loose_where_free(p, w.material)) return;
   evaluate(team, p, s, w);
   const double bed = p.bed.packing * p.grains.density;
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });
@@ -214,7 +222,7 @@ void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   evaluate(team, p, s, w);
   const std::vector<double> before = w.rates.kernel_density;
   w.open_gates(time);
-  if (!is_loose_where_free(p)) return;
+  if (!is_loose_where_free(p, w.material)) return;
   evaluate(team, p, s, w);
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += w.rates.kernel_density[i] - before[i]; });
 }
@@ -266,6 +274,7 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   begin_densities(team, p, s, w);
   if (w.air) w.air->begin(team, w.smoothing_length, s);
   evaluate(team, p, s, w);
+  measure_shear_rate(team, s, w);
 }
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
@@ -283,6 +292,22 @@ double time_step(ThreadTeam& team, const Parameters& p, const State& s, const Wo
   return p.integration.courant * least / w.sound_speed;
 }
 
+NumericalError::Report step_limit(const Parameters& p, const State& s, const Workspace& w) {
+  const auto least = std::min_element(w.smoothing_length.begin(), w.smoothing_length.end());
+  const double of_grains = p.integration.step.value_or(p.integration.courant * *least / w.sound_speed);
+  if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
+  const auto i = static_cast<std::size_t>(least - w.smoothing_length.begin());
+  const Vector3& x = s.position[i];
+  NumericalError::Report report{};
+  report.term =
+      p.integration.step
+          ? "integration.step"
+          : fmt::format("Courant number of the grains, where they are densest, at {:.4g} kg/m3", s.density[i]);
+  report.place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z);
+  report.advice = "a stiffer law of the grains, a larger sph.viscosity_alpha";
+  return report;
+}
+
 void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   double dt = time_step(team, p, s, w);
   if (w.air) dt = w.air->advance(team, w.smoothing_length, dt, s);
@@ -297,6 +322,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   measure(team, s, w);
   if (!w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) find_neighbours(team, p, s, w);
   evaluate(team, p, s, w);
+  measure_shear_rate(team, s, w);
 }
 
 }  // namespace talus::continuum

@@ -50,6 +50,9 @@ void derive(ThreadTeam& team, const Parameters& parameters, State& state, Worksp
 /// The step that the Courant number allows, s, or the fixed one; air may ask for another.
 double time_step(ThreadTeam& team, const Parameters& parameters, const State& state, const Workspace& workspace);
 
+/// What holds the last step as short as it is, and where: the Courant number of the grains, or the air.
+NumericalError::Report step_limit(const Parameters& parameters, const State& state, const Workspace& workspace);
+
 /// Advances by one step.
 /// \throws NumericalError for a velocity or density that is not finite, or a bed that does not settle in time
 void advance(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

@@ -35,6 +35,22 @@ void for_each_cell(ThreadTeam& team, const Grid& grid, Body&& body) {
   });
 }
 
+/// Largest value(index) over the cells, at least 0.
+template <class Value>
+double largest_of_cells(ThreadTeam& team, const Grid& grid, Value&& value) {
+  const int ny = grid.count[1], rows = ny * grid.count[2];
+  return reduce(
+      team, static_cast<std::size_t>(rows), 0.0,
+      [&](std::size_t row) {
+        const auto begin =
+            static_cast<std::ptrdiff_t>(grid.index(0, static_cast<int>(row) % ny, static_cast<int>(row) / ny));
+        double most = 0;
+        for (auto c = begin; c < begin + grid.count[0]; ++c) most = std::max(most, value(c));
+        return most;
+      },
+      [](double a, double b) { return std::max(a, b); });
+}
+
 /// Faces of an axis, one after another along x, that have their neighbours in the same places.
 struct FaceRun {
   std::ptrdiff_t begin, end;

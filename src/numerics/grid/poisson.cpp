@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "base/clones.hpp"
 #include "base/error.hpp"
+#include "numerics/grid/conjugate_gradients.hpp"
 #include "numerics/grid/runs.hpp"
 
 namespace talus {
@@ -78,7 +78,7 @@ double PoissonSolver::sum(ThreadTeam& team, Term&& term) {
   return total;
 }
 
-void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance) {
+void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
   const std::array<int, 3> count = grid_.count;
   board_.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
@@ -90,7 +90,7 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
           const std::array<int, 3> place{2 * m + first, j, k};
           const std::size_t c = own + static_cast<std::size_t>(m);
           const auto n = static_cast<std::ptrdiff_t>(index_[c]);
-          double outside = 0;
+          double outside = storage ? (*storage)[static_cast<std::size_t>(n)] : 0;
           for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             const double low = conductance[a][static_cast<std::size_t>(n)];
@@ -208,6 +208,46 @@ double PoissonSolver::apply(ThreadTeam& team, const std::vector<double>& x, std:
   return sum(team, [&](std::size_t c) { return x[c] * image[c]; });
 }
 
+double PoissonSolver::residual_square(ThreadTeam& team) {
+  return sum(team, [&](std::size_t c) { return residual_[c] * residual_[c]; });
+}
+
+/// The pressure's equation for the conjugate gradients.
+struct PoissonSolver::System {
+  PoissonSolver& solver;
+  ThreadTeam& team;
+
+  double residual_square() { return solver.residual_square(team); }
+  double apply_to_direction() { return solver.apply(team, solver.direction_, solver.image_); }
+  void advance(double step) {
+    PoissonSolver& s = solver;
+    s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) {
+        s.value_[c] += step * s.direction_[c];
+        s.residual_[c] -= step * s.image_[c];
+      }
+    });
+  }
+};
+
+/// One cycle of the multigrid as the preconditioner.
+struct PoissonSolver::MultigridCycle {
+  PoissonSolver& solver;
+  ThreadTeam& team;
+
+  double apply(double norm) {
+    PoissonSolver& s = solver;
+    s.multigrid_.precondition(team, s.residual_, 1 / norm, norm * s.scale_, s.correction_);
+    return s.sum(team, [&](std::size_t c) { return s.residual_[c] * s.correction_[c]; });
+  }
+  void turn(double turn) {
+    PoissonSolver& s = solver;
+    s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t c = begin; c < end; ++c) s.direction_[c] = s.correction_[c] + turn * s.direction_[c];
+    });
+  }
+};
+
 PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& source, CellField& value,
                                             const Stop& stop) {
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -218,8 +258,7 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
       direction_[c] = 0;
     }
   });
-  const auto residual_square = [&] { return sum(team, [&](std::size_t c) { return residual_[c] * residual_[c]; }); };
-  const double enough = std::max(stop.tolerance * std::sqrt(residual_square()), stop.absolute);
+  const double enough = std::max(stop.tolerance * std::sqrt(residual_square(team)), stop.absolute);
   if (!(unbalanced() <= enough))
     fail("the sources of a region without an opening do not balance",
          "an open face for every region that grains enter or leave");
@@ -233,37 +272,19 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
     for (std::size_t c = begin; c < end; ++c) residual_[c] -= image_[c];
   });
 
-  Outcome outcome;
-  double before = 0;
-  while (true) {
-    const double norm = outcome.residual = std::sqrt(residual_square());
-    if (norm <= enough) break;
-    if (!(norm <= std::numeric_limits<double>::max()))
-      fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
-    if (outcome.iterations == stop.most_iterations)
-      fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
-    multigrid_.precondition(team, residual_, 1 / norm, norm * scale_, correction_);
-    const double product = sum(team, [&](std::size_t c) { return residual_[c] * correction_[c]; });
-    const double turn = before > 0 ? product / before : 0;
-    before = product;
-    for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) direction_[c] = correction_[c] + turn * direction_[c];
-    });
-    const double step = product / apply(team, direction_, image_);
-    for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) {
-        value_[c] += step * direction_[c];
-        residual_[c] -= step * image_[c];
-      }
-    });
-    ++outcome.iterations;
-  }
+  System system{*this, team};
+  MultigridCycle cycle{*this, team};
+  const ConjugateGradients found = solve_by_conjugate_gradients(system, cycle, enough, stop.most_iterations);
+  if (found.convergence == Convergence::not_finite)
+    fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
+  if (found.convergence == Convergence::too_slow)
+    fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
   remove_means(value_);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c)
       if (index_[c] != pad) value[index_[c]] = value_[c];
   });
-  return outcome;
+  return {found.iterations, found.residual};
 }
 
 void PoissonSolver::fail(const char* what, const char* advice) const {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Poisson's equation with a coefficient on every face: the value of each cell such that what flows out through its
 /// faces is its source,
-///   sum over faces of conductance * (value - value of the neighbour) = source,
-/// where the value outside an open boundary is zero (add conductance * outside value to the source for another one).
-/// Conjugate gradients in double precision, preconditioned by a multigrid cycle; the bits do not depend on the number
-/// of threads. Faces of no conductance may cut the grid into regions; a region without an open boundary has a value up
-/// to a constant only, chosen so that its mean is zero, and its sources must balance.
+///   sum over faces of conductance * (value - value of the neighbour) + storage * value = source,
+/// where the storage of cells is none unless given and the value outside an open boundary is zero (add conductance *
+/// outside value to the source for another one). Conjugate gradients in double precision, preconditioned by a multigrid
+/// cycle; the bits do not depend on the number of threads. Faces of no conductance may cut the grid into regions; a
+/// region without an open boundary has a value up to a constant only, chosen so that its mean is zero, and its sources
+/// must balance.
 #pragma once
 
 #include <array>
@@ -35,7 +36,8 @@ class PoissonSolver {
 
   /// Takes the conductances, at least 0, unit [source] / [value]; those of the high faces of a periodic axis are not
   /// read. Finds the regions anew where the pattern of zeros has changed.
-  void set_conductance(ThreadTeam& team, const FaceField& conductance);
+  /// \param storage at least 0 in every cell, in the grid's order; none: 0
+  void set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage = nullptr);
 
   /// \param source of every cell, in the grid's order
   /// \param value in: a first guess, out: the solution; ghosts are left alone
@@ -44,11 +46,14 @@ class PoissonSolver {
   Outcome solve(ThreadTeam& team, const CellField& source, CellField& value, const Stop& stop);
 
  private:
+  struct System;
+  struct MultigridCycle;
   template <class Body>
   void for_each_range(ThreadTeam& team, Body&& body) const;
   template <class Term>
   double sum(ThreadTeam& team, Term&& term);
   double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& image);
+  double residual_square(ThreadTeam& team);
   void find_closed_regions();
   double unbalanced() const;
   void remove_means(std::vector<double>& column) const;

@@ -16,6 +16,12 @@ constexpr double density(double pressure, double temperature) {
   return pressure / (gas_constant * temperature);
 }
 
+/// Volume by which a volume of an isothermal ideal gas shrinks for each Pa that its pressure rises, 1/Pa times the
+/// volume: dV = -V dP/P, from P V = const. \param volume m^3; \param pressure absolute, Pa, above 0; \returns m^3/Pa
+constexpr double isothermal_compliance(double volume, double pressure) {
+  return volume / pressure;
+}
+
 /// Mean free path of the molecules, (mu/p) (pi R T/2)^(1/2) (Kennard 1938).
 /// \param viscosity Pa s; \param pressure Pa; \param temperature K; \returns m
 inline double mean_free_path(double viscosity, double pressure, double temperature) {

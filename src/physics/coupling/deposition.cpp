@@ -12,14 +12,20 @@ namespace talus::coupling {
 
 namespace {
 
-/// The cell within the box that a cell beyond its ends stands for; -1: none.
-int fold(int place, int count, FaceKind low, FaceKind high) {
-  if (low == FaceKind::periodic) return ((place % count) + count) % count;
-  while (place < 0 || place >= count) {
-    if (!is_mirror(place < 0 ? low : high)) return -1;
-    place = place < 0 ? -1 - place : 2 * count - 1 - place;
-  }
+/// The cell within the box that a cell beyond its ends stands for.
+int fold(int place, int count, bool is_periodic) {
+  if (is_periodic) return ((place % count) + count) % count;
+  while (place < 0 || place >= count) place = place < 0 ? -1 - place : 2 * count - 1 - place;
   return place;
+}
+
+/// Whether a place lies beyond an open face of the box.
+bool has_left(const Box& box, const Vector3& x) {
+  for (int axis = 0; axis < 3; ++axis)
+    if ((x[axis] < box.low[axis] && box.face(axis, 0) == FaceKind::open) ||
+        (x[axis] > box.high[axis] && box.face(axis, 1) == FaceKind::open))
+      return true;
+  return false;
 }
 
 /// The kernel where the square of the distance is square[i] + beside. \param per_width over the smoothing length
@@ -36,7 +42,7 @@ struct Deposition::Scratch {
   struct Along {
     int from = 0;                   // the first one along an axis
     std::vector<double> square;     // of the distance of each one's centre, m^2; then far ones, to a whole vector
-    std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for; its size: none
+    std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for
     std::vector<int> cell;          // each once
 
     void find(const Grid& grid, const Box& box, int axis, double x, double reach);
@@ -51,15 +57,13 @@ void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis
   const int to = static_cast<int>(std::floor(place + reach / width));
   from = static_cast<int>(std::ceil(place - reach / width));
   square.clear(), slot.clear(), cell.clear();
-  constexpr auto none = static_cast<std::size_t>(-1);
   for (int n = from; n <= to; ++n) {
     square.push_back((n - place) * (n - place) * width * width);
-    const int within = fold(n, grid.count[static_cast<std::size_t>(axis)], box.face(axis, 0), box.face(axis, 1));
+    const int within = fold(n, grid.count[static_cast<std::size_t>(axis)], box.face(axis, 0) == FaceKind::periodic);
     const auto found = std::find(cell.begin(), cell.end(), within);
-    slot.push_back(within < 0 ? none : static_cast<std::size_t>(found - cell.begin()));
-    if (within >= 0 && found == cell.end()) cell.push_back(within);
+    slot.push_back(static_cast<std::size_t>(found - cell.begin()));
+    if (found == cell.end()) cell.push_back(within);
   }
-  std::replace(slot.begin(), slot.end(), none, cell.size());
   square.resize((square.size() + 7) / 8 * 8, 4 * reach * reach);
 }
 
@@ -92,14 +96,15 @@ void Deposition::weigh(ThreadTeam& team, std::span<const Vector3> position, std:
 }
 
 void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& block) const {
+  if (has_left(domain_.box(), x)) return block.end.push_back(block.end.empty() ? 0 : block.end.back());
   // At least the nearest cell's centre is within reach.
   const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
   const double per_width = sph::support / reach;
   for (int axis = 0; axis < 3; ++axis)
     scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
   const auto& [along_x, along_y, along_z] = scratch.along;
-  const std::size_t columns = along_x.cell.size() + 1, rows = along_y.cell.size() + 1;
-  scratch.sum.assign(columns * rows * (along_z.cell.size() + 1), 0);
+  const std::size_t columns = along_x.cell.size(), rows = along_y.cell.size();
+  scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
   scratch.weight.resize(along_x.square.size());
   double *sum = scratch.sum.data(), *weight = scratch.weight.data();
   const auto slot = [&](std::size_t i, std::size_t j, std::size_t k) {
@@ -174,7 +179,6 @@ bool Deposition::is_behind_panel(const Vector3& x, const Scratch& scratch, std::
   std::array<int, 3> place, within;
   for (std::size_t a = 0; a < 3; ++a) {
     const Scratch::Along& along = scratch.along[a];
-    if (along.slot[cell[a]] >= along.cell.size()) return true;  // beyond an open face
     place[a] = along.from + static_cast<int>(cell[a]), within[a] = along.cell[along.slot[cell[a]]];
   }
   const Vector3 centre = grid_.centre(within[0], within[1], within[2]);

@@ -3,10 +3,11 @@
 /// with the SPH kernel, and what cells hand back with the same weights ("averaged in an air cell", Yuu & Umekage 2011).
 ///
 /// The weights of a particle are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
-/// round-off. What would fall behind a wall, a symmetry plane or the solid part of a plate is folded back, as the
-/// particle's image behind it would spread it, so that a bed is as dense at a wall as within; what would leave through
-/// a periodic face comes in at the other. Beyond an open face there is no air: a particle out there has no weights.
-/// Cells that a panel hides from a particle have no share in it, those it sees the more.
+/// round-off. What would fall beyond a face of the box or the solid part of a plate is folded back, as the particle's
+/// image behind it would spread it, so that a bed is as dense at a face as within; what would leave through a periodic
+/// face comes in at the other. A particle beyond an open face has left: it has no weights, neither fills the air nor
+/// feels it, and the cells at the face hold what is within the box and no more. Cells that a panel hides from a
+/// particle have no share in it, those it sees the more.
 #pragma once
 
 #include <array>

@@ -4,35 +4,65 @@
 /// independent stress while (D/g)^(1/2) du_i/dx_j stays below 0.2 (i != j) and 0.04 (i = j).
 #pragma once
 
+#include <array>
+#include <concepts>
+#include <string_view>
+#include <type_traits>
+
+#include "base/parameter.hpp"
 #include "base/tensor.hpp"
 
 namespace talus::granular {
 
-struct CollisionOptions {
-  double diameter = 2e-4;  ///< D_p, m
-  double gravity = 9.8;    ///< g, m/s^2
-  double normal = 1.67;    ///< B1
-  double shear = 0.0175;   ///< B2
-  /// gamma_ii over du_i/dx_i: 2 if gamma_ij = du_i/dx_j + du_j/dx_i is meant for i = j too.
-  double diagonal_factor = 1;
-  bool isotropic = false;  ///< B1 on the volumetric, B2 on the deviatoric rate, in place of the printed components
+enum class Collisions { printed, isotropic, none };
+
+/// The table [collisions] of a case.
+struct CollisionParameters {
+  Collisions form = Collisions::printed;
+  double normal = 1.67;   ///< B1
+  double shear = 0.0175;  ///< B2
+  double diagonal = 1;    ///< gamma_ii over du_i/dx_i: 2 if gamma_ij = du_i/dx_j + du_j/dx_i is meant for i = j too
 };
+
+/// Every key, once.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_const_t<P>, CollisionParameters> {
+  visit(Parameter{"collisions.form",
+                  {},
+                  {},
+                  "stress by collisions, Eqs 13 and 14: component by component as printed, in isotropic form, or none"},
+        p.form);
+  auto colliding = only_if(unless("collisions.form", p.form, Collisions::none), visit);
+  colliding(Parameter{"collisions.normal", dimension::none, at_least(0), "B1 of Eq. 13"}, p.normal);
+  colliding(Parameter{"collisions.shear", dimension::none, at_least(0), "B2 of Eq. 14"}, p.shear);
+  auto printed = only_if(where("collisions.form", p.form, Collisions::printed), visit);
+  printed(Parameter{"collisions.diagonal", dimension::none, above(0),
+                    "gamma_ii over du_i/dx_i in Eq. 13: 1, or 2 as for i != j"},
+          p.diagonal);
+}
 
 /// Eqs 13 and 14, compression positive: -B (D/g)^(1/2) gamma_ij tau with gamma_ij = du_i/dx_j + du_j/dx_i for i != j.
 /// deviates: gamma_ii, which is not defined in print, is du_i/dx_i. The printed components give rotated axes another
 /// stress, B1 being 95 times B2; the isotropic reading does not:
 ///     tau_ij = -(D/g)^(1/2) tau (B1 tr(D)/3 delta_ij + 2 B2 D_dev,ij)
-/// \param mean_stress tau of Eq. 8, Pa, >= 0; \param velocity_gradient 1/s; \returns Pa
+/// \param fall_time (D/g)^(1/2), s, of the grains' diameter D_p; \param mean_stress tau of Eq. 8, Pa, >= 0
+/// \param velocity_gradient 1/s; \returns Pa; zero without collisions
 template <class Number>
-SymmetricTensor3<Number> collisional_stress(const CollisionOptions& o, const Number& mean_stress,
+SymmetricTensor3<Number> collisional_stress(const CollisionParameters& p, double fall_time, const Number& mean_stress,
                                             const Tensor3<Number>& velocity_gradient) {
-  const Number scale = -std::sqrt(o.diameter / o.gravity) * mean_stress;
+  if (p.form == Collisions::none) return {};
+  const Number scale = -fall_time * mean_stress;
   const SymmetricTensor3<Number> rate = symmetric_part(velocity_gradient);
-  if (o.isotropic)
-    return scale * (isotropic<Number>((o.normal / 3.0) * trace(rate)) + (2.0 * o.shear) * deviator(rate));
-  const Number normal = (o.normal * o.diagonal_factor) * scale;
-  const Number shear = (2.0 * o.shear) * scale;
+  if (p.form == Collisions::isotropic)
+    return scale * (isotropic<Number>((p.normal / 3.0) * trace(rate)) + (2.0 * p.shear) * deviator(rate));
+  const Number normal = (p.normal * p.diagonal) * scale;
+  const Number shear = (2.0 * p.shear) * scale;
   return {normal * rate.xx, normal * rate.yy, normal * rate.zz, shear * rate.xy, shear * rate.yz, shear * rate.zx};
 }
 
 }  // namespace talus::granular
+
+namespace talus {
+template <>
+inline constexpr auto choices<granular::Collisions> = std::to_array<std::string_view>({"printed", "isotropic", "none"});
+}  // namespace talus

@@ -13,19 +13,52 @@
 /// reset.
 #pragma once
 
+#include <cstdint>
+
+#include "base/parameter.hpp"
 #include "base/tensor.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/law_readings.hpp"
 
 namespace talus::granular {
 
+/// Where grains touch and where they lose contact: the keys that the fitted laws have in common.
+struct Contact {
+  double reference_packing = 0.6;  ///< rho_ref/rho_p, at which grains at rest just touch
+  Volume volume = Volume::density;
+  double compaction = 3;         ///< k, per shear strain, by which shear makes grains forget that they came apart
+  double gate_packing = 0.5;     ///< packing below which contacts are lost
+  std::int64_t gate_power = 96;  ///< of the factor by which stress then vanishes
+};
+
+template <class Visit, class C>
+void for_each_contact_parameter(Visit&& visit, C& contact) {
+  visit(Parameter{"reference_packing", dimension::none, between(0.1, 0.74),
+                  "packing at which grains at rest just touch; denser, they bear pressure"},
+        contact.reference_packing);
+  visit(Parameter{"volume",
+                  {},
+                  {},
+                  "what the volumetric strain is measured by: the density over that of the reference packing, the "
+                  "density over that at which the grains last touched, or the strain since the last reset"},
+        contact.volume);
+  auto remembered = only_if(where("volume", contact.volume, Volume::contact), visit);
+  remembered(
+      Parameter{"compaction", dimension::none, at_least(0),
+                "volume by contact: how fast shear packs grains again that came apart, per unit of shear strain"},
+      contact.compaction);
+  visit(Parameter{"gate_packing", dimension::none, between(0, 0.74),
+                  "packing below which grains lose contact and stress vanishes by a power of the packing"},
+        contact.gate_packing);
+  visit(Parameter{"gate_power", dimension::none, between(0, 1e6), "that power; 96 in the paper"}, contact.gate_power);
+}
+
 class ContactMemory {
  public:
-  /// \param gate_packing below which no contact is remembered; \param compaction k, >= 0
-  ContactMemory(Volume volume, double reference_packing, double gate_packing, double compaction)
-      : remembers_(volume == Volume::contact),
-        largest_dilation_(maximum(volumetric_strain(reference_packing, gate_packing), 0.0)),
-        compaction_(compaction) {}
+  explicit ContactMemory(const Contact& contact)
+      : remembers_(contact.volume == Volume::contact),
+        largest_dilation_(maximum(volumetric_strain(contact.reference_packing, contact.gate_packing), 0.0)),
+        compaction_(contact.compaction) {}
 
   /// d at the end of a step; 0 if nothing is remembered.
   /// \param old d at its start; \param by_density ln(rho_b/rho_ref)/3 at its end; \param velocity_gradient 1/s

@@ -6,15 +6,17 @@
 
 namespace talus::granular {
 
-DruckerPrager::DruckerPrager(const DruckerPragerOptions& options, const FittedFunctions& functions)
-    : options_(options),
-      memory_(options.volume, options.reference_packing, options.gate_packing, options.compaction),
-      shear_(shear_table(functions)),
-      inverse_grain_density_(1 / options.grain_density) {
-  if (!(options_.largest_deviator <= largest_fitted_strain))
+DruckerPrager::DruckerPrager(const Parameters& parameters, double grain_density)
+    : parameters_(parameters),
+      memory_(parameters.contact),
+      shear_(shear_table(parameters.fits.functions())),
+      inverse_grain_density_(1 / grain_density) {
+  const Fits& fits = parameters.fits;
+  if (!(fits.largest_deviator <= largest_fitted_strain))
     throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
-  const double lambda = options_.scale * functions.a2.piece[0].c0;
-  two_g_ = options_.scale * (functions.a1.piece[0].c0 - functions.a2.piece[0].c0);
+  const FittedFunctions& functions = fits.functions();
+  const double lambda = fits.scale * functions.a2.piece[0].c0;
+  two_g_ = fits.scale * (functions.a1.piece[0].c0 - functions.a2.piece[0].c0);
   inverse_two_g_ = 1 / two_g_;
   bulk_ = lambda + two_g_ / 3;
 }

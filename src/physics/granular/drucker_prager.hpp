@@ -27,22 +27,32 @@
 
 namespace talus::granular {
 
-struct DruckerPragerOptions {
-  double scale = 9.80;             ///< alpha
-  double grain_density = 2500;     ///< rho_p, kg/m^3
-  double reference_packing = 0.6;  ///< rho_ref/rho_p, at which the grains just touch
-  Volume volume = Volume::density;
-  double compaction = 3;            ///< k, of contact_memory.hpp
-  double friction = 0;              ///< mu, constant; 0: from A4
-  double largest_deviator = 0.014;  ///< kappa beyond which mu no longer changes
-  double gate_packing = 0.5;        ///< packing below which contacts are lost
-  int gate_power = 96;              ///< of the factor by which stress then vanishes
-};
-
 class DruckerPrager {
  public:
+  static constexpr std::string_view name = "drucker-prager";
+  static constexpr std::string_view text = "elastic up to a friction, constant or hardening as the fits do";
+  static constexpr bool bears_tension = false;
+
+  struct Parameters {
+    double friction = 0;  ///< mu, constant; 0: from A4
+    Fits fits = {};
+    Contact contact = {};
+  };
+  template <class Visit, class P>
+  static void for_each_parameter(Visit&& visit, P& p) {
+    visit(Parameter{"friction", dimension::none, friction_coefficient(),
+                    "friction coefficient in simple shear, the tangent of the angle at which the grains yield; 0: "
+                    "hardening with A4"},
+          p.friction);
+    for_each_fit_parameter(visit, p.fits);
+    auto hardening = only_if({"friction", "is given", "= 0", p.friction == 0}, visit);
+    visit_largest_deviator(hardening, p.fits, within_fits());
+    for_each_contact_parameter(visit, p.contact);
+  }
+
+  /// \param grain_density rho_p, kg/m^3
   /// \throws std::invalid_argument if the largest deviator lies beyond the range of the fits
-  DruckerPrager(const DruckerPragerOptions& options, const FittedFunctions& functions);
+  explicit DruckerPrager(const Parameters& parameters, double grain_density = 2500);
 
   template <class Number>
   struct History {
@@ -61,15 +71,17 @@ class DruckerPrager {
                                               double time_step) const {
     const SymmetricTensor3<Number> increment = time_step * symmetric_part(velocity_gradient);
     const Number packing = inverse_grain_density_ * density;
-    const Number packed = volumetric_strain(packing, options_.reference_packing);
+    const Number packed = volumetric_strain(packing, parameters_.contact.reference_packing);
     const Number dilation = memory_.dilation(old.history.dilation, packed, velocity_gradient, time_step);
-    Number pressure =
-        maximum(options_.volume == Volume::strain ? (1.0 / 3.0) * trace(old.stress) - bulk_ * trace(increment)
-                                                  : (3.0 * bulk_) * (packed + dilation),
-                Number(0.0));
+    Number pressure = maximum(parameters_.contact.volume == Volume::strain
+                                  ? (1.0 / 3.0) * trace(old.stress) - bulk_ * trace(increment)
+                                  : (3.0 * bulk_) * (packed + dilation),
+                              Number(0.0));
     // By the density there is no pressure below the reference packing, and so none that the gate could take away.
-    if (options_.volume != Volume::density || options_.gate_packing > options_.reference_packing)
-      pressure = pressure * contact_gate(packing, options_.gate_packing, options_.gate_power);
+    if (parameters_.contact.volume != Volume::density ||
+        parameters_.contact.gate_packing > parameters_.contact.reference_packing)
+      pressure = pressure * contact_gate(packing, parameters_.contact.gate_packing,
+                                         static_cast<int>(parameters_.contact.gate_power));
 
     const SymmetricTensor3<Number> shear =
         transformed(deviator(old.stress), rotation_of_step(velocity_gradient, time_step)) -
@@ -79,7 +91,7 @@ class DruckerPrager {
     MaterialPoint<DruckerPrager, Number> point;
     point.history.dilation = dilation;
     point.history.yield_deviator =
-        minimum(old.history.yield_deviator + inverse_two_g_ * excess, Number(options_.largest_deviator));
+        minimum(old.history.yield_deviator + inverse_two_g_ * excess, Number(parameters_.fits.largest_deviator));
     const Number most = friction_ratio(point.history.yield_deviator) * pressure;
     point.stress = isotropic(pressure) + (minimum(size, most) / maximum(size, Number(1e-30))) * shear;
     return point;
@@ -87,17 +99,19 @@ class DruckerPrager {
 
   /// c = ((lambda + 2G)/rho_b)^(1/2), m/s.
   double sound_speed(double density) const;
-  const DruckerPragerOptions& options() const { return options_; }
+  /// With a constant friction any grains without cohesion.
+  LawRange range() const { return {.grain_diameter = parameters_.friction > 0 ? 0 : fitted_diameter}; }
+  const Parameters& parameters() const { return parameters_; }
 
  private:
   /// |s|/p at yield.
   template <class Number>
   Number friction_ratio(const Number& yield_deviator) const {
-    if (options_.friction > 0) return Number(1.4142135623730951 * options_.friction);
+    if (parameters_.friction > 0) return Number(1.4142135623730951 * parameters_.friction);
     return yield_deviator * shear_(yield_deviator);
   }
 
-  DruckerPragerOptions options_;
+  Parameters parameters_;
   ContactMemory memory_;
   ShearTable shear_;
   double two_g_;  // Pa

@@ -2,6 +2,7 @@
 #include "physics/granular/fitted_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -128,6 +129,10 @@ PressureTable pressure_table(const FittedFunctions& functions) {
   }
   table.finish();
   return table;
+}
+
+double largest_fitted_pressure(const Fits& fits) {
+  return fits.scale * pressure_table(fits.functions())(largest_fitted_strain) / std::sqrt(3.0);
 }
 
 }  // namespace talus::granular

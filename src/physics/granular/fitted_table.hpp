@@ -3,7 +3,11 @@
 /// argument, by the leading bits of the argument, and the same numbers come out for a number alone and for lanes.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "base/lanes.hpp"
+#include "base/parameter.hpp"
 #include "physics/granular/fitted_functions.hpp"
 
 namespace talus::granular {
@@ -86,4 +90,52 @@ ShearTable shear_table(const FittedFunctions& functions);
 using PressureTable = PieceTable<1, 4>;
 PressureTable pressure_table(const FittedFunctions& functions);
 
+enum class Tables { repaired, printed };
+
+/// The fits as a law takes them: the keys that the fitted laws have in common.
+struct Fits {
+  Tables tables = Tables::repaired;
+  double scale = 9.80;              ///< alpha, stress of the real field over that of the fits' (130 Pa at the bottom)
+  double largest_deviator = 0.014;  ///< |e_dev| beyond which A4 |e_dev| no longer changes
+
+  const FittedFunctions& functions() const { return tables == Tables::printed ? printed_2011 : repaired_2011; }
+};
+
+template <class Visit, class F>
+void for_each_fit_parameter(Visit&& visit, F& fits) {
+  visit(
+      Parameter{"tables",
+                {},
+                {},
+                "fitted functions A1 to A4: with coefficients that round to the printed ones and join, or as printed"},
+      fits.tables);
+  visit(Parameter{"scale", dimension::none, above(0),
+                  "alpha: rho_b g h_m over 130 Pa, the stress at the bottom of the bed over that of the fits"},
+        fits.scale);
+}
+
+/// \param largest range of the key
+template <class Visit, class F>
+void visit_largest_deviator(Visit&& visit, F& fits, const Range& largest) {
+  visit(Parameter{"largest_deviator", dimension::none, largest,
+                  "|e_dev| beyond which shear no longer hardens or softens the grains; the fits end at 0.035"},
+        fits.largest_deviator);
+}
+
+/// Up to where the fits go.
+constexpr Range within_fits() {
+  return {.least = 0, .most = largest_fitted_strain, .least_excluded = true};
+}
+
+/// Where the loading curve of the pressure ends with the fits, at f = 1, Pa.
+double largest_fitted_pressure(const Fits& fits);
+
+/// Diameter of the grains that were fitted, m.
+inline constexpr double fitted_diameter = 200e-6;
+
 }  // namespace talus::granular
+
+namespace talus {
+template <>
+inline constexpr auto choices<granular::Tables> = std::to_array<std::string_view>({"repaired", "printed"});
+}  // namespace talus

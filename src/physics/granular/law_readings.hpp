@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The readings of the constitutive laws that a case chooses among (law_options.hpp has their names and texts).
+/// The readings of the fitted constitutive laws that a case chooses among, with their names in case files.
 #pragma once
 
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parameter.hpp"
 #include "base/tensor.hpp"
 
 namespace talus::granular {
@@ -23,6 +29,9 @@ enum class Strain {
 /// to the yield point; the others go back along the loading curve.
 enum class Unloading { none, pressure, shear, all };
 
+/// The printed components unload together.
+enum class PrintedUnloading { none, all };
+
 /// What is forgotten at the end of an unloading process: nothing, the deviator of the strain, or all of it (the paper
 /// sets X_i := x_i).
 enum class Reset { never, deviator, strain };
@@ -37,25 +46,30 @@ enum class ShearSum {
   with_signs  ///< e_xy + e_xz, as printed
 };
 
-/// Options that both forms of the law `yuu-umekage` share.
-struct YuuUmekageOptions {
-  double scale = 9.80;             ///< alpha, stress of the real field over that of the fits' (130 Pa at the bottom)
-  double grain_density = 2500;     ///< rho_p, kg/m^3
-  double reference_packing = 0.6;  ///< rho_ref/rho_p, at which the grains just touch
-  Strain strain = Strain::rate;    ///< printed components only
-  Volume volume = Volume::density;
-  double compaction = 3;  ///< k, per shear strain, by which shear makes grains forget that they came apart
-  Unloading unloading = Unloading::all;
+/// What both forms of the law `yuu-umekage` do while the strain falls.
+struct UnloadingRule {
   double unloading_stiffness = 1.5;  ///< k_u
   Reset reset = Reset::never;
   MainStrain main_strain = MainStrain::z;
-  double smoothing_time = 2e-4;             ///< s, over which the rate of the main strain is averaged
-  double close_packing = 0.64;              ///< beyond which the pressure rises along its initial stiffness again
-  double largest_deviator = 0.014;          ///< |e_dev| beyond which the deviator no longer grows
-  ShearSum shear_sum = ShearSum::absolute;  ///< printed components only
-  double gate_packing = 0.5;                ///< packing below which contacts are lost
-  int gate_power = 96;                      ///< of the factor by which stress then vanishes
+  double smoothing_time = 2e-4;  ///< s, over which the rate of the main strain is averaged
 };
+
+template <class Visit, class R>
+void for_each_main_strain_parameter(Visit&& visit, R& rule) {
+  visit(Parameter{"main_strain", {}, {}, "the strain whose fall is an unloading process; volume: tr(e)/3"},
+        rule.main_strain);
+  visit(Parameter{"smoothing_time", dimension::time, at_least(0),
+                  "time over which the rate of the main strain is averaged before its sign counts"},
+        rule.smoothing_time);
+}
+
+/// That a volumetric strain which is to be forgotten is one.
+inline std::vector<Problem> check_reset(Reset reset, Volume volume) {
+  if (reset != Reset::strain || volume == Volume::strain) return {};
+  return {{.key = "reset",
+           .what = "a volumetric strain measured by the density cannot be reset",
+           .allowed = "\"never\" or \"deviator\", or volume = \"strain\""}};
+}
 
 /// The component of a strain, a rate of strain or a stress along the main direction; a third of the trace for the
 /// volume.
@@ -77,3 +91,21 @@ Number smoothed_main_rate(const Number& old_rate, MainStrain main, const Tensor3
 }
 
 }  // namespace talus::granular
+
+namespace talus {
+template <>
+inline constexpr auto choices<granular::Volume> = std::to_array<std::string_view>({"density", "contact", "strain"});
+template <>
+inline constexpr auto choices<granular::Strain> = std::to_array<std::string_view>({"rate", "displacements"});
+template <>
+inline constexpr auto choices<granular::Unloading> = std::to_array<std::string_view>({"none", "pressure", "shear",
+                                                                                      "all"});
+template <>
+inline constexpr auto choices<granular::PrintedUnloading> = std::to_array<std::string_view>({"none", "all"});
+template <>
+inline constexpr auto choices<granular::Reset> = std::to_array<std::string_view>({"never", "deviator", "strain"});
+template <>
+inline constexpr auto choices<granular::MainStrain> = std::to_array<std::string_view>({"x", "y", "z", "volume"});
+template <>
+inline constexpr auto choices<granular::ShearSum> = std::to_array<std::string_view>({"absolute", "signed"});
+}  // namespace talus

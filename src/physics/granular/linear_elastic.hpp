@@ -14,8 +14,22 @@ namespace talus::granular {
 /// d tau/dt = -lambda tr(D) I - 2 G D in axes that turn with the material; compression positive.
 class LinearElastic {
  public:
-  /// \param lambda, shear_modulus Lame's constants lambda and G, Pa, > 0
-  LinearElastic(double lambda, double shear_modulus) : lambda_(lambda), shear_modulus_(shear_modulus) {}
+  static constexpr std::string_view name = "linear-elastic";
+  static constexpr std::string_view text = "Hooke's law, which bears tension (for verification)";
+  static constexpr bool bears_tension = true;
+
+  struct Parameters {
+    double lambda = 2.94e6;         ///< Pa
+    double shear_modulus = 2.94e6;  ///< Pa
+  };
+  template <class Visit, class P>
+  static void for_each_parameter(Visit&& visit, P& p) {
+    visit(Parameter{"lambda", dimension::pressure, above(0), "Lame's first constant"}, p.lambda);
+    visit(Parameter{"shear_modulus", dimension::pressure, above(0), "shear modulus"}, p.shear_modulus);
+  }
+
+  explicit LinearElastic(const Parameters& parameters, double /*grain_density*/ = 0)
+      : lambda_(parameters.lambda), shear_modulus_(parameters.shear_modulus) {}
 
   template <class Number = double>
   struct History {};
@@ -33,6 +47,8 @@ class LinearElastic {
                 isotropic<Number>(lambda_ * time_step * trace(rate)),
             {}};
   }
+
+  LawRange range() const { return {}; }
 
   /// Speed of pressure waves, m/s.
   double sound_speed(double density) const { return std::sqrt((lambda_ + 2 * shear_modulus_) / density); }

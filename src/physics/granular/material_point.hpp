@@ -11,6 +11,11 @@
 /// velocity gradient is as in mechanics, L_ij = du_i/dx_j: trace L < 0 compresses.
 #pragma once
 
+#include <concepts>
+#include <limits>
+#include <string_view>
+
+#include "base/parameter.hpp"
 #include "base/tensor.hpp"
 
 namespace talus::granular {
@@ -30,11 +35,27 @@ struct MaterialPoint {
   typename Law::template History<Number> history;  ///< named by Law::for_each_slot(visit, history)
 };
 
+/// What a law was made for. Outside of it the law still gives numbers, and `talus check` and the regime card warn.
+struct LawRange {
+  double grain_diameter = 0;  ///< of the grains that it is a fit to, m; 0: of any
+  double largest_pressure = std::numeric_limits<double>::infinity();  ///< Pa
+};
+
 /// What a law has to offer. `density` is the bulk density at the end of the time step, kg/m^3; the velocity gradient,
 /// 1/s, is that of the middle of the step or as near to it as the integrator has it; the time step is in s.
+///
+/// A law brings its name, its parameters and its keys, which are those of the table [law.NAME]; a `check(parameters)`
+/// for contradictions between them, if there can be any. Registered in the list of law.hpp it is a choice of law.name.
 template <class Law>
 concept ConstitutiveLaw = requires(const Law law, const MaterialPoint<Law>& old, MaterialPoint<Law>& point,
-                                   const Tensor3<>& velocity_gradient, double density, double time_step) {
+                                   const Tensor3<>& velocity_gradient, double density, double time_step,
+                                   typename Law::Parameters& parameters) {
+  { Law::name } -> std::convertible_to<std::string_view>;
+  { Law::text } -> std::convertible_to<std::string_view>;               // what it is, in a few words
+  Law::for_each_parameter([](const Parameter&, auto&) {}, parameters);  // every key, once, without its table
+  Law(parameters, density);                                             // density of the grains rho_p, kg/m^3
+  { Law::bears_tension } -> std::convertible_to<bool>;  // a free surface is no loose place then (begin_densities)
+  { law.range() } -> std::same_as<LawRange>;
   point = law.update(old, velocity_gradient, density, time_step);
   Law::for_each_slot([](HistorySlot, double&) {}, point.history);
   // Upper bound of the speed of pressure waves at that density, m/s, over the law's own table.

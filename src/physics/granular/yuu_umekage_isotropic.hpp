@@ -26,6 +26,10 @@
 /// the end of the line, and as long as the main strain falls, the deviator starts anew from zero.
 #pragma once
 
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
 #include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
@@ -38,8 +42,52 @@ namespace talus::granular {
 
 class YuuUmekageIsotropic {
  public:
+  static constexpr std::string_view name = "yuu-umekage";
+  static constexpr std::string_view text = "Yuu and Umekage's in isotropic form, the same in any axes";
+  static constexpr bool bears_tension = false;
+
+  struct Parameters {
+    Fits fits = {};
+    Contact contact = {};
+    double close_packing = 0.64;  ///< beyond which the pressure rises along its initial stiffness again
+    Unloading unloading = Unloading::all;
+    UnloadingRule rule = {};
+  };
+  template <class Visit, class P>
+  static void for_each_parameter(Visit&& visit, P& p) {
+    for_each_fit_parameter(visit, p.fits);
+    visit_largest_deviator(visit, p.fits, within_fits());
+    for_each_contact_parameter(visit, p.contact);
+    visit(Parameter{"close_packing", dimension::none, between(0.1, 1),
+                    "packing beyond which grains cannot give way any more, random close packing: from there on the "
+                    "pressure rises along its initial stiffness again; 1: never"},
+          p.close_packing);
+    visit(Parameter{"unloading",
+                    {},
+                    {},
+                    "stresses that fall along the initial stiffness times unloading_stiffness when the strain falls, "
+                    "and rise along the same line to the yield point; the others go back along the loading curve"},
+          p.unloading);
+    visit(Parameter{"reset",
+                    {},
+                    {},
+                    "what is forgotten at the end of an unloading process: nothing, the deviator of the strain, or all "
+                    "the strain"},
+          p.rule.reset);
+    Condition line = unless("unloading", p.unloading, Unloading::none);
+    line.holds = line.holds || p.rule.reset != Reset::never;  // a reset drops the shear stress along the line too
+    auto falling = only_if(line, visit);
+    falling(Parameter{"unloading_stiffness", dimension::none, at_least(1), "k_u, over the initial stiffness"},
+            p.rule.unloading_stiffness);
+    auto resetting = only_if(unless("reset", p.rule.reset, Reset::never), visit);
+    for_each_main_strain_parameter(resetting, p.rule);
+  }
+  /// Contradictions between keys that are each valid by themselves.
+  static std::vector<Problem> check(const Parameters& parameters);
+
+  /// \param grain_density rho_p, kg/m^3
   /// \throws std::invalid_argument if the largest deviator lies beyond the range of the fits
-  YuuUmekageIsotropic(const YuuUmekageOptions& options, const FittedFunctions& functions);
+  explicit YuuUmekageIsotropic(const Parameters& parameters, double grain_density = 2500);
 
   template <class Number>
   struct History {
@@ -67,22 +115,22 @@ class YuuUmekageIsotropic {
                                                     double time_step) const {
     MaterialPoint<YuuUmekageIsotropic, Number> point;
     const SymmetricTensor3<Number> strain = transported_strain(old.history.strain, velocity_gradient, time_step);
-    const Number packing = density * (1.0 / options_.grain_density);
-    const Number packed = volumetric_strain(density, options_.reference_packing * options_.grain_density);
+    const Number packing = density * (1.0 / grain_density_);
+    const Number packed = volumetric_strain(density, parameters_.contact.reference_packing * grain_density_);
     point.history.dilation = memory_.dilation(old.history.dilation, packed, velocity_gradient, time_step);
-    Volumetric<Number> volume =
-        volumetric(old, packing, packed,
-                   options_.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : packed + point.history.dilation);
+    Volumetric<Number> volume = volumetric(
+        old, packing, packed,
+        parameters_.contact.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : packed + point.history.dilation);
     SymmetricTensor3<Number> sheared = deviator(strain);
-    if (options_.reset != Reset::never) {
-      point.history.main_rate = smoothed_main_rate(old.history.main_rate, options_.main_strain, velocity_gradient,
-                                                   time_step, options_.smoothing_time);
+    if (parameters_.rule.reset != Reset::never) {
+      point.history.main_rate = smoothed_main_rate(old.history.main_rate, parameters_.rule.main_strain,
+                                                   velocity_gradient, time_step, parameters_.rule.smoothing_time);
       const SymmetricTensor3<Number> only_turned =
           transformed(deviator(old.history.strain), rotation_of_step(velocity_gradient, time_step));
       sheared = select_tensor(point.history.main_rate < Number(0.0), only_turned, sheared);
     }
     Sheared<Number> shear = unloads_shear() ? along_line(sheared, old.history.yield_deviator) : along_curve(sheared);
-    if (options_.reset != Reset::never) reset(point.history.main_rate, time_step, volume, shear);
+    if (parameters_.rule.reset != Reset::never) reset(point.history.main_rate, time_step, volume, shear);
     point.stress = isotropic(volume.pressure) + (volume.pressure * shear.ratio) * shear.deviator;
     point.history.strain = isotropic(volume.strain) + shear.deviator;
     point.history.unloading = volume.unloading;
@@ -94,8 +142,11 @@ class YuuUmekageIsotropic {
   /// compression, times k_u if a stress unloads along its line. An upper bound for every state.
   double sound_speed(double density) const;
   /// Largest pressure of the loading curve at f = 1, Pa.
-  double largest_pressure() const { return options_.scale * pressure_(largest_fitted_strain) / sqrt3; }
-  const YuuUmekageOptions& options() const { return options_; }
+  double largest_pressure() const { return parameters_.fits.scale * pressure_(largest_fitted_strain) / sqrt3; }
+  LawRange range() const {
+    return {.grain_diameter = fitted_diameter, .largest_pressure = largest_fitted_pressure(parameters_.fits)};
+  }
+  const Parameters& parameters() const { return parameters_; }
 
  private:
   static constexpr double sqrt3 = 1.7320508075688772;
@@ -115,22 +166,25 @@ class YuuUmekageIsotropic {
   };
 
   bool unloads_pressure() const {
-    return options_.unloading == Unloading::pressure || options_.unloading == Unloading::all;
+    return parameters_.unloading == Unloading::pressure || parameters_.unloading == Unloading::all;
   }
-  bool unloads_shear() const { return options_.unloading == Unloading::shear || options_.unloading == Unloading::all; }
+  bool unloads_shear() const {
+    return parameters_.unloading == Unloading::shear || parameters_.unloading == Unloading::all;
+  }
   /// \param packed ln(rho_b/rho_ref)/3; \param volume e_v
   template <class Number>
   Volumetric<Number> volumetric(const MaterialPoint<YuuUmekageIsotropic, Number>& old, const Number& packing,
                                 const Number& packed, const Number& volume) const {
     const Number stiffness =
-        options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
+        parameters_.fits.scale * density_factor(packing) *
+        contact_gate(packing, parameters_.contact.gate_packing, static_cast<int>(parameters_.contact.gate_power));
     const Number beyond = maximum(packed - close_volume_, Number(0.0));
     const Number loading =
         stiffness * ((1.0 / sqrt3) * pressure_(sqrt3 * maximum(volume, Number(0.0))) + initial_pressure_ * beyond);
     if (!unloads_pressure()) return {volume, loading, Number(0.0)};
     const Number compression = volume - (1.0 / 3.0) * trace(old.history.strain);
-    const Number line =
-        (1.0 / 3.0) * trace(old.stress) + (options_.unloading_stiffness * initial_pressure_) * stiffness * compression;
+    const Number line = (1.0 / 3.0) * trace(old.stress) +
+                        (parameters_.rule.unloading_stiffness * initial_pressure_) * stiffness * compression;
     // Below the curve, or leaving it, the pressure is on the line; compressed further on the curve it stays there.
     const auto on_line = old.history.unloading > Number(0.5) || compression < Number(0.0);
     const Number pressure = select(on_line, minimum(loading, maximum(line, Number(0.0))), loading);
@@ -140,7 +194,7 @@ class YuuUmekageIsotropic {
   template <class Number>
   Sheared<Number> along_curve(const SymmetricTensor3<Number>& strain) const {
     const Number size = norm(strain);
-    const Number held = minimum(size, Number(options_.largest_deviator));
+    const Number held = minimum(size, Number(parameters_.fits.largest_deviator));
     return {(held / maximum(size, Number(tiny))) * strain, shear_(held), Number(0.0)};
   }
 
@@ -149,7 +203,7 @@ class YuuUmekageIsotropic {
     const Number size = norm(strain);
     const Number yield_size = inverse_line_ratio_ * (old_yield * shear_(old_yield));
     const Number excess = maximum(size - yield_size, Number(0.0));
-    const Number yield = minimum(old_yield + excess, Number(options_.largest_deviator));
+    const Number yield = minimum(old_yield + excess, Number(parameters_.fits.largest_deviator));
     const Number held = minimum(size, inverse_line_ratio_ * (yield * shear_(yield)));
     return {(held / maximum(size, Number(tiny))) * strain, Number(line_ratio_), yield};
   }
@@ -163,11 +217,11 @@ class YuuUmekageIsotropic {
     shear.deviator = left * shear.deviator;
     shear.yield_deviator = select(falls && left < Number(tiny), Number(0.0), shear.yield_deviator);
     if (!unloads_shear()) shear.ratio = shear_(norm(shear.deviator));
-    if (options_.reset == Reset::strain)
+    if (parameters_.rule.reset == Reset::strain)
       volume.strain = select(falls && volume.pressure < Number(tiny), Number(0.0), volume.strain);
   }
 
-  YuuUmekageOptions options_;
+  Parameters parameters_;
   ContactMemory memory_;
   PressureTable pressure_;
   ShearTable shear_;
@@ -175,8 +229,8 @@ class YuuUmekageIsotropic {
   double initial_pressure_;  // A1 + 2 A2 at 0, Pa
   double line_ratio_;        // k_u A4(0): slope of the unloading line of the stress ratio
   double inverse_line_ratio_;
-  double inverse_grain_density_;  // m^3/kg
-  double steepest_;               // M at f = 1, Pa
+  double grain_density_;  // kg/m^3
+  double steepest_;       // M at f = 1, Pa
 };
 
 }  // namespace talus::granular

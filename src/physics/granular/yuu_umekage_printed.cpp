@@ -8,13 +8,16 @@
 
 namespace talus::granular {
 
-YuuUmekagePrinted::YuuUmekagePrinted(const YuuUmekageOptions& options, const FittedFunctions& functions)
-    : options_(options),
-      memory_(options.volume, options.reference_packing, options.gate_packing, options.compaction),
-      table_(component_table(functions)),
-      initial_{functions.a1.piece[0].c0, functions.a2.piece[0].c0, functions.a3.piece[0].c0, functions.a4.piece[0].c0},
+YuuUmekagePrinted::YuuUmekagePrinted(const Parameters& parameters, double grain_density)
+    : parameters_(parameters),
+      memory_(parameters.contact),
+      table_(component_table(parameters.fits.functions())),
       largest_ratio_(0),
-      inverse_grain_density_(1 / options.grain_density) {
+      grain_density_(grain_density),
+      inverse_grain_density_(1 / grain_density) {
+  const FittedFunctions& functions = parameters.fits.functions();
+  const FittedFunction* const each[] = {&functions.a1, &functions.a2, &functions.a3, &functions.a4};
+  for (int k = 0; k < 4; ++k) initial_[k] = each[k]->piece[0].c0;
   const auto value = [&](int function, double a) {
     double A[4];
     table_.evaluate(a, A);
@@ -24,14 +27,18 @@ YuuUmekagePrinted::YuuUmekagePrinted(const YuuUmekageOptions& options, const Fit
   for (int k = 0; k < table_.pieces(); ++k) joints.push_back(table_.end(k));
   for (int k = 1; k <= 3500; ++k) {
     const double a = largest_fitted_strain * k / 3500;
-    if (a <= options_.largest_deviator) largest_ratio_ = std::max(largest_ratio_, value(3, a) * a);
+    if (a <= parameters_.fits.largest_deviator) largest_ratio_ = std::max(largest_ratio_, value(3, a) * a);
   }
-  steepest_ = options_.scale * steepest_slope([&](double e) { return value(0, e) * e; }, joints);
-  if (options_.unloading != Unloading::none) steepest_ *= options_.unloading_stiffness;
+  steepest_ = parameters_.fits.scale * steepest_slope([&](double e) { return value(0, e) * e; }, joints);
+  if (parameters_.unloading != PrintedUnloading::none) steepest_ *= parameters_.rule.unloading_stiffness;
 }
 
 double YuuUmekagePrinted::sound_speed(double density) const {
-  return std::sqrt(steepest_ * density_factor(density / options_.grain_density) / density);
+  return std::sqrt(steepest_ * density_factor(density / grain_density_) / density);
+}
+
+std::vector<Problem> YuuUmekagePrinted::check(const Parameters& parameters) {
+  return check_reset(parameters.rule.reset, parameters.contact.volume);
 }
 
 }  // namespace talus::granular

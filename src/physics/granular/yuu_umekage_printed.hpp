@@ -19,6 +19,10 @@
 /// deviates: the paper omits these equations, which are "similar to the initial elastic region".
 #pragma once
 
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
 #include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
@@ -30,7 +34,52 @@ namespace talus::granular {
 
 class YuuUmekagePrinted {
  public:
-  YuuUmekagePrinted(const YuuUmekageOptions& options, const FittedFunctions& functions);
+  static constexpr std::string_view name = "yuu-umekage-printed";
+  static constexpr std::string_view text = "Yuu and Umekage's component formulas as printed";
+  static constexpr bool bears_tension = false;
+
+  struct Parameters {
+    Fits fits = {};
+    Contact contact = {};
+    Strain strain = Strain::rate;
+    ShearSum shear_sum = ShearSum::absolute;
+    PrintedUnloading unloading = PrintedUnloading::all;
+    UnloadingRule rule = {};
+  };
+  template <class Visit, class P>
+  static void for_each_parameter(Visit&& visit, P& p) {
+    for_each_fit_parameter(visit, p.fits);
+    visit_largest_deviator(visit, p.fits, above(0));
+    for_each_contact_parameter(visit, p.contact);
+    visit(
+        Parameter{"strain", {}, {}, "the strain by its rate, or from displacements since the last reset (Appendix A)"},
+        p.strain);
+    visit(
+        Parameter{
+            "shear_sum", {}, {}, "how shear strains enter the normal stresses, |e_xy| + |e_xz| or with their signs"},
+        p.shear_sum);
+    visit(Parameter{"unloading",
+                    {},
+                    {},
+                    "whether stress falls along the initial stiffness times unloading_stiffness when the main strain "
+                    "falls, and rises along the same line to the yield point, or goes back along the loading curve"},
+          p.unloading);
+    auto falling = only_if(where("unloading", p.unloading, PrintedUnloading::all), visit);
+    falling(Parameter{"unloading_stiffness", dimension::none, at_least(1), "k_u, over the initial stiffness"},
+            p.rule.unloading_stiffness);
+    falling(Parameter{"reset",
+                      {},
+                      {},
+                      "what is forgotten at the end of an unloading process: nothing, the deviator of the strain, or "
+                      "all the strain"},
+            p.rule.reset);
+    for_each_main_strain_parameter(falling, p.rule);
+  }
+  /// Contradictions between keys that are each valid by themselves.
+  static std::vector<Problem> check(const Parameters& parameters);
+
+  /// \param grain_density rho_p, kg/m^3
+  explicit YuuUmekagePrinted(const Parameters& parameters, double grain_density = 2500);
 
   template <class Number>
   struct History {
@@ -62,7 +111,7 @@ class YuuUmekagePrinted {
   }
 
   /// Whether update_at_strain is what the options ask for.
-  bool by_displacements() const { return options_.strain == Strain::displacements; }
+  bool by_displacements() const { return parameters_.strain == Strain::displacements; }
   /// With the strain from displacements since the last reset (half_spheres.hpp); when `resets` grows X_i := x_i.
   /// \param measured_strain almansi_strain of the displacement gradient
   template <class Number>
@@ -71,32 +120,33 @@ class YuuUmekagePrinted {
                                                             const Tensor3<Number>& velocity_gradient,
                                                             const Number& density, double time_step) const {
     MaterialPoint<YuuUmekagePrinted, Number> point;
-    const Number packed = volumetric_strain(inverse_grain_density_ * density, options_.reference_packing);
+    const Number packed = volumetric_strain(inverse_grain_density_ * density, parameters_.contact.reference_packing);
     point.history.dilation = memory_.dilation(old.history.dilation, packed, velocity_gradient, time_step);
     const SymmetricTensor3<Number> strain = restrained(measured_strain, packed + point.history.dilation);
     const Number scale = density_scale(density);
     point.stress = loading_stress(strain, scale);
     point.history.strain = strain;
     point.history.resets = old.history.resets;
-    if (options_.unloading == Unloading::none) return point;
+    if (parameters_.unloading == PrintedUnloading::none) return point;
 
-    point.history.main_rate = smoothed_main_rate(old.history.main_rate, options_.main_strain, velocity_gradient,
-                                                 time_step, options_.smoothing_time);
+    point.history.main_rate = smoothed_main_rate(old.history.main_rate, parameters_.rule.main_strain, velocity_gradient,
+                                                 time_step, parameters_.rule.smoothing_time);
     const auto was_unloading = old.history.unloading > Number(0.5);
     const Number yield_strain =
-        select(was_unloading, old.history.yield_strain, main_strain(options_.main_strain, old.history.strain));
+        select(was_unloading, old.history.yield_strain, main_strain(parameters_.rule.main_strain, old.history.strain));
     const auto unloading = (was_unloading || point.history.main_rate < Number(0.0)) &&
-                           main_strain(options_.main_strain, strain) < yield_strain;
+                           main_strain(parameters_.rule.main_strain, strain) < yield_strain;
     point.stress = select_tensor(unloading, line_stress(old, strain, point.stress, scale), point.stress);
 
-    const auto ended =
-        unloading && minimum(trace(point.stress), main_strain(options_.main_strain, point.stress)) < Number(tiny);
+    const auto ended = unloading && minimum(trace(point.stress),
+                                            main_strain(parameters_.rule.main_strain, point.stress)) < Number(tiny);
     point.stress = select_tensor(ended, SymmetricTensor3<Number>{}, point.stress);
     point.history.unloading = select(unloading, Number(1.0), Number(0.0));
-    if (options_.reset != Reset::never) {
+    if (parameters_.rule.reset != Reset::never) {
       point.history.unloading = select(ended, Number(0.0), point.history.unloading);
-      const SymmetricTensor3<Number> left =
-          options_.reset == Reset::strain ? SymmetricTensor3<Number>{} : isotropic<Number>((1.0 / 3.0) * trace(strain));
+      const SymmetricTensor3<Number> left = parameters_.rule.reset == Reset::strain
+                                                ? SymmetricTensor3<Number>{}
+                                                : isotropic<Number>((1.0 / 3.0) * trace(strain));
       point.history.strain = select_tensor(ended, left, strain);
       point.history.resets = old.history.resets + select(ended, Number(1.0), Number(0.0));
     }
@@ -118,7 +168,10 @@ class YuuUmekagePrinted {
   /// c = (M/rho_b)^(1/2), m/s, with M the largest slope of the stress against the strain in uniaxial compression, times
   /// k_u if stress unloads along its line.
   double sound_speed(double density) const;
-  const YuuUmekageOptions& options() const { return options_; }
+  LawRange range() const {
+    return {.grain_diameter = fitted_diameter, .largest_pressure = largest_fitted_pressure(parameters_.fits)};
+  }
+  const Parameters& parameters() const { return parameters_; }
 
  private:
   static constexpr double tiny = 1e-30;
@@ -131,21 +184,23 @@ class YuuUmekagePrinted {
   template <class Number>
   Number density_scale(const Number& density) const {
     const Number packing = inverse_grain_density_ * density;
-    return options_.scale * density_factor(packing) * contact_gate(packing, options_.gate_packing, options_.gate_power);
+    return parameters_.fits.scale * density_factor(packing) *
+           contact_gate(packing, parameters_.contact.gate_packing, static_cast<int>(parameters_.contact.gate_power));
   }
 
   /// The strain with its volume by the density, and its deviator held, as the options say.
   template <class Number>
   SymmetricTensor3<Number> restrained(const SymmetricTensor3<Number>& strain, const Number& by_density) const {
-    const Number volume = options_.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : by_density;
+    const Number volume = parameters_.contact.volume == Volume::strain ? (1.0 / 3.0) * trace(strain) : by_density;
     const SymmetricTensor3<Number> shear = deviator(strain);
     const Number size = norm(shear);
-    return isotropic(volume) + (minimum(size, Number(options_.largest_deviator)) / maximum(size, Number(tiny))) * shear;
+    return isotropic(volume) +
+           (minimum(size, Number(parameters_.fits.largest_deviator)) / maximum(size, Number(tiny))) * shear;
   }
 
   template <class Number>
   Sums<Number> shear_sums(const SymmetricTensor3<Number>& e) const {
-    if (options_.shear_sum == ShearSum::with_signs) return {e.xy + e.zx, e.xy + e.yz, e.zx + e.yz};
+    if (parameters_.shear_sum == ShearSum::with_signs) return {e.xy + e.zx, e.xy + e.yz, e.zx + e.yz};
     const Number xy = maximum(e.xy, -1.0 * e.xy), yz = maximum(e.yz, -1.0 * e.yz), zx = maximum(e.zx, -1.0 * e.zx);
     return {xy + zx, xy + yz, zx + yz};
   }
@@ -180,7 +235,7 @@ class YuuUmekagePrinted {
                                        const Number& scale) const {
     const SymmetricTensor3<Number> increment = strain - old.history.strain;
     const Sums<Number> now = shear_sums(strain), before = shear_sums(old.history.strain);
-    const Number stiffness = options_.unloading_stiffness * scale;
+    const Number stiffness = parameters_.rule.unloading_stiffness * scale;
     SymmetricTensor3<Number> normal =
         old.stress + stiffness * normal_stresses(Number(initial_[0]), Number(initial_[1]), Number(initial_[2]),
                                                  increment,
@@ -191,18 +246,19 @@ class YuuUmekagePrinted {
 
     const Number old_tau = maximum((1.0 / 3.0) * trace(old.stress), Number(tiny));
     SymmetricTensor3<Number> ratio =
-        (1.0 / old_tau) * old.stress + (options_.unloading_stiffness * initial_[3]) * increment;
+        (1.0 / old_tau) * old.stress + (parameters_.rule.unloading_stiffness * initial_[3]) * increment;
     ratio.xx = ratio.yy = ratio.zz = 0.0;
     const Number size = norm(ratio);
     return with_shear(normal, (minimum(size, Number(largest_ratio_)) / maximum(size, Number(tiny))) * ratio);
   }
 
-  YuuUmekageOptions options_;
+  Parameters parameters_;
   ContactMemory memory_;
   ComponentTable table_;
   double initial_[4];             // A1 to A4 at 0
   double largest_ratio_;          // of |shear stresses| to tau: the largest A4 a within the range
   double steepest_;               // M at f = 1, Pa
+  double grain_density_;          // kg/m^3
   double inverse_grain_density_;  // m^3/kg
 };
 

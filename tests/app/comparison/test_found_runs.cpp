@@ -21,16 +21,16 @@ using ::testing::HasSubstr;
 
 Reference reference() {
   Reference reference{.path = "reference.toml"};
-  reference.cases = {
-      {.name = "hopper",
-       .where = {{"model", "\"continuum\""}, {"box.depth", "\"5 mm\""}},
-       .variants = {{.label = "coarse"},
-                    {.label = "fine", .told_by = {{"bed.spacing", "\"1.25 mm\""}}},
-                    {.label = "fine-stiff", .told_by = {{"bed.spacing", "\"1.25 mm\""}, {"law.scale", "39.2"}}},
-                    {.label = "air", .told_by = {{"air.enabled", "true"}}}}},
-      {.name = "hopper-without-walls",
-       .where = {{"model", "\"continuum\""}, {"box.depth", "\"5 mm\""}, {"walls", "\"none\""}},
-       .variants = {{.label = "coarse"}}}};
+  reference.cases = {{.name = "hopper",
+                      .where = {{"model", "\"continuum\""}, {"box.depth", "\"5 mm\""}},
+                      .variants = {{.label = "coarse"},
+                                   {.label = "fine", .told_by = {{"bed.spacing", "\"1.25 mm\""}}},
+                                   {.label = "fine-stiff",
+                                    .told_by = {{"bed.spacing", "\"1.25 mm\""}, {"law.yuu-umekage.scale", "39.2"}}},
+                                   {.label = "air", .told_by = {{"air.enabled", "true"}}}}},
+                     {.name = "hopper-without-walls",
+                      .where = {{"model", "\"continuum\""}, {"box.depth", "\"5 mm\""}, {"walls", "\"none\""}},
+                      .variants = {{.label = "coarse"}}}};
   return reference;
 }
 
@@ -63,9 +63,9 @@ class FoundRuns : public testing::Test {
 const std::string hopper = "model = \"continuum\"\nbox.depth = \"0.005 m\"\n";
 
 TEST_F(FoundRuns, AreSortedToTheVariantWithMostOfTheirSettings) {
-  put("a", hopper + "bed.spacing = \"0.0016666667 m\"\nlaw.scale = 9.8");
-  put("b", hopper + "bed.spacing = \"0.00125 m\"\nlaw.scale = 9.8");
-  put("c", hopper + "bed.spacing = \"0.00125 m\"\nlaw.scale = 39.2");
+  put("a", hopper + "bed.spacing = \"0.0016666667 m\"\nlaw.yuu-umekage.scale = 9.8");
+  put("b", hopper + "bed.spacing = \"0.00125 m\"\nlaw.yuu-umekage.scale = 9.8");
+  put("c", hopper + "bed.spacing = \"0.00125 m\"\nlaw.yuu-umekage.scale = 39.2");
   put("d", hopper + "air.enabled = true");
   put("e", hopper + "air.enabled = false");
   put("f", hopper + "walls = \"none\"");

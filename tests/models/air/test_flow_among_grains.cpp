@@ -270,6 +270,62 @@ TEST(AirFlow, FrozenAirOnlyDrags) {
   EXPECT_EQ(c.state.velocity[2][c.grid.index(2, 2, 2)], 0);
 }
 
+/// Air in the pores of a bed, closed but for its top, where the pressure falls by a fifth: it expands by ln(10/8) of
+/// its volume, and what continuity lacks is nothing. An incompressible one would not stir.
+TEST(AirFlow, IsothermalAirExpandsUntilItsPressureIsThatOutside) {
+  for (const Compressibility compressibility : {Compressibility::isothermal, Compressibility::none}) {
+    Parameters p;
+    p.pressure = 10;
+    p.compressibility = compressibility;
+    p.boundaries = all(FlowBoundary::free_slip);
+    p.boundaries.kind[5] = FlowBoundary::open;
+    p.boundaries.pressure[5] = -2;
+    p.tolerance = 1e-9;
+    const int n = 12;
+    const double h = 1e-3, dt = 1e-3;
+    Case c({.count = {2, 1, n}, .low = {}, .spacing = {h, h, h}}, p);
+    c.set_solids(0, n, 0.6, {});
+    c.begin();
+    CellField excess = c.grid.cell_field();
+    double left = 0;
+    for (int step = 0; step < 1500; ++step) {
+      c.advance(dt);
+      c.flow.add_outflow(c.team, dt, c.state, excess);
+      left += dt * 0.4 * c.state.velocity[2][c.grid.index(0, 0, n)];
+    }
+    const bool expands = compressibility == Compressibility::isothermal;
+    for (int k = 0; k < n; ++k) {
+      EXPECT_NEAR(c.state.pressure[c.grid.index(0, 0, k)], -2, 1e-3);
+      EXPECT_NEAR(excess[c.grid.index(0, 0, k)], 0, 1e-4);
+    }
+    EXPECT_NEAR(left / (0.4 * n * h), expands ? std::log(10 / 8.0) : 0, 5e-3);
+  }
+}
+
+/// Grains that change places with air: what continuity lacks is the volume that they moved, if the air is alone.
+TEST(AirFlow, OutflowBalancesTheGrainsUnlessTheAirIsAlone) {
+  for (const Continuity continuity : {Continuity::mixture, Continuity::air_alone}) {
+    Parameters p;
+    p.boundaries = all(FlowBoundary::no_slip);
+    p.continuity = continuity;
+    p.tolerance = 1e-10;
+    Case c({.count = {8, 4, 12}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+    for_each_cell(c.grid, [&](int i, int, int k, std::size_t n) {
+      if (i >= 4 || k < 2 || k >= 10) return;
+      c.solids.fraction[n] = 0.4;
+      c.solids.flux[2][n] = 0.4 * -0.5;
+    });
+    c.begin();
+    const double dt = 50e-6;
+    c.advance(dt);
+    CellField excess = c.grid.cell_field();
+    c.flow.add_outflow(c.team, dt, c.state, excess);
+    // Of the face between the last layer of grains and the empty one below it: half of 0.4 falls through it.
+    const double moved = dt * 0.2 * 0.5 / 1e-3, below = excess[c.grid.index(1, 1, 1)];
+    EXPECT_NEAR(below, continuity == Continuity::mixture ? moved : 0, 1e-5 * moved);
+  }
+}
+
 TEST(AirFlow, TimeStepFollowsItsThreeLimits) {
   Parameters p;
   p.boundaries = all(FlowBoundary::periodic);
@@ -284,6 +340,25 @@ TEST(AirFlow, TimeStepFollowsItsThreeLimits) {
   c.set_solids(0, 4, 0.6, {});
   const double beta = coupling::drag_coefficient(p.drag, p.medium(), 0.6, 0);
   EXPECT_NEAR(c.flow.time_step(c.team, c.solids, c.state), 0.1 * 0.16 * 1500 / beta, 1e-9);
+}
+
+TEST(AirFlow, SaysWhatHoldsItsStepAndWhere) {
+  Parameters p;
+  p.boundaries = all(FlowBoundary::periodic);
+  Case c({.count = {4, 4, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
+  c.begin();
+  c.state.velocity[0][c.grid.index(2, 1, 3)] = 20;
+  c.flow.time_step(c.team, c.solids, c.state);
+  const NumericalError::Report moved = c.flow.step_limit(c.solids, c.state);
+  EXPECT_THAT(moved.term, testing::HasSubstr("Courant number of the air"));
+  EXPECT_THAT(moved.place, testing::HasSubstr("cell (1, 1, 3)"));  // the first of the two beside the face
+  c.set_solids(0, 4, 0.6, {});
+  c.solids.fraction[c.grid.index(3, 0, 2)] = 0.96;
+  c.flow.time_step(c.team, c.solids, c.state);
+  const NumericalError::Report dragged = c.flow.step_limit(c.solids, c.state);
+  EXPECT_THAT(dragged.term, testing::HasSubstr("drag on the grains"));
+  EXPECT_THAT(dragged.place, testing::HasSubstr("cell (3, 0, 2)"));
+  EXPECT_THAT(dragged.place, testing::HasSubstr("solid fraction 0.96"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/cloud/step.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -241,6 +242,23 @@ TEST(Advance, StopsWhenAGrainSinksIntoTheSlope) {
     EXPECT_LE(cloud.state().overlap[0], p.integration.largest_overlap * p.particles.radius);
     EXPECT_GT(cloud.state().overlap[0], 0.9 * p.integration.largest_overlap * p.particles.radius);
   }
+}
+
+TEST(Advance, SaysWhatHoldsTheStep) {
+  using ::testing::HasSubstr;
+  const auto limit = [](const Parameters& p) {
+    ThreadTeam team(1);
+    Cloud cloud(p, two_grains(p, 1.9));
+    cloud.begin(team);
+    for (int n = 0; n < 3; ++n) cloud.advance(team);
+    return cloud.step_limit();
+  };
+  Parameters p = disc(2);
+  EXPECT_THAT(limit(p).place, HasSubstr("grain "));
+  p.integration.method = Method::euler;
+  p.contact.stiffness *= 100;
+  EXPECT_THAT(limit(p).term, HasSubstr("stability of the contacts"));
+  EXPECT_EQ(limit(p).advice, "a smaller contact.stiffness");
 }
 
 }  // namespace

@@ -22,10 +22,8 @@ inline Parameters column(double x, double y, double z, double room = 0) {
   p.bed.spacing = spacing;
   p.bed.height = z * spacing;
   p.bed.packing = 0.6;
-  p.law.name = granular::LawName::linear_elastic;
-  p.law.collisions = granular::Collisions::none;
-  p.law.lambda = 0.8e6;
-  p.law.shear_modulus = 0.6e6;
+  p.law = granular::LinearElastic::Parameters{.lambda = 0.8e6, .shear_modulus = 0.6e6};
+  p.collisions.form = granular::Collisions::none;
   p.sph.viscosity_alpha = 0;
   p.sph.smoothing = Smoothing::fixed;
   p.walls.friction = Friction::none;
@@ -35,10 +33,7 @@ inline Parameters column(double x, double y, double z, double room = 0) {
 
 /// Grains that rub, bear no tension, and are fifty times softer than beads.
 inline void make_granular(Parameters& p) {
-  p.law = {};
-  p.law.name = granular::LawName::drucker_prager;
-  p.law.collisions = granular::Collisions::none;
-  p.law.scale = 0.2;
+  p.law = granular::DruckerPrager::Parameters{.fits = {.scale = 0.2}};
   p.sph.viscosity_alpha = 0.2;
   p.sph.smoothing = Smoothing::local;
   p.walls.friction = Friction::coulomb;
@@ -119,8 +114,7 @@ inline Parameters small_hopper() {
   p.sph.viscosity_alpha = 0.2;
   p.sph.smoothing = Smoothing::local;
   p.walls.friction = Friction::coulomb;
-  p.law.lambda = 4e5;
-  p.law.shear_modulus = 1e3;
+  p.law = granular::LinearElastic::Parameters{.lambda = 4e5, .shear_modulus = 1e3};
   return p;
 }
 

@@ -75,6 +75,28 @@ TEST(Atmosphere, MomentumOfAirAndGrainsStaysInAPeriodicBox) {
   EXPECT_LT(norm(total() - before), 1e-12 * norm(before));
 }
 
+TEST(Atmosphere, SaysWhatHoldsTheStep) {
+  using ::testing::HasSubstr;
+  using ::testing::MatchesRegex;
+  const auto limit = [](const auto& change) {
+    Parameters p = small_hopper_in_air();
+    change(p);
+    ThreadTeam team(1);
+    Continuum model = started(p, team);
+    while (model.state().time < 2e-3) model.advance(team);
+    return model.step_limit();
+  };
+  const NumericalError::Report grains = limit([](Parameters& p) { p.air.gas.response = p.air.gas.courant = 1e3; });
+  EXPECT_THAT(grains.term, HasSubstr("Courant number of the grains"));
+  EXPECT_THAT(grains.place, MatchesRegex("particle [0-9]+ at \\(.*\\) m"));
+  const NumericalError::Report drag = limit([](Parameters& p) { p.air.gas.response = 1e-3; });
+  EXPECT_THAT(drag.term, HasSubstr("drag on the grains"));
+  EXPECT_THAT(drag.place, MatchesRegex("cell \\([0-9]+, [0-9]+, [0-9]+\\) at \\(.*\\) m, solid fraction 0\\.[0-9]+"));
+  const NumericalError::Report motion = limit([](Parameters& p) { p.air.gas.courant = 1e-6; });
+  EXPECT_THAT(motion.term, HasSubstr("Courant number of the air"));
+  EXPECT_THAT(motion.advice, HasSubstr("air.courant"));
+}
+
 TEST(Atmosphere, SameBitsForAnyNumberOfThreads) {
   Parameters p = small_hopper_in_air();
   ThreadTeam one(1), two(2);
@@ -197,6 +219,37 @@ TEST(Atmosphere, CellsThatNobodyChoseMeetThePlate) {
   EXPECT_TRUE(check_air(p).empty());
   p.plate.height.reset();
   EXPECT_EQ(air_grid(p).count[2], 67);
+}
+
+/// The box of cases/slot.toml with another plate and other spacings.
+Parameters slot(double plate, double spacing_of_particles) {
+  Parameters p = small_hopper_in_air();
+  p.box.width = 0.16, p.box.depth = spacing_of_particles, p.box.height = 0.15;
+  p.plate = {.height = plate, .slit_left = 0.06, .slit_right = 0.1};
+  p.bed.height = 0.112, p.bed.spacing = spacing_of_particles;
+  p.air.cell.reset();
+  return p;
+}
+
+TEST(Atmosphere, CellsThatNobodyChoseAreHalfToOneSpacingHigh) {
+  const Grid grid = air_grid(slot(28e-3, 4e-3));
+  EXPECT_EQ(grid.count[2], 75);  // 50 would be 0.75 spacings; 28 mm is 14/75 of the height
+  EXPECT_TRUE(check(slot(28e-3, 4e-3)).empty());
+}
+
+/// Where no cells fit, the error names a size that does, or else a height of the plate.
+TEST(CheckAir, ProposesWhatMeetsThePlate) {
+  Parameters p = slot(28e-3, 4e-3);
+  p.air.cell = 3e-3;
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_EQ(check(p)[0].allowed, "air.cell = \"2 mm\", of whose faces some lie in the plate");
+  p.air.cell = 2e-3;
+  EXPECT_TRUE(check(p).empty());
+
+  p = slot(28.31e-3, 4e-3);
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_EQ(check(p)[0].allowed, "plate.height = \"27 mm\" or \"30 mm\", where faces of the cells are");
+  for (const double height : {27e-3, 30e-3}) EXPECT_TRUE(check(slot(height, 4e-3)).empty());
 }
 
 TEST(CheckAir, NamesWhatDoesNotFit) {

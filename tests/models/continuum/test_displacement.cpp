@@ -11,16 +11,11 @@ namespace {
 
 /// The paper's route, as far as the law goes.
 granular::LawParameters printed_route() {
-  granular::LawParameters law;
-  law.form = granular::Form::printed;
-  law.tables = granular::Tables::printed;
-  law.strain = granular::Strain::displacements;
-  law.volume = granular::Volume::strain;
-  law.reset = granular::Reset::strain;
-  law.smoothing_time = 0;
-  law.largest_deviator = 1000;
-  law.collisions = granular::Collisions::none;
-  return law;
+  return granular::YuuUmekagePrinted::Parameters{
+      .fits = {.tables = granular::Tables::printed, .largest_deviator = 1000},
+      .contact = {.volume = granular::Volume::strain},
+      .strain = granular::Strain::displacements,
+      .rule = {.reset = granular::Reset::strain, .smoothing_time = 0}};
 }
 
 std::vector<SymmetricTensor3<>> strain_of(const Parameters& p, std::vector<Vector3> places, double stretch) {

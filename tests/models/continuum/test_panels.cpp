@@ -12,8 +12,7 @@ namespace {
 
 /// Grains without stiffness against shear: a liquid.
 void make_liquid(Parameters& p) {
-  p.law.lambda = 4e5;
-  p.law.shear_modulus = 1e2;
+  p.law = granular::LinearElastic::Parameters{.lambda = 4e5, .shear_modulus = 1e2};
   p.sph.viscosity_alpha = 0.3;
 }
 

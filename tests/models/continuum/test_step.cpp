@@ -290,6 +290,8 @@ TEST(Advance, AResumedRunTakesTheSameSteps) {
       for_each_field(ForgetDerived{}, resumed.mutable_state());
       resumed.resume(team);
       EXPECT_EQ(resumed.state().packing, whole.state().packing);
+      EXPECT_EQ(resumed.state().strain, whole.state().strain);
+      EXPECT_EQ(resumed.state().shear_rate, whole.state().shear_rate);
       for (int n = 0; n < 200; ++n) whole.advance(team), resumed.advance(team);
       EXPECT_EQ(whole.state().position, resumed.state().position);
       EXPECT_EQ(whole.state().velocity, resumed.state().velocity);

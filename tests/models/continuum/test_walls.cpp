@@ -99,7 +99,7 @@ TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
   p.box = {.width = 30e-3, .depth = 5e-3, .height = 180e-3};
   p.bed.spacing = 5e-3;
   p.bed.height = 150e-3;
-  p.law.scale = 1.5;
+  p.law = granular::YuuUmekageIsotropic::Parameters{.fits = {.scale = 1.5}};
   p.walls.coefficient = 0.3;
   p.walls.friction_from = FrictionFrom::start;
   p.settle.damping_time = 5e-3;

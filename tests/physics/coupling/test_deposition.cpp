@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random.hpp"
@@ -134,13 +135,35 @@ TEST(Deposition, APlateHidesWhatIsBehindItAndItsSlitDoesNot) {
 }
 
 TEST(Deposition, AParticleBeyondAnOpenFaceHasNoWeights) {
-  Silo silo;
-  silo.place({10e-3, 2e-3, 50e-3}, {0, 0, 1});
-  silo.gather();
-  EXPECT_EQ(total(silo.grid, silo.fraction), 0);
-  std::vector<Vector3> received(1, Vector3{1, 1, 1});
-  silo.deposition.hand_out(silo.team, silo.volume, silo.grid.face_field(), received);
-  EXPECT_EQ(received[0], Vector3{});
+  for (const double beyond : {1e-9, 0.3 * spacing, 10e-3}) {  // the first two are within reach of cells
+    Silo silo;
+    silo.place({10e-3, 2e-3, 40e-3 + beyond}, {0, 0, 1});
+    silo.gather();
+    EXPECT_EQ(total(silo.grid, silo.fraction), 0);
+    std::vector<Vector3> received(1, Vector3{1, 1, 1});
+    FaceField given = silo.grid.face_field();
+    for (auto& component : given) component.assign(component.size(), 1);
+    silo.deposition.hand_out(silo.team, silo.volume, given, received);
+    EXPECT_EQ(received[0], Vector3{});
+  }
+}
+
+/// Wherever the lattice of a stream that leaves stands to the face, the last cells hold what is within the box, and are
+/// no denser than the stream but for the particle that is about to cross.
+TEST(Deposition, AStreamIsAsDenseAtTheFaceItLeavesThroughAsWithin) {
+  for (const double shift : {0.05, 0.25, 0.5, 0.75, 0.95}) {
+    Silo silo;
+    silo.fill(20e-3 + shift * spacing, 46e-3);
+    silo.gather();
+    const auto within = static_cast<double>(
+        std::count_if(silo.position.begin(), silo.position.end(), [](const Vector3& x) { return x.z <= 40e-3; }));
+    EXPECT_NEAR(total(silo.grid, silo.fraction) / (within * silo.volume), 1, 1e-13);
+    double mean = 0;
+    for (int k = 30; k < 32; ++k)
+      for (int i = 0; i < 16; ++i) mean += silo.fraction[silo.grid.index(i, 2, k)] / 32;
+    // A layer of particles is 0.64 of two layers of cells.
+    EXPECT_NEAR(mean, 0.6, 0.12) << shift;
+  }
 }
 
 TEST(Deposition, GivesTheSameBitsForAnyNumberOfThreads) {

@@ -99,10 +99,10 @@ TEST(SlipDecay, IsTheExactSolution) {
     u += 0.5 * h * (k + rate(u + h * k));
   }
   const SlipDecay exact = slip_decay(dt / t_slip);
-  EXPECT_NEAR(u_p + exact.decay * (0.4 - u_p) + exact.pull * dt * f, u, 1e-7);
+  EXPECT_NEAR(u_p + exact.decay * (0.4 - u_p) + exact.mean * dt * f, u, 1e-7);
   EXPECT_EQ(slip_decay(0).decay, 1);
-  EXPECT_EQ(slip_decay(0).pull, 1);
-  EXPECT_NEAR(slip_decay(1e4).pull, 1e-4, 1e-15);
+  EXPECT_EQ(slip_decay(0).mean, 1);
+  EXPECT_NEAR(slip_decay(1e4).mean, 1e-4, 1e-15);
 }
 
 }  // namespace

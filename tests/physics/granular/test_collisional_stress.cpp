@@ -15,31 +15,36 @@ const Tensor3<> gradient{3, 40, -7, 10, -2, 5, 13, 1, -4};
 
 TEST(CollisionalStress, IsEquations13And14) {
   const double time = std::sqrt(2e-4 / 9.8), tau = 500;
-  const SymmetricTensor3<> stress = collisional_stress({}, tau, gradient);
+  const SymmetricTensor3<> stress = collisional_stress({}, time, tau, gradient);
   EXPECT_NEAR(stress.zz, 1.67 * time * 4 * tau, 1e-9);  // du_z/dz < 0 compresses: pressure
   EXPECT_NEAR(stress.xx, -1.67 * time * 3 * tau, 1e-9);
   EXPECT_NEAR(stress.xy, -0.0175 * time * 50 * tau, 1e-9);
   EXPECT_NEAR(stress.zx, -0.0175 * time * 6 * tau, 1e-9);
-  EXPECT_NEAR(collisional_stress({.diagonal_factor = 2}, tau, gradient).zz, 2 * stress.zz, 1e-9);
+  EXPECT_NEAR(collisional_stress({.diagonal = 2}, time, tau, gradient).zz, 2 * stress.zz, 1e-9);
 }
 
 TEST(CollisionalStress, IsotropicReadingIsTheSameInAnyAxes) {
   const Tensor3<> rotation = rotation_about_z(0.4) * rotation_about_y(M_PI / 4);
-  const CollisionOptions isotropic_reading{.isotropic = true};
-  expect_near(collisional_stress(isotropic_reading, 500.0, turned(gradient, rotation)),
-              transformed(collisional_stress(isotropic_reading, 500.0, gradient), rotation), 1e-9);
+  const double time = std::sqrt(2e-4 / 9.8);
+  const CollisionParameters isotropic_reading{.form = Collisions::isotropic};
+  expect_near(collisional_stress(isotropic_reading, time, 500.0, turned(gradient, rotation)),
+              transformed(collisional_stress(isotropic_reading, time, 500.0, gradient), rotation), 1e-9);
   // Simple shear and uniform compression as printed.
-  const CollisionOptions printed;
-  EXPECT_NEAR(collisional_stress(isotropic_reading, 500.0, shear(30)).zx,
-              collisional_stress(printed, 500.0, shear(30)).zx, 1e-12);
-  EXPECT_NEAR(collisional_stress(isotropic_reading, 500.0, squeeze(30)).zz,
-              collisional_stress(printed, 500.0, squeeze(30)).zz, 1e-12);
+  const CollisionParameters printed;
+  EXPECT_NEAR(collisional_stress(isotropic_reading, time, 500.0, shear(30)).zx,
+              collisional_stress(printed, time, 500.0, shear(30)).zx, 1e-12);
+  EXPECT_NEAR(collisional_stress(isotropic_reading, time, 500.0, squeeze(30)).zz,
+              collisional_stress(printed, time, 500.0, squeeze(30)).zz, 1e-12);
 }
 
 TEST(CollisionalStress, ShearTakesWork) {
   // tau : D <= 0 for shear: it resists.
-  for (const bool reading : {false, true})
-    EXPECT_LT(double_dot(collisional_stress({.isotropic = reading}, 500.0, shear(30)), symmetric_part(shear(30.0))), 0);
+  for (const Collisions form : {Collisions::printed, Collisions::isotropic})
+    EXPECT_LT(double_dot(collisional_stress({.form = form}, 0.0045, 500.0, shear(30)), symmetric_part(shear(30.0))), 0);
+}
+
+TEST(CollisionalStress, CanBeLeftOut) {
+  EXPECT_EQ(collisional_stress({.form = Collisions::none}, 0.0045, 500.0, shear(30)), SymmetricTensor3<>{});
 }
 
 TEST(EquationOfState, IsOneAtThePackingOfTheFits) {

@@ -16,9 +16,9 @@ namespace {
 constexpr double apart = 0.05, pressed = 3e-4;
 
 std::vector<AnyLaw> laws(Volume volume, double compaction = 0) {
-  return {make_law({.volume = volume, .compaction = compaction}, 2500),
-          make_law({.form = Form::printed, .volume = volume, .compaction = compaction}, 2500),
-          make_law({.name = LawName::drucker_prager, .volume = volume, .compaction = compaction}, 2500)};
+  return {make_law(YuuUmekageIsotropic::Parameters{.contact = {.volume = volume, .compaction = compaction}}, 2500),
+          make_law(YuuUmekagePrinted::Parameters{.contact = {.volume = volume, .compaction = compaction}}, 2500),
+          make_law(DruckerPrager::Parameters{.contact = {.volume = volume, .compaction = compaction}}, 2500)};
 }
 double mean(const SymmetricTensor3<>& stress) {
   return trace(stress) / 3;
@@ -82,7 +82,7 @@ TEST(ContactMemory, ThereIsNoPressureBelowTheReferencePackingAfterLongShear) {
 TEST(ContactMemory, AClosedCycleGivesNoEnergy) {
   const std::vector<PathStretch> cycle = {{1, squeeze(-apart)}, {1, squeeze(pressed)}, {1, shear(2e-3)},
                                           {1, squeeze(apart)},  {1, shear(-2e-3)},     {1, squeeze(-pressed)}};
-  const AnyLaw law = make_law({.volume = Volume::contact}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.contact = {.volume = Volume::contact}}, 2500);
   EXPECT_GT(work_of_path(cycle, follow_path(law, cycle, {.largest_increment = 1e-5, .points = 3000})), 0);
 }
 

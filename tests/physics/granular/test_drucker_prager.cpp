@@ -13,8 +13,10 @@ namespace talus::granular {
 namespace {
 
 AnyLaw law(double friction = 0, Volume volume = Volume::density) {
-  return make_law({.name = LawName::drucker_prager, .tables = Tables::printed, .volume = volume, .friction = friction},
-                  2500);
+  return make_law(
+      DruckerPrager::Parameters{
+          .friction = friction, .fits = {.tables = Tables::printed}, .contact = {.volume = volume}},
+      2500);
 }
 double mean(const SymmetricTensor3<>& stress) {
   return trace(stress) / 3;
@@ -96,7 +98,7 @@ TEST(DruckerPrager, BearsNoTensionAndRemembersTheDensity) {
 }
 
 TEST(DruckerPrager, SpeedOfSoundIsElastic) {
-  EXPECT_NEAR(DruckerPrager({}, printed_2011).sound_speed(1500), std::sqrt(8.82e6 / 1500), 1e-9);
+  EXPECT_NEAR(DruckerPrager({.fits = {.tables = Tables::printed}}).sound_speed(1500), std::sqrt(8.82e6 / 1500), 1e-9);
 }
 
 }  // namespace

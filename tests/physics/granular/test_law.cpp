@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -17,21 +19,24 @@ namespace talus::granular {
 namespace {
 
 std::vector<LawParameters> many_laws() {
-  return {{},
-          {.tables = Tables::printed, .unloading = Unloading::none},
-          {.volume = Volume::strain, .unloading = Unloading::pressure, .reset = Reset::strain, .smoothing_time = 1e-5},
-          {.unloading = Unloading::shear, .reset = Reset::deviator, .main_strain = MainStrain::volume},
-          {.form = Form::printed,
-           .tables = Tables::printed,
-           .volume = Volume::strain,
-           .reset = Reset::strain,
-           .smoothing_time = 0,
-           .shear_sum = ShearSum::with_signs},
-          {.form = Form::printed, .reset = Reset::deviator, .smoothing_time = 1e-4},
-          {.form = Form::printed, .unloading = Unloading::none},
-          {.name = LawName::drucker_prager},
-          {.name = LawName::drucker_prager, .volume = Volume::strain, .friction = 0.4},
-          {.name = LawName::linear_elastic}};
+  using Isotropic = YuuUmekageIsotropic::Parameters;
+  using Printed = YuuUmekagePrinted::Parameters;
+  return {
+      Isotropic{},
+      Isotropic{.fits = {.tables = Tables::printed}, .unloading = Unloading::none},
+      Isotropic{.contact = {.volume = Volume::strain},
+                .unloading = Unloading::pressure,
+                .rule = {.reset = Reset::strain, .smoothing_time = 1e-5}},
+      Isotropic{.unloading = Unloading::shear, .rule = {.reset = Reset::deviator, .main_strain = MainStrain::volume}},
+      Printed{.fits = {.tables = Tables::printed},
+              .contact = {.volume = Volume::strain},
+              .shear_sum = ShearSum::with_signs,
+              .rule = {.reset = Reset::strain, .smoothing_time = 0}},
+      Printed{.rule = {.reset = Reset::deviator, .smoothing_time = 1e-4}},
+      Printed{.unloading = PrintedUnloading::none},
+      DruckerPrager::Parameters{},
+      DruckerPrager::Parameters{.friction = 0.4, .contact = {.volume = Volume::strain}},
+      LinearElastic::Parameters{}};
 }
 
 TEST(Law, LanesEqualNumbersAlone) {
@@ -111,59 +116,95 @@ TEST(Law, NamesItsSlotsOnceAndTensorsByTheirAxes) {
 }
 
 TEST(Law, KeysReachTheLaw) {
-  const AnyLaw law = make_law({.scale = 4,
-                               .volume = Volume::strain,
-                               .largest_deviator = 0.02,
-                               .unloading = Unloading::shear,
-                               .unloading_stiffness = 3,
-                               .gate_power = 300},
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.fits = {.scale = 4, .largest_deviator = 0.02},
+                                                              .contact = {.volume = Volume::strain, .gate_power = 300},
+                                                              .unloading = Unloading::shear,
+                                                              .rule = {.unloading_stiffness = 3}},
                               2600);
-  const YuuUmekageOptions& options = std::get<YuuUmekageIsotropic>(law).options();
-  EXPECT_EQ(options.scale, 4);
-  EXPECT_EQ(options.grain_density, 2600);
-  EXPECT_EQ(options.volume, Volume::strain);
-  EXPECT_EQ(options.largest_deviator, 0.02);
-  EXPECT_EQ(options.unloading, Unloading::shear);
-  EXPECT_EQ(options.unloading_stiffness, 3);
-  EXPECT_EQ(options.gate_power, 300);
-  // Every key once, with a text and a default within its range.
-  LawParameters defaults;
-  std::set<std::string_view> keys;
+  const YuuUmekageIsotropic::Parameters& p = std::get<YuuUmekageIsotropic>(law).parameters();
+  EXPECT_EQ(p.fits.scale, 4);
+  EXPECT_EQ(p.contact.volume, Volume::strain);
+  EXPECT_EQ(p.fits.largest_deviator, 0.02);
+  EXPECT_EQ(p.unloading, Unloading::shear);
+  EXPECT_EQ(p.rule.unloading_stiffness, 3);
+  EXPECT_EQ(p.contact.gate_power, 300);
+}
+
+struct Key {
+  bool holds;
+  bool has_text;
+  bool default_in_range;
+};
+std::map<std::string, Key> keys_of(const LawParameters& parameters) {
+  std::map<std::string, Key> keys;
   for_each_parameter(
       [&]<class T>(const Parameter& parameter, const T& value) {
-        EXPECT_TRUE(keys.insert(parameter.key).second) << parameter.key;
-        EXPECT_TRUE(parameter.key.starts_with("law.")) << parameter.key;
-        EXPECT_FALSE(parameter.text.empty()) << parameter.key;
-        if constexpr (std::is_arithmetic_v<T>) {
-          EXPECT_TRUE(parameter.range.contains(static_cast<double>(value)));
-        }
+        Key key{parameter.condition.holds, !parameter.text.empty(), true};
+        if constexpr (std::is_arithmetic_v<T>) key.default_in_range = parameter.range.contains(double(value));
+        EXPECT_TRUE(keys.emplace(parameter.key, key).second) << parameter.key;
       },
-      defaults);
+      parameters);
+  return keys;
+}
+
+TEST(Law, HasAllItsKeysInItsOwnTable) {
+  std::size_t count = 1;
+  LawParameters defaults;
+  for_each_law(defaults, [&]<class Law>(const auto& own, LawName) {
+    Law::for_each_parameter([&](const Parameter&, const auto&) { ++count; }, own);
+  });
+  const auto keys = keys_of(defaults);
+  EXPECT_EQ(keys.size(), count);
+  for (const auto& [key, what] : keys) {
+    EXPECT_TRUE(key == "law.name" || key.starts_with("law.")) << key;
+    EXPECT_TRUE(what.has_text) << key;
+    EXPECT_TRUE(what.default_in_range) << key;
+  }
+  for (const std::string_view name : Laws::names)
+    EXPECT_EQ(std::count(Laws::names.begin(), Laws::names.end(), name), 1);
+}
+
+TEST(Law, OnlyTheKeysOfTheChosenOneHold) {
+  LawParameters defaults;
+  for_each_law(defaults, [&]<class Law>(const auto&, LawName) {
+    const LawParameters parameters = typename Law::Parameters{};
+    EXPECT_TRUE(parameters.is<Law>());
+    std::size_t holding = 0;
+    for (const auto& [key, what] : keys_of(parameters)) {
+      const bool own = key.starts_with(table_of_law<Law>() + ".");
+      if (what.holds && key != "law.name") {
+        EXPECT_TRUE(own) << key;
+      }
+      holding += what.holds;
+    }
+    EXPECT_GT(holding, 1u) << Law::name;
+  });
 }
 
 TEST(Law, ContradictionsAreNamed) {
-  EXPECT_TRUE(check(LawParameters{}).empty());
-  EXPECT_TRUE(check({.name = LawName::drucker_prager, .reset = Reset::strain}).empty());
-  const auto problems = check({.form = Form::printed, .unloading = Unloading::pressure, .reset = Reset::strain});
-  ASSERT_EQ(problems.size(), 2);
-  EXPECT_EQ(problems[0].key, "law.reset");
-  EXPECT_EQ(problems[1].key, "law.unloading");
+  for (const LawParameters& parameters : many_laws()) EXPECT_TRUE(check(parameters).empty());
+  const auto problems = check(YuuUmekagePrinted::Parameters{.rule = {.reset = Reset::strain}});
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "law.yuu-umekage-printed.reset");
   EXPECT_THAT(problems[0].what, testing::HasSubstr("density"));
-  EXPECT_EQ(check({.form = Form::printed, .unloading = Unloading::none, .reset = Reset::deviator}).size(), 1);
-  EXPECT_EQ(check({.largest_deviator = 0.04})[0].key, "law.largest_deviator");
-  EXPECT_THROW(make_law({.largest_deviator = 0.04}, 2500), std::invalid_argument);
-  EXPECT_THROW(make_law({.name = LawName::drucker_prager, .largest_deviator = 0.04}, 2500), std::invalid_argument);
-  EXPECT_TRUE(check({.form = Form::printed, .largest_deviator = 1}).empty());
-  EXPECT_EQ(check({.strain = Strain::displacements})[0].key, "law.strain");
-  EXPECT_EQ(check({.name = LawName::linear_elastic, .form = Form::printed, .strain = Strain::displacements}).size(), 1);
-  EXPECT_TRUE(check({.form = Form::printed, .strain = Strain::displacements}).empty());
+  EXPECT_EQ(check(YuuUmekageIsotropic::Parameters{.rule = {.reset = Reset::strain}})[0].key, "law.yuu-umekage.reset");
+  const Fits beyond{.largest_deviator = 0.04};
+  EXPECT_THROW(make_law(YuuUmekageIsotropic::Parameters{.fits = beyond}, 2500), std::invalid_argument);
+  EXPECT_THROW(make_law(DruckerPrager::Parameters{.fits = beyond}, 2500), std::invalid_argument);
+  EXPECT_NO_THROW(make_law(YuuUmekagePrinted::Parameters{.fits = beyond}, 2500));
+  EXPECT_FALSE(within_fits().contains(0.04));
 }
 
-TEST(Law, CollisionsCanBeLeftOut) {
-  EXPECT_EQ(collision_options({.collisions = Collisions::none}, 2e-4, 9.8).normal, 0);
-  EXPECT_EQ(collision_options({.collisions = Collisions::none}, 2e-4, 9.8).shear, 0);
-  EXPECT_TRUE(collision_options({.collisions = Collisions::isotropic}, 2e-4, 9.8).isotropic);
-  EXPECT_EQ(collision_options({}, 3e-4, 9.81).diameter, 3e-4);
+TEST(Law, SaysWhatItWasMadeFor) {
+  const auto range = [](const LawParameters& parameters) {
+    return std::visit([](const auto& law) { return law.range(); }, make_law(parameters, 2500));
+  };
+  EXPECT_EQ(range(YuuUmekageIsotropic::Parameters{}).grain_diameter, 200e-6);
+  EXPECT_NEAR(range(YuuUmekageIsotropic::Parameters{}).largest_pressure,
+              4 * range(YuuUmekageIsotropic::Parameters{.fits = {.scale = 2.45}}).largest_pressure, 1e-9);
+  EXPECT_EQ(range(DruckerPrager::Parameters{}).grain_diameter, 200e-6);
+  EXPECT_EQ(range(DruckerPrager::Parameters{.friction = 0.5}).grain_diameter, 0);
+  EXPECT_EQ(range(LinearElastic::Parameters{}).grain_diameter, 0);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace talus::granular {
 namespace {
 
-const AnyLaw elastic = make_law({.name = LawName::linear_elastic, .lambda = 2e6, .shear_modulus = 1e6}, 2500);
+const AnyLaw elastic = make_law(LinearElastic::Parameters{.lambda = 2e6, .shear_modulus = 1e6}, 2500);
 
 TEST(MaterialPath, RecordsEveryStretchAtEqualTimes) {
   const std::vector<PathStretch> path = {{0.5, squash(2e-4)}, {0.0, shear(1)}, {2, shear(1e-4)}};
@@ -59,7 +59,7 @@ TEST(MaterialPath, RefusesWhatIsNoPath) {
 TEST(MaterialPath, DrawsTheLoopsOfThePapersFigure2) {
   // Shear under constant pressure with excursions back: loading A, B; C down D1, up D2 to F; G down, up; every
   // excursion leaves its line and comes back to where it left, and the envelope is the loading curve.
-  const AnyLaw law = make_law({.unloading_stiffness = 2.5}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.rule = {.unloading_stiffness = 2.5}}, 2500);
   std::vector<PathStretch> path = {{1, squeeze(4e-4)}};
   for (int loop = 0; loop < 3; ++loop) path.insert(path.end(), {{1, shear(3e-3)}, {1, shear(-2e-4)}, {1, shear(2e-4)}});
   const auto points = follow_path(law, path, {.points = 50});

@@ -30,7 +30,8 @@ SymmetricTensor3<> formula(const FittedFunctions& functions, double volume, cons
 
 TEST(YuuUmekageIsotropic, IsItsFormulaOnTheLoadingCurve) {
   for (const Tables tables : {Tables::repaired, Tables::printed}) {
-    const AnyLaw law = make_law({.tables = tables, .unloading = Unloading::none}, 2500);
+    const AnyLaw law =
+        make_law(YuuUmekageIsotropic::Parameters{.fits = {.tables = tables}, .unloading = Unloading::none}, 2500);
     const FittedFunctions& functions = tables == Tables::printed ? printed_2011 : repaired_2011;
     for (const double squashed : {2e-5, 1e-4, 1.9e-4, 1e-3}) {
       const PathPoint point = end_of(law, {{1, squash(squashed)}, {1, shear(0.4 * squashed)}});
@@ -45,7 +46,7 @@ TEST(YuuUmekageIsotropic, StressRatioOfABedWithHeldSides) {
   // Squashed until the weight is borne: 1226 Pa at the floor of the hopper's bed, 613 Pa in the middle. The physics
   // notes have 0.64 and 0.81, with A1 and A2 taken at the total |e|; at sqrt(3) e_v, as the law takes them, it is
   // these.
-  const AnyLaw law = make_law({.unloading = Unloading::none}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.unloading = Unloading::none}, 2500);
   const std::vector<PathStretch> path = {{1, squash(4e-4)}};
   const auto points = follow_path(law, path, {.points = 2000});
   auto ratio_at = [&](double vertical) {
@@ -61,10 +62,12 @@ TEST(YuuUmekageIsotropic, AnswersTheSameInAnyAxes) {
   const Tensor3<> odd{0.3, -0.8, 0.5, 0.2, -0.6, 0.9, 1.1, 0.4, -0.9};
   std::vector<PathStretch> path = {
       {1, squash(3e-4)}, {1, 2e-3 * odd}, {1, -3e-4 * odd}, {1, squeeze(-1e-4)}, {1, 1e-3 * transpose(odd)}};
-  for (const LawParameters& parameters :
-       {LawParameters{}, LawParameters{.unloading = Unloading::none},
-        LawParameters{.tables = Tables::printed, .volume = Volume::strain, .unloading = Unloading::shear},
-        LawParameters{.reset = Reset::deviator, .main_strain = MainStrain::volume, .smoothing_time = 0.01}}) {
+  for (const YuuUmekageIsotropic::Parameters& parameters :
+       {YuuUmekageIsotropic::Parameters{}, YuuUmekageIsotropic::Parameters{.unloading = Unloading::none},
+        YuuUmekageIsotropic::Parameters{
+            .fits = {.tables = Tables::printed}, .contact = {.volume = Volume::strain}, .unloading = Unloading::shear},
+        YuuUmekageIsotropic::Parameters{
+            .rule = {.reset = Reset::deviator, .main_strain = MainStrain::volume, .smoothing_time = 0.01}}}) {
     const AnyLaw law = make_law(parameters, 2500);
     const auto points = follow_path(law, path, {.points = 10});
     for (const Tensor3<>& rotation :
@@ -80,7 +83,7 @@ TEST(YuuUmekageIsotropic, AnswersTheSameInAnyAxes) {
 
 TEST(YuuUmekageIsotropic, TurnsItsStressWithAStressedBlock) {
   for (const Unloading unloading : {Unloading::none, Unloading::all}) {
-    const AnyLaw law = make_law({.unloading = unloading}, 2500);
+    const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.unloading = unloading}, 2500);
     const Tensor3<> spin{.xz = M_PI / 2, .zx = -M_PI / 2};
     const std::vector<PathStretch> path = {{1, squash(2e-4)}, {1, shear(3e-4)}, {1, spin}};
     const auto points = follow_path(law, path, {.points = 1});
@@ -94,7 +97,7 @@ TEST(YuuUmekageIsotropic, TurnsItsStressWithAStressedBlock) {
 
 TEST(YuuUmekageIsotropic, BearsNoTension) {
   for (const Volume volume : {Volume::contact, Volume::density, Volume::strain}) {
-    const AnyLaw law = make_law({.volume = volume}, 2500);
+    const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.contact = {.volume = volume}}, 2500);
     EXPECT_EQ(end_of(law, {{1, squeeze(-1e-3)}, {1, shear(5e-3)}}).stress, SymmetricTensor3<>{});
     EXPECT_EQ(end_of(law, {{1, squash(2e-4)}, {1, shear(1e-3)}, {1, squash(-3e-4)}}).stress, SymmetricTensor3<>{});
   }
@@ -102,7 +105,7 @@ TEST(YuuUmekageIsotropic, BearsNoTension) {
 
 TEST(YuuUmekageIsotropic, PressureUnloadsAlongTheSteepLineAndReloadsToTheYieldPoint) {
   const double k_u = 1.5, first = 9e-4, back = 1e-4;
-  const AnyLaw law = make_law({.unloading_stiffness = k_u}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.rule = {.unloading_stiffness = k_u}}, 2500);
   const auto points = follow_path(
       law, std::vector<PathStretch>{{1, squeeze(first)}, {1, squeeze(-back)}, {1, squeeze(back)}, {1, squeeze(back)}},
       {.points = 1});
@@ -114,7 +117,7 @@ TEST(YuuUmekageIsotropic, PressureUnloadsAlongTheSteepLineAndReloadsToTheYieldPo
 }
 
 TEST(YuuUmekageIsotropic, NoiseDoesNotThrowThePressureOffItsCurve) {
-  const AnyLaw law = make_law({}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{}, 2500);
   std::vector<PathStretch> noisy;
   for (int k = 0; k < 200; ++k) noisy.insert(noisy.end(), {{1, squeeze(9e-6)}, {1, squeeze(-6e-6)}});
   const double smooth = mean(end_of(law, {{1, squeeze(6e-4)}}).stress);
@@ -128,7 +131,7 @@ TEST(YuuUmekageIsotropic, NoiseDoesNotThrowThePressureOffItsCurve) {
 TEST(YuuUmekageIsotropic, ShearUnloadsReloadsAndGoesOn) {
   // As the paper's Figure 2: loading, D1 down, D2 up to the yield point F, and on as if nothing had been.
   const double k_u = 2.5;
-  const AnyLaw law = make_law({.unloading_stiffness = k_u}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.rule = {.unloading_stiffness = k_u}}, 2500);
   const std::vector<PathStretch> path = {
       {1, squeeze(6e-4)}, {1, shear(4e-3)}, {1, shear(-2e-4)}, {1, shear(2e-4)}, {1, shear(4e-3)}};
   const auto points = follow_path(law, path, {.points = 1});
@@ -145,7 +148,8 @@ TEST(YuuUmekageIsotropic, ShearUnloadsReloadsAndGoesOn) {
 
 TEST(YuuUmekageIsotropic, ShearFollowsTheFrictionOfA4AndStaysAtItsLargestDeviator) {
   for (const Unloading unloading : {Unloading::none, Unloading::all}) {
-    const AnyLaw law = make_law({.largest_deviator = 0.01, .unloading = unloading}, 2500);
+    const AnyLaw law =
+        make_law(YuuUmekageIsotropic::Parameters{.fits = {.largest_deviator = 0.01}, .unloading = unloading}, 2500);
     auto friction = [&](double sheared) {
       const auto points = follow_path(law, std::vector<PathStretch>{{1, squeeze(6e-4)}, {1, shear(sheared)}},
                                       {.largest_increment = 1e-7, .points = 1});
@@ -163,7 +167,7 @@ TEST(YuuUmekageIsotropic, ShearFollowsTheFrictionOfA4AndStaysAtItsLargestDeviato
 }
 
 TEST(YuuUmekageIsotropic, ClosedCyclesOfPressureOrShearOnlyLoseEnergy) {
-  const AnyLaw law = make_law({}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{}, 2500);
   auto work = [&](const std::vector<PathStretch>& path, std::size_t skipped) {
     // The work from the end of the first `skipped` stretches on.
     const auto points = follow_path(law, path, {.largest_increment = 1e-7, .points = 400});
@@ -183,7 +187,7 @@ TEST(YuuUmekageIsotropic, ClosedCyclesOfPressureOrShearOnlyLoseEnergy) {
 TEST(YuuUmekageIsotropic, ShearAtLowAndBackAtHighPressureGainsAKnownEnergy) {
   // The shear stiffness goes with the pressure (Eq. 4), which no energy function allows: shear by de on the line at p1,
   // raise the pressure to p2, shear back, lower it. Gain: (p2 - p1) k_u A4(0) |de_dev|^2/2.
-  const AnyLaw law = make_law({}, 2500);
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{}, 2500);
   const double sheared = 1e-4;
   const std::vector<PathStretch> path = {// Harden, and come back to the middle of the elastic range.
                                          {1, squeeze(9e-4)},
@@ -208,7 +212,7 @@ TEST(YuuUmekageIsotropic, ShearAtLowAndBackAtHighPressureGainsAKnownEnergy) {
 }
 
 TEST(YuuUmekageIsotropic, ResetForgetsTheDeviatorWhileTheMainStrainFalls) {
-  const LawParameters parameters{.reset = Reset::deviator, .smoothing_time = 0};
+  const auto parameters = YuuUmekageIsotropic::Parameters{.rule = {.reset = Reset::deviator, .smoothing_time = 0}};
   const AnyLaw law = make_law(parameters, 2500);
   // Vertically lengthened by 1e-3, sideways squeezed: the volume stays, the pressure with it.
   const Tensor3<> lengthen{.xx = -1e-3, .zz = 1e-3};
@@ -222,8 +226,9 @@ TEST(YuuUmekageIsotropic, ResetForgetsTheDeviatorWhileTheMainStrainFalls) {
   const double e = 5e-5;
   EXPECT_NEAR(-points[4].stress.zx / mean(points[4].stress), value(repaired_2011.a4, std::sqrt(2.0) * e) * e, 0.01);
   // Without the rule the same path keeps the friction.
-  const auto kept = follow_path(
-      make_law({}, 2500), std::vector<PathStretch>{{1, squash(6e-4)}, {1, shear(4e-3)}, {1, lengthen}}, {.points = 1});
+  const auto kept =
+      follow_path(make_law(YuuUmekageIsotropic::Parameters{}, 2500),
+                  std::vector<PathStretch>{{1, squash(6e-4)}, {1, shear(4e-3)}, {1, lengthen}}, {.points = 1});
   EXPECT_GT(norm(deviator(kept[3].stress)), 0.5 * mean(kept[3].stress));
 }
 
@@ -232,7 +237,8 @@ TEST(YuuUmekageIsotropic, SmoothingKeepsShortFallsOfTheMainStrainFromResetting) 
   // Squeezed for 3 us, let go for 2 us, at the same rate, 2000 times.
   for (int k = 0; k < 2000; ++k) path.insert(path.end(), {{3e-6, squeeze(0.3)}, {2e-6, squeeze(-0.3)}});
   auto friction = [&](double smoothing_time) {
-    const AnyLaw law = make_law({.reset = Reset::deviator, .smoothing_time = smoothing_time}, 2500);
+    const AnyLaw law = make_law(
+        YuuUmekageIsotropic::Parameters{.rule = {.reset = Reset::deviator, .smoothing_time = smoothing_time}}, 2500);
     const PathPoint point = end_of(law, path, {.points = 1});
     return norm(deviator(point.stress)) / mean(point.stress);
   };
@@ -242,14 +248,15 @@ TEST(YuuUmekageIsotropic, SmoothingKeepsShortFallsOfTheMainStrainFromResetting) 
 
 TEST(YuuUmekageIsotropic, ContactGateTakesTheStressAwayBelowItsPacking) {
   // Loose grains squashed: the strain says pressure, the packing says no contact. 0.45/0.5 to the 96th power.
-  const LawParameters parameters{.volume = Volume::strain, .unloading = Unloading::none};
+  const auto parameters =
+      YuuUmekageIsotropic::Parameters{.contact = {.volume = Volume::strain}, .unloading = Unloading::none};
   const double dense = mean(end_of(make_law(parameters, 2500), {{1, squeeze(2e-4)}}).stress);
   const double loose = mean(end_of(make_law(parameters, 2500), {{1, squeeze(2e-4)}}, {.density = 0.45 * 2500}).stress);
   EXPECT_NEAR(loose / dense, 0.45 / 0.6 * std::pow(0.9, 96) * std::pow(1.0002, 96), 1e-7);
 }
 
 TEST(YuuUmekageIsotropic, BeyondClosePackingThePressureRisesAlongItsInitialStiffness) {
-  const LawParameters parameters{.unloading = Unloading::none};
+  const auto parameters = YuuUmekageIsotropic::Parameters{.unloading = Unloading::none};
   const YuuUmekageIsotropic law = std::get<YuuUmekageIsotropic>(make_law(parameters, 2500));
   auto pressure = [&](double packing) {
     return mean(law.update(MaterialPoint<YuuUmekageIsotropic>{}, Tensor3<>{}, 2500 * packing, 1e-6).stress);
@@ -263,7 +270,7 @@ TEST(YuuUmekageIsotropic, BeyondClosePackingThePressureRisesAlongItsInitialStiff
 
 TEST(YuuUmekageIsotropic, NoStateIsStifferThanTheSpeedOfSoundSays) {
   for (const Unloading unloading : {Unloading::none, Unloading::all}) {
-    const LawParameters parameters{.unloading = unloading};
+    const auto parameters = YuuUmekageIsotropic::Parameters{.unloading = unloading};
     const AnyLaw law = make_law(parameters, 2500);
     const double c = std::visit([](const auto& one) { return one.sound_speed(reference_density); }, law);
     double steepest = 0;

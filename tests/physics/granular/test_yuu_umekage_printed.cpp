@@ -15,18 +15,17 @@ namespace {
 constexpr double alpha = 9.8;
 
 /// The printed route: strain since the last reset, resets, no smoothing, nothing held.
-LawParameters printed_route() {
-  return {.form = Form::printed,
-          .tables = Tables::printed,
-          .volume = Volume::strain,
-          .largest_deviator = 1,
-          .unloading = Unloading::all,
-          .reset = Reset::strain,
-          .smoothing_time = 0};
+YuuUmekagePrinted::Parameters printed_route() {
+  return {.fits = {.tables = Tables::printed, .largest_deviator = 1},
+          .contact = {.volume = Volume::strain},
+          .unloading = PrintedUnloading::all,
+          .rule = {.reset = Reset::strain, .smoothing_time = 0}};
 }
 YuuUmekagePrinted loading_law(ShearSum sum = ShearSum::absolute) {
-  return {{.volume = Volume::strain, .unloading = Unloading::none, .largest_deviator = 1, .shear_sum = sum},
-          printed_2011};
+  return YuuUmekagePrinted({.fits = {.tables = Tables::printed, .largest_deviator = 1},
+                            .contact = {.volume = Volume::strain},
+                            .shear_sum = sum,
+                            .unloading = PrintedUnloading::none});
 }
 double mean(const SymmetricTensor3<>& stress) {
   return trace(stress) / 3;
@@ -60,8 +59,10 @@ TEST(YuuUmekagePrinted, UniaxialModuliAndStressRatioOfABed) {
     EXPECT_LE(stress.xx / stress.zz, 0.375) << e;
   }
   EXPECT_NEAR(law.sound_speed(1500), 103, 1);
-  EXPECT_NEAR(YuuUmekagePrinted({}, printed_2011).sound_speed(1500), 127, 1);  // k_u = 1.5
-  EXPECT_NEAR(YuuUmekagePrinted({.unloading_stiffness = 3}, printed_2011).sound_speed(1500), 180, 1);
+  EXPECT_NEAR(YuuUmekagePrinted({.fits = {.tables = Tables::printed}}).sound_speed(1500), 127, 1);  // k_u = 1.5
+  EXPECT_NEAR(
+      YuuUmekagePrinted({.fits = {.tables = Tables::printed}, .rule = {.unloading_stiffness = 3}}).sound_speed(1500),
+      180, 1);
 }
 
 TEST(YuuUmekagePrinted, MirrorsKeepItUnlessShearSumsHaveSigns) {
@@ -99,8 +100,8 @@ TEST(YuuUmekagePrinted, BearsNoTension) {
 }
 
 TEST(YuuUmekagePrinted, UnloadsReloadsToTheYieldPointAndForgetsAtTheEnd) {
-  LawParameters parameters = printed_route();
-  parameters.unloading_stiffness = 3;
+  YuuUmekagePrinted::Parameters parameters = printed_route();
+  parameters.rule.unloading_stiffness = 3;
   const AnyLaw law = make_law(parameters, 2500);
   const std::vector<PathStretch> path = {{1, squash(2.5e-4)}, {1, squash(-1e-5)}, {1, squash(1e-5)},
                                          {1, squash(1e-5)},   {1, squash(-3e-4)}, {1, squash(1e-5)}};
@@ -122,8 +123,8 @@ TEST(YuuUmekagePrinted, UnloadsReloadsToTheYieldPointAndForgetsAtTheEnd) {
 TEST(YuuUmekagePrinted, UnloadedPastTheEndOfStressAtOnceItBearsNone) {
   // However far the step goes beyond the end of the line: most of all where it passes zero by a hair or by far.
   const Tensor3<> squash{.zz = -3e-4};
-  for (LawParameters options : {printed_route(), LawParameters{.form = Form::printed}}) {
-    options.smoothing_time = 0;
+  for (YuuUmekagePrinted::Parameters options : {printed_route(), YuuUmekagePrinted::Parameters{}}) {
+    options.rule.smoothing_time = 0;
     const YuuUmekagePrinted law = std::get<YuuUmekagePrinted>(make_law(options, 2500));
     const auto loaded = law.update({}, squash, 1500 * (1 + 3e-4), 1);
     EXPECT_GT(mean(loaded.stress), 100);
@@ -141,7 +142,7 @@ TEST(YuuUmekagePrinted, UnloadedPastTheEndOfStressAtOnceItBearsNone) {
 TEST(YuuUmekagePrinted, RatchetsUnlessTheVolumeIsTiedToTheDensity) {
   // Load to 1200 Pa, unload to nothing, again and again: with resets every cycle compacts the grains by the strain that
   // the unloading does not give back. With the volume tied to the density and no resets there is one compaction.
-  auto compaction = [](const LawParameters& parameters, int cycles) {
+  auto compaction = [](const YuuUmekagePrinted::Parameters& parameters, int cycles) {
     const AnyLaw any = make_law(parameters, 2500);
     const auto& law = std::get<YuuUmekagePrinted>(any);
     MaterialPoint<YuuUmekagePrinted> point{};
@@ -158,16 +159,16 @@ TEST(YuuUmekagePrinted, RatchetsUnlessTheVolumeIsTiedToTheDensity) {
   const double one = compaction(printed_route(), 1), ten = compaction(printed_route(), 10);
   EXPECT_GT(one, 1e-5);
   EXPECT_NEAR(ten / one, 10, 0.2);
-  LawParameters tied = printed_route();
-  tied.volume = Volume::density;
-  tied.reset = Reset::never;
+  YuuUmekagePrinted::Parameters tied = printed_route();
+  tied.contact.volume = Volume::density;
+  tied.rule.reset = Reset::never;
   EXPECT_NEAR(compaction(tied, 10), compaction(tied, 1), 0.05 * compaction(tied, 1));
 }
 
 TEST(YuuUmekagePrinted, TakesTheStrainOfDisplacementsAsItTakesTheRate) {
-  LawParameters parameters = printed_route();
-  parameters.reset = Reset::never;
-  parameters.unloading = Unloading::none;
+  YuuUmekagePrinted::Parameters parameters = printed_route();
+  parameters.rule.reset = Reset::never;
+  parameters.unloading = PrintedUnloading::none;
   const AnyLaw any = make_law(parameters, 2500);
   const auto& law = std::get<YuuUmekagePrinted>(any);
   MaterialPoint<YuuUmekagePrinted> by_rate{}, by_displacement{};
@@ -189,7 +190,7 @@ TEST(YuuUmekagePrinted, TakesTheStrainOfDisplacementsAsItTakesTheRate) {
 }
 
 TEST(YuuUmekagePrinted, ForgetsDisplacementsAtAResetAsItForgetsTheStrain) {
-  LawParameters parameters = printed_route();
+  YuuUmekagePrinted::Parameters parameters = printed_route();
   const std::vector<PathStretch> path = {
       {1, Tensor3<>{.xz = 2e-4, .zz = -2.5e-4}}, {1, squash(-3e-4)}, {1, Tensor3<>{.xz = 1e-4, .zz = -1e-4}}};
   const auto by_rate = follow_path(make_law(parameters, 2500), path, {.points = 50});

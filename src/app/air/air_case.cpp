@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/air/air_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/stopwatch.hpp"
+#include "base/instruction_set.hpp"
+#include "io/parameter_reader.hpp"
+#include "io/parameter_writer.hpp"
+#include "io/run_folder.hpp"
+#include "io/series.hpp"
+#include "models/air/model.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using air::AirModel;
+using air::ModelParameters;
+
+constexpr double bytes_a_cell = 900, most_cells_measured = 1e5;
+
+/// Speed of the walls, or of the vortices at the start, m/s.
+double speed_of(const ModelParameters& p) {
+  double wall_speed = 0;
+  for (const auto& v : p.gas.wall_velocity) wall_speed = std::max(wall_speed, std::hypot(v[0], v[1], v[2]));
+  return p.start.flow == air::InitialFlow::rest ? wall_speed : p.start.speed;
+}
+
+double cells_of(const ModelParameters& p) {
+  return static_cast<double>(air::grid_of(p).cells());
+}
+
+std::vector<NamedValue> groups(const ModelParameters& p) {
+  const double rho = p.gas.density();
+  return {{"cells", "1", cells_of(p)},
+          {"density", "kg/m3", rho},
+          {"reynolds_number_of_the_box", "1", rho * speed_of(p) * p.box.width / p.gas.viscosity}};
+}
+
+Forecast forecast(const ModelParameters& p, const run::RunParameters& run) {
+  const Grid grid = air::grid_of(p);
+  // Vortices of speed u along x move as fast along z; walls drag along one axis.
+  const double crossing = speed_of(p) * (1 / grid.spacing[0] + 1 / grid.spacing[2]);
+  const double step = crossing > 0 ? std::min(p.gas.longest_step, p.gas.courant / crossing) : p.gas.longest_step;
+  const double steps = std::ceil(run.end / step), cells = cells_of(p);
+  Forecast f;
+  f.phases = {{.name = "flow", .steps = steps, .evaluations = steps}};
+  f.memory_bytes = 20e6 + bytes_a_cell * cells;
+  f.disk_bytes = (run.end / run.snapshots + 1) * (16 * cells + 20e3) + 2 * (60 * cells + 20e3) +
+                 (run.series > 0 ? run.end / run.series : steps) * 250;
+  return f;
+}
+
+/// Seconds of a step, from one of at most 10^5 cells.
+double measure_step(ModelParameters p, ThreadTeam& team) {
+  const double cells = cells_of(p);
+  if (cells > most_cells_measured) p.cell *= std::cbrt(cells / most_cells_measured);
+  AirModel model(p);
+  model.begin(team);
+  return cells / cells_of(p) * seconds_of(0.2, [&] { model.advance(team); });
+}
+
+Problem too_large(const ModelParameters& p, double available) {
+  const double cells = cells_of(p);
+  return {.key = "air.cell",
+          .what = fmt::format("{:.4g} mm makes {:.3g} cells", 1e3 * p.cell, cells),
+          .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.cell * std::cbrt(bytes_a_cell * cells / available))};
+}
+
+}  // namespace
+
+ParameterList air_parameters() {
+  ParameterList list;
+  const run::RunParameters run;
+  const ModelParameters parameters;
+  run::for_each_parameter(list, run);
+  air::for_each_parameter(list, parameters);
+  return list;
+}
+
+std::vector<NamedValue> analyze_air(const std::filesystem::path& folder) {
+  const Series series = read_series(RunFolder(folder).series());
+  std::vector<NamedValue> quantities;
+  for (std::size_t n = 0; n < series.names.size(); ++n)
+    if (series.rows() > 0 && series.names[n] != "time" && series.names[n] != "step")
+      quantities.push_back({series.names[n], series.units[n], series.columns[n].back()});
+  return quantities;
+}
+
+PreparedCase prepare_air(const CaseFile& file) {
+  ModelParameters p;
+  run::RunParameters run;
+  ParameterReader reader(file);
+  run::for_each_parameter(reader, run);
+  air::for_each_parameter(reader, p);
+  reader.check(air::check(p));
+  reader.finish();
+  if (run.snapshots == 0) run.snapshots = run.end / 20;
+
+  PreparedCase prepared;
+  prepared.model = "air";
+  prepared.run = run;
+  prepared.defaults = air_parameters();
+  run::for_each_parameter(prepared.parameters, run);
+  air::for_each_parameter(prepared.parameters, p);
+  prepared.instruction_set = choice_name(resolve(InstructionSet::automatic));
+  prepared.groups = groups(p);
+  prepared.make_model = [p] { return run::any_model(AirModel(p)); };
+  prepared.forecast = forecast(p, run);
+  prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
+  prepared.too_large = [p](double available) { return too_large(p, available); };
+  prepared.analyze = analyze_air;
+  prepared.draw = [](const std::filesystem::path&) { return std::vector<std::filesystem::path>{}; };
+  return prepared;
+}
+
+}  // namespace talus::app

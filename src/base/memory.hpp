@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The memory that this process may still take.
+#pragma once
+
+#include <optional>
+
+namespace talus {
+
+/// Bytes: the least of what the system has free for new programs, what the control group of the process (a container, a
+/// batch system's job) leaves, and what its limit on address space (`ulimit -v`) does. Nothing where none can be told.
+std::optional<double> available_memory();
+
+}  // namespace talus

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Text for a terminal. What users write (titles, keys, names of files and columns) reaches it through these functions
+/// alone, so that no control character in it can move the cursor, change colours or hide what was said.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace talus {
+
+/// Which control characters of a text are left as they are.
+enum class Controls { none, line_ends };
+
+/// The text with its control characters (C0, DEL, C1), marks that turn the direction of writing, and bytes that are no
+/// UTF-8 written as escapes: "\n", "\u001b", "\xff".
+std::string printable(std::string_view text, Controls kept = Controls::none);
+
+/// Prints to stdout; lines end where `format` or an argument ends them, other control characters are escaped.
+template <class... Arguments>
+void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  fmt::print(stdout, "{}", printable(fmt::format(format, std::forward<Arguments>(arguments)...), Controls::line_ends));
+}
+
+/// The same to stderr.
+template <class... Arguments>
+void complain(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  fmt::print(stderr, "{}", printable(fmt::format(format, std::forward<Arguments>(arguments)...), Controls::line_ends));
+}
+
+/// Columns of the terminal behind stdout; 100 if it is none.
+std::size_t terminal_width();
+
+/// A text in lines of at most `width` columns, broken at blanks, each but the first behind `indent` blanks. A word
+/// longer than a line stands alone on one.
+/// \param used columns of the first line that are taken already
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent, std::size_t used);
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What viscosity does to the air's velocities on the faces of a grid: explicitly, or implicitly where its time limit
+/// is shorter than the step.
+#pragma once
+
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "models/air/viscosity_rows.hpp"
+#include "numerics/grid/passages.hpp"
+
+namespace talus::air {
+
+class Viscosity {
+ public:
+  explicit Viscosity(const Passages& passages);
+
+  /// divergence := laplacian u + grad(div u)/3 (viscous_divergence()), with rough walls, 1/(m s); ghosts of the
+  /// velocity filled.
+  void find_divergence(ThreadTeam& team, const FaceField& velocity, FaceField& divergence);
+
+  /// Solves (u - start)/weight = amount (laplacian u + grad(div u)/3) for u, from a first guess; conjugate gradients,
+  /// preconditioned by the diagonal.
+  /// \param weight above 0 where faces are open; \param amount kinematic viscosity times time, m^2
+  /// \returns iterations \throws NumericalError if it does not converge
+  int advance_implicitly(ThreadTeam& team, const FaceField& start, const FaceField& weight, double amount,
+                         FaceField& velocity);
+
+ private:
+  struct System;
+  struct Diagonal;
+  enum class Walls { moving, at_rest };
+  void find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence);
+  template <class Body>
+  void for_all_rows(ThreadTeam& team, Body&& body) const;
+  template <class Body>
+  TwoSums sum_over_rows(ThreadTeam& team, Body&& body);
+  void wrap(FaceField& field) const;
+
+  const Passages& passages_;
+  CellField divergence_;  // of the velocity
+  FaceField residual_, direction_, image_, per_weight_,
+      per_diagonal_;  // of the implicit step; made when it is asked for
+  std::vector<TwoSums> row_sums_;
+};
+
+}  // namespace talus::air

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "models/continuum/atmosphere.hpp"
+#include "models/continuum/material.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double most_steps = 1e12;     // at a microsecond each, twelve days
+constexpr double hopeless_courant = 5;  // of a fixed step: ten times what holds with the bound on the wave's speed
+
+double wave_speed(const Parameters& p) {
+  return Material(p).sound_speed(p.bed.packing * p.grains.density);
+}
+
+double smoothing_length(const Parameters& p) {
+  return sph::smoothing_length(lattice_of(p).mass, p.bed.packing * p.grains.density);
+}
+
+double step_of(const Parameters& p) {
+  return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
+}
+
+/// A bed that falls together under its own weight swings about its rest with its slowest wave, omega = pi c/(2 H) for
+/// the height H, whose speed is at most 4/pi g/omega; damping of time tau makes it die out with the slower root of
+/// s^2 - s/tau + omega^2, until hardly a particle is faster than settle.speed.
+double settling_time(const Parameters& p) {
+  if (p.gate.opens == GateOpens::from_the_start) return 0;
+  if (p.gate.opens == GateOpens::at_time) return p.gate.time;
+  constexpr double pi = std::numbers::pi;
+  if (!p.settle.damping_time) return p.settle.duration + p.settle.longest / 10;
+  const double frequency = 0.5 * pi * wave_speed(p) / p.bed.height;
+  const double half_rate = 0.5 / *p.settle.damping_time;
+  const double rate = half_rate - std::sqrt(std::max(0.0, half_rate * half_rate - frequency * frequency));
+  const double speed = 4 / pi * p.gravity.acceleration / frequency;
+  return std::min(p.settle.longest, p.settle.duration + std::log(std::max(1.0, speed / p.settle.speed)) / rate);
+}
+
+}  // namespace
+
+Forecast forecast(const Parameters& p, double end) {
+  const double step = step_of(p);
+  return {.particles = bed_count(p),
+          .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
+          .settling_steps = std::ceil(settling_time(p) / step),
+          .flow_steps = std::ceil(end / step)};
+}
+
+std::vector<Problem> check_steps(const Parameters& p, double end) {
+  std::vector<Problem> problems;
+  const double length = smoothing_length(p), speed = wave_speed(p), step = step_of(p);
+  if (p.integration.step && step > hopeless_courant * length / speed)
+    problems.push_back(
+        {.key = "integration.step",
+         .what = fmt::format("in {:.3g} s pressure waves pass {:.3g} smoothing lengths", step, step * speed / length),
+         .allowed = fmt::format("at most {:.2g} s, better {:.2g} s (integration.courant = {:g})",
+                                hopeless_courant * length / speed, p.integration.courant * length / speed,
+                                p.integration.courant)});
+  if (!(step > 0 && std::isfinite(step))) {
+    problems.push_back({.key = "integration.courant",
+                        .what = fmt::format("the time step would be {} s: pressure waves run at {} m/s over {} m "
+                                            "(bed.spacing, grains.density, law.scale)",
+                                            step, speed, length),
+                        .allowed = "a step above 0 s"});
+    return problems;
+  }
+  const double settling = settling_time(p);
+  const char* const key = p.integration.step ? "integration.step"
+                          : settling <= end  ? "run.end"
+                          : p.gate.time > 0  ? "gate.time"
+                                             : "settle.duration";
+  if (!((end + settling) / step <= most_steps))
+    problems.push_back(
+        {.key = key,
+         .what = fmt::format("{:.3g} s take {:.2g} steps of {:.2g} s", end + settling, (end + settling) / step, step),
+         .allowed = fmt::format("at most {:.0e} steps", most_steps)});
+  return problems;
+}
+
+double memory_of(const Forecast& f) {
+  return 22e6 + 3500 * f.particles + 900 * f.cells;  // libraries; columns, records and lists of particles and images
+}
+
+Parameters sample(const Parameters& p, double particles) {
+  const Lattice lattice = lattice_of(p);
+  constexpr double most_layers = 20;
+  const double layers = std::min(most_layers, static_cast<double>(lattice.count[1]));
+  const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
+  Parameters q = p;
+  q.plate = {}, q.wedge = {}, q.plates.clear();
+  q.bed.bottom = q.bed.left = q.bed.right = std::nullopt;
+  q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;
+  q.bed.height = side * lattice.spacing.z, q.box.height = 2 * q.bed.height;
+  q.bed.spacing = std::cbrt(lattice.spacing.x * lattice.spacing.y * lattice.spacing.z);
+  q.box.left = q.box.right = q.box.front = q.box.rear = FaceKind::symmetry;
+  q.box.floor = FaceKind::wall, q.box.top = FaceKind::open;
+  q.gate = {.opens = GateOpens::from_the_start, .time = 0};
+  q.air.cell = p.air.enabled ? air_grid(p).spacing.x : q.bed.spacing;
+  for (FlowBoundary& kind : q.air.gas.boundaries.kind) kind = FlowBoundary::no_slip;
+  q.air.gas.boundaries.kind[5] = FlowBoundary::open;
+  return q;
+}
+
+}  // namespace talus::continuum

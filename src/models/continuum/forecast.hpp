@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a run of the continuum will take, from its parameters and the number of its particles alone: nothing is placed.
+#pragma once
+
+#include <optional>
+
+#include "base/error.hpp"
+#include "models/continuum/parameters.hpp"
+
+namespace talus::continuum {
+
+struct Forecast {
+  double particles = 0;
+  double cells = 0;           ///< of the air
+  double settling_steps = 0;  ///< until the gate opens
+  double flow_steps = 0;      ///< from then on
+};
+
+/// \param end s, from the opening of the gate; \pre the case is valid: check()
+Forecast forecast(const Parameters& parameters, double end);
+
+/// Problems of a time step with a case that is valid otherwise: one that no run survives, or so short that no machine
+/// comes to run.end.
+std::vector<Problem> check_steps(const Parameters& parameters, double end);
+
+/// Bytes that a run takes, the program itself among them.
+double memory_of(const Forecast& forecast);
+
+/// A bed of the same particles and cells in a plain box, so small that a machine's speed is measured in a moment.
+/// \param particles about so many, or as many as the case has if these are fewer
+Parameters sample(const Parameters& parameters, double particles);
+
+}  // namespace talus::continuum

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/regime.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "models/continuum/material.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double millimetre = 1e-3;
+
+/// The law's range: its grains, and the pressure at which its fit ends.
+void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
+  const granular::LawRange range = Material(p).range();
+  const std::string_view law = choice_name(p.law.name);
+  if (const double fitted = range.grain_diameter; fitted > 0)
+    lines.push_back({"grain diameter", fmt::format("{:.4g} mm", p.grains.diameter / millimetre),
+                     fmt::format("the law {} is a fit to grains of {:.4g} mm", law, fitted / millimetre),
+                     p.grains.diameter < 0.5 * fitted || p.grains.diameter > 2 * fitted});
+  if (!std::isfinite(range.largest_pressure)) return;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  lines.push_back({"weight of the bed over its area", fmt::format("{:.4g} Pa", weight),
+                   fmt::format("the fit of the law {} ends at a pressure of {:.4g} Pa", law, range.largest_pressure),
+                   weight > range.largest_pressure});
+}
+
+}  // namespace
+
+std::vector<RegimeLine> regime_of_case(const Parameters& p) {
+  std::vector<RegimeLine> lines;
+  add_range_of_law(p, lines);
+  lines.push_back({"particle spacing over grain diameter", fmt::format("{:.3g}", p.bed.spacing / p.grains.diameter),
+                   "a particle stands for many grains; below 1 it would be smaller than one",
+                   p.bed.spacing < p.grains.diameter});
+  const auto outlet = outlet_of(p);
+  if (const double width = outlet ? outlet->right - outlet->left : 0; width > 0) {
+    lines.push_back({"particles across the outlet", fmt::format("{:.3g}", width / p.bed.spacing),
+                     "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)",
+                     width < 12 * (1 - 1e-9) * p.bed.spacing});
+    lines.push_back({"grains across the outlet", fmt::format("{:.3g}", width / p.grains.diameter),
+                     "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
+  }
+  return lines;
+}
+
+}  // namespace talus::continuum

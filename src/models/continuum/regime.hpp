@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Whether a case keeps to what the model and its law were made for: the lines of the regime card that are known before
+/// the run.
+#pragma once
+
+#include <vector>
+
+#include "models/continuum/parameters.hpp"
+#include "numerics/named_value.hpp"
+
+namespace talus::continuum {
+
+std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
+
+}  // namespace talus::continuum

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/forecast.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "models/continuum/cases.hpp"
+
+namespace talus::continuum {
+namespace {
+
+/// A section one particle deep, of beads as in the cases.
+Parameters section(double width, double height) {
+  Parameters p;
+  p.box.width = width, p.box.depth = 2.5e-3, p.box.height = 1.5 * height;
+  p.bed.spacing = 2.5e-3, p.bed.height = height;
+  p.settle.damping_time = 5e-3;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  return p;
+}
+
+/// The steps until the gate opens and from then on are those of the forecast, within a factor of 1.5 either way.
+void expect_forecast(const std::string& name, const Parameters& p, double end) {
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  while (s.gate_time < 0) model.advance(team);
+  const auto settling = static_cast<double>(s.step);
+  while (s.time < s.gate_time + end) model.advance(team);
+  const double flow = static_cast<double>(s.step) - settling;
+  const Forecast f = forecast(p, end);
+  EXPECT_LT(std::abs(std::log(f.settling_steps / settling)), std::log(1.5))
+      << name << ": forecast " << f.settling_steps << ", taken " << settling;
+  EXPECT_LT(std::abs(std::log(f.flow_steps / flow)), std::log(1.5))
+      << name << ": forecast " << f.flow_steps << ", taken " << flow;
+}
+
+TEST(ContinuumForecast, OfASettlingBed) {
+  expect_forecast("low bed", section(10e-3, 30e-3), 2e-3);
+  expect_forecast("high bed", section(10e-3, 100e-3), 2e-3);
+}
+
+TEST(ContinuumForecast, OfASofterBedByTheOtherMethod) {
+  Parameters p = section(10e-3, 60e-3);
+  p.law.scale = 1.5;
+  p.integration.method = Method::runge_kutta;
+  p.integration.courant = 0.3;
+  p.settle.duration = 5e-3;
+  expect_forecast("softer", p, 2e-3);
+}
+
+TEST(ContinuumForecast, OfAGateThatOpensAtATime) {
+  Parameters p = section(10e-3, 20e-3);
+  p.gate = {.opens = GateOpens::at_time, .time = 3e-3};
+  expect_forecast("gate", p, 4e-3);
+}
+
+TEST(BedCount, IsTheNumberOfParticlesPlaced) {
+  Parameters p = section(100e-3, 100e-3);
+  EXPECT_EQ(bed_count(p), static_cast<double>(bed_positions(p).size()));
+  p.box.depth = 10e-3;
+  p.wedge = {.half_angle = 0.5, .outlet = 20e-3, .height = 10e-3};
+  p.box.height = 250e-3;
+  ASSERT_TRUE(check(p).empty());
+  const auto placed = static_cast<double>(bed_positions(p).size());
+  EXPECT_EQ(bed_count(p), placed);
+  EXPECT_LT(placed, places_of(lattice_of(p)));
+}
+
+TEST(BedCount, OfManyParticlesTakesAMoment) {
+  Parameters p = section(100e-3, 100e-3);
+  p.wedge = {.half_angle = 0.5, .outlet = 20e-3, .height = 10e-3};
+  p.box.height = 250e-3;
+  const double coarse = bed_count(p) / places_of(lattice_of(p));
+  p.bed.spacing = p.box.depth = 10e-6;  // 10^8 places, of which some are looked at
+  EXPECT_NEAR(bed_count(p) / places_of(lattice_of(p)), coarse, 0.03);
+}
+
+TEST(CheckSize, NamesTheLengthOutOfProportion) {
+  Parameters p = section(1e6, 30e-3);
+  auto problems = check(p);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "box.width");
+  EXPECT_EQ(problems[0].what, "1e+06 m is 4e+08 spacings: the bed would hold 4.8e+09 particles");
+  p = section(100e-3, 100e-3);
+  p.box.depth = 50e-3, p.bed.spacing = 50e-6;
+  problems = check(p);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "bed.spacing");
+  EXPECT_EQ(problems[0].what, "0.05 mm makes 4e+09 particles");
+  EXPECT_EQ(problems[0].allowed, "at least 0.0794 mm: 1e+09 particles");
+}
+
+TEST(CheckSize, CountsTheCellsOfTheAirToo) {
+  Parameters p = section(100e-3, 30e-3);
+  p.air.enabled = true;
+  p.box.height = 1e6;
+  auto problems = check(p);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "box.height");
+  p.box.height = 100e-3, p.air.cell = 1e-7;
+  problems = check(p);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "air.cell");
+}
+
+TEST(CheckSteps, RefusesAStepThatNoRunSurvives) {
+  Parameters p = section(10e-3, 30e-3);
+  p.integration.step = 2e-6;
+  EXPECT_TRUE(check_steps(p, 1).empty());
+  p.integration.step = 1;
+  ASSERT_EQ(check_steps(p, 1).size(), 1u);
+  EXPECT_EQ(check_steps(p, 1)[0].key, "integration.step");
+  p.integration.step = 1e-15;
+  ASSERT_EQ(check_steps(p, 1).size(), 1u);
+  p.integration.step.reset();
+  EXPECT_EQ(check_steps(p, 1e9)[0].key, "run.end");
+}
+
+TEST(ContinuumSample, StartsWithoutThePlates) {
+  Parameters p = small_hopper();
+  make_granular(p);
+  p.air.enabled = true;
+  ASSERT_TRUE(check(p).empty());
+  ThreadTeam team(1);
+  Continuum model = started(sample(p, 100), team);
+  EXPECT_NEAR(static_cast<double>(model.state().position.size()), 100, 30);
+  model.advance(team);
+  p.bed.spacing = 0.5e-2;
+  EXPECT_NEAR(static_cast<double>(bed_positions(sample(p, 1000)).size()), 1000, 250);
+}
+
+}  // namespace
+}  // namespace talus::continuum
