@@ -41,34 +41,33 @@ std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) 
 
 std::string page_of_quantities() {
   std::string page =
-      "# Quantities\n\n"
-      "The numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in the rows of\n"
-      "`validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A summary lists those that\n"
-      "are defined by the case's own outlet, vessel and bed and apply to it. The others, and the lengths that they "
-      "need\n"
-      "(*place*), stand in the rows of a reference, as does the window of time; in a summary the window is the whole\n"
-      "run, its end, or what the definition says. This page is the output of `talus schema --quantities`; the texts\n"
-      "stand in the lists `src/analysis/hopper_measures.cpp` and `src/analysis/avalanche_measures.cpp`.\n";
+      "# Quantities\n"
+      "\n"
+      "The numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in the\n"
+      "rows of `validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A\n"
+      "summary lists those that are defined by the case's own outlet, vessel and bed and apply to it. The\n"
+      "others, and the lengths that they need (*place*), stand in the rows of a reference, as does the\n"
+      "window of time; in a summary the window is the whole run, its end, or what the definition says.\n"
+      "This page is the output of `talus schema --quantities`; the texts stand in the lists\n"
+      "`src/analysis/hopper_measures.cpp` and `src/analysis/avalanche_measures.cpp`.\n";
   const auto add = [&page](const char* title, const char* symbols, const std::vector<MeasureText>& measures) {
     page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}\n### In comparisons\n\n{3}", title, symbols,
                         table_of(measures, true), table_of(measures, false));
   };
   add("Grains in a vessel: continuum",
-      "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass of all\n"
-      "particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The *hopper* is what "
-      "is\n"
-      "above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is below it; without an outlet the "
-      "box\n"
-      "is a bin. Q is the mass that passes the outlet's plane per time, of particles spread along z by the kernel.\n"
-      "*While it flows*: from when a tenth of what passes the outlet in all has passed until half of it has, or "
-      "half-way\n"
-      "between the two; where nothing passes, half of the run. Packing is what the kernel deposits, images behind the\n"
-      "walls counted; a value at a place is interpolated by the kernel to the centre of the 1.25 mm cell that holds "
-      "it.",
+      "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass\n"
+      "of all particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The\n"
+      "*hopper* is what is above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is\n"
+      "below it; without an outlet the box is a bin. Q is the mass that passes the outlet's plane per\n"
+      "time, of particles spread along z by the kernel. *While it flows*: from when a tenth of what passes\n"
+      "the outlet in all has passed until half of it has, or half-way between the two; where nothing\n"
+      "passes, half of the run. Packing is what the kernel deposits, images behind the walls counted; a\n"
+      "value at a place is interpolated by the kernel to the centre of the 1.25 mm cell that holds it.",
       texts_of_hopper_measures());
   add("Avalanches and falling clouds: cloud",
-      "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x points down\n"
-      "the slope, y to its left, z away from it. `head_aspect_ratio` is the mean over the second half of a run.",
+      "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"
+      "points down the slope, y to its left, z away from it. `head_aspect_ratio` is the mean over the\n"
+      "second half of a run.",
       texts_of_avalanche_measures());
   return page;
 }
