@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "analysis/statistics.hpp"
 
@@ -92,9 +93,19 @@ double evaluate(Statistic statistic, std::span<const double> numbers) {
     case Statistic::median:
       return median(numbers);
     case Statistic::standard_deviation:
+      return standard_deviation(numbers);
+    case Statistic::ratio:
+    case Statistic::difference:
       break;
   }
-  return standard_deviation(numbers);
+  if (numbers.size() != 2) throw std::invalid_argument("a ratio and a difference are of two variants");
+  return statistic == Statistic::ratio ? numbers[0] / numbers[1] : numbers[0] - numbers[1];
+}
+
+double length_of(const Place& place, std::string_view name) {
+  const auto found = place.find(name);
+  if (found == place.end()) throw std::out_of_range("the place has no length '" + std::string(name) + "'");
+  return found->second;
 }
 
 }  // namespace talus

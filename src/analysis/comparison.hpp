@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A row of a comparison with what a source prints: which quantity, where and when, and the criterion that a value
-/// meets or not. Knows names only; which numbers a name stands for is the business of a study
-/// (avalanche_quantities.hpp). The files are validation/*/reference.toml.
+/// meets or not. Knows names only; which numbers a name stands for the lists of measures say (measure.hpp). The files
+/// are validation/*/reference.toml.
 #pragma once
 
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace talus {
@@ -51,6 +54,11 @@ struct Window {
   double to = end_of_run;         ///< t <= to
 };
 
+/// Where a measure is taken: lengths by name, m. A row of a reference brings them: place = { height = "120 mm" }.
+using Place = std::map<std::string, double, std::less<>>;
+/// \throws std::out_of_range if the place has no such length
+double length_of(const Place& place, std::string_view name);
+
 /// From what a number is made.
 enum class From {
   each,       ///< the number of each member, then a statistic over the members
@@ -60,9 +68,16 @@ enum class From {
   parameters  ///< the case alone ("case" in the file)
 };
 
-enum class Statistic { mean, median, standard_deviation };
+enum class Statistic {
+  mean,
+  median,
+  standard_deviation,
+  ratio,      ///< of the first of two variants over the second
+  difference  ///< the first less the second
+};
 
-/// The statistic of numbers, one a member; nan as those of statistics.hpp.
+/// The statistic of numbers, one a member; nan as those of statistics.hpp. Ratio and difference take two, one a
+/// variant.
 double evaluate(Statistic statistic, std::span<const double> numbers);
 
 struct ComparisonRow {
@@ -75,6 +90,7 @@ struct ComparisonRow {
   From from = From::each;
   Statistic statistic = Statistic::mean;
   Window window = {};
+  Place place = {};
   std::string printed = {};
   std::string unit = {};
   Criterion criterion = {};

@@ -12,12 +12,6 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 }
 
-double mass_above(std::span<const Vector3> position, double mass, double height, int axis) {
-  std::size_t count = 0;
-  for (const Vector3& x : position) count += x[axis] >= height;
-  return mass * static_cast<double>(count);
-}
-
 Curve integral(const Curve& curve) {
   Curve sum{curve.time, std::vector<double>(curve.time.size(), 0.0)};
   for (std::size_t n = 1; n < curve.time.size(); ++n)

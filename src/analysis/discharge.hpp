@@ -4,15 +4,10 @@
 /// curve does not cover a window the result is nan, or empty.
 #pragma once
 
-#include <span>
 
 #include "analysis/curve.hpp"
-#include "base/vector.hpp"
 
 namespace talus {
-
-/// Mass of the particles whose component along an axis is at or above a height. \param mass of a particle, kg
-double mass_above(std::span<const Vector3> position, double mass, double height, int axis = 2);
 
 /// Integral of a curve from its first time on, by trapezoids.
 Curve integral(const Curve& curve);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The Gaussian's part of statistics.hpp: density, fits, test.
+/// The Gaussian's part of statistics.hpp: density, moments, test.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,26 +20,6 @@ double log_normal_below(double z) {
   return std::log(0.5 * std::erfc(-z / std::numbers::sqrt2));
 }
 
-double squared_distance(const Histogram& histogram, const Gaussian& gaussian) {
-  double sum = 0;
-  for (std::size_t bin = 0; bin < histogram.count.size(); ++bin)
-    sum += std::pow(histogram.density(bin) - gaussian.density(histogram.middle(bin)), 2);
-  return sum;
-}
-
-Gaussian moments_of(const Histogram& histogram) {
-  double count = 0, first = 0, second = 0;
-  for (std::size_t bin = 0; bin < histogram.count.size(); ++bin) {
-    const double weight = static_cast<double>(histogram.count[bin]), x = histogram.middle(bin);
-    count += weight;
-    first += weight * x;
-    second += weight * x * x;
-  }
-  const double centre = first / count;
-  return {centre,
-          std::sqrt(std::max(second / count - centre * centre, histogram.bin_width * histogram.bin_width / 12))};
-}
-
 }  // namespace
 
 double Gaussian::density(double x) const {
@@ -49,46 +29,6 @@ double Gaussian::density(double x) const {
 
 Gaussian gaussian_of_moments(std::span<const double> sample) {
   return {mean(sample), standard_deviation(sample)};
-}
-
-Gaussian gaussian_of_least_squares(const Histogram& histogram) {
-  const auto occupied =
-      std::count_if(histogram.count.begin(), histogram.count.end(), [](std::size_t count) { return count > 0; });
-  if (occupied < 3) return {nan, nan};
-  Gaussian best = moments_of(histogram);
-  double distance = squared_distance(histogram, best);
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    // Normal equations of the residuals' first-order change with mean and deviation.
-    double mm = 0, md = 0, dd = 0, m = 0, d = 0;
-    for (std::size_t bin = 0; bin < histogram.count.size(); ++bin) {
-      const double x = histogram.middle(bin), z = (x - best.mean) / best.deviation, p = best.density(x);
-      const double by_mean = p * z / best.deviation, by_deviation = p * (z * z - 1) / best.deviation;
-      const double residual = histogram.density(bin) - p;
-      mm += by_mean * by_mean;
-      md += by_mean * by_deviation;
-      dd += by_deviation * by_deviation;
-      m += by_mean * residual;
-      d += by_deviation * residual;
-    }
-    const double determinant = mm * dd - md * md;
-    if (!(determinant > 0)) return {nan, nan};
-    const double mean_step = (dd * m - md * d) / determinant, deviation_step = (mm * d - md * m) / determinant;
-    // Half the step until it leads downhill.
-    double share = 1;
-    Gaussian next;
-    double next_distance;
-    do {
-      next = {best.mean + share * mean_step, best.deviation + share * deviation_step};
-      next_distance = next.deviation > 0 ? squared_distance(histogram, next) : std::numeric_limits<double>::infinity();
-      share *= 0.5;
-    } while (next_distance > distance && share > 1e-9);
-    if (next_distance > distance) break;
-    const double change = std::abs(next.mean - best.mean) + std::abs(next.deviation - best.deviation);
-    best = next;
-    distance = next_distance;
-    if (change < 1e-12 * best.deviation) break;
-  }
-  return best;
 }
 
 double anderson_darling_p_value(double a) {

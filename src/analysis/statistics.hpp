@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Statistics of samples: moments, quantiles, histograms, a Gaussian's fit and test, rank correlation, lines. A result
+/// Statistics of samples: moments, quantiles, histograms, a Gaussian and its test, rank correlation, lines. A result
 /// that a sample is too small for, or that divides by a spread of zero, is nan.
 #pragma once
 
@@ -46,11 +46,6 @@ struct Gaussian {
 
 /// The Gaussian with the sample's mean and standard deviation.
 Gaussian gaussian_of_moments(std::span<const double> sample);
-
-/// The Gaussian of unit area whose density has the least sum of squared distances from the histogram's, at the middles
-/// of the bins: a curve "fitting" a plotted density. Found by damped Gauss-Newton steps from the histogram's own
-/// moments. Nan if fewer than three bins are occupied.
-Gaussian gaussian_of_least_squares(const Histogram& histogram);
 
 /// Anderson & Darling's test of normality with mean and standard deviation estimated from the sample.
 struct NormalityTest {

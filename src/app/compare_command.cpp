@@ -16,20 +16,15 @@ namespace talus::app {
 namespace {
 
 struct CompareOptions {
-  std::string folder, other, json, markdown, figures, picture = "compare.png";
+  std::string folder, other, json, picture = "compare.png";
 };
 
 ExitStatus compare_with_reference(const CompareOptions& options) {
   const Reference reference = read_reference(options.other);
-  const std::unique_ptr<StudiedRuns> runs = read_studied_runs(options.folder, reference);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, *runs);
-  say("{}\n", reference.source);
-  say("{}", to_text(rows));
-  if (!options.json.empty()) write_atomically(options.json, to_json(reference, rows));
-  if (!options.markdown.empty()) write_atomically(options.markdown, to_markdown(rows));
-  if (!options.figures.empty()) runs->draw(options.figures);
-  say("{} met, {} not met, {} reported, {} not evaluated\n", count(rows, Verdict::met), count(rows, Verdict::not_met),
-      count(rows, Verdict::reported), count(rows, Verdict::not_evaluated));
+  const std::vector<FoundEnsemble> found = find_ensembles(options.folder, reference);
+  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
+  say("{}\n{}{}\n", reference.source, to_text(rows), counts_text(rows));
+  if (!options.json.empty()) write_atomically(options.json, to_json(reference, rows, found, options.folder));
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;
 }
 
@@ -40,9 +35,7 @@ void add_compare_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("compare", "compare runs with a reference, or two runs with each other");
   command->add_option("DIR", options->folder, "folder of a run, an ensemble or a reproduction")->required();
   command->add_option("OTHER", options->other, "REFERENCE.toml, or the folder of another run")->required();
-  command->add_option("--json", options->json, "also write the rows to this file");
-  command->add_option("--markdown", options->markdown, "also write them to this file, as a table");
-  command->add_option("--figures", options->figures, "also draw the study's figures into this folder");
+  command->add_option("--json", options->json, "also write the rows, and which runs they are of, to this file");
   command->add_option("--picture", options->picture, "two runs: draw their series over each other into this PNG")
       ->capture_default_str();
   command->footer(

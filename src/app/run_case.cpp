@@ -19,6 +19,7 @@
 #include "io/file_list.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
+#include "io/series.hpp"
 #include "io/summary.hpp"
 #include "numerics/warning.hpp"
 #include "run/interrupt.hpp"
@@ -155,13 +156,14 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
 
   Summary summary{.status = loop.interrupted ? "interrupted" : "done",
                   .wall_seconds = loop.wall_seconds,
-                  .instruction_set = manifest.instruction_set,
-                  .warnings = texts_of(model->regime())};
+                  .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
     summary.quantities = prepared.analyze(folder.path());
     if (prepared.run.pictures) pictures = prepared.draw(folder.path());
   }
+  const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
+  summary.warnings = texts_of(regime);
   for (const NamedValue& value : {NamedValue{"wall_seconds", "s", loop.wall_seconds},
                                   {"cpu_seconds", "s", loop.cpu_seconds},
                                   {"peak_memory", "B", peak_memory_bytes()},
@@ -178,7 +180,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   }
   log.info("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
            loop.wall_seconds, loop.cpu_seconds);
-  print_regime(model->regime(), log);
+  print_regime(regime, log);
   say("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
       folder.path().string());
   if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// talus schema: what a case may say, as JSON Schema for editors or as a page for people.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
+#include "analysis/measure.hpp"
 #include "app/commands.hpp"
 #include "app/prepared_case.hpp"
 #include "base/terminal.hpp"
@@ -26,12 +28,57 @@ std::string page_head(const std::string& model) {
   return fmt::format("# Case reference: {}\n\n{}\n", model, wrapped(text, width, 0, 0));
 }
 
+/// One row a measure, those that a summary lists first.
+std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) {
+  std::string table = "| name | unit | definition | place |\n|---|---|---|---|\n";
+  for (const MeasureText& m : measures) {
+    if (m.in_summary != in_summary) continue;
+    std::string text(m.text);
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    table += fmt::format("| `{}` | {} | {} | {} |\n", m.name, m.unit, text, fmt::join(m.place, ", "));
+  }
+  return table;
+}
+
+std::string page_of_quantities() {
+  std::string page =
+      "# Quantities\n"
+      "\n"
+      "The numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in the\n"
+      "rows of `validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A\n"
+      "summary lists those that are defined by the case's own outlet, vessel and bed and apply to it. The\n"
+      "others, and the lengths that they need (*place*), stand in the rows of a reference, as does the\n"
+      "window of time; in a summary the window is the whole run, its end, or what the definition says.\n"
+      "This page is the output of `talus schema --quantities`; the texts stand in the lists\n"
+      "`src/analysis/hopper_measures.cpp` and `src/analysis/avalanche_measures.cpp`.\n";
+  const auto add = [&page](const char* title, const char* symbols, const std::vector<MeasureText>& measures) {
+    page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}\n### In comparisons\n\n{3}", title, symbols,
+                        table_of(measures, true), table_of(measures, false));
+  };
+  add("Grains in a vessel: continuum",
+      "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass\n"
+      "of all particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The\n"
+      "*hopper* is what is above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is\n"
+      "below it; without an outlet the box is a bin. Q is the mass that passes the outlet's plane per\n"
+      "time, of particles spread along z by the kernel. *While it flows*: from when a tenth of what passes\n"
+      "the outlet in all has passed until half of it has, or half-way between the two; where nothing\n"
+      "passes, half of the run. Packing is what the kernel deposits, images behind the walls counted; a\n"
+      "value at a place is interpolated by the kernel to the centre of the 1.25 mm cell that holds it.",
+      texts_of_hopper_measures());
+  add("Avalanches and falling clouds: cloud",
+      "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"
+      "points down the slope, y to its left, z away from it. `head_aspect_ratio` is the mean over the\n"
+      "second half of a run.",
+      texts_of_avalanche_measures());
+  return page;
+}
+
 }  // namespace
 
 void add_schema_command(CLI::App& app, Action& action) {
   struct Options {
     std::string model = "cloud";
-    bool page = false;
+    bool page = false, quantities = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("schema", "print the JSON Schema of a model's cases");
@@ -39,8 +86,13 @@ void add_schema_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember(std::vector<std::string>(model_names.begin(), model_names.end())))
       ->capture_default_str();
   command->add_flag("--markdown", options->page, "print the reference page instead");
+  command->add_flag("--quantities", options->quantities, "print the page of all quantities of all models instead");
   command->callback([options, &action] {
     action = [options] {
+      if (options->quantities) {
+        fmt::print("{}", page_of_quantities());
+        return ExitStatus::done;
+      }
       const ParameterList list = parameters_of(options->model);
       if (options->page)
         fmt::print("{}\n{}", page_head(options->model), reference_page(list));

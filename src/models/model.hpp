@@ -8,13 +8,14 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus {
 
 /// \tparam M a type with the members below. A for_each_field(visit, state) and a for_each_parameter(visit, parameters)
 ///           stand in the namespace of its State and Parameters.
 template <class M>
-concept Model = requires(M model, const M constant, ThreadTeam& team) {
+concept Model = requires(M model, const M constant, ThreadTeam& team, const RunRecord& record) {
   typename M::Parameters;
   typename M::State;
   { constant.state() } -> std::same_as<const typename M::State&>;
@@ -26,7 +27,7 @@ concept Model = requires(M model, const M constant, ThreadTeam& team) {
   { constant.latest_origin() } -> std::same_as<double>;  // when it has come at the latest
   { constant.step_limit() } -> std::same_as<NumericalError::Report>;  // what holds the last step, where, what to try
   { constant.totals() } -> std::same_as<std::vector<NamedValue>>;     // the same names every time
-  { constant.regime() } -> std::same_as<std::vector<RegimeLine>>;     // at the end of a run
+  { constant.regime(record) } -> std::same_as<std::vector<RegimeLine>>;     // at the end of a run
 };
 
 }  // namespace talus

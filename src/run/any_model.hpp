@@ -13,6 +13,7 @@
 #include "numerics/grid_snapshot.hpp"
 #include "numerics/named_value.hpp"
 #include "numerics/snapshot.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/snapshot_of.hpp"
 
 namespace talus::run {
@@ -31,7 +32,7 @@ class AnyModel {
   virtual Snapshot snapshot() const = 0;                 ///< valid until the next step
   virtual std::optional<GridSnapshot> grid() const = 0;  ///< of the air; nothing where there is none
   virtual std::vector<NamedValue> totals() const = 0;
-  virtual std::vector<RegimeLine> regime() const = 0;
+  virtual std::vector<RegimeLine> regime(const RunRecord& record) const = 0;
   virtual void save(CheckpointWriter& checkpoint) const = 0;
   virtual void resume(ThreadTeam& team, const CheckpointReader& checkpoint) = 0;
 };
@@ -55,7 +56,7 @@ class ModelAdapter final : public AnyModel {
     return std::nullopt;
   }
   std::vector<NamedValue> totals() const override { return model_.totals(); }
-  std::vector<RegimeLine> regime() const override { return model_.regime(); }
+  std::vector<RegimeLine> regime(const RunRecord& record) const override { return model_.regime(record); }
   void save(CheckpointWriter& checkpoint) const override { for_each_field(checkpoint, model_.state()); }
   void resume(ThreadTeam& team, const CheckpointReader& checkpoint) override {
     for_each_field(checkpoint, model_.mutable_state());

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "analysis/quantities.hpp"
+#include "analysis/measure.hpp"
 
 namespace talus {
 namespace {
@@ -61,19 +61,23 @@ TEST(Statistic, OverMembers) {
   EXPECT_DOUBLE_EQ(evaluate(Statistic::standard_deviation, numbers), std::sqrt(7.0));
 }
 
-TEST(Quantities, AreNamedOnceAndStandInTheDocuments) {
-  std::ifstream file(TALUS_SOURCE_DIR "/docs/quantities.md");
-  std::stringstream text;
-  text << file.rdbuf();
+TEST(Statistic, OfTwoVariants) {
+  const std::vector<double> two = {6, 2}, three = {1, 2, 3};
+  EXPECT_DOUBLE_EQ(evaluate(Statistic::ratio, two), 3);
+  EXPECT_DOUBLE_EQ(evaluate(Statistic::difference, two), 4);
+  EXPECT_THROW(evaluate(Statistic::ratio, three), std::invalid_argument);
+}
+
+TEST(Measures, AreNamedOnce) {
   std::set<std::string_view> names;
-  for (const QuantityDefinition& quantity : quantities) {
-    EXPECT_TRUE(names.insert(quantity.name).second) << quantity.name;
-    const std::string quoted = fmt::format("`{}`", quantity.name);
-    EXPECT_NE(text.str().find(quoted), std::string::npos) << quantity.name;
+  const std::vector<MeasureText> all = all_measures();
+  for (const MeasureText& measure : all) {
+    EXPECT_TRUE(names.insert(measure.name).second) << measure.name;
+    EXPECT_FALSE(measure.text.empty()) << measure.name;
   }
-  ASSERT_NE(find_quantity("head_width"), nullptr);
-  EXPECT_EQ(find_quantity("head_width")->unit, "m");
-  EXPECT_EQ(find_quantity("head_widths"), nullptr);
+  ASSERT_TRUE(find_measure("head_width"));
+  EXPECT_EQ(find_measure("head_width")->unit, "m");
+  EXPECT_FALSE(find_measure("head_widths"));
 }
 
 }  // namespace

@@ -19,13 +19,6 @@ Curve sampled(double from, double to, double step, Function&& f) {
   return curve;
 }
 
-TEST(Discharge, MassAboveAPlane) {
-  const std::vector<Vector3> points = {{0, 0, 1}, {0.5, 0, 2}, {-1, 3, 2.5}, {0, 0, -4}};
-  EXPECT_EQ(mass_above(points, 0.25, 2), 0.5);
-  EXPECT_EQ(mass_above(points, 0.25, 3, 1), 0.25);
-  EXPECT_EQ(mass_above(points, 0.25, 9), 0);
-}
-
 TEST(Discharge, MeansOfALinearRateAreItsValueInTheMiddle) {
   // Q = 2 + 3 t, passed = 2 t + 1.5 t^2, on uneven times
   Curve passed;

@@ -42,36 +42,6 @@ TEST(Histogram, CountsEdgesOnceAndHasUnitArea) {
   EXPECT_THROW(histogram(sample, 1, 1, 3), std::invalid_argument);
 }
 
-TEST(GaussianFit, RecoversADensityThatIsGaussian) {
-  // Counts proportional to a Gaussian's density, to 1e-7 of it.
-  const Gaussian truth{12, 1.7};
-  Histogram bins{.least = 0, .bin_width = 0.5, .count = std::vector<std::size_t>(50), .total = 0};
-  for (std::size_t bin = 0; bin < 50; ++bin) {
-    bins.count[bin] = static_cast<std::size_t>(std::lround(1e9 * truth.density(bins.middle(bin)) * bins.bin_width));
-    bins.total += bins.count[bin];
-  }
-  const Gaussian fit = gaussian_of_least_squares(bins);
-  EXPECT_NEAR(fit.mean, 12, 1e-6);
-  EXPECT_NEAR(fit.deviation, 1.7, 1e-6);
-}
-
-TEST(GaussianFit, ByLeastSquaresTakesLessNoticeOfAnOutlierThanByMoments) {
-  Random random(4);
-  std::vector<double> sample;
-  for (int n = 0; n < 1000; ++n) sample.push_back(30 + 5 * random.normal());
-  for (int n = 0; n < 20; ++n) sample.push_back(75);
-  const Gaussian moments = gaussian_of_moments(sample);
-  const Gaussian curve = gaussian_of_least_squares(histogram(sample, 0, 80, 40));
-  EXPECT_DOUBLE_EQ(moments.mean, mean(sample));
-  EXPECT_GT(moments.deviation, 7);
-  EXPECT_NEAR(curve.mean, 30, 0.5);
-  EXPECT_NEAR(curve.deviation, 5, 0.4);
-}
-
-TEST(GaussianFit, NeedsThreeOccupiedBins) {
-  EXPECT_TRUE(std::isnan(gaussian_of_least_squares(histogram(std::vector<double>{1, 2}, 0, 3, 3)).mean));
-}
-
 TEST(AndersonDarling, StatisticIsTheDefiningIntegral) {
   // n times the integral of (F_n - F)² / (F (1 - F)) dF, by the midpoint rule between the order statistics; independent
   // of the sum that the code uses.

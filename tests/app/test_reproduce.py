@@ -1,30 +1,48 @@
 # SPDX-License-Identifier: Apache-2.0
 """A study from its reference to its report: the runs, the rows, the figures."""
 import json
+import os
 import re
 import shutil
+import subprocess
 import unittest
+from pathlib import Path
 
 from program import PROJECT, ProgramTest
 
-CASE = "cases/yuu2011-hopper-vacuum.toml"
-REFERENCE = "validation/yuu2011/reference.toml"
+
+class Study(ProgramTest):
+    """A project of its own, whose cases and references are made small."""
+
+    def setUp(self):
+        super().setUp()
+        ignore = shutil.ignore_patterns("__pycache__")
+        for name in ("cases", "validation", "python"):
+            shutil.copytree(PROJECT / name, self.folder / name, ignore=ignore)
+
+    def replace(self, name, pattern, text):
+        path = self.folder / name
+        old = path.read_text()
+        new = re.sub(pattern, text, old)
+        self.assertNotEqual(new, old, f"{name} has no {pattern}")
+        path.write_text(new)
+
+    def pictures_of(self, page):
+        """Those that a page shows; each is there."""
+        pictures = re.findall(r"\]\((figures/[^)]*)\)", page.read_text())
+        for picture in pictures:
+            self.assertEqual((page.parent / picture).read_bytes()[:4], b"\x89PNG", picture)
+        return [Path(picture).name for picture in pictures]
 
 
-class Hopper(ProgramTest):
+class Hopper(Study):
     """The hopper's study for 30 ms, with particles of 5 mm."""
 
     def setUp(self):
         super().setUp()
-        for name in (CASE, REFERENCE):
-            (self.folder / name).parent.mkdir(parents=True)
-            shutil.copy(PROJECT / name, self.folder / name)
-        self.replace(CASE, r"(?m)^spacing = .*$", 'spacing = "5 mm"')
-        self.replace(CASE, r"(?m)^end = .*$", 'end = "30 ms"')
-
-    def replace(self, name, pattern, text):
-        path = self.folder / name
-        path.write_text(re.sub(pattern, text, path.read_text()))
+        case = "cases/yuu2011-hopper-vacuum.toml"
+        self.replace(case, r"(?m)^spacing = .*$", 'spacing = "5 mm"')
+        self.replace(case, r"(?m)^end = .*$", 'end = "30 ms"')
 
     def test_two_variants(self):
         arguments = ("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", "--variant", "vacuum-stiff")
@@ -34,24 +52,91 @@ class Hopper(ProgramTest):
         self.assertEqual(rows["air-drag"]["verdict"], "not evaluated")
         self.assertEqual(rows["vacuum-discharge-plateau"]["verdict"], "not evaluated", "the run ends before")
         self.assertLess(abs(rows["settled-floor-stress"]["values"][0]), 0.05)
-        report = (self.folder / "r/yuu2011.md").read_text()
-        for figure in re.findall(r"\]\((figures/[^)]*)\)", report):
-            self.assertEqual((self.folder / "r" / figure).read_bytes()[:4], b"\x89PNG")
-        self.assertIn("figures/figure_04_vacuum-stiff.png", report)
-        self.assertIn("figures/figure_06.png", report)
+        page = self.folder / "r/yuu2011.md"
+        shown = self.pictures_of(page)
+        for picture in ("figure_04_vacuum.png", "figure_04_vacuum-stiff.png", "figure_06.png", "figure_08.png"):
+            self.assertIn(picture, shown)
+        self.assertNotIn("figure_11.png", shown, "there is no air")
+        text = page.read_text()
+        self.assertIn("| 0 | hopper (vacuum, air) | `packing_max` |", text)
+        self.assertIn("## Not met, and why", text)
+        for link in re.findall(r"\]\(([^)]*\.md)\)", text):
+            self.assertTrue((page.parent / link).resolve().is_relative_to(self.folder.resolve() / "docs"), link)
 
         first = (self.folder / "r/comparison.json").read_bytes()
         (self.folder / "r/comparison.json").unlink()
         self.talus(*arguments, "--resume", status=1)
         again = json.loads((self.folder / "r/comparison.json").read_text())
         self.assertEqual(again, json.loads(first))
-        said = self.talus("compare", "r/hopper-vacuum", REFERENCE, status=1).stdout
+        said = self.talus("compare", "r/hopper-vacuum", "validation/yuu2011/reference.toml", status=1).stdout
         self.assertIn("packing_max", said)
+
+    def test_without_a_python_that_draws(self):
+        """The rows are there all the same, and what to install is said."""
+        self.replace("cases/yuu2011-hopper-vacuum.toml", r"(?m)^end = .*$", 'end = "1 ms"')
+        stand_in = self.folder / "bin/python3"
+        stand_in.parent.mkdir()
+        stand_in.write_text("#!/bin/sh\nexit 1\n")
+        stand_in.chmod(0o755)
+        arguments = ("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum")
+        said = self.talus(*arguments, status=1, env={**os.environ, "PATH": str(stand_in.parent)},
+                          without="/usr/bin/python3").stdout
+        self.assertIn("python3-matplotlib", said)
+        self.assertTrue((self.folder / "r/comparison.json").exists())
+        self.assertFalse((self.folder / "r/figures").exists())
+
+    def test_a_script_that_fails(self):
+        self.replace("cases/yuu2011-hopper-vacuum.toml", r"(?m)^end = .*$", 'end = "1 ms"')
+        (self.folder / "validation/yuu2011/figures.py").write_text("raise SystemExit('out of ink')\n")
+        said = self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", status=4).stderr
+        self.assertIn("out of ink", said)
 
     def test_unknown_variant(self):
         said = self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacum", status=2).stderr
         self.assertIn("vacuum", said)
         self.assertFalse((self.folder / "r").exists())
+
+
+class Avalanche(Study):
+    """The avalanches' study with a tenth of the grains, for an eighth of the time."""
+
+    def setUp(self):
+        super().setUp()
+        reference = "validation/niiya2020/reference.toml"
+        for shape in ("circle", "rectangle", "triangle"):
+            self.replace(f"cases/niiya2020-{shape}.toml", r"(?m)^count = .*$", "count = 200")
+        self.replace(reference, '"0.34 m"', '"0.11 m"')
+        self.replace(reference, '"3.4 m"', '"0.34 m"')
+        self.replace(reference, '"0.6 m"', '"0.19 m"')
+        self.replace(reference, '"run.end" = "5 ms"', '"run.end" = "1 ms"')
+
+    def test_all_figures(self):
+        self.talus("reproduce", "niiya2020", "--out", "r", "--variant", "5 mm", "--members", "2", status=1)
+        shown = self.pictures_of(self.folder / "r/niiya2020.md")
+        self.assertEqual(shown, [f"figure_{n:02}.png" for n in range(3, 12)] + ["figure_motions.png"])
+        text = (self.folder / "r/niiya2020.md").read_text()
+        self.assertIn("Mean and standard deviation of 2 members", " ".join(text.split()))
+        self.assertIn("Left out: width against radius", " ".join(text.split()))
+
+    def test_what_is_there_of_it(self):
+        """One run of one case, and no more: its figures, and a word on the others."""
+        self.talus("run", "cases/niiya2020-triangle.toml", "--set", 'particles.size="0.19 m"', "--set", 'run.end="1 ms"',
+                   "--out", "r/one")
+        self.replace("validation/niiya2020/reference.toml", '"run.end" = "1 ms"', '"run.end" = "5 ms"')
+        self.talus("compare", "r", "validation/niiya2020/reference.toml", "--json", "r/comparison.json", status=1)
+        subprocess.run(["/usr/bin/python3", "validation/niiya2020/figures.py", "r"], cwd=self.folder, check=True,
+                       capture_output=True)
+        page = self.folder / "r/niiya2020.md"
+        self.assertEqual(self.pictures_of(page),
+                         ["figure_03.png", "figure_07.png", "figure_11.png", "figure_motions.png"])
+        self.assertIn("Figures 4, 5, 8 and 9 (circle), Figure 6 (rectangle)", " ".join(page.read_text().split()))
+
+    def test_no_comparison_yet(self):
+        (self.folder / "r").mkdir()
+        done = subprocess.run(["/usr/bin/python3", "validation/niiya2020/figures.py", "r"], cwd=self.folder, check=False,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("talus compare DIR REFERENCE.toml --json", done.stderr)
 
 
 if __name__ == "__main__":

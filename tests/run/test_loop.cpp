@@ -42,7 +42,7 @@ class Falling final : public AnyModel {
   }
   std::optional<GridSnapshot> grid() const override { return std::nullopt; }
   std::vector<NamedValue> totals() const override { return {{"z", "m", position_[0].z}}; }
-  std::vector<RegimeLine> regime() const override { return {}; }
+  std::vector<RegimeLine> regime(const RunRecord&) const override { return {}; }
   void save(CheckpointWriter& checkpoint) const override {
     checkpoint.put("state/time", time_);
     checkpoint.put("state/step", step_);

@@ -21,20 +21,18 @@ struct CloudFrame {
 
   /// Motion in space is looked at from the side, all grains projected onto the plane x, z.
   AvalancheView view() const {
+    if (!has_slope) return motion == cloud::Motion::xyz ? AvalancheView::falling : AvalancheView::unseen;
     return motion == cloud::Motion::xy ? AvalancheView::from_above : AvalancheView::from_the_side;
   }
 };
 
-/// The snapshots of a run in the order of their numbers.
-std::vector<std::filesystem::path> snapshot_paths(const std::filesystem::path& run_folder);
-
-/// Reads series.csv and all snapshots. Without a slope the run has no frames and no front. The run's end is the time of
-/// its last row: that of its last snapshot, at most a step after run.end, and no more than there is of a run cut short.
-/// \throws FileError
+/// Reads series.csv; a snapshot when a measure asks for it. Without a slope the run has no front. The run's end is the
+/// time of its last row: that of its last snapshot, at most a step after run.end, and no more than there is of a run
+/// cut short. \throws FileError
 AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame);
 
-/// Writes analysis/front_speed.csv, analysis/snapshots.csv and, seen from above, analysis/head_widths.csv (every head
-/// of the last snapshot); returns the summary's quantities. \throws FileError
+/// Writes analysis/front_speed.csv, analysis/snapshots.csv (a column a measure) and, seen from above,
+/// analysis/head_widths.csv (every head of the last snapshot); returns the summary's quantities. \throws FileError
 std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame);
 
 }  // namespace talus::app

@@ -13,6 +13,7 @@
 #include "analysis/frontal_angle.hpp"
 #include "analysis/heads.hpp"
 #include "analysis/statistics.hpp"
+#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/file_list.hpp"
 #include "io/series.hpp"
@@ -58,13 +59,14 @@ double quantile_along(std::span<const Vector3> position, const Vector3& directio
 }
 
 /// A window of the given extent about the cloud's middle, which most of the grains have not left.
-Window follow(std::span<const Vector3> position, const View& view, double half_width, double below, double above) {
+figure::Window follow(std::span<const Vector3> position, const View& view, double half_width, double below,
+                      double above) {
   const double x = quantile_along(position, view.right, 0.5), y = quantile_along(position, view.up, 0.5);
   return {x - half_width, x + half_width, y - below, y + above};
 }
 
 /// The front of an avalanche, with what is 180 radii behind it.
-Window front_of(std::span<const Vector3> position, const CloudFrame& frame) {
+figure::Window front_of(std::span<const Vector3> position, const CloudFrame& frame) {
   const double a = frame.scales.mean_radius, front = quantile_along(position, {1, 0, 0}, 1);
   if (frame.motion == cloud::Motion::xz) return {front - 180 * a, front + 20 * a, -8 * a, 72 * a};
   const double centre = quantile_along(position, {0, 1, 0}, 0.5);

@@ -32,38 +32,20 @@ std::string variants_text(const ComparisonRow& row) {
   return text;
 }
 
-/// More variants than a line holds, and every row of the same ones.
-bool is_side_by_side(const std::vector<EvaluatedRow>& rows) {
-  constexpr std::size_t most_in_a_line = 4;
-  return !rows.empty() && rows.front().row->variants.size() > most_in_a_line &&
-         std::all_of(rows.begin(), rows.end(), [&](const EvaluatedRow& e) {
-           return e.row->variants == rows.front().row->variants && e.values.size() == e.row->variants.size();
-         });
-}
-
-/// A line a variant, a column a row, each value judged by itself.
-std::string side_by_side(const std::vector<EvaluatedRow>& rows) {
-  std::string names = "| |", lines = "|---|", criteria = "| met if |", printed = "| the paper |", text;
-  for (const EvaluatedRow& e : rows) {
-    names += fmt::format(" {}: `{}`, {} |", e.row->number, e.row->quantity, e.row->unit);
-    lines += "---|";
-    criteria += fmt::format(" {} |", to_string(e.row->criterion));
-    printed += fmt::format(" {} |", e.row->printed);
+/// How the number of the members or variants is made where it is not plain; empty if it is.
+std::string statistic_text(const ComparisonRow& row) {
+  switch (row.statistic) {
+    case Statistic::standard_deviation:
+      return "standard deviation";
+    case Statistic::ratio:
+      return "ratio";
+    case Statistic::difference:
+      return "difference";
+    case Statistic::mean:
+    case Statistic::median:
+      break;
   }
-  const std::vector<std::string>& variants = rows.front().row->variants;
-  for (std::size_t v = 0; v < variants.size(); ++v) {
-    text += fmt::format("| {} |", variants[v]);
-    for (const EvaluatedRow& e : rows) {
-      const bool missed = e.row->criterion.kind != Criterion::Kind::reported &&
-                          judge(e.row->criterion, e.values[v]) == Verdict::not_met;
-      text += fmt::format(" {} |", !e.values[v] ? "-"
-                                   : missed     ? "**" + number(*e.values[v]) + "**"
-                                                : number(*e.values[v]));
-    }
-    text += "\n";
-  }
-  return fmt::format("{}\n{}\n{}\n{}\n{}\nIn bold: not met. -: the run did not get there.\n", names, lines, printed,
-                     criteria, text);
+  return "";
 }
 
 }  // namespace
@@ -73,7 +55,7 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns
   for (const ComparisonRow& row : reference.rows) {
     EvaluatedRow evaluated{.row = &row, .values = {}, .verdict = Verdict::reported};
     try {
-      evaluated.values = runs.values(row);
+      evaluated.values = runs(row);
     } catch (const std::logic_error& error) {
       throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
     }
@@ -87,29 +69,20 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns
 std::string to_text(const std::vector<EvaluatedRow>& rows) {
   std::string text = fmt::format("{:>3}  {:38} {:14} {:24} {:14} {}\n", "row", "quantity", "printed/met if", "computed",
                                  "verdict", "case");
-  for (const EvaluatedRow& e : rows)
-    text +=
-        fmt::format("{:>3}  {:38} {:14} {:24} {:14} {}\n", e.row->number, e.row->quantity, to_string(e.row->criterion),
-                    values_text(e), to_string(e.verdict), e.row->case_name + " (" + variants_text(*e.row) + ")");
-  return text;
-}
-
-std::string to_markdown(const std::vector<EvaluatedRow>& rows) {
-  if (is_side_by_side(rows)) return side_by_side(rows);
-  std::string text = "| row | case | quantity | the paper | met if | computed | |\n|---|---|---|---|---|---|---|\n";
   for (const EvaluatedRow& e : rows) {
-    text += fmt::format("| {} | {} ({}) | `{}`{} | {} ({}) | {} | {} | {} |\n", e.row->number, e.row->case_name,
-                        variants_text(*e.row), e.row->quantity,
-                        e.row->statistic == Statistic::standard_deviation ? " (standard deviation)" : "",
-                        e.row->printed, e.row->source, to_string(e.row->criterion), values_text(e),
-                        e.verdict == Verdict::met ? "**met**" : to_string(e.verdict));
+    const std::string statistic = statistic_text(*e.row);
+    text += fmt::format("{:>3}  {:38} {:14} {:24} {:14} {}\n", e.row->number,
+                        e.row->quantity + (statistic.empty() ? "" : ", " + statistic), to_string(e.row->criterion),
+                        values_text(e), to_string(e.verdict), e.row->case_name + " (" + variants_text(*e.row) + ")");
   }
   return text;
 }
 
-std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>& rows) {
+std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>& rows,
+                    const std::vector<FoundEnsemble>& found, const std::filesystem::path& folder) {
   nlohmann::ordered_json json;
   json["study"] = reference.study;
+  json["title"] = reference.title;
   json["source"] = reference.source;
   for (const EvaluatedRow& e : rows) {
     nlohmann::ordered_json row;
@@ -118,18 +91,27 @@ std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>&
     row["quantity"] = e.row->quantity;
     row["case"] = e.row->case_name;
     row["variants"] = e.row->variants;
+    row["statistic"] = statistic_text(*e.row);
     row["printed"] = e.row->printed;
+    row["source"] = e.row->source;
     row["criterion"] = to_string(e.row->criterion);
     row["unit"] = e.row->unit;
-    auto& values = row["values"] = nlohmann::ordered_json::array();
+    row["values"] = row["verdicts"] = nlohmann::ordered_json::array();
+    const bool judged = e.row->criterion.kind != Criterion::Kind::reported;
     for (const auto& value : e.values) {
-      if (value && std::isfinite(*value))
-        values.push_back(*value);
-      else
-        values.push_back(nullptr);
+      row["values"].push_back(value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nullptr);
+      row["verdicts"].push_back(to_string(!value   ? Verdict::not_evaluated
+                                          : judged ? judge(e.row->criterion, value)
+                                                   : Verdict::reported));
     }
     row["verdict"] = to_string(e.verdict);
     json["rows"].push_back(std::move(row));
+  }
+  for (const FoundEnsemble& ensemble : found) {
+    nlohmann::ordered_json runs{{"case", ensemble.case_name}, {"variant", ensemble.variant}};
+    for (const std::filesystem::path& run : ensemble.folders)
+      runs["folders"].push_back(run.lexically_proximate(folder).string());
+    json["runs"].push_back(std::move(runs));
   }
   return json.dump(2) + "\n";
 }
@@ -137,6 +119,12 @@ std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>&
 std::size_t count(const std::vector<EvaluatedRow>& rows, Verdict verdict) {
   return static_cast<std::size_t>(
       std::count_if(rows.begin(), rows.end(), [&](const EvaluatedRow& row) { return row.verdict == verdict; }));
+}
+
+std::string counts_text(const std::vector<EvaluatedRow>& rows) {
+  return fmt::format("{} met, {} not met, {} reported, {} not evaluated", count(rows, Verdict::met),
+                     count(rows, Verdict::not_met), count(rows, Verdict::reported),
+                     count(rows, Verdict::not_evaluated));
 }
 
 }  // namespace talus::app

@@ -22,14 +22,16 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns
 
 /// As lines for a terminal.
 std::string to_text(const std::vector<EvaluatedRow>& rows);
-/// As a Markdown table: a line a row, or, if all rows are of the same many variants, a line a variant and a column a
-/// row.
-std::string to_markdown(const std::vector<EvaluatedRow>& rows);
-/// As JSON: [{"id", "number", "quantity", "case", "printed", "criterion", "values": [...], "verdict", ...}], the values
-/// in the order of the row's variants.
-std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>& rows);
+/// As JSON: {"study", "title", "source", "rows": [{"id", "number", "quantity", "case", "variants", "statistic",
+/// "printed", "source", "criterion", "unit", "values": [...], "verdicts": [...], "verdict"}], "runs": [{"case",
+/// "variant", "folders"}]}, values and the verdict on each in the order of the row's variants, the folders of the
+/// members relative to `folder`. A value that was evaluated and has no meaning is null with the verdict "not met".
+std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>& rows,
+                    const std::vector<FoundEnsemble>& found, const std::filesystem::path& folder);
 
 /// Numbers of the rows with a verdict.
 std::size_t count(const std::vector<EvaluatedRow>& rows, Verdict verdict);
+/// "39 met, 6 not met, 11 reported, 0 not evaluated".
+std::string counts_text(const std::vector<EvaluatedRow>& rows);
 
 }  // namespace talus::app

@@ -2,6 +2,7 @@
 #include "app/comparison/reference.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -10,9 +11,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "analysis/quantities.hpp"
+#include "analysis/measure.hpp"
 #include "base/error.hpp"
 #include "base/nearest.hpp"
+#include "base/unit.hpp"
 #include "io/atomic_file.hpp"
 #include "io/parameter_value.hpp"
 
@@ -143,6 +145,20 @@ Window read_window(Reader& reader, const toml::table& row) {
   return window;
 }
 
+Place read_place(Reader& reader, const toml::table& row) {
+  Place place;
+  if (const toml::table* table = row["place"].as_table())
+    for (const auto& [key, value] : *table) {
+      const auto text = value.value<std::string>();
+      const auto length = text ? parse_quantity(*text) : std::nullopt;
+      if (length && length->dimension == dimension::length)
+        place.emplace(key.str(), length->value);
+      else
+        reader.fault(value, "place", std::string(key.str()) + " is no length", "lengths, such as \"120 mm\"");
+    }
+  return place;
+}
+
 template <class Enumeration, std::size_t n>
 Enumeration read_name(Reader& reader, const toml::table& row, const char* key,
                       const std::pair<const char*, Enumeration> (&names)[n]) {
@@ -158,7 +174,7 @@ Enumeration read_name(Reader& reader, const toml::table& row, const char* key,
 
 constexpr auto row_keys =
     std::to_array<std::string_view>({"id", "number", "quantity", "case", "radius", "variant", "needs_air", "estimator",
-                                     "from", "statistic", "window", "printed", "unit", "criterion", "source"});
+                                     "from", "statistic", "window", "place", "printed", "unit", "criterion", "source"});
 
 ComparisonRow read_row(Reader& reader, const toml::table& table) {
   ComparisonRow row;
@@ -184,8 +200,11 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
     row.statistic = read_name<Statistic>(reader, table, "statistic",
                                          {{"mean", Statistic::mean},
                                           {"median", Statistic::median},
-                                          {"standard_deviation", Statistic::standard_deviation}});
+                                          {"standard_deviation", Statistic::standard_deviation},
+                                          {"ratio", Statistic::ratio},
+                                          {"difference", Statistic::difference}});
   row.window = read_window(reader, table);
+  row.place = read_place(reader, table);
   row.printed = table["printed"].value<std::string>().value_or(fmt::format("{}", table["printed"].value_or(0.0)));
   row.unit = reader.text(table, "unit");
   row.criterion = read_criterion(reader, table);
@@ -193,10 +212,26 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
   return row;
 }
 
-std::string nearest_quantity(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const QuantityDefinition& quantity : quantities) names.push_back(quantity.name);
-  return std::string(nearest(name, names));
+/// The measure of a row, its unit and the lengths of its place.
+void check_measure(Reader& reader, const toml::node& node, const ComparisonRow& row) {
+  const std::optional<MeasureText> measure = find_measure(row.quantity);
+  if (!measure) {
+    const std::vector<MeasureText> known = all_measures();
+    std::vector<std::string_view> names;
+    for (const MeasureText& text : known) names.push_back(text.name);
+    reader.fault(node, "quantity", "there is no quantity \"" + row.quantity + "\"", "a name of docs/quantities.md",
+                 std::string(nearest(row.quantity, names)));
+    return;
+  }
+  if (row.unit != measure->unit)
+    reader.fault(node, "unit", "is not that of " + row.quantity, std::string(measure->unit));
+  for (const std::string_view length : measure->place)
+    if (!row.place.contains(length))
+      reader.fault(node, "place", fmt::format("{} needs {}", row.quantity, length), "lengths, such as \"120 mm\"");
+  for (const auto& [length, value] : row.place)
+    if (std::find(measure->place.begin(), measure->place.end(), length) == measure->place.end())
+      reader.fault(node, "place", fmt::format("{} takes no {}", row.quantity, length),
+                   measure->place.empty() ? "no place" : fmt::format("{}", fmt::join(measure->place, ", ")));
 }
 
 }  // namespace
@@ -235,9 +270,7 @@ Reference read_reference(const std::string& path) {
       reference.rows.push_back(read_row(reader, *node.as_table()));
       const ComparisonRow& row = reference.rows.back();
       if (!ids.insert(row.id).second) reader.fault(node, "id", "\"" + row.id + "\" stands twice");
-      if (!find_quantity(row.quantity))
-        reader.fault(node, "quantity", "there is no quantity \"" + row.quantity + "\"", "a name of docs/quantities.md",
-                     nearest_quantity(row.quantity));
+      check_measure(reader, node, row);
       const ReferenceCase* c = reference.find_case(row.case_name);
       if (!c) reader.fault(node, "case", "there is no [case." + row.case_name + "]");
       for (const std::string& label : row.variants)

@@ -8,6 +8,7 @@
 
 #include "analysis/curve.hpp"
 #include "app/continuum/continuum_pictures.hpp"
+#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -20,8 +21,8 @@ namespace {
 
 using namespace figure;
 
-constexpr double printed_times[] = {0.17, 0.2, 1.0};  // s
-constexpr double between_arrows = 9;                  // units of the page
+constexpr std::size_t pictures = 3;
+constexpr double between_arrows = 9;  // units of the page
 
 struct Layer {
   std::vector<Vector3> centre, velocity;
@@ -42,16 +43,6 @@ Layer middle_layer(const GridSnapshot& air) {
   return layer;
 }
 
-/// Those nearest to the paper's times, each once; the last one of a shorter run.
-std::vector<std::size_t> chosen(const std::vector<double>& times) {
-  std::vector<std::size_t> frames;
-  for (const double time : printed_times)
-    if (time <= times.back() + 0.01) frames.push_back(nearest_point(times, time));
-  if (frames.empty()) frames.push_back(times.size() - 1);
-  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
-  return frames;
-}
-
 }  // namespace
 
 bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
@@ -63,7 +54,7 @@ bool draw_air(const std::filesystem::path& run_folder, const HopperSetting& sett
   std::vector<double> times;
   for (const int number : numbers) times.push_back(read_points_time(folder.snapshot(number, "air")) - gate);
   std::vector<Layer> layers;
-  const std::vector<std::size_t> frames = chosen(times);
+  const std::vector<std::size_t> frames = chosen_snapshots(times, pictures);
   for (const std::size_t n : frames) layers.push_back(middle_layer(read_grid(folder.snapshot(numbers[n], "air"))));
   Figure figure{.title = title};
   for (std::size_t n = 0; n < frames.size(); ++n) {

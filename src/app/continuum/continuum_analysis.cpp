@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_analysis.hpp"
 
-#include <cmath>
-#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
 
 #include "analysis/discharge.hpp"
-#include "analysis/hopper_air.hpp"
-#include "analysis/hopper_quantities.hpp"
+#include "app/run_tables.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -20,12 +20,10 @@ namespace {
 
 constexpr double time_of_mean_speed = 20e-3;  // s, estimator.quiescent_speed
 
-/// Of earlier snapshots, rising in time, the one whose time is nearest to `at`; null if there is none.
-const PointSet* nearest_to(const std::deque<PointSet>& earlier, double at) {
-  const PointSet* nearest = nullptr;
-  for (const PointSet& points : earlier)
-    if (!nearest || std::abs(points.time - at) < std::abs(nearest->time - at)) nearest = &points;
-  return nearest;
+/// Of the snapshots before the n-th, the one whose time is nearest to 20 ms before; nothing if there is none.
+std::optional<std::size_t> earlier(const std::vector<double>& time, std::size_t n) {
+  if (n == 0) return std::nullopt;
+  return nearest_point(std::span(time).first(n), time[n] - time_of_mean_speed);
 }
 
 /// The snapshot of the air taken with one of the particles.
@@ -34,30 +32,59 @@ std::filesystem::path air_beside(const std::filesystem::path& particles) {
   return particles.parent_path() / name.replace(0, name.find('_'), "air");
 }
 
-void write_snapshots(const std::filesystem::path& path, const HopperRun& run) {
-  std::vector<SeriesColumn> columns;
-  std::vector<std::vector<double>> rows;
-  for (const auto& entry : hopper_frame_numbers) columns.push_back({std::string(entry.name), std::string(entry.unit)});
-  for (const HopperFrame& frame : run.frames) {
-    rows.emplace_back();
-    for (const auto& entry : hopper_frame_numbers) rows.back().push_back(frame.*entry.number);
+/// Reads snapshots when they are asked for; one that is in use is not read again.
+class Reader {
+ public:
+  Reader(std::vector<std::filesystem::path> paths, std::vector<double> time, HopperSetting setting, double gate_time)
+      : paths_(std::move(paths)), time_(std::move(time)), setting_(std::move(setting)), gate_time_(gate_time) {}
+
+  std::shared_ptr<const HopperSnapshot> read(std::size_t n) {
+    auto loaded = std::make_shared<Loaded>(setting_, points(n), gate_time_);
+    Loaded* kept = loaded.get();
+    kept->snapshot.before = [this, kept, n]() -> const Snapshot* {
+      const auto before = earlier(time_, n);
+      if (before && !kept->before) {
+        kept->before = points(*before);
+        kept->earlier = kept->before->view();
+      }
+      return before ? &kept->earlier : nullptr;
+    };
+    kept->snapshot.air = [this, kept, n]() -> const GridSnapshot* {
+      if (const auto path = air_beside(paths_[n]); !kept->air && std::filesystem::exists(path))
+        kept->air = read_grid(path);
+      return kept->air ? &*kept->air : nullptr;
+    };
+    return {loaded, &loaded->snapshot};
   }
-  write_table(path, columns, rows);
-}
 
-void write_discharge(const std::filesystem::path& path, const HopperRun& run) {
-  const Curve rate = mean_rates(passed_mass(run), 20e-3, 5e-3, 0, run.end());
-  std::vector<std::vector<double>> rows;
-  for (std::size_t n = 0; n < rate.time.size(); ++n) rows.push_back({rate.time[n], rate.value[n]});
-  write_table(path, {{"time", "s"}, {"discharge_rate", "kg/s"}}, rows);
-}
+ private:
+  struct Loaded {
+    Loaded(const HopperSetting& setting, std::shared_ptr<const PointSet> read, double gate_time)
+        : now(std::move(read)), snapshot(setting, now->view(), gate_time) {}
+    std::shared_ptr<const PointSet> now, before;
+    Snapshot earlier;
+    std::optional<GridSnapshot> air;
+    HopperSnapshot snapshot;
+  };
 
-void write_surfaces(const std::filesystem::path& path, const HopperRun& run, const Snapshot& last) {
-  const HopperSurfaces surfaces = hopper_view(last, run.setting, last.time >= run.gate_time).surfaces;
+  std::shared_ptr<const PointSet> points(std::size_t n) {
+    std::shared_ptr<const PointSet> found = in_use_[n].lock();
+    if (!found) in_use_[n] = found = std::make_shared<PointSet>(read_points(paths_[n]));
+    return found;
+  }
+
+  std::vector<std::filesystem::path> paths_;
+  std::vector<double> time_;
+  HopperSetting setting_;
+  double gate_time_;
+  std::map<std::size_t, std::weak_ptr<const PointSet>> in_use_;
+};
+
+void write_surfaces(const std::filesystem::path& path, const HopperSurfaces& surfaces) {
   std::vector<std::vector<double>> rows;
   for (std::size_t n = 0; n < surfaces.bin.x.size(); ++n)
     rows.push_back(
-        {surfaces.bin.x[n], surfaces.bin.z[n], surfaces.hopper.z.empty() ? HopperFrame::none : surfaces.hopper.z[n]});
+        {surfaces.bin.x[n], surfaces.bin.z[n], surfaces.hopper.z.empty() ? HopperRun::none : surfaces.hopper.z[n]});
   write_table(path, {{"x", "m"}, {"bin_surface", "m"}, {"hopper_surface", "m"}}, rows);
 }
 
@@ -77,7 +104,9 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .grain_diameter = p.grains.diameter,
                         .gravity = p.gravity.acceleration,
                         .smoothing_length = {},
-                        .air = p.air.enabled};
+                        .air = p.air.enabled,
+                        .has_floor = is_mirror(p.box.floor),
+                        .level_ground = !p.wedge.half_angle && p.plates.empty()};
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};
   else if (p.plate.height)
@@ -88,29 +117,16 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
   return setting;
 }
 
-std::vector<std::filesystem::path> particle_snapshots(const std::filesystem::path& run_folder) {
-  const RunFolder folder(run_folder);
-  std::vector<std::filesystem::path> paths;
-  for (const int number : folder.snapshot_numbers()) paths.push_back(folder.snapshot(number));
-  return paths;
-}
-
 HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting) {
   HopperRun run{.setting = setting, .series = read_series(RunFolder(run_folder).series())};
   if (run.series.rows() == 0) throw FileError((run_folder / "series.csv").string(), "has no rows");
   run.gate_time = gate_time_of(run.series);
-  std::deque<PointSet> earlier;
-  for (const auto& path : particle_snapshots(run_folder)) {
-    PointSet points = read_points(path);
-    const double then = points.time - time_of_mean_speed;
-    while (earlier.size() > 1 && earlier[1].time <= then) earlier.pop_front();
-    const PointSet* before = nearest_to(earlier, then);
-    const Snapshot earlier_view = before ? before->view() : Snapshot{};
-    HopperFrame frame = hopper_frame(points.view(), before ? &earlier_view : nullptr, setting, run.gate_time);
-    if (const auto air = air_beside(path); std::filesystem::exists(air)) measure_air(frame, read_grid(air), setting);
-    run.frames.push_back(frame);
-    earlier.push_back(std::move(points));
-  }
+  const auto paths = snapshot_paths(run_folder);
+  std::vector<double> time;
+  for (const auto& path : paths) time.push_back(read_points_time(path) - run.gate_time);
+  const auto reader = std::make_shared<Reader>(paths, time, setting, run.gate_time);
+  run.snapshots = HopperRun::Numbers::of(
+      std::move(time), [reader](std::size_t n) { return reader->read(n); }, snapshots_in_memory(paths));
   return run;
 }
 
@@ -118,13 +134,15 @@ std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folde
   const HopperRun run = read_hopper(run_folder, setting);
   const std::filesystem::path folder = run_folder / "analysis";
   make_folder(folder);
-  write_snapshots(folder / "snapshots.csv", run);
-  if (setting.shape.plate) write_discharge(folder / "discharge.csv", run);
-  if (const auto paths = particle_snapshots(run_folder); !paths.empty()) {
+  write_snapshots(folder / "snapshots.csv", run, hopper_measures(), "s");
+  if (setting.shape.plate)
+    write_table(folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
+                mean_rates(passed_mass(run), 20e-3, 5e-3, 0, run.end()));
+  if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
     const PointSet last = read_points(paths.back());
-    write_surfaces(folder / "surfaces.csv", run, last.view());
+    write_surfaces(folder / "surfaces.csv", HopperSnapshot(setting, last.view(), run.gate_time).surfaces());
   }
-  return hopper_summary(run);
+  return summary_of(run, hopper_measures());
 }
 
 }  // namespace talus::app

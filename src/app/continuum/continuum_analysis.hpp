@@ -15,13 +15,10 @@ namespace talus::app {
 /// The case as the analysis needs it.
 HopperSetting hopper_setting(const continuum::Parameters& parameters);
 
-/// The particles' snapshots of a run, in the order of their numbers.
-std::vector<std::filesystem::path> particle_snapshots(const std::filesystem::path& run_folder);
-
-/// Reads series.csv and all snapshots. \throws FileError
+/// Reads series.csv; a snapshot when a measure asks for it. \throws FileError
 HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting);
 
-/// Writes analysis/snapshots.csv (the numbers of each snapshot), analysis/surfaces.csv (both free surfaces at the end)
+/// Writes analysis/snapshots.csv (a column a measure), analysis/surfaces.csv (both free surfaces at the end)
 /// and, with a plate, analysis/discharge.csv (20 ms means, one every 5 ms); returns the summary's quantities.
 /// \throws FileError
 std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting);

@@ -8,6 +8,7 @@
 
 #include "analysis/curve.hpp"
 #include "app/continuum/air_pictures.hpp"
+#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
 #include "io/file_list.hpp"
@@ -21,8 +22,8 @@ namespace {
 
 using namespace figure;
 
-constexpr double printed_times[] = {0, 0.17, 0.2, 0.3, 0.4, 0.5, 1.0};  // s, Figure 4
 constexpr Colour dot_colour = rgb(0x5b4a33);
+constexpr std::size_t pictures_of_a_run = 8;
 constexpr int dots_of_particle = 50;
 constexpr double dot_diameter = 200e-6;  // m; the picture draws at least its own smallest disc
 const figure::Unit millimetre{1e-3, "mm"};
@@ -33,26 +34,10 @@ struct Frames {
 };
 
 Frames snapshots_of(const std::filesystem::path& run_folder) {
-  Frames frames{particle_snapshots(run_folder), {}};
+  Frames frames{snapshot_paths(run_folder), {}};
   const double gate = gate_time_of(read_series(RunFolder(run_folder).series()));
   for (const auto& path : frames.paths) frames.time.push_back(read_points_time(path) - gate);
   return frames;
-}
-
-/// Of a hopper those nearest to the paper's times, each once; of a run that does not reach the third of them, or of
-/// grains that leave no hopper, four of its own, close in time at first.
-std::vector<std::size_t> chosen_frames(const Frames& frames, bool of_hopper) {
-  std::vector<double> times;
-  const double end = frames.time.back(), begin = end > 0 ? 0 : frames.time.front();
-  if (of_hopper && end >= printed_times[2])
-    std::copy_if(std::begin(printed_times), std::end(printed_times), std::back_inserter(times),
-                 [&](double time) { return time <= end + 0.01; });
-  else
-    for (const double share : {0.0, 0.1, 0.25, 1.0}) times.push_back(begin + share * (end - begin));
-  std::vector<std::size_t> chosen;
-  for (const double time : times) chosen.push_back(nearest_point(frames.time, time));
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  return chosen;
 }
 
 /// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
@@ -65,7 +50,7 @@ std::string title_of(double time) {
   return fmt::format("*t* = {:.2f} s", std::abs(time) < 5e-3 ? 0.0 : time);
 }
 
-Window window_of(const HopperShape& shape, double top) {
+figure::Window window_of(const HopperShape& shape, double top) {
   return {0, shape.width, 0, std::min(shape.height, top)};
 }
 
@@ -124,6 +109,7 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
                 const std::filesystem::path& path) {
   if (!std::filesystem::exists(table)) return false;
   const talus::Series series = read_series(table);
+  if (!series.has(column)) return false;
   const auto time = series.column("time"), value = series.column(column);
   Line line;
   for (std::size_t n = 0; n < time.size(); ++n)
@@ -136,13 +122,12 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
   return true;
 }
 
-}  // namespace
-
+/// The grains over time, particles as dots.
 void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
                  const std::filesystem::path& path) {
   const Frames frames = snapshots_of(run_folder);
   if (frames.paths.empty()) throw FileError(run_folder.string(), "holds no snapshots");
-  const std::vector<std::size_t> chosen = chosen_frames(frames, setting.shape.plate.has_value());
+  const std::vector<std::size_t> chosen = chosen_snapshots(frames.time, pictures_of_a_run);
   std::vector<std::vector<Vector3>> dots;
   double top = 0;
   for (const std::size_t n : chosen) {
@@ -170,9 +155,11 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
     picture.window = window_of(setting.shape, top);
     figure.panels.emplace_back(std::move(picture));
   }
-  figure.columns = static_cast<int>(std::min<std::size_t>(4, chosen.size()));
+  figure.columns = static_cast<int>(std::min<std::size_t>(3, chosen.size()));
   write_png(figure, path);
 }
+
+}  // namespace
 
 figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span<const Vector3> positions,
                                          std::span<const double> radii, figure::ByValue values) {

@@ -12,19 +12,14 @@
 
 namespace talus::app {
 
-/// The grains as dots at the paper's times, as far as the run goes, or at the start, a fifth, half and all of it: in
-/// the manner of Yuu & Umekage's Figure 4. \throws FileError
-void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
-                 const std::filesystem::path& path);
-
 /// Particles of one snapshot from the side, coloured by values, within walls and plate.
 /// \param positions, radii, values must outlive the picture
 figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span<const Vector3> positions,
                                          std::span<const double> radii, figure::ByValue values);
 
-/// Draws, and returns the paths: pictures/frames.png, the grains; pictures/packing.png, the last snapshot coloured by
-/// packing; with air pictures/air.png; with a plate pictures/discharge.png and pictures/surface_angle.png. The tables
-/// of analyze_continuum() must be there. \throws FileError
+/// Draws, and returns the paths: pictures/frames.png, the grains as dots, six times; pictures/packing.png, the last
+/// snapshot coloured by packing; with air pictures/air.png; with a plate pictures/discharge.png and
+/// pictures/surface_angle.png. The tables of analyze_continuum() must be there. \throws FileError
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting,
                                                   const std::string& title);
 

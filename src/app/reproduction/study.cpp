@@ -9,17 +9,13 @@
 #include "app/comparison/studied_runs.hpp"
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
+#include "app/reproduction/figures_script.hpp"
 #include "base/nearest.hpp"
 #include "base/terminal.hpp"
-#include "base/version.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file_list.hpp"
-#include "io/manifest.hpp"
-#include "io/run_folder.hpp"
-#include "io/summary.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
-#include "run/progress.hpp"
 
 namespace talus::app {
 
@@ -89,37 +85,24 @@ std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyReques
   return runs;
 }
 
-double processor_seconds(const std::vector<ScheduledRun>& runs) {
-  double seconds = 0;
-  for (const ScheduledRun& run : runs)
-    if (is_done(run.member))
-      if (const Summary summary = read_summary(RunFolder(run.member.folder).summary()); summary.find("cpu_seconds"))
-        seconds += summary.find("cpu_seconds")->value;
-  return seconds;
-}
-
-/// The report: the table of all rows, what is not met and why (validation/STUDY/gaps.md, written by hand), the figures.
-std::string report_text(const Reference& reference, const StudyRequest& request, const std::filesystem::path& project,
-                        const std::vector<ScheduledRun>& runs, const std::vector<EvaluatedRow>& rows,
-                        const std::vector<FailedRun>& failed, const std::string& counts,
-                        const std::vector<FigureOfStudy>& figures) {
-  std::string report = fmt::format(
-      "# {}\n\n{}\n\nComputed by `talus reproduce {}{}` with Talus {} ({}): {} runs, {} of processor time on {}.\n"
-      "Rows, estimators and criteria were written down before the first comparison: `validation/{}/reference.toml`.\n\n"
-      "**{}**\n\n{}\n",
-      reference.title, reference.source, reference.study, request.quick ? " --quick" : "", program_version(),
-      program_revision(), runs.size(), run::format_seconds(processor_seconds(runs)),
-      manifest_of_this_program().processor, reference.study, counts, to_markdown(rows));
-  if (!failed.empty()) report += "## Runs that did not get through\n\n";
-  for (const FailedRun& run : failed)
-    report += fmt::format("- {} (exit status {}): {}\n", run.folder.lexically_relative(request.folder).string(),
-                          run.status, run.reason);
-  if (const auto gaps = project / "validation" / reference.study / "gaps.md"; std::filesystem::exists(gaps))
-    report += read_whole_file(gaps) + "\n";
-  for (const FigureOfStudy& figure : figures)
-    report += fmt::format("## {}\n\n![{}](figures/{})\n\n{}\n\n", figure.title, figure.title,
-                          figure.path.filename().string(), figure.caption);
-  return report;
+/// The figures and the page, or a word on what they need. \returns false if the script failed
+bool draw_page(const std::filesystem::path& project, const StudyRequest& request) {
+  const std::filesystem::path script = project / "validation" / request.study / "figures.py";
+  const std::optional<std::filesystem::path> python = find_python();
+  if (!python) {
+    fmt::print(
+        "No figures: they take python3 with h5py and matplotlib (Debian: python3-h5py, python3-matplotlib).\n"
+        "Once those are there: python3 {} {}\n",
+        script.string(), request.folder.string());
+    return true;
+  }
+  if (!run_figures_script(*python, script, request.folder)) {
+    fmt::print(stderr, "talus: {} failed; it said:\n{}", script.string(),
+               read_whole_file(request.folder / "figures.txt"));
+    return false;
+  }
+  say("{}", read_whole_file(request.folder / "figures.txt"));
+  return true;
 }
 
 }  // namespace
@@ -143,22 +126,14 @@ ExitStatus reproduce(const StudyRequest& request) {
     return ExitStatus::interrupted;
   }
 
-  const std::unique_ptr<StudiedRuns> studied = read_studied_runs(request.folder, reference);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, *studied);
-  const std::string counts =
-      fmt::format("{} met, {} not met, {} reported, {} not evaluated", count(rows, Verdict::met),
-                  count(rows, Verdict::not_met), count(rows, Verdict::reported), count(rows, Verdict::not_evaluated));
-  const std::string text = to_text(rows);
-  write_atomically(request.folder / "comparison.txt", text + counts + "\n");
-  write_atomically(request.folder / "comparison.json", to_json(reference, rows));
+  const std::vector<FoundEnsemble> found = find_ensembles(request.folder, reference);
+  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
+  const std::string text = to_text(rows) + counts_text(rows) + "\n";
+  write_atomically(request.folder / "comparison.txt", text);
+  write_atomically(request.folder / "comparison.json", to_json(reference, rows, found, request.folder));
+  say("{}", text);
 
-  make_folder(request.folder / "figures");
-  const std::vector<FigureOfStudy> figures = studied->draw(request.folder / "figures");
-  const std::filesystem::path report_path = request.folder / (reference.study + ".md");
-  write_atomically(report_path, report_text(reference, request, project, runs, rows, result.failed, counts, figures));
-
-  say("{}{}\nReport: {}\n", text, counts, report_path.string());
-  if (!figures.empty()) say("Picture: {}\n", figures.front().path.string());
+  if (!draw_page(project, request)) return ExitStatus::files;
   if (!result.failed.empty()) return ExitStatus::numerical;
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;
 }

@@ -23,7 +23,8 @@ struct StudyRequest {
 inline constexpr const char* study_names[] = {"niiya2020", "yuu2011", "yuu2011/laws"};
 
 /// Runs every member of every case and radius of validation/STUDY/reference.toml that is not done yet, evaluates all
-/// rows, and writes comparison.txt, comparison.json, the report STUDY.md and its figures into the folder.
+/// rows, and writes comparison.txt and comparison.json into the folder; the page and its figures are left to
+/// validation/STUDY/figures.py, where there is a Python that can draw.
 /// \returns done, not_met if a row is not met, interrupted
 /// \throws FileError, InputError
 ExitStatus reproduce(const StudyRequest& request);

@@ -119,7 +119,7 @@ void draw_colour_bar(cairo_t* context, const ColourBar& bar, const Rectangle& pl
   constexpr int stops = 64;
   for (int i = 0; i <= stops; ++i) {
     const double t = static_cast<double>(i) / stops;
-    const Colour colour = colour_at(bar.map, t);
+    const Colour colour = colour_at(t);
     cairo_pattern_add_color_stop_rgb(pattern, t, colour.red, colour.green, colour.blue);
   }
   cairo_rectangle(context, box.x, box.y, box.width, box.height);

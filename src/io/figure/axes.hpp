@@ -47,7 +47,6 @@ void draw_frame(cairo_t* context, const Frame& frame);
 
 /// A colour bar right of a plot.
 struct ColourBar {
-  ColourMap map = ColourMap::viridis;
   double low = 0, high = 1;
   std::string title = {};
 };

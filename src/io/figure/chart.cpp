@@ -14,22 +14,10 @@ Margins margins(cairo_t* context, const Chart& chart, const Rectangle& plot) {
 void draw(cairo_t* context, const Chart& chart, const Rectangle& plot) {
   ChartPage page{context, frame_of(chart, plot), plot};
   draw_grid(context, page.frame);
-  for (const Series& series : chart.series) {
-    if (const auto* reference = std::get_if<Reference>(&series)) paint(page, *reference);
-  }
-  const std::vector<LegendEntry> references = std::exchange(page.entries, {});
   std::size_t next = 0;
-  for (const Series& series : chart.series) {
-    std::visit(
-        [&](const auto& s) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(s)>, Reference>) {
-            paint(page, s, s.colour ? *s.colour : palette_colour(next++));
-          }
-        },
-        series);
-  }
+  for (const Series& series : chart.series)
+    std::visit([&](const auto& s) { paint(page, s, s.colour ? *s.colour : palette_colour(next++)); }, series);
   draw_frame(context, page.frame);
-  page.entries.insert(page.entries.end(), references.begin(), references.end());  // last: they explain the rest
   if (chart.legend) draw_legend(context, page.entries, plot, page.obstacles);
 }
 

@@ -33,25 +33,6 @@ struct Line {
   double width = 1.5;  ///< units
 };
 
-enum class Symbol { disc, circle, square, open_square, triangle, open_triangle };
-
-/// Points with error bars.
-struct Points {
-  std::vector<double> x = {}, y = {};
-  std::vector<double> x_error = {}, y_error = {};  ///< ±, one for each point; empty: none
-  std::string label = {};
-  std::optional<Colour> colour = {};
-  Symbol symbol = Symbol::disc;
-  double size = 5;  ///< units across
-};
-
-/// The region between two curves.
-struct Band {
-  std::vector<double> x = {}, low = {}, high = {};
-  std::string label = {};
-  std::optional<Colour> colour = {};
-};
-
 /// A histogram: bars between edges, or their outline as one stepped line.
 struct Bars {
   std::vector<double> edges = {}, heights = {};  ///< one more edge than heights
@@ -60,16 +41,7 @@ struct Bars {
   bool filled = true;
 };
 
-/// A line across the plot at a value of one axis, or a shaded range of values: what a paper prints. Stands behind the
-/// series. low == high: a dashed line.
-struct Reference {
-  enum class On { x, y } on = On::y;
-  double low = 0, high = 0;
-  std::string label = {};
-  Colour colour = muted;
-};
-
-using Series = std::variant<Line, Points, Band, Bars, Reference>;
+using Series = std::variant<Line, Bars>;
 
 struct Chart {
   std::string title = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How each kind of series is put on the page: chart_curves.cpp and chart_marks.cpp.
+/// How each kind of series is put on the page: chart_lines.cpp and chart_bars.cpp.
 #pragma once
 
 #include <cmath>
@@ -35,10 +35,7 @@ struct ChartPage {
   }
 };
 
-void paint(ChartPage& page, const Reference& reference);
 void paint(ChartPage& page, const Line& line, const Colour& colour);
-void paint(ChartPage& page, const Band& band, const Colour& colour);
-void paint(ChartPage& page, const Points& points, const Colour& colour);
 void paint(ChartPage& page, const Bars& bars, const Colour& colour);
 
 }  // namespace talus::figure

@@ -22,8 +22,7 @@ struct Overloaded : Visitors... {
 struct Extent {
   bool logarithmic = false;
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  bool roomy = false;    ///< something reaches beyond its values, as a point does
-  bool symbols = false;  ///< a symbol at zero shall not stand on the other axis
+  bool roomy = false;  ///< something reaches beyond its values, as a bar does
 
   bool shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0); }
   void add(double value) {
@@ -32,35 +31,22 @@ struct Extent {
   void add(double value, double error) { add(value), add(value - error), add(value + error); }
 };
 
-/// One point of several columns counts only where both its values are seen.
-void add_points(const std::vector<double>& xs, const std::vector<double>& ys, const std::vector<double>& x_errors,
-                const std::vector<double>& y_errors, Extent& x, Extent& y) {
-  for (std::size_t i = 0; i < xs.size(); ++i) {
-    if (!x.shows(xs[i]) || !y.shows(ys[i])) continue;
-    x.add(xs[i], x_errors.empty() ? 0 : x_errors[i]);
-    y.add(ys[i], y_errors.empty() ? 0 : y_errors[i]);
+/// A point counts only where both its values are seen.
+void add_line(const Line& line, Extent& x, Extent& y) {
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    if (!x.shows(line.x[i]) || !y.shows(line.y[i])) continue;
+    x.add(line.x[i]);
+    y.add(line.y[i], line.spread.empty() ? 0 : line.spread[i]);
   }
 }
 
 void add_series(const Series& series, Extent& x, Extent& y) {
-  std::visit(Overloaded{[&](const Line& s) { add_points(s.x, s.y, {}, s.spread, x, y); },
-                        [&](const Points& s) {
-                          add_points(s.x, s.y, s.x_error, s.y_error, x, y);
-                          x.roomy = x.symbols = true;
-                        },
-                        [&](const Band& s) {
-                          add_points(s.x, s.low, {}, {}, x, y);
-                          add_points(s.x, s.high, {}, {}, x, y);
-                        },
+  std::visit(Overloaded{[&](const Line& s) { add_line(s, x, y); },
                         [&](const Bars& s) {
                           for (const double edge : s.edges) x.add(edge);
                           for (const double height : s.heights) y.add(height);
                           y.add(0);  // bars stand on it
                           x.roomy = true;
-                        },
-                        [&](const Reference& s) {
-                          Extent& extent = s.on == Reference::On::x ? x : y;
-                          extent.add(s.low), extent.add(s.high);
                         }},
              series);
 }
@@ -82,8 +68,7 @@ void choose(const Axis& axis, Extent extent, Scale& scale) {
     }
     const bool on_zero = low >= 0 && low <= 0.25 * high;
     const double range = high - (on_zero ? 0 : low);
-    const bool stands_on_axis = extent.symbols && low <= 0.02 * range;
-    low = !on_zero ? low - room * range : stands_on_axis ? -0.03 * range : 0;
+    low = on_zero ? 0 : low - room * range;
     high += room * range;
   }
   scale.logarithmic = axis.logarithmic;
@@ -110,17 +95,10 @@ void check_lengths(const std::string& label, std::size_t count, std::initializer
 void check(const Chart& chart) {
   for (const Series& series : chart.series) {
     std::visit(Overloaded{[](const Line& s) { check_lengths(s.label, s.x.size(), {s.y.size()}, {s.spread.size()}); },
-                          [](const Points& s) {
-                            check_lengths(s.label, s.x.size(), {s.y.size()}, {s.x_error.size(), s.y_error.size()});
-                          },
-                          [](const Band& s) {
-                            check_lengths(s.label, s.x.size(), {s.low.size(), s.high.size()});
-                          },
                           [](const Bars& s) {
                             if (!s.edges.empty() || !s.heights.empty())
                               check_lengths(s.label, s.heights.size() + 1, {s.edges.size()});
-                          },
-                          [](const Reference&) {}},
+                          }},
                series);
   }
 }

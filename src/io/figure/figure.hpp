@@ -3,8 +3,7 @@
 ///
 ///     using namespace talus::figure;
 ///     Chart speed{.x = {"*t̃*"}, .y = {"*ṽ*_{f}"},
-///                 .series = {Reference{.low = 30, .high = 70, .label = "printed"},
-///                            Line{.x = time, .y = mean, .spread = deviation, .label = "*a* = 5 mm"}}};
+///                 .series = {Line{.x = time, .y = mean, .spread = deviation, .label = "*a* = 5 mm"}}};
 ///     write_png({.panels = {speed}}, "front_speed.png");
 #pragma once
 

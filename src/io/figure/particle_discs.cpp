@@ -23,7 +23,7 @@ std::vector<Colour> colours_of(const ParticlePicture& picture) {
     const ColourBar bar = bar_of(*by_value);
     for (std::size_t i = 0; i < colours.size(); ++i) {
       const double value = by_value->values[i] / by_value->unit.value;
-      if (std::isfinite(value)) colours[i] = colour_at(bar.map, (value - bar.low) / (bar.high - bar.low));
+      if (std::isfinite(value)) colours[i] = colour_at((value - bar.low) / (bar.high - bar.low));
     }
   } else if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
     for (std::size_t i = 0; i < colours.size(); ++i) {
@@ -85,10 +85,9 @@ ColourBar bar_of(const ByValue& colouring) {
   }
   if (!(low <= high)) low = 0, high = colouring.unit.value;
   low /= colouring.unit.value, high /= colouring.unit.value;
-  if (colouring.map == ColourMap::cool_warm) high = std::max(std::abs(low), std::abs(high)), low = -high;
   low = colouring.low.value_or(low), high = colouring.high.value_or(high);
   if (!(low < high)) low -= 0.5, high = low + 1;
-  return {colouring.map, low, high, axis_title(colouring.label, colouring.unit.name)};
+  return {low, high, axis_title(colouring.label, colouring.unit.name)};
 }
 
 void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& p,

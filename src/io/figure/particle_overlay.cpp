@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What explains the particles: the slope they are on, the lines measured on them, the scale.
+/// What explains the particles: the slope they are on, walls, the scale.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
 
 #include "io/figure/particle_layers.hpp"
 
@@ -86,34 +84,6 @@ void draw_plane(cairo_t* context, const ParticlePicture& picture, const Ground& 
   cairo_fill(context);
 }
 
-/// A patch for a label, on that side of the middle or of an end of a line where it covers the least; within the plot if
-/// one of these places is.
-Rectangle place_beside(const Obstacle& from, const Obstacle& to, const TextExtent& label, const Rectangle& plot,
-                       const std::vector<Obstacle>& obstacles) {
-  const double width = label.width + 3, height = label.ascent + label.descent + 3, gap = 4;
-  const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const double nx = (to.y - from.y) / length, ny = -(to.x - from.x) / length;  // across the line
-  const double distance = gap + 0.5 * (std::abs(nx) * width + std::abs(ny) * height);
-  Rectangle best;
-  std::pair fewest{true, std::numeric_limits<std::ptrdiff_t>::max()};
-  for (const double t : {0.5, 0.85, 0.15}) {
-    const double x = from.x + t * (to.x - from.x), y = from.y + t * (to.y - from.y);
-    for (const double side : {1.0, -1.0}) {
-      const Rectangle patch{x + side * distance * nx - 0.5 * width, y + side * distance * ny - 0.5 * height, width,
-                            height};
-      const bool cut = !plot.contains(patch.x, patch.y) || !plot.contains(patch.right(), patch.bottom());
-      const std::pair covered{cut, std::count_if(obstacles.begin(), obstacles.end(), [&](const Obstacle& point) {
-                                return patch.contains(point.x, point.y);
-                              })};
-      if (covered < fewest) {
-        fewest = covered;
-        best = patch;
-      }
-    }
-  }
-  return best;
-}
-
 }  // namespace
 
 void draw_slope(cairo_t* context, const ParticlePicture& picture, const Projection& p) {
@@ -131,24 +101,11 @@ void draw_segments(cairo_t* context, const ParticlePicture& picture, const Proje
     const Obstacle from = p(segment.from), to = p(segment.to);
     const double length = std::hypot(to.x - from.x, to.y - from.y);
     if (!std::isfinite(length) || length == 0) continue;
-    set_pen(context, segment.colour, 1.2, segment.dash);
-    if (segment.arrow_heads) {
-      const double x = 0.5 * (from.x + to.x), y = 0.5 * (from.y + to.y);
-      stroke_arrow(context, x, y, from.x, from.y, 5);
-      stroke_arrow(context, x, y, to.x, to.y, 5);
-    } else {
-      stroke_line(context, from.x, from.y, to.x, to.y);
-    }
+    set_pen(context, segment.colour, 1.2);
+    stroke_line(context, from.x, from.y, to.x, to.y);
     for (double t = 0; t <= 1; t += 4 / std::max(length, 4.0)) {
       obstacles.push_back({from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)});
     }
-    if (segment.label.empty()) continue;
-    const TextExtent extent = text_extent(context, segment.label, label_style);
-    const Rectangle patch = place_beside(from, to, extent, p.plot, obstacles);
-    fill_rectangle(context, patch, with_alpha(white, 0.8));
-    draw_text(context, segment.label, patch.x + 1.5, patch.bottom() - 1.5 - extent.descent,
-              {label_style.size, segment.colour});
-    block(patch, obstacles);
   }
 }
 

@@ -37,9 +37,7 @@ struct ByValue {
   std::span<const double> values = {};
   std::string label = {};
   Unit unit = {};
-  ColourMap map = ColourMap::viridis;
-  std::optional<double> low = {}, high = {};  ///< in `unit`; left out: the range of the values, for a diverging map
-                                              ///< symmetric about zero
+  std::optional<double> low = {}, high = {};  ///< in `unit`; left out: the range of the values
   bool bar = true;
 };
 
@@ -63,13 +61,10 @@ struct Arrows {
   Colour colour = ink;
 };
 
-/// A straight line over the particles: a width that is measured, a fit, the front.
+/// A straight line over the particles: a wall.
 struct Segment {
   Vector3 from = {}, to = {};  ///< m
-  std::string label = {};
   Colour colour = ink;
-  Dash dash = Dash::solid;
-  bool arrow_heads = false;  ///< at both ends
 };
 
 /// What is seen, in metres along the view's directions right and up.
@@ -86,10 +81,9 @@ struct ParticlePicture {
   std::optional<Arrows> arrows = {};
   std::vector<Segment> segments = {};
   Unit length = {1, "m"};
-  bool axes = true;        ///< numbered, where the view's directions are those of the axes
-  bool scale_bar = false;  ///< drawn in any case where there are no axes
-  bool slope = false;      ///< the slope as a line, in views from the side; as a plane with shadows, in oblique ones
-  bool depth = false;      ///< nearer particles over farther ones, and the farther the paler
+  bool axes = true;    ///< numbered, where the view's directions are those of the axes; a scale bar otherwise
+  bool slope = false;  ///< the slope as a line, in views from the side; as a plane with shadows, in oblique ones
+  bool depth = false;  ///< nearer particles over farther ones, and the farther the paler
   std::optional<Window> window = {};  ///< left out: all particles
 };
 
@@ -99,9 +93,6 @@ void check(const ParticlePicture& picture);
 
 /// The picture's window, or one with all particles and a little room; a unit square if there are none.
 Window window_of(const ParticlePicture& picture);
-
-/// Gives all pictures the same window, which holds the particles of each.
-void share_window(std::span<ParticlePicture> pictures);
 
 /// Gives all pictures windows of the same size, each about its own particles (on its own slope, where that is drawn):
 /// frames that follow the flow.

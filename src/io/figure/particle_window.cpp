@@ -90,17 +90,6 @@ Window window_of(const ParticlePicture& picture) {
   return {w.left - room, w.right + room, w.bottom - room, w.top + room};
 }
 
-void share_window(std::span<ParticlePicture> pictures) {
-  if (pictures.empty()) return;
-  Window all = window_of(pictures[0]);
-  for (const ParticlePicture& picture : pictures) {
-    const Window w = window_of(picture);
-    all = {std::min(all.left, w.left), std::max(all.right, w.right), std::min(all.bottom, w.bottom),
-           std::max(all.top, w.top)};
-  }
-  for (ParticlePicture& picture : pictures) picture.window = all;
-}
-
 void share_scale(std::span<ParticlePicture> pictures) {
   double width = 0, height = 0;
   for (const ParticlePicture& picture : pictures) {

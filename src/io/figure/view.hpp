@@ -17,8 +17,6 @@ struct View {
 
 /// On the slope from above, x to the right.
 inline constexpr View view_xy{};
-/// On the slope from above, x down the page: as one sees it who stands at its foot.
-inline constexpr View view_downhill{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
 /// Along the slope from the side, x to the right, the slope drawn level.
 inline constexpr View view_xz{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 

@@ -190,7 +190,7 @@ std::optional<GridSnapshot> AirModel::grid() const {
   return snapshot;
 }
 
-std::vector<RegimeLine> AirModel::regime() const {
+std::vector<RegimeLine> AirModel::regime(const RunRecord&) const {
   double speed = 0;
   for_each_place(grid_.count, grid_, [&](std::size_t c, int, int, int) {
     for (int axis = 0; axis < 3; ++axis) speed = std::max(speed, std::abs(state_.flow.cell_velocity(grid_, axis, c)));

@@ -118,7 +118,7 @@ class AirModel {
   /// error of a face's velocity over start.speed, and the energy over the exact one.
   std::vector<NamedValue> totals() const;
   std::optional<GridSnapshot> grid() const;
-  std::vector<RegimeLine> regime() const;
+  std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:
   template <class Velocity>

@@ -58,15 +58,15 @@ std::vector<NamedValue> Cloud::totals() const {
           {"centre_x", "m", centre}};
 }
 
-std::vector<RegimeLine> Cloud::regime() const {
+std::vector<RegimeLine> Cloud::regime(const RunRecord& record) const {
   const double a = parameters_.particles.radius;
-  const double fastest = largest_speed(state_) * parameters_.fluid.density * a / parameters_.fluid.viscosity;
-  const double overlap = largest_overlap(state_) / a;
+  const double fastest = record.largest("speed_max") * parameters_.fluid.density * a / parameters_.fluid.viscosity;
+  const double overlap = record.largest("overlap_max") / a;
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
   lines.push_back({"Reynolds number of the fastest grain", fmt::format("{:.3g}", fastest),
-                   "the same at the largest speed", fastest > 0.1});
+                   "the same at the largest speed of the run", fastest > 0.1});
   lines.push_back(
-      {"largest overlap", fmt::format("{:.3g} a_p", overlap), "hard grains: a few hundredths at most", overlap > 0.1});
+      {"largest overlap", fmt::format("{:.3g} a_p", overlap), "of the run, overlap_max; hard grains: a few hundredths at most", overlap > 0.1});
   return lines;
 }
 

@@ -34,7 +34,7 @@ class Cloud {
   std::vector<NamedValue> totals() const;
 
   /// How far the run is from what the model assumes: Reynolds and Stokes numbers, overlaps, contact over weight.
-  std::vector<RegimeLine> regime() const;
+  std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:
   Parameters parameters_;

@@ -43,19 +43,6 @@ std::string wall_name(const Domain& domain, std::size_t wall) {
   return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
 }
 
-/// Share of the particles under pressure whose inertial number I = shear rate D_p (rho_p/p)^(1/2) is below 0.01.
-/// Source: da Cruz et al. 2005, as cited by Yuu & Umekage 2011, section 2.1.
-double quasistatic_share(const Parameters& p, const State& s) {
-  std::size_t pressed = 0, quasistatic = 0;
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const double pressure = trace(stress_of(s.material, i)) / 3;
-    if (!(pressure > 0)) continue;
-    ++pressed;
-    quasistatic += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) < 1e-2;
-  }
-  return pressed == 0 ? 0 : static_cast<double>(quasistatic) / static_cast<double>(pressed);
-}
-
 /// Of the particles, without the stress by collisions, Pa.
 double largest_pressure(const State& s) {
   double pressure = 0;
@@ -228,14 +215,13 @@ std::optional<GridSnapshot> Continuum::grid() const {
   return snapshot;
 }
 
-std::vector<RegimeLine> Continuum::regime() const {
+std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const State& s = state_;
   const double c = workspace_->sound_speed;
   const double h = *std::min_element(workspace_->smoothing_length.begin(), workspace_->smoothing_length.end());
   const double courant = s.last_step * c / h;
-  const double mach = largest_speed(s) / c;
-  const auto [least, most] = std::minmax_element(s.packing.begin(), s.packing.end());
-  const double quasistatic = quasistatic_share(parameters_, s);
+  const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max");
+  const double slow = record.value("inertial_share");
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
   const std::vector<RegimeLine> of_run = {
       {"Courant number", fmt::format("{:.3g}", courant),
@@ -243,12 +229,12 @@ std::vector<RegimeLine> Continuum::regime() const {
        "(Runge-Kutta), 1 (leapfrog)",
        courant > (parameters_.integration.method == Method::runge_kutta ? 0.5 : 1.0)},
       {"speed of pressure waves", fmt::format("{:.4g} m/s", c), "bound over the law's own table"},
-      {"Mach number", fmt::format("{:.3g}", mach), "largest speed over that of pressure waves", mach > 0.3},
-      {"packing", fmt::format("{:.3f} to {:.3f}", *least, *most), "as the kernel deposits it; at most 0.74 in grains",
-       *most > 0.74},
-      {"share of slow flow", fmt::format("{:.3f}", quasistatic),
-       "particles under pressure with an inertial number below 0.01, where the stress does not depend on the rate",
-       quasistatic < 0.5},
+      {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over that of pressure waves", mach > 0.3},
+      {"largest packing", fmt::format("{:.3f}", packing),
+       "of a particle in the run, as the kernel deposits it; at most 0.74 in grains", packing > 0.74},
+      {"share of slow flow", fmt::format("{:.3f}", slow),
+       "inertial_share: particles with an inertial number below 0.01, where the stress does not depend on the rate",
+       slow < 0.5},
   };
   lines.insert(lines.end(), of_run.begin(), of_run.end());
   if (const double most = workspace_->material.range().largest_pressure; std::isfinite(most)) {

@@ -45,7 +45,7 @@ class Continuum {
   std::optional<GridSnapshot> grid() const;
 
   /// How far the run is from what the model assumes: Courant and Mach numbers, packing range, inertial numbers.
-  std::vector<RegimeLine> regime() const;
+  std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:
   Parameters parameters_;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/comparison/evaluation.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace talus::app {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 ComparisonRow row(std::vector<std::string> variants) {
   ComparisonRow row;
@@ -18,17 +17,30 @@ ComparisonRow row(std::vector<std::string> variants) {
   return row;
 }
 
-TEST(Evaluation, ManyVariantsStandBelowEachOtherEachJudgedByItself) {
-  const ComparisonRow laws = row({"a", "b", "c", "d", "e"});
-  const std::string table = to_markdown({{.row = &laws, .values = {1.5, 2.5, std::nullopt, 1.0, 0.5}}});
-  EXPECT_THAT(table, HasSubstr("| a | 1.5 |\n| b | **2.5** |\n| c | - |\n| d | 1 |\n| e | **0.5** |\n"));
+TEST(Evaluation, JsonNamesRowsAndTheRunsTheyAreOf) {
+  const ComparisonRow laws = row({"a", "b", "c", "d"});
+  Reference reference;
+  reference.study = "hopper", reference.title = "A hopper";
+  const std::vector<FoundEnsemble> found = {{"section", "a", {"runs/laws/a/seed_0001", "runs/laws/a/seed_0002"}, {}}};
+  const auto json = nlohmann::json::parse(to_json(
+      reference, {{.row = &laws, .values = {1.5, 2.5, std::nullopt, std::nan("")}, .verdict = Verdict::not_met}}, found,
+      "runs/laws"));
+  EXPECT_EQ(json["title"], "A hopper");
+  const auto& written = json["rows"][0];
+  EXPECT_EQ(written["verdict"], "not met");
+  EXPECT_EQ(written["values"], nlohmann::json({1.5, 2.5, nullptr, nullptr}));
+  EXPECT_EQ(written["verdicts"], nlohmann::json({"met", "not met", "not evaluated", "not met"}))
+      << "each variant judged by itself; what has no value there did not get there, what has no meaning is not met";
+  EXPECT_EQ(json["runs"][0]["variant"], "a");
+  EXPECT_EQ(json["runs"][0]["folders"], nlohmann::json({"a/seed_0001", "a/seed_0002"})) << "below the folder compared";
 }
 
-TEST(Evaluation, FewVariantsStandInALine) {
+TEST(Evaluation, CountsVerdicts) {
   const ComparisonRow both = row({"a", "b"});
-  const std::string table = to_markdown({{.row = &both, .values = {1.5, 2.5}, .verdict = Verdict::not_met}});
-  EXPECT_THAT(table, HasSubstr("1.5, 2.5 | not met |"));
-  EXPECT_THAT(table, Not(HasSubstr("**2.5**")));
+  EXPECT_EQ(counts_text({{.row = &both, .values = {}, .verdict = Verdict::met},
+                         {.row = &both, .values = {}, .verdict = Verdict::not_met},
+                         {.row = &both, .values = {}, .verdict = Verdict::met}}),
+            "2 met, 1 not met, 0 reported, 0 not evaluated");
 }
 
 }  // namespace

@@ -105,5 +105,22 @@ TEST(Reference, EveryFaultIsReportedAtOnce) {
                     HasSubstr("sorce"), HasSubstr("source")));
 }
 
+TEST(Reference, ARowBringsThePlaceThatItsMeasureNeeds) {
+  const auto with = [](const std::string& quantity, const std::string& place) {
+    std::string text = std::string(head) + row;
+    text.replace(text.find("packing_max"), 11, quantity);
+    return place.empty() ? text : text + "place = { " + place + " }\n";
+  };
+  const Reference reference = read(with("packing_max_outside_impact", "distance = \"20 mm\""));
+  EXPECT_EQ(reference.rows.at(0).place, (Place{{"distance", 0.02}}));
+  const auto fault = [&](const std::string& quantity, const std::string& place) {
+    return message_of<InputError>([&] { read(with(quantity, place)); });
+  };
+  EXPECT_THAT(fault("packing_max_outside_impact", ""), HasSubstr("needs distance"));
+  EXPECT_THAT(fault("packing_max_outside_impact", "distance = 20"), HasSubstr("is no length"));
+  EXPECT_THAT(fault("packing_max", "distance = \"20 mm\""), HasSubstr("takes no distance"));
+  EXPECT_THAT(fault("mass", ""), HasSubstr("kg")) << "another unit than the row's";
+}
+
 }  // namespace
 }  // namespace talus::app

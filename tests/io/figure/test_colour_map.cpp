@@ -18,42 +18,28 @@ double lightness(const Colour& colour) {
   return y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
 }
 
-// Entries 0, 64, 128, 192 and 255 of the published tables of 256 colours.
-TEST(ColourMap, FollowsThePublishedTables) {
+// Entries 0, 64, 128, 192 and 255 of the published table of 256 colours.
+TEST(ColourMap, FollowsThePublishedTable) {
   const double places[] = {0, 64 / 255.0, 128 / 255.0, 192 / 255.0, 1};
   const unsigned viridis[] = {0x440154, 0x3b528b, 0x21918c, 0x5ec962, 0xfde725};
-  const unsigned cividis[] = {0x00204c, 0x414d6b, 0x7d7c78, 0xbcaf6f, 0xffea46};
   for (int k = 0; k < 5; ++k) {
-    EXPECT_LT(difference(colour_at(ColourMap::viridis, places[k]), rgb(viridis[k])), 2.0 / 255) << k;
-    EXPECT_LT(difference(colour_at(ColourMap::cividis, places[k]), rgb(cividis[k])), 4.5 / 255) << k;
+    EXPECT_LT(difference(colour_at(places[k]), rgb(viridis[k])), 2.0 / 255) << k;
   }
 }
 
-// Moreland 2009: the ends are rgb(59, 76, 192) and rgb(180, 4, 38), the middle rgb(221, 221, 221).
-TEST(ColourMap, DivergesFromGreyToThePublishedEnds) {
-  EXPECT_LT(difference(colour_at(ColourMap::cool_warm, 0), rgb(0x3b4cc0)), 1.5 / 255);
-  EXPECT_LT(difference(colour_at(ColourMap::cool_warm, 0.5), rgb(0xdddddd)), 1.5 / 255);
-  EXPECT_LT(difference(colour_at(ColourMap::cool_warm, 1), rgb(0xb40426)), 1.5 / 255);
-  EXPECT_LT(difference(colour_at(ColourMap::cool_warm, 0.5 - 1e-9), colour_at(ColourMap::cool_warm, 0.5 + 1e-9)), 1e-6);
-}
-
 TEST(ColourMap, GrowsLighterEvenly) {
-  for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis}) {
-    const double dark = lightness(colour_at(map, 0)), light = lightness(colour_at(map, 1));
-    EXPECT_GT(light - dark, 70);
-    for (int k = 1; k <= 50; ++k) {
-      EXPECT_GT(lightness(colour_at(map, k / 50.0)), lightness(colour_at(map, (k - 1) / 50.0)));
-      EXPECT_NEAR(lightness(colour_at(map, k / 50.0)), dark + (light - dark) * k / 50.0, 3.0);
-    }
+  const double dark = lightness(colour_at(0)), light = lightness(colour_at(1));
+  EXPECT_GT(light - dark, 70);
+  for (int k = 1; k <= 50; ++k) {
+    EXPECT_GT(lightness(colour_at(k / 50.0)), lightness(colour_at((k - 1) / 50.0)));
+    EXPECT_NEAR(lightness(colour_at(k / 50.0)), dark + (light - dark) * k / 50.0, 3.0);
   }
 }
 
 TEST(ColourMap, EndsWhereItEnds) {
-  for (const ColourMap map : {ColourMap::viridis, ColourMap::cividis, ColourMap::grey, ColourMap::cool_warm}) {
-    EXPECT_EQ(colour_at(map, -3), colour_at(map, 0));
-    EXPECT_EQ(colour_at(map, 7), colour_at(map, 1));
-    EXPECT_EQ(colour_at(map, std::numeric_limits<double>::quiet_NaN()), colour_at(map, 0));
-  }
+  EXPECT_EQ(colour_at(-3), colour_at(0));
+  EXPECT_EQ(colour_at(7), colour_at(1));
+  EXPECT_EQ(colour_at(std::numeric_limits<double>::quiet_NaN()), colour_at(0));
 }
 
 // Okabe & Ito's colours stay apart for the commonest colour blindness: simulated deuteranopia after Viénot, Brettel &

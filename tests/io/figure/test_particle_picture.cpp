@@ -83,7 +83,7 @@ TEST(ParticlePicture, ViewsShowTheirPlanes) {
     View view;
     double right, up;
   };
-  for (const Case& c : {Case{view_xy, 1.2, 0.3}, Case{view_downhill, 0.3, -1.2}, Case{view_xz, 1.2, 0.8}}) {
+  for (const Case& c : {Case{view_xy, 1.2, 0.3}, Case{view_xz, 1.2, 0.8}}) {
     EXPECT_DOUBLE_EQ(dot(c.view.right, p), c.right);
     EXPECT_DOUBLE_EQ(dot(c.view.up, p), c.up);
   }
@@ -100,7 +100,7 @@ TEST(ParticlePicture, ViewsAreRightHandedFrames) {
   auto cross = [](const Vector3& a, const Vector3& b) {
     return Vector3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   };
-  for (const View& view : {view_xy, view_downhill, view_xz, view_tilted(0.7), view_oblique(0.5, 0.4)}) {
+  for (const View& view : {view_xy, view_xz, view_tilted(0.7), view_oblique(0.5, 0.4)}) {
     EXPECT_NEAR(norm(view.right), 1, 1e-15);
     EXPECT_NEAR(norm(view.up), 1, 1e-15);
     EXPECT_NEAR(norm(cross(view.right, view.up) - view.toward), 0, 1e-15);
@@ -114,18 +114,9 @@ TEST(ParticlePicture, ColoursByValueOverTheGivenRange) {
   const std::vector<double> values = {200, 500, nan};
   scene.picture.colouring = ByValue{.values = values, .unit = {100, ""}, .low = 0, .high = 10};
   const Picture picture = scene.drawn();
-  EXPECT_LT(difference(picture.at(30, 50), colour_at(ColourMap::viridis, 0.2)), 0.005);
-  EXPECT_LT(difference(picture.at(90, 50), colour_at(ColourMap::viridis, 0.5)), 0.005);
+  EXPECT_LT(difference(picture.at(30, 50), colour_at(0.2)), 0.005);
+  EXPECT_LT(difference(picture.at(90, 50), colour_at(0.5)), 0.005);
   EXPECT_LT(difference(picture.at(150, 50), pale), 0.005);
-}
-
-TEST(ParticlePicture, DivergingColoursAreSymmetricAboutZero) {
-  Scene scene({{0.3, 0.5, 0}, {0.9, 0.5, 0}}, {0.2, 0.2});
-  const std::vector<double> values = {0, 3};
-  scene.picture.colouring = ByValue{.values = values, .map = ColourMap::cool_warm};
-  const Picture picture = scene.drawn();
-  EXPECT_LT(difference(picture.at(30, 50), colour_at(ColourMap::cool_warm, 0.5)), 0.005);
-  EXPECT_LT(difference(picture.at(90, 50), colour_at(ColourMap::cool_warm, 1)), 0.005);
 }
 
 TEST(ParticlePicture, LaterCategoriesLieOnTop) {
@@ -246,55 +237,6 @@ TEST(ParticlePicture, SegmentsRunFromEndToEnd) {
   EXPECT_NEAR(run, 160, 1);
 }
 
-TEST(ParticlePicture, LabelsOfSegmentsCoverAsLittleAsTheyCan) {
-  // A wall of discs right of an upright line: the label goes to its left.
-  std::vector<Vector3> positions;
-  for (int i = 0; i < 60; ++i) {
-    for (int j = 0; j < 60; ++j) positions.push_back({1.02 + 0.02 * (i % 30), 1.0 / 60 * j, 0});
-  }
-  Scene scene(positions, std::vector<double>(positions.size(), 0.01));
-  scene.picture.colouring = Plain{blue};
-  scene.picture.segments = {{.from = {1, 0.1, 0}, .to = {1, 0.9, 0}, .label = "HHH", .colour = vermillion}};
-  const Picture picture = scene.drawn();
-  int left = 0, right = 0;
-  for (int y = 5; y < 95; ++y) {
-    for (int x = 0; x < 200; ++x) {
-      const bool label = difference(picture.at(x, y), vermillion) < 0.25;
-      left += label && x < 97, right += label && x > 103;
-    }
-  }
-  EXPECT_GT(left, 20);
-  EXPECT_EQ(right, 0);
-}
-
-TEST(ParticlePicture, LabelsOfSegmentsStandClearOfSlantingLines) {
-  Scene scene({}, {});
-  scene.picture.segments = {{.from = {0.3, 0.05, 0}, .to = {1.2, 0.95, 0}, .colour = vermillion}};
-  const int alone = scene.drawn().count(vermillion, 0.25);
-  scene.picture.segments[0].label = "HHHHHH";
-  EXPECT_GT(scene.drawn().count(vermillion, 0.25), alone + 20) << "the label's patch would pale the line";
-  const Picture picture = scene.drawn();
-  for (int k = 10; k < 80; ++k) {
-    double least = 1;  // the line is somewhere on each diagonal across it
-    for (int d = -1; d <= 1; ++d) least = std::min(least, difference(picture.at(30 + k + d, 94 - k), vermillion));
-    EXPECT_LT(least, 0.35) << k;
-  }
-}
-
-TEST(ParticlePicture, LabelsOfSegmentsStayInThePlot) {
-  // Discs left of an upright line at the right edge: beside it on the right there is nothing to cover, but no room.
-  std::vector<Vector3> positions;
-  for (int i = 0; i < 900; ++i) positions.push_back({1.35 + 0.02 * (i % 30), 1.0 / 30 * (i / 30), 0});
-  Scene scene(positions, std::vector<double>(positions.size(), 0.01));
-  scene.picture.colouring = Plain{blue};
-  scene.picture.segments = {{.from = {1.96, 0.1, 0}, .to = {1.96, 0.9, 0}, .label = "HHH", .colour = vermillion}};
-  const Picture picture = scene.drawn();
-  int label = 0;
-  for (int y = 5; y < 95; ++y)
-    for (int x = 0; x < 193; ++x) label += difference(picture.at(x, y), vermillion) < 0.25;
-  EXPECT_GT(label, 20);
-}
-
 TEST(ParticlePicture, ScaleBarIsAsLongAsItSays) {
   Scene scene({}, {});  // 2 m wide: the largest round length up to 0.28 of that is 0.5 m, 50 pixels
   const Picture picture = scene.drawn();
@@ -325,12 +267,6 @@ TEST(ParticlePicture, FramesOfAMovieShareTheirScale) {
   const double bottom = window_of(a.picture).bottom;
   share_scale(frames);
   EXPECT_DOUBLE_EQ(frames[0].window->bottom, bottom) << "stays on its slope";
-
-  frames = {a.picture, b.picture};
-  share_window(frames);
-  EXPECT_EQ(frames[0].window->left, frames[1].window->left);
-  EXPECT_LT(frames[0].window->left, -0.1);
-  EXPECT_GT(frames[0].window->right, 53.1);
 }
 
 TEST(ParticlePicture, RefusesDescriptionsThatMakeNoSense) {

@@ -84,7 +84,7 @@ TEST(RegimeOfCase, StandsOnTheCardOfTheRun) {
   Parameters p = small_hopper();
   p.grains.diameter = 2 * spacing;
   ThreadTeam team(1);
-  const auto of_run = started(p, team).regime();
+  const auto of_run = started(p, team).regime(RunRecord{});
   const auto of_case = regime_of_case(p);
   ASSERT_GT(of_run.size(), of_case.size());
   for (std::size_t k = 0; k < of_case.size(); ++k) EXPECT_EQ(of_run[k].quantity, of_case[k].quantity);

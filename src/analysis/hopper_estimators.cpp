@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/hopper_estimators.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/discharge.hpp"
+#include "analysis/spectrum.hpp"
+#include "analysis/statistics.hpp"
+#include "analysis/wall_loads.hpp"
+
+namespace talus::hopper {
+
+namespace {
+
+constexpr double none = HopperRun::none;
+
+// Lengths of means, estimator.discharge_rate: one printed period, a load cell's sampling.
+constexpr double extreme_mean = 6e-3, extreme_every = 0.2e-3, largest_every = 1e-3;
+constexpr double load_time = 20e-3;
+constexpr double period_rate = 5000;  // 1/s, of the data
+constexpr double shortest_period = 2e-3, longest_period = 20e-3;
+constexpr double begins_to_incline = 1;             // deg
+constexpr double repose_printed = 30;               // deg
+constexpr double begins_to_flow = 0.1, half = 0.5;  // of what passes the outlet
+
+double end_of(const Window& window, const HopperRun& run) {
+  return std::min(window.to, run.end());
+}
+
+/// The time that a window names, or the end; nan if the run ended before it, but for a few steps.
+double time_of(const Window& window, const HopperRun& run) {
+  const double at = window.at.value_or(Window::end_of_run), end = run.end();
+  return at > end + trend_mean && !std::isinf(at) ? none : std::min(at, end);
+}
+
+std::vector<double> within(Number number, const HopperRun& run, const Place& place, const Window& window) {
+  return part(run.curve(number, place), window.from, window.to).value;
+}
+
+/// The curve up to its first value after `from` that is not finite: the place has run empty.
+Curve while_there_are_grains(Curve curve, double from) {
+  std::size_t n = 0;
+  while (n < curve.time.size() && (curve.time[n] <= from || std::isfinite(curve.value[n]))) ++n;
+  curve.time.resize(n);
+  curve.value.resize(n);
+  return curve;
+}
+
+double period(const Curve& whole, const Window& window) {
+  const Curve curve = while_there_are_grains(whole, window.from);
+  if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return none;
+  const double to = std::min(window.to, curve.time.back());
+  return dominant_period(at_equal_times(curve, period_rate, window.from, to), shortest_period, longest_period);
+}
+
+double first_time_at_or_above(const Curve& curve, double level) {
+  return first_time_at_or_below(scaled(curve, -1), -level);
+}
+
+/// Means over 10 ms of a curve that has data now and then.
+std::vector<double> coarse_means(const Curve& curve) {
+  std::map<long, std::vector<double>> groups;
+  for (std::size_t n = 0; n < curve.time.size(); ++n)
+    groups[std::lround(std::floor(curve.time[n] / trend_mean))].push_back(curve.value[n]);
+  std::vector<double> means;
+  for (const auto& [group, values] : groups) means.push_back(mean(values));
+  return means;
+}
+
+}  // namespace
+
+Window while_it_flows(const HopperRun& run) {
+  const Curve mass = discharged_mass(run);
+  const double all = mass.value.empty() ? 0 : mass.value.back();
+  if (!(all > 0)) return {.at = 0.5 * run.end(), .from = 0.5 * run.end(), .to = run.end()};
+  const double from = first_time_at_or_above(mass, begins_to_flow * all), to = first_time_at_or_above(mass, half * all);
+  return {.at = 0.5 * (from + to), .from = from, .to = to};
+}
+
+double value_at_window(Number number, const HopperRun& run, const Place& place, const Window& window) {
+  const std::vector<double>& time = run.snapshots.time();
+  if (time.empty()) return none;
+  const double at = window.at.value_or(Window::end_of_run), last = time.back();
+  if (std::isinf(at)) return run.snapshots.value(time.size() - 1, number, place);
+  const double interval = time.size() > 1 ? last - time[time.size() - 2] : 0;
+  return at > last + 0.5 * interval ? none : run.snapshots.value(nearest_point(time, at), number, place);
+}
+
+Estimator<HopperRun> at(Number number) {
+  return {[=](const HopperRun& run, const Place& p, const Window& w) { return value_at_window(number, run, p, w); },
+          number};
+}
+
+Estimator<HopperRun> largest_of(Number number) {
+  return {[=](const HopperRun& run, const Place& p, const Window& w) { return quantile(within(number, run, p, w), 1); },
+          number};
+}
+
+Estimator<HopperRun> mean_of(Number number) {
+  return {[=](const HopperRun& run, const Place& p, const Window& w) { return mean(within(number, run, p, w)); },
+          number};
+}
+
+Estimator<HopperRun> period_of(std::string_view column) {
+  return {[=](const HopperRun& run, const Place&, const Window& window) { return period(run.curve(column), window); }};
+}
+
+double vortex_reversal(const HopperRun& run, const Place& place, const Window& window) {
+  const auto at = [&](double time) {
+    return value_at_window(air_circulation<Where::hopper, Half::left>, run, place, {.at = time});
+  };
+  const double product = at(window.from) * at(window.to);
+  return product / std::abs(product);
+}
+
+double narrowing(const HopperRun& run, const Place& place, const Window& window) {
+  const double free = length_of(place, "below_from");
+  const auto width = [&](const char* from, const char* to) {
+    return mean(within(stream_width, run,
+                       {{"from", length_of(place, from)}, {"to", length_of(place, to)}, {"free", free}}, window));
+  };
+  return width("below_from", "below_to") / width("above_from", "above_to");
+}
+
+LargestMean largest_discharge(const HopperRun& run, const Window& window) {
+  const Curve means = mean_rates(passed_mass(run), largest_mean, largest_every, window.from, end_of(window, run));
+  if (means.time.empty()) return {};
+  const Extremes found = extremes(means);
+  return {found.largest, found.largest_time};
+}
+
+double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window) {
+  return first_maximum_time(mean_rates(cumulative, extreme_mean, extreme_every, window.from, end_of(window, run)),
+                            extreme_mean);
+}
+
+double discharge_fall(const HopperRun& run, const Place&, const Window& window) {
+  const Curve passed = passed_mass(run);
+  return mean_rate(passed, window.from, window.to) - mean_rate(passed, 2 * window.from - window.to, window.from);
+}
+
+double share_at(const HopperRun& run, const Place&, const Window& window) {
+  const Curve share = discharged_share(run);
+  const double at = time_of(window, run);
+  return covers(share, at, at) ? value_at(share, at) : none;
+}
+
+double floor_arrival(const HopperRun& run, const Place&, const Window&) {
+  return first_time_at_or_above(run.curve("mass_near_floor"), 1e-3 * run.setting.mass());
+}
+
+double settled_force(const HopperRun& run) {
+  double force = 0;
+  for (const std::string& wall : walls_of(run.series))
+    if (wall == "floor" || wall == "plate")
+      force -= wall_force(run.series, wall, run.gate_time - load_time, run.gate_time).z;
+  return force;
+}
+
+double settled_stress_ratio(const HopperRun& run, const Place& place, const Window&) {
+  const std::vector<double>& time = run.snapshots.time();
+  std::size_t settled = 0;
+  for (std::size_t n = 0; n < time.size(); ++n)
+    if (time[n] <= 0) settled = n;
+  return !time.empty() && time[settled] <= load_time ? run.snapshots.value(settled, stress_ratio, place) : none;
+}
+
+double balance_error(const HopperRun& run, const Place&, const Window& window) {
+  const double to = run.gate_time + time_of(window, run);
+  return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - load_time, to);
+}
+
+double largest_fall_of_surface(const HopperRun& run, const Place&, const Window&) {
+  const Curve angle = run.curve(surface_angle_in<Where::hopper>);
+  std::size_t first = 0;
+  while (first < angle.value.size() && angle.value[first] <= begins_to_incline) ++first;
+  if (first == angle.value.size()) return none;
+  double largest = angle.value[first], fall = 0;
+  for (const double mean : coarse_means(part(angle, angle.time[first], Window::end_of_run))) {
+    largest = std::max(largest, mean);
+    fall = std::max(fall, largest - mean);
+  }
+  return fall;
+}
+
+double repose(const HopperRun& run, const Window& window, bool nearer) {
+  const double bin = value_at_window(repose_angle_in<Where::bin, &ReposeAngle::mean>, run, {}, window);
+  const double hopper = value_at_window(repose_angle_in<Where::hopper, &ReposeAngle::mean>, run, {}, window);
+  if (std::isnan(bin) || std::isnan(hopper)) return nearer ? std::fmax(bin, hopper) : none;
+  const bool bin_is_nearer = std::abs(bin - repose_printed) <= std::abs(hopper - repose_printed);
+  return bin_is_nearer == nearer ? bin : hopper;
+}
+
+std::optional<double> ratio_at_largest(Pair runs, const Window& window) {
+  const LargestMean first = largest_discharge(runs[0].front(), window);
+  return first.value /
+         mean_rate(passed_mass(runs[1].front()), first.time - 0.5 * largest_mean, first.time + 0.5 * largest_mean);
+}
+
+std::optional<double> share_of_larger(Pair runs, const Window& window) {
+  const HopperRun &first = runs[0].front(), &second = runs[1].front();
+  const double to = std::min({window.to, first.end(), second.end()});
+  const Curve a = mean_rates(passed_mass(first), largest_mean, largest_every, window.from, to);
+  const Curve b = mean_rates(passed_mass(second), largest_mean, largest_every, window.from, to);
+  if (a.value.empty() || a.value.size() != b.value.size()) return none;
+  double larger = 0;
+  for (std::size_t n = 0; n < a.value.size(); ++n) larger += a.value[n] > b.value[n];
+  return larger / static_cast<double>(a.value.size());
+}
+
+std::optional<double> largest_share_difference(Pair runs, const Window& window) {
+  const HopperRun &first = runs[0].front(), &second = runs[1].front();
+  const Curve a = discharged_share(first), b = discharged_share(second);
+  const double to = std::min({window.to, first.end(), second.end()});
+  double largest = none;
+  for (std::size_t n = 0;; ++n) {
+    const double t = window.from + static_cast<double>(n) * largest_every;
+    if (t > to) return largest;
+    if (covers(a, t, t) && covers(b, t, t)) largest = std::fmax(largest, std::abs(value_at(a, t) - value_at(b, t)));
+  }
+}
+
+}  // namespace talus::hopper

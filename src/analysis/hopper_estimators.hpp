@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How the measures of grains in a vessel are made from a run: of its series, or of the numbers of its snapshots.
+#pragma once
+
+#include "analysis/hopper_numbers.hpp"
+
+namespace talus::hopper {
+
+using Number = HopperRun::Numbers::Number;
+
+// Lengths of means, estimator.discharge_rate, s: of the largest rate, of a trend.
+inline constexpr double largest_mean = 20e-3, trend_mean = 10e-3;
+
+inline const std::vector<std::string_view> across{"height", "left", "right"};
+
+/// From when a tenth of what passes the outlet in all has passed it until when half of it has; the time in the middle.
+/// Where nothing passes: half of the run.
+Window while_it_flows(const HopperRun& run);
+
+/// The number in the snapshot nearest the window's time, of two the earlier; nan if the run ended more than half an
+/// interval before.
+double value_at_window(Number number, const HopperRun& run, const Place& place, const Window& window);
+
+Estimator<HopperRun> at(Number number);          ///< value_at_window()
+Estimator<HopperRun> largest_of(Number number);  ///< over the snapshots in the window
+Estimator<HopperRun> mean_of(Number number);     ///< the same
+/// Of a column, over the window or as much of it as there are grains at the place, at least half.
+Estimator<HopperRun> period_of(std::string_view column);
+/// Product of the circulations left and right over the sum of their squares: below 0 for a pair that turns against each
+/// other.
+template <Where where>
+double vortex_product(const HopperRun& run, const Place& place, const Window& window) {
+  const double a = value_at_window(air_circulation<where, Half::left>, run, place, window);
+  const double b = value_at_window(air_circulation<where, Half::right>, run, place, window);
+  return a * b / (a * a + b * b);
+}
+/// Sign of the product of the left half of the hopper's circulation at the window's ends: below 0 where it has turned.
+double vortex_reversal(const HopperRun& run, const Place& place, const Window& window);
+/// Width of the stream below over that above, means over the window.
+double narrowing(const HopperRun& run, const Place& place, const Window& window);
+
+struct LargestMean {
+  double value = HopperRun::none, time = HopperRun::none;
+};
+/// The largest of the 20 ms means of the discharge, and its time.
+LargestMean largest_discharge(const HopperRun& run, const Window& window);
+/// First maximum of the 6 ms means of what the curve is the integral of.
+double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window);
+double discharge_fall(const HopperRun& run, const Place& place, const Window& window);
+double share_at(const HopperRun& run, const Place& place, const Window& window);
+double floor_arrival(const HopperRun& run, const Place& place, const Window& window);
+/// Force on the bed's ground, plate and floor together, over 20 ms before the gate opened; upwards on the grains, N.
+double settled_force(const HopperRun& run);
+/// Of the last snapshot before the gate opened, or at its opening.
+double settled_stress_ratio(const HopperRun& run, const Place& place, const Window& window);
+double balance_error(const HopperRun& run, const Place& place, const Window& window);
+double largest_fall_of_surface(const HopperRun& run, const Place& place, const Window& window);
+/// Of the angles of repose of bin and hopper, the one nearer to 30 degrees, or the other.
+double repose(const HopperRun& run, const Window& window, bool nearer);
+
+// Two runs, one of each variant.
+using Pair = std::span<const std::vector<HopperRun>>;
+std::optional<double> ratio_at_largest(Pair runs, const Window& window);
+std::optional<double> share_of_larger(Pair runs, const Window& window);
+std::optional<double> largest_share_difference(Pair runs, const Window& window);
+
+}  // namespace talus::hopper

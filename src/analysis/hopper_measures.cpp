@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The list of measures of grains in a vessel. A row: name, unit, what it means, how it is made; the lengths that it
+/// takes from a place; where a summary lists it.
+#include "analysis/discharge.hpp"
+#include "analysis/hopper_estimators.hpp"
+#include "analysis/statistics.hpp"
+#include "analysis/wall_loads.hpp"
+
+namespace talus {
+
+namespace {
+
+using namespace hopper;
+using Run = HopperRun;
+using Row = Measure<Run>;
+
+// Where a summary lists a measure.
+bool always(const Run&) {
+  return true;
+}
+bool level_ground(const Run& run) {
+  return run.setting.level_ground;
+}
+bool outlet(const Run& run) {
+  return run.setting.shape.plate.has_value();
+}
+bool bin(const Run& run) {
+  return run.setting.has_floor && run.setting.shape.bin().top > 0;
+}
+bool outlet_and_bin(const Run& run) {
+  return outlet(run) && bin(run);
+}
+bool air(const Run& run) {
+  return run.setting.air;
+}
+
+const std::vector<Row> list = {
+    Row("floor_stress_settled", "Pa",
+        "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate opens",
+        {[](const Run& r, const Place&, const Window&) {
+          return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth);
+        }},
+        {{level_ground}}),
+    Row("floor_stress_error", "1", "the same force over M g, less 1", {[](const Run& r, const Place&, const Window&) {
+          return settled_force(r) / (r.setting.mass() * r.setting.gravity) - 1;
+        }},
+        {{level_ground}}),
+    Row("stress_ratio_settled", "1",
+        "Σ τ_xx over Σ τ_zz of the particles with packing above 0.55, inertial number below 10⁻³ and τ_zz above 50 Pa, "
+        "in the last snapshot before the gate opens",
+        {settled_stress_ratio}, {{always}}),
+    Row("stress_ratio_flow", "1", "the same while it flows", at(stress_ratio), {{always, while_it_flows}}),
+    Row("discharge_rate_plateau", "kg/s", "mean of Q over the window",
+        {[](const Run& r, const Place&, const Window& w) { return mean_rate(passed_mass(r), w.from, w.to); }},
+        {{outlet, while_it_flows}}),
+    Row("discharge_rate_drift", "1",
+        "slope of the line through the 10 ms means of Q times the length of the window, over their mean",
+        {[](const Run& r, const Place&, const Window& w) { return drift(passed_mass(r), trend_mean, w.from, w.to); }}),
+    Row("discharge_rate_fall", "kg/s", "mean of Q over the window less that over as long a time before",
+        {discharge_fall}),
+    Row("discharge_rate_extreme_time", "s",
+        "centre of the first 6 ms mean of Q (one every 0.2 ms) that is the largest within 6 ms before and after",
+        {[](const Run& r, const Place&, const Window& w) { return extreme_time(passed_mass(r), r, w); }}, {{outlet}}),
+    Row("discharge_rate_max", "kg/s", "largest 20 ms mean of Q, one every 1 ms",
+        {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).value; }}, {{outlet}}),
+    Row("discharge_rate_max_time", "s", "its centre",
+        {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).time; }}, {{outlet}}),
+    Row("slit_velocity_extreme_time", "s", "as discharge_rate_extreme_time, of −u_z in the middle of the outlet",
+        {[](const Run& r, const Place&, const Window& w) {
+          return extreme_time(integral(scaled(r.curve("slit_velocity"), -1)), r, w);
+        }},
+        {{outlet}}),
+    Row("slit_velocity_fluctuation", "m/s",
+        "standard deviation of u_z in the middle of the outlet about its centred 20 ms mean",
+        {[](const Run& r, const Place&, const Window& w) {
+          return fluctuation(r.curve("slit_velocity"), largest_mean, w.from, w.to);
+        }}),
+    Row("floor_arrival_time", "s", "first time at which 0.1 % of M is within h of the floor", {floor_arrival},
+        {{outlet_and_bin}}),
+    Row("floor_arrival_first_time", "s", "first time at which a particle's centre is lower than `height`",
+        {[](const Run& r, const Place& p, const Window&) {
+          return first_time_at_or_below(r.curve("lowest_z"), length_of(p, "height"));
+        }},
+        {}, {"height"}),
+    Row("discharged_fraction", "1", "share of M below the outlet", {share_at}, {{outlet}}),
+    Row("residual_fraction", "1", "share of M above the outlet",
+        {[](const Run& r, const Place& p, const Window& w) { return 1 - share_at(r, p, w); }}, {{outlet}}),
+    Row("left_right_imbalance", "1", "difference of the masses left and right in the bin, over M",
+        at(left_right_imbalance), {{bin}}),
+    Row("repose_angle_bin", "deg",
+        "angle of repose in the bin. Surface: packing 0.3, mean over y, one height each h. Slope: rises or falls all "
+        "along (5-point mean), longer than 10 h; the line through its middle 80 %. Mean of the longest slopes left and "
+        "right of the middle",
+        at(repose_angle_in<Where::bin, &ReposeAngle::mean>), {{bin}}),
+    Row("repose_angle_bin_steepest", "deg", "the steepest slope in the bin",
+        at(repose_angle_in<Where::bin, &ReposeAngle::steepest>), {{bin}}),
+    Row("repose_angle_hopper", "deg", "as repose_angle_bin, of the heaps that stay in the hopper",
+        at(repose_angle_in<Where::hopper, &ReposeAngle::mean>), {{outlet}}),
+    Row("repose_angle_hopper_steepest", "deg", "the steepest slope in the hopper",
+        at(repose_angle_in<Where::hopper, &ReposeAngle::steepest>), {{outlet}}),
+    Row("repose_angle_nearer", "deg", "of bin and hopper the angle of repose nearer to 30 degrees",
+        {[](const Run& r, const Place&, const Window& w) { return repose(r, w, true); }}),
+    Row("repose_angle_other", "deg", "the other one",
+        {[](const Run& r, const Place&, const Window& w) { return repose(r, w, false); }}),
+    Row("surface_angle_bin", "deg",
+        "slope of the bin's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
+        "and its right half",
+        at(surface_angle_in<Where::bin>), {{bin}}),
+    Row("surface_angle_hopper", "deg", "the same of the hopper's surface, mean over the window",
+        mean_of(surface_angle_in<Where::hopper>), {{outlet, while_it_flows}}),
+    Row("surface_swelling", "m",
+        "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
+        mean_of(surface_swelling), {}, {"beside", "width"}),
+    Row("surface_angle_largest_fall", "deg",
+        "largest by which surface_angle_hopper lies below an earlier value, 10 ms means, once it has passed 1 degree",
+        {largest_fall_of_surface}),
+    Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
+        {[](const Run& r, const Place& p, const Window& w) {
+          return value_at_window(surface_angle_in<Where::hopper>, r, p, w) -
+                 value_at_window(repose_angle_in<Where::hopper, &ReposeAngle::mean>, r, p, w);
+        }}),
+    Row("weight_balance_error", "1", "upward force of all walls, from their impulses over 20 ms, over M g, less 1",
+        {balance_error}, {{always}}),
+    Row("quiescent_speed", "m/s",
+        "95th percentile of the speeds of the particles deeper than 3 h below the surface, and not within 3 h of the "
+        "outlet; speed: displacement since the snapshot about 20 ms before, over the time between",
+        at(quiescent_speed), {{always}}),
+    Row("packing_max", "1", "99.9th percentile of the particles' packing, largest over the snapshots",
+        largest_of(packing_max), {{always}}),
+    Row("packing_max_outside_impact", "1",
+        "the same of the particles farther than `distance` from where the stream strikes the bin's surface; of a part "
+        "of the particles, so that it may be above packing_max",
+        largest_of(packing_max_outside_impact), {}, {"distance"}),
+    Row("density_drift", "1",
+        "mean of |density by continuity over the kernel's − 1| deeper than 3 h, largest over the snapshots",
+        largest_of(density_drift), {{always}}),
+    Row("period_discharge", "s",
+        "Q at 5000 values a second, line removed, Hann window, zero-padded four times: period of the highest peak of "
+        "the power between 2 and 20 ms",
+        period_of("discharge_rate"), {{outlet, while_it_flows}}),
+    Row("period_density", "s", "the same of ρ_b 5 mm above the middle of the outlet", period_of("probe_density")),
+    Row("period_velocity", "s", "the same of u_z there", period_of("probe_velocity")),
+    Row("period_stress", "s", "the same of τ_zz there", period_of("probe_stress")),
+    Row("period_strain", "s", "the same of the strain that the law remembers there", period_of("probe_strain")),
+    Row("inertial_share", "1",
+        "share of the particles above the outlet with I = γ̇ D √(ρ_p/p) below 10⁻²; without pressure I is infinite",
+        at(inertial_share), {{always, while_it_flows}}),
+    Row("velocity_gradient_shear_max", "1",
+        "(D/g)^½ times the largest |∂u_i/∂x_j|, i ≠ j, of the particles with packing above 0.5, corrected gradient, "
+        "largest over the snapshots",
+        largest_of(gradient<&GradientSizes::shear_max>)),
+    Row("velocity_gradient_normal_max", "1", "the same with i = j", largest_of(gradient<&GradientSizes::normal_max>)),
+    Row("velocity_gradient_shear_percentile", "1", "the 99.9th percentile over the particles in place of the largest",
+        largest_of(gradient<&GradientSizes::shear_percentile>)),
+    Row("velocity_gradient_normal_percentile", "1", "the same with i = j",
+        largest_of(gradient<&GradientSizes::normal_percentile>)),
+    Row("hopper_velocity", "m/s", "mean of u_z from `left` to `right` at `height`", at(hopper_velocity), {}, across),
+    Row("hopper_packing", "1", "mean packing from `left` to `right` at `height`", at(hopper_packing), {}, across),
+    Row("stream_narrowing", "1",
+        "width of the stream (5th to 95th percentile of the mass in x) from `below_from` to `below_to` over that from "
+        "`above_from` to `above_to`, each the mean over the snapshots in which the heap beside it is lower than that",
+        {narrowing}, {}, {"above_from", "above_to", "below_from", "below_to"}),
+    Row("stream_packing", "1", "mean packing of the stream's particles from `from` to `to`, while the heap is lower",
+        at(stream_packing), {}, {"from", "to"}),
+    Row("stream_stripes", "1",
+        "standard deviation of the packing along the middle of the stream from `from` to `to`, over its mean",
+        at(stream_stripes), {}, {"from", "to"}),
+    Row("corner_packing_ratio_hopper", "1",
+        "mean packing of the squares of `size` in the hopper's two bottom corners over that of the layer deeper than 3 "
+        "h, without the outermost h/2",
+        at(corner_packing_ratio_in<Where::hopper>), {}, {"size"}),
+    Row("corner_packing_ratio_bin", "1", "the same in the bin", at(corner_packing_ratio_in<Where::bin>), {}, {"size"}),
+    Row("drag_to_weight", "1",
+        "upward drag of the air on the grains (Eq. 20, without the pressure's part) over their weight, of the cells of "
+        "the air's grid from `left` to `right` at `height`",
+        at(drag_to_weight), {}, across),
+    Row("air_pressure_drop_height", "m",
+        "z of the largest size of dP/dz (central differences) at `x`, from `from` to `to`",
+        at(air_pressure_drop_height), {}, {"x", "from", "to"}),
+    Row("air_pressure_outside_inside", "Pa",
+        "at `height` the mean pressure where packing < 0.01, less the mean where packing > 0.1",
+        at(air_pressure_outside_inside), {}, {"height"}),
+    Row("air_velocity_within_plug", "m/s",
+        "mean u_z of the air at `height` where the grains' −u_z is above half its largest value there",
+        at(air_velocity_within_plug), {}, {"height"}),
+    Row("air_velocity_beside_plug", "m/s", "its largest mean over five cells beside them", at(air_velocity_beside_plug),
+        {}, {"height"}),
+    Row("air_velocity_slowness", "1", "speed of the air within the moving grains over that of the grains",
+        at(air_velocity_slowness), {}, {"height"}),
+    Row("air_vortex_product_bin", "1",
+        "circulation of the left half of the bin times that of the right one over the sum of their squares; "
+        "circulation: integral of ∂u_x/∂z − ∂u_z/∂x over the cells with packing below 0.01",
+        {vortex_product<Where::bin>}),
+    Row("air_vortex_product_hopper", "1", "the same in the hopper", {vortex_product<Where::hopper>}),
+    Row("air_vortex_reversal_hopper", "1",
+        "circulation of the hopper's left half at the beginning of the window times that at its end, over its size",
+        {vortex_reversal}),
+    Row("particle_reynolds_max", "1",
+        "largest D |u − u_p| ρ/μ of a grain at any step of the air since the start; the slip of a particle is the mean "
+        "of the cells it is spread over",
+        {[](const Run& r, const Place&, const Window& w) {
+          return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1);
+        }},
+        {{air}}),
+    Row("momentum_error", "1",
+        "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
+        "gravity's impulse; settling included",
+        {[](const Run& r, const Place&, const Window&) { return momentum_error(r.series); }}, {{always}}),
+    Row("mass", "kg", "mass of all particles", at(mass)),
+    Row("mass_error", "1", "|mass of all particles over M − 1|", {[](const Run& r, const Place& p, const Window& w) {
+          return std::abs(value_at_window(mass, r, p, w) / r.setting.mass() - 1);
+        }},
+        {{always}}),
+    Row("wall_seconds", "s", "wall time of the whole run, as its summary says",
+        {[](const Run& r, const Place&, const Window&) { return r.wall_seconds; }}),
+};
+
+const GroupMeasure<Run> of_two[] = {
+    {"discharge_rate_ratio_at_max", "1",
+     "ratio of the discharges of two runs at the time of the first one's largest 20 ms mean", ratio_at_largest},
+    {"discharge_rate_share_larger", "1", "share of the 20 ms means in which the first of two runs discharges more",
+     share_of_larger},
+    {"discharge_resolution_difference", "1",
+     "largest difference of the discharged shares of two runs at equal times, one every 1 ms",
+     largest_share_difference},
+};
+
+}  // namespace
+
+std::span<const Measure<Run>> hopper_measures() {
+  return list;
+}
+
+std::span<const GroupMeasure<Run>> hopper_pair_measures() {
+  return of_two;
+}
+
+std::vector<MeasureText> texts_of_hopper_measures() {
+  return texts_of(hopper_measures(), hopper_pair_measures());
+}
+
+}  // namespace talus

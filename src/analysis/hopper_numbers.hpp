@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers of one snapshot of grains in a vessel, the material of the measures; nan where they have no meaning. SI,
+/// angles in degrees. Estimators: validation/yuu2011/reference.toml. Those that take lengths from the place name them.
+#pragma once
+
+#include <numbers>
+
+#include "analysis/heap_slopes.hpp"
+#include "analysis/hopper.hpp"
+
+namespace talus::hopper {
+
+/// Edge of the cells in which values at places are taken: those of the paper's air, m.
+inline constexpr double cell = 1.25e-3;
+
+enum class Where { bin, hopper };                                     ///< below the outlet, and above it
+const FreeSurface& surface_in(const HopperSnapshot& s, Where where);  ///< empty if there is no hopper
+ReposeAngle repose_in(const HopperSnapshot& s, Where where);
+double corner_packing_in(const HopperSnapshot& s, Where where, double size);
+
+template <Where where>
+double surface_angle_in(const HopperSnapshot& s, const Place&) {
+  return surface_angle(surface_in(s, where), s.shape().middle()) / (std::numbers::pi / 180);
+}
+template <Where where, double ReposeAngle::*angle>
+double repose_angle_in(const HopperSnapshot& s, const Place&) {
+  return repose_in(s, where).*angle / (std::numbers::pi / 180);
+}
+template <Where where>
+double corner_packing_ratio_in(const HopperSnapshot& s, const Place& place) {
+  return corner_packing_in(s, where, length_of(place, "size"));
+}
+template <double GradientSizes::*size>
+double gradient(const HopperSnapshot& s, const Place&) {
+  return s.gradient_sizes().*size;
+}
+
+double mass(const HopperSnapshot& s, const Place& place);              ///< of all particles
+double surface_swelling(const HopperSnapshot& s, const Place& place);  ///< beside, width
+double quiescent_speed(const HopperSnapshot& s, const Place& place);
+double packing_max(const HopperSnapshot& s, const Place& place);
+double packing_max_outside_impact(const HopperSnapshot& s, const Place& place);  ///< distance
+double density_drift(const HopperSnapshot& s, const Place& place);
+double stress_ratio(const HopperSnapshot& s, const Place& place);
+double inertial_share(const HopperSnapshot& s, const Place& place);
+double left_right_imbalance(const HopperSnapshot& s, const Place& place);
+
+/// The stream below the outlet, between heights `from` and `to`, as long as the heap beside it is lower than `free`, or
+/// than `from` where that is not given.
+double stream_width(const HopperSnapshot& s, const Place& place);
+double stream_packing(const HopperSnapshot& s, const Place& place);
+double stream_stripes(const HopperSnapshot& s, const Place& place);
+
+/// Means over x from `left` to `right` at z = `height`.
+double hopper_velocity(const HopperSnapshot& s, const Place& place);
+double hopper_packing(const HopperSnapshot& s, const Place& place);
+
+// Of the air, where there is any; velocities along z. The cells of the middle layer.
+double drag_to_weight(const HopperSnapshot& s, const Place& place);               ///< height, left, right; all layers
+double air_pressure_drop_height(const HopperSnapshot& s, const Place& place);     ///< x, from, to
+double air_pressure_outside_inside(const HopperSnapshot& s, const Place& place);  ///< height
+double air_velocity_within_plug(const HopperSnapshot& s, const Place& place);     ///< height
+double air_velocity_beside_plug(const HopperSnapshot& s, const Place& place);     ///< height
+double air_velocity_slowness(const HopperSnapshot& s, const Place& place);        ///< height
+enum class Half { left, right };
+double circulation_in(const HopperSnapshot& s, Where where, Half half);
+template <Where where, Half half>
+double air_circulation(const HopperSnapshot& s, const Place&) {
+  return circulation_in(s, where, half);
+}
+
+/// Integral of the curl du_x/dz - du_z/dx of the air's velocity over the cells of its middle layer whose centres lie
+/// within the rectangle and which hold hardly any grains, m^2/s: central differences within the rectangle, one-sided at
+/// its rim. Positive: up on the left, to the right above.
+double circulation(const GridSnapshot& air, double left, double right, double bottom, double top);
+
+}  // namespace talus::hopper

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "analysis/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/row_values.hpp"
+
+namespace talus {
+
+std::vector<double> those_that_are(std::vector<double> numbers) {
+  const std::size_t members = numbers.size();
+  std::erase_if(numbers, [](double number) { return std::isnan(number); });
+  if (2 * numbers.size() < members) numbers.clear();
+  return numbers;
+}
+
+std::vector<MeasureText> all_measures() {
+  std::vector<MeasureText> texts = texts_of_hopper_measures();
+  for (MeasureText& text : texts_of_avalanche_measures()) texts.push_back(std::move(text));
+  return texts;
+}
+
+std::optional<MeasureText> find_measure(std::string_view name) {
+  for (const MeasureText& text : all_measures())
+    if (text.name == name) return text;
+  return std::nullopt;
+}
+
+}  // namespace talus

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A measure: a name, a unit, what it means, and the function that makes the number from a run, a place and a window of
+/// time. Each stands in one row of one list, hopper_measures() or avalanche_measures(); the summary of a run, its table
+/// of snapshots, the rows of a reference and docs/quantities.md follow from the lists.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "analysis/comparison.hpp"
+#include "analysis/curve.hpp"
+#include "numerics/named_value.hpp"
+
+namespace talus {
+
+/// The numbers of the snapshots of a run, each made when it is first asked for and then remembered.
+template <class Snapshot>
+class SnapshotNumbers {
+ public:
+  /// A number of one snapshot at a place; nan where it has no meaning.
+  using Number = double (*)(const Snapshot& snapshot, const Place& place);
+  using Value = std::function<double(std::size_t n, Number number, const Place& place)>;
+
+  SnapshotNumbers() = default;
+  /// \param time of each snapshot, rising \param value the number of the n-th
+  SnapshotNumbers(std::vector<double> time, Value value) : time_(std::move(time)), memory_(std::make_shared<Memory>()) {
+    memory_->value = std::move(value);
+  }
+  /// \param load reads the n-th snapshot \param kept how many are kept in memory
+  static SnapshotNumbers of(std::vector<double> time,
+                            std::function<std::shared_ptr<const Snapshot>(std::size_t n)> load, std::size_t kept) {
+    auto loaded = std::make_shared<std::map<std::size_t, std::shared_ptr<const Snapshot>>>();
+    return {std::move(time), [=](std::size_t n, Number number, const Place& place) {
+              if (!loaded->contains(n)) {
+                if (loaded->size() >= kept) loaded->erase(loaded->begin());
+                loaded->emplace(n, load(n));
+              }
+              return number(*loaded->at(n), place);
+            }};
+  }
+
+  const std::vector<double>& time() const { return time_; }
+
+  double value(std::size_t n, Number number, const Place& place) const {
+    const auto [found, is_new] = memory_->numbers.try_emplace({n, number, place});
+    if (is_new) found->second = memory_->value(n, number, place);
+    return found->second;
+  }
+
+  /// The number against time, from snapshot `first` on.
+  Curve curve(Number number, const Place& place, std::size_t first = 0) const {
+    Curve curve;
+    for (std::size_t n = first; n < time_.size(); ++n) {
+      curve.time.push_back(time_[n]);
+      curve.value.push_back(value(n, number, place));
+    }
+    return curve;
+  }
+
+ private:
+  struct Memory {
+    Value value;
+    std::map<std::tuple<std::size_t, Number, Place>, double> numbers;
+  };
+  std::vector<double> time_;
+  std::shared_ptr<Memory> memory_;
+};
+
+/// How a measure makes its number from a run.
+template <class Run>
+struct Estimator {
+  using Number = typename SnapshotNumbers<typename Run::Snapshot>::Number;
+  std::function<double(const Run& run, const Place& place, const Window& window)> of;
+  Number number = nullptr;  ///< of a snapshot, if the measure is one number of a snapshot, or a mean or extreme of it
+};
+
+/// Where a summary lists a measure: in runs to which it applies, over that window. Measures that need a place have
+/// none: a summary holds what is defined by the case's own outlet, vessel and bed.
+template <class Run>
+struct InSummary {
+  bool (*applies)(const Run& run) = nullptr;
+  Window (*window)(const Run& run) = nullptr;  ///< null: the whole run, and its end
+};
+
+template <class Run>
+struct Measure {
+  Measure(std::string_view its_name, std::string_view its_unit, std::string_view its_text, Estimator<Run> its_estimator,
+          std::optional<InSummary<Run>> listed = {}, std::vector<std::string_view> lengths = {}, bool lacks = false)
+      : name(its_name),
+        unit(its_unit),
+        text(its_text),
+        estimator(std::move(its_estimator)),
+        in_summary(listed),
+        place(std::move(lengths)),
+        may_lack(lacks) {}
+
+  std::string_view name;
+  std::string_view unit;  ///< SI; "deg" for angles, "1" for numbers
+  std::string_view text;
+  Estimator<Run> estimator;
+  std::optional<InSummary<Run>> in_summary;
+  std::vector<std::string_view> place;  ///< names of the lengths that a row has to bring
+  bool may_lack;  ///< members of an ensemble that have no such number are left out while they are the fewer
+};
+
+/// A measure of several runs against each other or together.
+template <class Run>
+struct GroupMeasure {
+  std::string_view name, unit, text;
+  /// \param groups the members of each variant; nothing if there are too few of them
+  std::optional<double> (*of)(std::span<const std::vector<Run>> groups, const Window& window);
+};
+
+/// What a table or a document says of a measure.
+struct MeasureText {
+  std::string_view name, unit, text;
+  std::vector<std::string_view> place;
+  bool in_summary;
+};
+/// All measures of a model, those of several runs last.
+std::vector<MeasureText> texts_of_hopper_measures();
+std::vector<MeasureText> texts_of_avalanche_measures();
+std::vector<MeasureText> all_measures();
+/// Of any model; nothing if there is no such measure.
+std::optional<MeasureText> find_measure(std::string_view name);
+
+template <class Run>
+std::vector<MeasureText> texts_of(std::span<const Measure<Run>> measures, std::span<const GroupMeasure<Run>> groups) {
+  std::vector<MeasureText> texts;
+  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text, m.place, m.in_summary.has_value()});
+  for (const auto& m : groups) texts.push_back({m.name, m.unit, m.text, {}, false});
+  return texts;
+}
+
+/// What summary.json lists of a run.
+template <class Run>
+std::vector<NamedValue> summary_of(const Run& run, std::span<const Measure<Run>> measures) {
+  std::vector<NamedValue> summary;
+  for (const Measure<Run>& m : measures)
+    if (m.in_summary && m.in_summary->applies(run))
+      summary.push_back({std::string(m.name), std::string(m.unit),
+                         m.estimator.of(run, {}, m.in_summary->window ? m.in_summary->window(run) : Window{})});
+  return summary;
+}
+
+/// The measures that are numbers of a snapshot and need no place: the columns of a run's table of snapshots.
+template <class Run>
+std::vector<Measure<Run>> columns_of_snapshots(std::span<const Measure<Run>> measures) {
+  std::vector<Measure<Run>> columns;
+  for (const Measure<Run>& m : measures)
+    if (m.estimator.number && m.place.empty()) columns.push_back(m);
+  return columns;
+}
+
+template <class Row>
+const Row* find_row(std::span<const Row> rows, std::string_view name) {
+  for (const Row& row : rows)
+    if (row.name == name) return &row;
+  return nullptr;
+}
+
+}  // namespace talus

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The numbers of a reference's row, from runs and a list of measures.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "analysis/measure.hpp"
+
+namespace talus {
+
+/// Numbers of the members of an ensemble without those that are nan, as long as these are the fewer; else none at all.
+std::vector<double> those_that_are(std::vector<double> numbers);
+
+/// The measures of one model.
+template <class Run>
+struct MeasuresOfModel {
+  std::span<const Measure<Run>> of_run;
+  std::span<const GroupMeasure<Run>> of_group;
+  std::function<Run(std::span<const Run> members)> mean;  ///< the members' mean curves, as a run
+};
+
+template <class Run>
+class RowValues {
+ public:
+  /// \param groups the members of each of the row's variants; null where there are none
+  RowValues(const ComparisonRow& row, std::vector<const std::vector<Run>*> groups, const MeasuresOfModel<Run>& measures)
+      : row_(row),
+        groups_(std::move(groups)),
+        measures_(measures),
+        measure_(find_row(measures.of_run, row.quantity)),
+        group_measure_(find_row(measures.of_group, row.quantity)) {}
+
+  /// One a variant, or one of all variants together; nothing where the runs are not there, end before the window does,
+  /// or are too few. \throws std::out_of_range if there is no such measure or it needs another place
+  std::vector<std::optional<double>> values() const {
+    if (row_.from == From::variants) return {of_variants()};
+    std::vector<std::optional<double>> values;
+    for (const auto* members : groups_) values.push_back(is_there(members) ? of_members(*members) : std::nullopt);
+    return values;
+  }
+
+ private:
+  bool is_there(const std::vector<Run>* members) const {
+    const double last = row_.window.at.value_or(row_.window.to);
+    return members && !members->empty() && std::all_of(members->begin(), members->end(), [&](const Run& run) {
+             return !std::isfinite(last) || run.reaches(last);
+           });
+  }
+
+  double of_run(const Run& run) const {
+    if (!measure_) throw std::out_of_range("'" + row_.quantity + "' is no measure of such a run");
+    return measure_->estimator.of(run, row_.place, row_.window);
+  }
+
+  std::optional<double> of_group(std::span<const std::vector<Run>> groups) const {
+    if (!group_measure_) throw std::out_of_range("'" + row_.quantity + "' is no measure of such runs together");
+    return group_measure_->of(groups, row_.window);
+  }
+
+  std::optional<double> of_members(const std::vector<Run>& members) const {
+    switch (row_.from) {
+      case From::curves:
+        return group_measure_ ? of_group({&members, 1}) : of_run(measures_.mean(members));
+      case From::values:
+        return of_group({&members, 1});
+      case From::parameters:
+        return of_run(members.front());
+      case From::each:
+      case From::variants:
+        break;
+    }
+    if (row_.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
+    std::vector<double> numbers;
+    for (const Run& member : members) numbers.push_back(of_run(member));
+    if (measure_->may_lack) numbers = those_that_are(std::move(numbers));
+    return numbers.empty() ? std::nan("") : evaluate(row_.statistic, numbers);
+  }
+
+  std::optional<double> of_variants() const {
+    if (!std::all_of(groups_.begin(), groups_.end(), [&](const auto* members) { return is_there(members); }))
+      return std::nullopt;
+    if (row_.statistic == Statistic::ratio || row_.statistic == Statistic::difference) {
+      std::vector<double> numbers;
+      for (const auto* members : groups_) numbers.push_back(of_run(members->front()));
+      return evaluate(row_.statistic, numbers);
+    }
+    std::vector<std::vector<Run>> groups;
+    for (const auto* members : groups_) groups.push_back(*members);
+    return of_group(groups);
+  }
+
+  const ComparisonRow& row_;
+  std::vector<const std::vector<Run>*> groups_;
+  const MeasuresOfModel<Run>& measures_;
+  const Measure<Run>* measure_;
+  const GroupMeasure<Run>* group_measure_;
+};
+
+}  // namespace talus

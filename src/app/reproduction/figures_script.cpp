@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/reproduction/figures_script.hpp"
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "run/interrupt.hpp"
+#include "run/jobs.hpp"
+
+namespace talus::app {
+
+namespace {
+
+/// Whether a program ends with status 0.
+bool succeeds(std::vector<std::string> arguments, const std::filesystem::path& output) {
+  int status = -1;
+  run::run_jobs(
+      {{.arguments = std::move(arguments), .output = output}}, 1, [&](const run::JobEnd& end) { status = end.status; },
+      [] {}, [] { return run::signal_has_come(); });
+  return status == 0;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> find_python() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path python = std::filesystem::path(folder) / "python3";
+    std::error_code none;
+    if (std::filesystem::exists(python, none) &&
+        succeeds({python.string(), "-c", "import h5py, matplotlib"}, "/dev/null"))
+      return python;
+  }
+  return std::nullopt;
+}
+
+bool run_figures_script(const std::filesystem::path& python, const std::filesystem::path& script,
+                        const std::filesystem::path& folder) {
+  // -B: nothing is left beside the script.
+  return succeeds({python.string(), "-B", script.string(), folder.string()}, folder / "figures.txt");
+}
+
+}  // namespace talus::app
