@@ -11,5 +11,5 @@ def unknown(path, kind, name, known):
     """The error for a name that is not there, with the nearest one that is."""
     known = list(known)
     near = difflib.get_close_matches(str(name), known, 1)
-    return RunError(f'{path}: there is no {kind} "{name}"' + (f'; did you mean "{near[0]}"?' if near else "") +
+    return RunError(f'{path}: there is no {kind} "{name}"' + (f'; did you mean "{near[0]}"?' if near else ".") +
                     f" There are: {', '.join(known) or 'none'}")
