@@ -32,12 +32,6 @@ std::vector<std::size_t> chosen_snapshots(const std::vector<double>& time, std::
   return chosen;
 }
 
-void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
-                 const std::vector<std::vector<double>>& rows) {
-  SeriesWriter table(path, columns);
-  for (const auto& row : rows) table.append(row);
-}
-
 void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns, const Curve& curve) {
   std::vector<std::vector<double>> rows;
   for (std::size_t n = 0; n < curve.time.size(); ++n) rows.push_back({curve.time[n], curve.value[n]});

@@ -23,9 +23,8 @@ std::size_t snapshots_in_memory(const std::vector<std::filesystem::path>& paths)
 /// included; from the first snapshot of a run that ends before. Each once. \param time of the snapshots, rising, s
 std::vector<std::size_t> chosen_snapshots(const std::vector<double>& time, std::size_t count);
 
-/// \throws FileError
-void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
-                 const std::vector<std::vector<double>>& rows);
+using talus::write_table;
+/// A row a point of the curve. \throws FileError
 void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns, const Curve& curve);
 
 /// A row a snapshot, a column a measure that is a number of a snapshot and needs no place; without the columns that

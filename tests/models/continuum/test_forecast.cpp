@@ -47,7 +47,7 @@ TEST(ContinuumForecast, OfASettlingBed) {
 
 TEST(ContinuumForecast, OfASofterBedByTheOtherMethod) {
   Parameters p = section(10e-3, 60e-3);
-  p.law.of<granular::YuuUmekageIsotropic>().scale = 1.5;
+  p.law.of<granular::YuuUmekageIsotropic>().fits.scale = 1.5;
   p.integration.method = Method::runge_kutta;
   p.integration.courant = 0.3;
   p.settle.duration = 5e-3;
