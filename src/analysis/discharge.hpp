@@ -4,7 +4,6 @@
 /// curve does not cover a window the result is nan, or empty.
 #pragma once
 
-
 #include "analysis/curve.hpp"
 
 namespace talus {

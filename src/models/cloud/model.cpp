@@ -65,8 +65,8 @@ std::vector<RegimeLine> Cloud::regime(const RunRecord& record) const {
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
   lines.push_back({"Reynolds number of the fastest grain", fmt::format("{:.3g}", fastest),
                    "the same at the largest speed of the run", fastest > 0.1});
-  lines.push_back(
-      {"largest overlap", fmt::format("{:.3g} a_p", overlap), "of the run, overlap_max; hard grains: a few hundredths at most", overlap > 0.1});
+  lines.push_back({"largest overlap", fmt::format("{:.3g} a_p", overlap),
+                   "of the run, overlap_max; hard grains: a few hundredths at most", overlap > 0.1});
   return lines;
 }
 
