@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files of a run that a broken disk or a careless hand has changed: --resume goes on to the same bits, or refuses with
+exit status 2 or 4 and a message; with the folder as it was, it goes on to the same bits."""
+import shutil
+
+from attack import Attack, bits, contents, require
+from small_cases import CLOUD, HOPPER
+
+RUN = ("run", "case.toml", "--out", "r", "--threads", 1)
+
+
+def change(random, content):
+    """One mutation; never the same bytes."""
+    kind = random.choice(("flip", "flip", "cut", "tear", "zero", "text", "double"))
+    if not content or kind == "text":
+        place = random.randrange(len(content) + 1)
+        return content[:place] + random.randbytes(random.randint(1, 40)) + content[place:], kind
+    place = random.randrange(len(content))
+    if kind == "flip":
+        return content[:place] + bytes([content[place] ^ 1 << random.randrange(8)]) + content[place + 1:], kind
+    if kind == "cut":
+        return content[:place], kind
+    if kind == "tear":  # a block that never reached the disk
+        end = min(len(content), place + random.choice((16, 512, 4096)))
+        return content[:place] + bytes(byte ^ 0xA5 for byte in content[place:end]) + content[end:], kind
+    if kind == "zero":
+        return b"\0" * (len(content) + 1), kind
+    return content + content, kind
+
+
+def is_result(name):
+    """Snapshots, their index and the series carry no checksum: a change that leaves them readable is not noticed, which
+    is counted and told, since docs/reliability.md promises nothing else."""
+    return name.startswith("snapshots/") or name == "series.csv"
+
+
+class Damage(Attack):
+    text, unnoticed = CLOUD, 0
+
+    def prepare(self):
+        (self.folder / "case.toml").write_text(self.text)
+        self.talus(RUN, self.folder)
+        self.expected = bits(self.folder / "r")
+        # The same stopped on its way, as a kill leaves it, and stopped at its end.
+        self.talus([*RUN[:3], "half", *RUN[4:], "--walltime", "0.05"], self.folder, (130,))
+
+    def trial(self, random, folder, most):
+        (folder / "case.toml").write_text(self.text)
+        shutil.copytree(self.folder / random.choice(("half", "half", "r")), folder / "r")
+        (folder / "r/mine.txt").write_text("mine")
+        before = contents(folder / "r")
+        groups = sorted({name.split("_")[0] for name in before if name != "mine.txt"})
+        group = random.choice(groups)
+        name = random.choice([name for name in before if name.split("_")[0] == group])
+        damaged, kind = change(random, before[name])
+        (folder / "r" / name).write_bytes(damaged)
+        what = f"{name} ({kind})"
+        status, _ = self.talus([*RUN, "--resume"], folder, (0, 2, 4))
+        require((folder / "r/mine.txt").read_text() == "mine", f"{what}: the user's file is changed")
+        if status != 0:  # as it was before the disk broke
+            shutil.rmtree(folder / "r")
+            for key, content in before.items():
+                (folder / "r" / key).parent.mkdir(parents=True, exist_ok=True)
+                (folder / "r" / key).write_bytes(content)
+            self.talus([*RUN, "--resume"], folder)
+        (folder / "r/mine.txt").unlink()
+        found = bits(folder / "r")
+        wrong = [key for key in found.keys() | self.expected.keys() if found.get(key) != self.expected.get(key)]
+        if status == 0 and wrong and is_result(name):
+            self.unnoticed += 1
+            self.note = f"{self.unnoticed} changed results went unnoticed"
+            return 1
+        require(not wrong, f"{what}: exit status {status}: other bits: {wrong}")
+        return 1
+
+
+class DamagedCloud(Damage):
+    name, full = "damaged files: a cloud", 1000
+
+
+class DamagedHopper(Damage):
+    name, full = "damaged files: a hopper in air", 1000
+    text = HOPPER

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cases that take a few tenths of a second and write every kind of file."""
+
+CLOUD = """model = "cloud"
+seed = 3
+motion = "xy"
+[particles]
+shape = "circle"
+count = 60
+size = "60 mm"
+radius = "5 mm"
+density = "20 kg/m3"
+[slope]
+angle = "45 deg"
+[integration]
+largest_step = 0.003
+[run]
+end = "1 ms"
+[output]
+snapshots = "0.1 ms"
+pictures = false
+checkpoint_interval = "5 ms"
+"""
+
+# Some hundred steps of settling, then the gate; eighty particles of 5 mm.
+HOPPER = """model = "continuum"
+[box]
+width = "50 mm"
+depth = "5 mm"
+height = "90 mm"
+[plate]
+height = "40 mm"
+slit_left = "10 mm"
+slit_right = "40 mm"
+[gate]
+opens = "when-settled"
+[grains]
+density = "2500 kg/m3"
+diameter = "200 um"
+[bed]
+packing = 0.6
+spacing = "5 mm"
+height = "20 mm"
+[air]
+enabled = true
+continuity = "air-alone"
+formulation = "model-b"
+cell = "5 mm"
+[settle]
+longest = "30 ms"
+duration = "1 ms"
+speed = "50 mm/s"
+damping_time = "1 ms"
+[integration]
+method = "leapfrog"
+courant = 0.6
+[run]
+end = "4 ms"
+[output]
+snapshots = "0.5 ms"
+series = "0.1 ms"
+pictures = false
+checkpoint_interval = "5 ms"
+"""
+
+# A study under a name that `talus reproduce` knows: two variants of the cloud, one row that is met.
+REFERENCE = """study = "niiya2020"
+title = "A small study"
+source = "the campaign"
+members = 2
+time_unit = "a/v_s"
+[case.circle]
+file = "cloud.toml"
+where = { "particles.shape" = "circle" }
+told_by = ["slope.angle"]
+[case.circle.radius]
+"flat" = { "slope.angle" = "30 deg" }
+"steep" = { "slope.angle" = "50 deg" }
+[[row]]
+id = "speed"
+number = 1
+quantity = "front_speed_max"
+case = "circle"
+radius = ["flat", "steep"]
+estimator = "front_speed"
+from = "each"
+window = { from = 0, to = "end" }
+printed = "between"
+unit = "1"
+criterion = { between = [0, 1e9] }
+source = "the campaign"
+"""
+
+# In place of figures: a page that is made of what the program wrote.
+FIGURES = """import pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+text = (folder / "comparison.txt").read_text()
+(folder / "page.md.part").write_text(text)
+(folder / "page.md.part").rename(folder / "page.md")
+"""
