@@ -26,6 +26,7 @@ struct HopperSetting {
   double grain_density = 0, grain_diameter = 0, gravity = 0;
   std::optional<double> smoothing_length = {};  ///< of all particles; left out: of each from its density
   bool air = false;
+  double stress_share = 1;  ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }
 };

@@ -240,7 +240,9 @@ const std::map<std::string_view, OfRun>& quantities_of_a_run() {
        }},
       {"weight_balance_error", balance_error},
       {"floor_stress_settled",
-       [](Run r, In) { return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth); }},
+       [](Run r, In) {
+         return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth * r.setting.stress_share);
+       }},
       {"floor_stress_error", [](Run r, In) { return settled_force(r) / (r.setting.mass() * r.setting.gravity) - 1; }},
       {"period_discharge", period_of("discharge_rate")},
       {"period_density", period_of("probe_density")},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/cloud/cloud_case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,6 +17,7 @@
 #include "models/cloud/model.hpp"
 #include "models/cloud/stiffness.hpp"
 #include "numerics/chebyshev.hpp"
+#include "numerics/dormand_prince.hpp"
 
 namespace talus::app {
 
@@ -24,12 +27,24 @@ using cloud::Cloud;
 using cloud::Grains;
 using cloud::Parameters;
 
+/// Columns that the model has no use for, and that say that somebody thinks it has.
+void refuse_velocities(const Snapshot& points, std::vector<Problem>& problems) {
+  for (const char* name : {"velocity", "velocity_x", "velocity_y", "velocity_z", "vx", "vy", "vz"})
+    if (points.has(name))
+      problems.push_back({.key = "particles.file",
+                          .what = fmt::format("has a column {}: a cloud has no inertia, its velocities follow from "
+                                              "the places of the grains at every moment (Eq. 4a)",
+                                              name),
+                          .allowed = "columns x, y, z and radius"});
+}
+
 /// Reads the points of particles.file; radii that the file does not give are the mean radius.
-Grains read_grains(const CaseFile& file, const Parameters& p) {
+Grains read_grains(const CaseFile& file, const Parameters& p, std::vector<Problem>& problems) {
   std::filesystem::path path = p.particles.file;
   if (path.is_relative()) path = std::filesystem::path(file.name()).parent_path() / path;
   const PointSet points = read_points_csv(path);
   const Snapshot view = points.view();
+  refuse_velocities(view, problems);
   Grains grains;
   grains.position.assign(view.positions().begin(), view.positions().end());
   if (view.has("radius")) {
@@ -67,12 +82,18 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run, const Grai
   const cloud::Scales s = cloud::scales(p);
   const double step = p.integration.largest_step * s.stokes_time;
   const double rate = cloud::contact_rate(p);
-  const bool euler = p.integration.method == cloud::Method::euler;
+  const cloud::Method method = p.integration.method;
   const double n = static_cast<double>(grains.radius.size());
   Forecast f;
-  f.steps = std::ceil(run.end / (euler && rate > 0 ? std::min(step, 1.9 / rate) : step));
+  const double stable = method == cloud::Method::euler            ? 1.9 / rate
+                        : method == cloud::Method::dormand_prince ? dormand_prince::stability / rate
+                                                                  : step;
+  f.steps = std::ceil(run.end / (rate > 0 ? std::min(step, stable) : step));
   // A step ends with an evaluation, and every fifth measures the stiffest rate with one or two.
-  f.evaluations = f.steps * ((euler ? 1 : stages_for(step * rate, 0.1)) + 0.3);
+  f.evaluations = f.steps * ((method == cloud::Method::euler            ? 1
+                              : method == cloud::Method::dormand_prince ? dormand_prince::evaluations
+                                                                        : stages_for(step * rate, 0.1)) +
+                             0.3);
 
   ThreadTeam team(1);
   cloud::Velocities velocities(p, grains.radius);
@@ -132,9 +153,11 @@ PreparedCase prepare_cloud(const CaseFile& file) {
 
   std::optional<Grains> given;
   if (p.particles.shape == cloud::Shape::file) {
-    given = read_grains(file, p);
+    std::vector<Problem> problems;
+    given = read_grains(file, p, problems);
     ParameterReader points(file);
     for_each_parameter(points, p);
+    points.check(problems);
     points.check(cloud::check_grains(p, *given));
     points.raise();
     p.particles.count = static_cast<std::int64_t>(given->radius.size());

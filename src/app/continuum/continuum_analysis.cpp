@@ -82,7 +82,8 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .grain_diameter = p.grains.diameter,
                         .gravity = p.gravity.acceleration,
                         .smoothing_length = {},
-                        .air = p.air.enabled};
+                        .air = p.air.enabled,
+                        .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};
   else if (p.plate.height)

@@ -37,7 +37,9 @@ std::vector<NamedValue> groups(const Parameters& p) {
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty())
-    groups.push_back({"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height});
+    groups.push_back({"floor_stress_expected", "Pa",
+                      density * p.gravity.acceleration * p.bed.height /
+                          (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const auto outlet = continuum::outlet_of(p))
     groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;
@@ -57,9 +59,11 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
     elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   } while (elapsed < 0.2);
   Forecast f;
-  const double settling = p.gate.opens == continuum::GateOpens::when_settled
-                              ? p.settle.duration + 5 * p.settle.damping_time.value_or(p.settle.longest / 10)
-                              : p.gate.time;
+  const double settling =
+      p.gate.opens == continuum::GateOpens::when_settled
+          ? continuum::loading_time(p, continuum::Material(p).sound_speed(p.bed.packing * p.grains.density)) +
+                p.settle.duration + 5 * p.settle.damping_time.value_or(p.settle.longest / 10)
+          : p.gate.time;
   f.steps = std::ceil((run.end + settling) / model.state().last_step);
   f.evaluations = f.steps;
   f.seconds_per_evaluation = elapsed / steps;

@@ -69,6 +69,7 @@ struct Parameters {
     double height = 0;
     std::optional<double> bottom;
     std::optional<double> left, right;
+    std::optional<std::array<double, 3>> velocity;
   } bed;
   granular::LawParameters law;
   struct Sph {
@@ -95,6 +96,7 @@ struct Parameters {
     double speed = 0.5e-3;
     double duration = 20e-3;
     double longest = 1;
+    std::optional<double> loading_time;
     std::optional<double> damping_time;
   } settle;
   struct Integration {
@@ -169,7 +171,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
 
-  visit(Parameter{"bed.packing", dimension::none, between(0.1, 0.74), "packing fraction at the start"}, p.bed.packing);
+  visit(Parameter{"bed.packing", dimension::none, between(1e-4, 0.74), "packing fraction at the start"}, p.bed.packing);
   visit(Parameter{"bed.spacing", dimension::length, above(0),
                   "distance of the particles at the start; fitted to whole numbers of particles along each side", true},
         p.bed.spacing);
@@ -185,6 +187,8 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.bed.left);
   visit(Parameter{"bed.right", dimension::length, above(0), "where the bed ends along x; left out: the right face"},
         p.bed.right);
+  visit(Parameter{"bed.velocity", dimension::velocity, {}, "velocity of the bed at the start; left out: it is at rest"},
+        p.bed.velocity);
 
   granular::for_each_parameter(visit, p.law);
 
@@ -236,6 +240,12 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
   visit(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
         p.settle.longest);
+  visit(
+      Parameter{"settle.loading_time", dimension::time, at_least(0),
+                "time over which gravity comes on while the bed settles, so that no wave passes through it that would "
+                "press it harder than its weight does; 0: at once; left out: that of twenty passages of a pressure "
+                "wave through the bed's height, at most a quarter of settle.longest"},
+      p.settle.loading_time);
   visit(Parameter{"settle.damping_time", dimension::time, above(0),
                   "time in which velocities decay by a factor e until the gate opens, which spares waiting; left out: "
                   "no such damping"},

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "models/continuum/displacement.hpp"
 #include "models/continuum/sort.hpp"
@@ -25,8 +26,13 @@ namespace {
 
 constexpr std::uint64_t builds_between_sorts = 16;
 
-Vector3 gravity(const Parameters& p) {
-  return {0, 0, -p.gravity.acceleration};
+/// Laid at the packing at which it just touches, a bed that got its weight at once would be pressed by up to twice of
+/// it before it came to rest: overconsolidated, with up to half as much horizontal stress again. So the weight comes on
+/// as half a cosine, slower than a wave passes; a bed whose gate goes by the clock, or that has none, has it all.
+Vector3 gravity(const Parameters& p, const State& s, const Workspace& w, double time) {
+  const double share =
+      s.gate_time < 0 && time < w.loading_time ? 0.5 * (1 - std::cos(std::numbers::pi * time / w.loading_time)) : 1.0;
+  return {0, 0, -share * p.gravity.acceleration};
 }
 
 /// Acceleration by the air, which lasts over a step of its own.
@@ -54,11 +60,11 @@ void strain(ThreadTeam& team, State& s, Workspace& w, double dt) {
 
 /// The explicit midpoint rule.
 void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
-  const Vector3 g = gravity(p);
+  const Vector3 start = gravity(p, s, w, s.time), g = gravity(p, s, w, s.time + 0.5 * dt);
   const std::size_t count = s.position.size();
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
-    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + g + by_air(s, i));
+    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
     w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
   });
   measure_strain_at(team, s, w, w.position);
@@ -79,7 +85,7 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
 /// Velocities live half a step before positions, densities and stresses: kick, half a drift, strain, half a drift. It
 /// neither damps nor feeds waves, and evaluates forces and gradients once each.
 void leapfrog(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
-  const Vector3 g = gravity(p);
+  const Vector3 g = gravity(p, s, w, s.time);
   const double kick = 0.5 * (s.last_step + dt);
   const std::size_t count = s.position.size();
   for_each(team, count,
@@ -226,7 +232,8 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
       team, s.velocity.size(), std::size_t{0},
       [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
       [](std::size_t a, std::size_t b) { return a + b; });
-  const bool quiet = 100 * moving <= s.velocity.size();
+  const bool loaded = s.gate_time >= 0 || s.time >= w.loading_time;
+  const bool quiet = loaded && 100 * moving <= s.velocity.size();
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);
@@ -251,6 +258,7 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
 Workspace::Workspace(const Parameters& parameters, const State& state)
     : material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
+      loading_time(continuum::loading_time(parameters, sound_speed)),
       sweep(parameters, state.mass, sound_speed),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters) : nullptr),
       position(state.position.size()),
@@ -258,6 +266,12 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       density(state.position.size()),
       columns(state.material),
       smoothing_length(state.position.size()) {}
+
+double loading_time(const Parameters& p, double sound_speed) {
+  constexpr double passages = 20, most = 0.25;
+  if (p.gate.opens != GateOpens::when_settled) return 0;
+  return p.settle.loading_time.value_or(std::min(passages * p.bed.height / sound_speed, most * p.settle.longest));
+}
 
 void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (p.gate.opens == GateOpens::from_the_start) s.gate_time = 0;

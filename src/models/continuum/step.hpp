@@ -17,7 +17,8 @@ namespace talus::continuum {
 /// What a step needs beside the state; made anew from the state when a run is resumed.
 struct Workspace {
   Material material;
-  double sound_speed;  ///< bound for the time step, m/s
+  double sound_speed;   ///< bound for the time step, m/s
+  double loading_time;  ///< over which gravity comes on, s
   Sweep sweep;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
@@ -46,6 +47,10 @@ void begin(ThreadTeam& team, const Parameters& parameters, State& state, Workspa
 
 /// Recomputes what follows from kept fields, after a checkpoint was read.
 void derive(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+
+/// Time over which gravity comes on while the bed settles, s; 0 in a case without settling.
+/// \param sound_speed of pressure waves in the bed, m/s
+double loading_time(const Parameters& parameters, double sound_speed);
 
 /// The step that the Courant number allows, s, or the fixed one; air may ask for another.
 double time_step(ThreadTeam& team, const Parameters& parameters, const State& state, const Workspace& workspace);
