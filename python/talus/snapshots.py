@@ -106,22 +106,24 @@ class AirSnapshot(_Frame):
 
     @property
     def shape(self):
-        return tuple(int(n) for n in self._head["WholeExtent"][1::2] + 1)
+        return tuple(int(n) for n in self._head["cells"])
 
     @property
     def spacing(self):
         return Column(self._head["Spacing"], "m")
 
     def _centres(self, axis):
-        return Column(self._head["Origin"][axis] + self._head["Spacing"][axis] * np.arange(self.shape[axis]), "m")
+        count, spacing = self.shape[axis], self._head["Spacing"][axis]
+        first = self._head["Origin"][axis] + (0.5 * spacing if count == 1 else 0)
+        return Column(first + spacing * np.arange(count), "m")
 
     x = property(lambda self: self._centres(0))
     y = property(lambda self: self._centres(1))
     z = property(lambda self: self._centres(2))
 
-    @staticmethod
-    def _shaped(values):
-        return np.ascontiguousarray(np.moveaxis(values, (0, 1, 2), (2, 1, 0)))  # the file has z first
+    def _shaped(self, values):
+        nx, ny, nz = self.shape  # the file has z first, and an only cell at both of its faces
+        return np.ascontiguousarray(np.moveaxis(values[:nz, :ny, :nx], (0, 1, 2), (2, 1, 0)))
 
     def layer(self, name, y=None):
         """A column over x and z, (nx, nz[, 3]): in the cells at the depth `y`, or in the middle of the depth."""

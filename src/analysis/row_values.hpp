@@ -48,7 +48,8 @@ class RowValues {
 
  private:
   bool is_there(const std::vector<Run>* members) const {
-    const double last = row_.window.at.value_or(row_.window.to);
+    const Window& window = row_.window;
+    const double last = window.at.value_or(std::isfinite(window.to) ? window.to : window.from);
     return members && !members->empty() && std::all_of(members->begin(), members->end(), [&](const Run& run) {
              return !std::isfinite(last) || run.reaches(last);
            });

@@ -10,7 +10,7 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
-#include "app/prepared_case.hpp"
+#include "app/models/models.hpp"
 #include "base/memory.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_writer.hpp"
@@ -83,7 +83,7 @@ ExitStatus check(const CaseOptions& options, int threads) {
     say("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
   if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
     say("\nWarnings: the case leaves what its laws and the method assume:\n");
-    for (const Warning& warning : warnings) say("  ! {}\n", warning.text);
+    for (const Warning& warning : warnings) say("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
   }
   print_forecast(prepared, threads, key);
   return ExitStatus::done;

@@ -62,10 +62,13 @@ double of_run(std::string_view name, Window window = {}) {
   return measure(name, synthetic(0, 1), window);
 }
 
-const MeasuresOfModel<AvalancheRun> measures{avalanche_measures(), avalanche_group_measures(), mean_run};
+const MeasuresOfModel<AvalancheRun>& measures_of_model() {
+  static const MeasuresOfModel<AvalancheRun> measures{avalanche_measures(), avalanche_group_measures(), mean_run};
+  return measures;
+}
 
 std::optional<double> of_row(const ComparisonRow& row, const std::vector<AvalancheRun>& members) {
-  return RowValues<AvalancheRun>(row, {&members}, measures).values().at(0);
+  return RowValues<AvalancheRun>(row, {&members}, measures_of_model()).values().at(0);
 }
 
 TEST(AvalancheMeasures, OfAKnownRun) {
@@ -163,7 +166,7 @@ TEST(RadiiQuantity, WidthsProportionalToTheRadius) {
     const ComparisonRow row{.quantity = std::move(quantity), .from = From::variants};
     std::vector<const std::vector<AvalancheRun>*> groups;
     for (const auto& members : ensembles) groups.push_back(&members);
-    return RowValues<AvalancheRun>(row, groups, measures).values().at(0);
+    return RowValues<AvalancheRun>(row, groups, measures_of_model()).values().at(0);
   };
   EXPECT_NEAR(*of("head_width_line_r_squared"), 1, 1e-12);
   EXPECT_NEAR(*of("head_width_line_origin_r_squared"), 1, 1e-12);
@@ -221,7 +224,7 @@ TEST(Reference, EveryRowOfThePaperCanBeEvaluated) {
     EXPECT_NO_THROW({
       std::vector<const std::vector<AvalancheRun>*> groups;
       for (const auto& members : ensembles) groups.push_back(&members);
-      for (const auto& value : RowValues<AvalancheRun>(row, groups, measures).values()) EXPECT_TRUE(value) << row.id;
+      for (const auto& value : RowValues<AvalancheRun>(row, groups, measures_of_model()).values()) EXPECT_TRUE(value) << row.id;
     }) << row.id;
   }
 }

@@ -50,6 +50,7 @@ TEST_F(SnapshotIndex, LeavesOutWhatAResumedRunWillReplaceAndTakesItsNewTime) {
 TEST_F(SnapshotIndex, IsMadeAnewWhereItIsMissingOrDamaged) {
   write(0, 0);
   write(1, 0.1);
+  index_snapshots(folder_, 1);
   for (const char* damage : {"", "{\"files\": [", "{}", R"({"files": [{"name": "particles_0000.vtkhdf"}]})"}) {
     put_content(folder_.snapshot_index(), damage);
     index_snapshots(folder_, 1);

@@ -178,9 +178,13 @@ TEST_F(FullDisk, KeepsManifestAndSummary) {
   EXPECT_EQ(read_summary(folder_->summary()).status, "running");
 }
 
-/// Everything that a run writes fails with this reason, and names its file.
+/// Everything that a run writes fails with this reason, and names the file: of one that is not there yet the list of
+/// files, which would have to name it first.
 void expect_nothing_writable(const RunFolder& folder, const std::string& reason) {
-  const auto expected = [&](const std::filesystem::path& path) { return path.string() + ": cannot open: " + reason; };
+  const auto expected = [&](const std::filesystem::path& path) {
+    const auto file = std::filesystem::exists(path) ? path : folder.path() / "files.txt";
+    return file.string() + ": cannot open: " + reason;
+  };
   EXPECT_EQ(message_of<FileError>([&] { write_snapshot(folder, 1); }), expected(folder.snapshot(1)));
   EXPECT_EQ(message_of<FileError>([&] { SeriesWriter(folder.series(), series_columns); }), expected(folder.series()));
   EXPECT_EQ(message_of<FileError>([&] { CheckpointFiles(folder.path()).save(checkpoint_of(1)); }),

@@ -30,6 +30,8 @@ class Hoppers:
             table = hopper.run.table("snapshots")
             flowing = table["time"] >= 0
             for where, dash in (("hopper", "-"), ("bin", "--")):
+                if f"surface_angle_{where}" not in table:  # nothing lies there yet
+                    continue
                 ax.plot(table["time"][flowing], table[f"surface_angle_{where}"][flowing], dash, color=hopper.colour,
                         label=f"{hopper.variant}, {where}")
         ax.axhline(30, color=talus.draw.MUTED, linewidth=0.6, linestyle=":", label="printed at rest")

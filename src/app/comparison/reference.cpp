@@ -223,8 +223,8 @@ void check_measure(Reader& reader, const toml::node& node, const ComparisonRow& 
                  std::string(nearest(row.quantity, names)));
     return;
   }
-  if (row.unit != measure->unit)
-    reader.fault(node, "unit", "is not that of " + row.quantity, std::string(measure->unit));
+  const std::string_view unit = row.statistic == Statistic::ratio ? "1" : measure->unit;
+  if (row.unit != unit) reader.fault(node, "unit", "is not that of " + row.quantity, std::string(unit));
   for (const std::string_view length : measure->place)
     if (!row.place.contains(length))
       reader.fault(node, "place", fmt::format("{} needs {}", row.quantity, length), "lengths, such as \"120 mm\"");

@@ -19,15 +19,6 @@ int fold(int place, int count, bool is_periodic) {
   return place;
 }
 
-/// Whether a place lies beyond an open face of the box.
-bool has_left(const Box& box, const Vector3& x) {
-  for (int axis = 0; axis < 3; ++axis)
-    if ((x[axis] < box.low[axis] && box.face(axis, 0) == FaceKind::open) ||
-        (x[axis] > box.high[axis] && box.face(axis, 1) == FaceKind::open))
-      return true;
-  return false;
-}
-
 /// The kernel where the square of the distance is square[i] + beside. \param per_width over the smoothing length
 TALUS_CLONES void weigh_row(std::size_t count, const double* square, double beside, double per_width,
                             double* __restrict weight) {
@@ -43,7 +34,9 @@ struct Deposition::Scratch {
     int from = 0;                   // the first one along an axis
     std::vector<double> square;     // of the distance of each one's centre, m^2; then far ones, to a whole vector
     std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for
-    std::vector<int> cell;          // each once
+    std::vector<int> cell;          // each once; `left` for all beyond an open face
+
+    static constexpr int left = -1;
 
     void find(const Grid& grid, const Box& box, int axis, double x, double reach);
   };
@@ -56,10 +49,15 @@ void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis
   const double width = grid.spacing[axis], place = (x - grid.low[axis]) / width - 0.5;
   const int to = static_cast<int>(std::floor(place + reach / width));
   from = static_cast<int>(std::ceil(place - reach / width));
+  const int count = grid.count[static_cast<std::size_t>(axis)];
+  const bool is_periodic = box.face(axis, 0) == FaceKind::periodic;
+  const auto has_left = [&](int n) {
+    return (n < 0 && box.face(axis, 0) == FaceKind::open) || (n >= count && box.face(axis, 1) == FaceKind::open);
+  };
   square.clear(), slot.clear(), cell.clear();
   for (int n = from; n <= to; ++n) {
     square.push_back((n - place) * (n - place) * width * width);
-    const int within = fold(n, grid.count[static_cast<std::size_t>(axis)], box.face(axis, 0) == FaceKind::periodic);
+    const int within = has_left(n) ? left : fold(n, count, is_periodic);
     const auto found = std::find(cell.begin(), cell.end(), within);
     slot.push_back(static_cast<std::size_t>(found - cell.begin()));
     if (found == cell.end()) cell.push_back(within);
@@ -96,7 +94,6 @@ void Deposition::weigh(ThreadTeam& team, std::span<const Vector3> position, std:
 }
 
 void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& block) const {
-  if (has_left(domain_.box(), x)) return block.end.push_back(block.end.empty() ? 0 : block.end.back());
   // At least the nearest cell's centre is within reach.
   const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
   const double per_width = sph::support / reach;
@@ -144,11 +141,12 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
     for (std::size_t j = 0; j < along_y.cell.size(); ++j) {
       const double* row = sum + columns * (j + rows * k);
+      const bool row_has_left = along_y.cell[j] == Scratch::Along::left || along_z.cell[k] == Scratch::Along::left;
       const auto first = static_cast<std::uint32_t>(grid_.index(0, along_y.cell[j], along_z.cell[k]));
       for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
         cell[end] = first + static_cast<std::uint32_t>(along_x.cell[i]);
         kept[end] = row[i], total += row[i];
-        end += row[i] > 0;
+        end += row[i] > 0 && !row_has_left && along_x.cell[i] != Scratch::Along::left;
       }
     }
   for (std::size_t n = begin; n < end; ++n) kept[n] /= total;
@@ -180,6 +178,7 @@ bool Deposition::is_behind_panel(const Vector3& x, const Scratch& scratch, std::
   for (std::size_t a = 0; a < 3; ++a) {
     const Scratch::Along& along = scratch.along[a];
     place[a] = along.from + static_cast<int>(cell[a]), within[a] = along.cell[along.slot[cell[a]]];
+    if (within[a] == Scratch::Along::left) within[a] = place[a];
   }
   const Vector3 centre = grid_.centre(within[0], within[1], within[2]);
   const Vector3 moved = centre - grid_.centre(place[0], place[1], place[2]);

@@ -5,9 +5,9 @@
 /// The weights of a particle are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
 /// round-off. What would fall beyond a face of the box or the solid part of a plate is folded back, as the particle's
 /// image behind it would spread it, so that a bed is as dense at a face as within; what would leave through a periodic
-/// face comes in at the other. A particle beyond an open face has left: it has no weights, neither fills the air nor
-/// feels it, and the cells at the face hold what is within the box and no more. Cells that a panel hides from a
-/// particle have no share in it, those it sees the more.
+/// face comes in at the other. What would fall beyond an open face has left: no cell has it, so that the weights of a
+/// particle that leaves fall to nothing without a jump, and a stream is as dense at the face as within. Cells that a
+/// panel hides from a particle have no share in it, those it sees the more.
 #pragma once
 
 #include <array>

@@ -311,7 +311,7 @@ TEST(Advance, SaysWhatHoldsTheStep) {
     ThreadTeam team(1);
     Cloud cloud(p, two_grains(p, 1.9));
     cloud.begin(team);
-    for (int n = 0; n < 3; ++n) cloud.advance(team);
+    for (int n = 0; n < 100; ++n) cloud.advance(team);
     return cloud.step_limit();
   };
   Parameters p = disc(2);
