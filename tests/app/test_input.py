@@ -360,15 +360,6 @@ class ExistingFolder(ProgramTest):
         self.assertRegex(said, r"integration\.instruction_set: portable in the run there, \w+ now")
         self.assertEqual(tree(self.folder), before)
 
-    def test_a_cloud_takes_no_velocities(self):
-        (self.folder / "case.toml").write_text(POINTS)
-        (self.folder / "points.csv").write_text("x [m],y [m],vx [m/s],velocity_y [m/s]\n0,0,1,0\n0.02,0,1,0\n")
-        before = tree(self.folder)
-        said = self.talus("run", "case.toml", "--out", "r", status=2).stderr
-        self.assertIn("has a column vx: a cloud has no inertia", said)
-        self.assertIn("has a column velocity_y: a cloud has no inertia", said)
-        self.assertEqual(tree(self.folder), before)
-
     def test_changed_points_are_not_resumed(self):
         (self.folder / "case.toml").write_text(POINTS)
         (self.folder / "points.csv").write_text("x [m],y [m]\n0,0\n0.02,0\n0,0.03\n")
