@@ -36,9 +36,12 @@ bool air(const Run& run) {
 
 const std::vector<Row> list = {
     Row("floor_stress_settled", "Pa",
-        "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate opens",
+        "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate "
+        "opens; "
+        "with `sph.stress_form = \"printed\"`, where the grains feel 1 - Φ of their stress (Eq. 17), that over the "
+        "bed's packing: the stress itself",
         {[](const Run& r, const Place&, const Window&) {
-          return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth);
+          return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth * r.setting.stress_share);
         }},
         {{level_ground}}),
     Row("floor_stress_error", "1", "the same force over M g, less 1", {[](const Run& r, const Place&, const Window&) {

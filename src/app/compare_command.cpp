@@ -17,7 +17,7 @@ namespace talus::app {
 namespace {
 
 struct CompareOptions {
-  std::string folder, other, json, picture = "compare.png";
+  std::string folder, other, json, picture;
 };
 
 ExitStatus compare_with_reference(const CompareOptions& options) {
@@ -37,11 +37,10 @@ void add_compare_command(CLI::App& app, Action& action) {
   command->add_option("DIR", options->folder, "folder of a run, an ensemble or a reproduction")->required();
   command->add_option("OTHER", options->other, "REFERENCE.toml, or the folder of another run")->required();
   command->add_option("--json", options->json, "also write the rows, and which runs they are of, to this file");
-  command->add_option("--picture", options->picture, "two runs: draw their series over each other into this PNG")
-      ->capture_default_str();
+  command->add_option("--picture", options->picture, "two runs: also draw their series over each other into this PNG");
   command->footer(
       "Against a reference: every row printed, computed, met or not; exit status 1 if one is not met. Two runs: their\n"
-      "quantities side by side and their series in one picture.");
+      "quantities side by side, and their series in one picture with --picture. Nothing is written unless asked for.");
   command->callback([options, &action] {
     action = [options] {
       if (std::filesystem::is_directory(options->other))

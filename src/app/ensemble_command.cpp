@@ -12,6 +12,7 @@
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "app/ensemble/statistics.hpp"
+#include "app/ensemble/sweep.hpp"
 #include "base/terminal.hpp"
 #include "io/file_list.hpp"
 #include "run/interrupt.hpp"
@@ -30,15 +31,14 @@ ExitStatus ensemble(const EnsembleRequest& request) {
 
   const ScheduleResult result = run_members(runs, request.jobs);
   std::vector<std::filesystem::path> pictures;
+  std::vector<SweptGroup> groups;
   for (const EnsembleGroup& group : plan.groups) {
     const auto drawn = write_group(group, request.folder / group.name);
     pictures.insert(pictures.end(), drawn.begin(), drawn.end());
-    say("{}:\n", group.name);
-    for (const QuantitySpread& spread : quantity_spreads(group))
-      if (!spread.values.empty())
-        say("  {:28} {:>12.6g} ± {:<10.4g} {} ({} members)\n", spread.name, spread.mean, spread.deviation,
-            spread.unit == "1" ? "" : spread.unit, spread.values.size());
+    groups.push_back({&group, quantity_spreads(group)});
   }
+  say("{}", sweep_text(groups));
+  if (!request.vary.empty()) write_sweep(groups, request.folder);
   for (const FailedRun& failed : result.failed)
     say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
   say("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(), request.folder.string());
@@ -77,8 +77,11 @@ void add_ensemble_command(CLI::App& app, Action& action) {
   command->footer(
       "Each member is an ordinary run's folder, FOLDER/GROUP/seed_0001. Beside them: members.csv, quantities.csv "
       "(mean\n"
-      "and standard deviation), bands_*.csv and pictures. A killed ensemble goes on with --resume. Exit status 3 if a\n"
-      "member failed; those that did are listed.");
+      "and standard deviation), bands_*.csv and pictures; with --vary, FOLDER/sweep.csv and sweep.json: the varied "
+      "keys\n"
+      "against every quantity. A killed ensemble goes on with --resume. Exit status 3 if a member failed; those that "
+      "did\n"
+      "are listed.");
   command->callback([options, &action] {
     action = [options] {
       EnsembleRequest request = options->request;

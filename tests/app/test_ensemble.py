@@ -50,6 +50,33 @@ class Ensemble(ProgramTest):
                                (sum((value - mean) ** 2 for value in values) / 2) ** 0.5, delta=1e-9 * mean)
         self.assertEqual((float(row["least"]), float(row["largest"])), (min(values), max(values)))
 
+    def test_a_sweep_is_a_table_of_values_against_quantities(self):
+        said = self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, "--vary",
+                          "slope.angle=30 deg,50 deg", "--vary", "motion=xy").stdout
+        self.assertNotIn("nan", said, "one member has no deviation")
+        self.assertNotIn("±", said)
+        names = ["angle=30deg_motion=xy", "angle=50deg_motion=xy"]
+        values = [json.loads((path / "summary.json").read_text())["quantities"]["front_speed_max"]["value"]
+                  for path in self.members("e")]
+        [head] = [line.split() for line in said.splitlines() if line.startswith(" ") and "angle=30deg" in line]
+        [line] = [line.split() for line in said.splitlines() if line.startswith("front_speed_max")]
+        self.assertEqual(head, names)
+        self.assertEqual(line[-2:], [f"{value:.6g}" for value in values])
+        with open(self.folder / "e/sweep.csv", encoding="utf-8") as file:
+            table = list(csv.DictReader(file))
+        for row, angle, value in zip(table, (30, 50), values, strict=True):
+            self.assertAlmostEqual(float(row["slope.angle [deg]"]), angle, delta=1e-13)
+            self.assertEqual((row["motion"], row["members"]), ("xy", "1"))
+            self.assertEqual(float(row["front_speed_max [1]"]), value)
+            self.assertNotIn("front_speed_max_deviation [1]", row)
+        groups = json.loads((self.folder / "e/sweep.json").read_text())
+        self.assertEqual([group["group"] for group in groups], names)
+        self.assertEqual(groups[1]["settings"]["slope.angle"]["text"], "50 deg")
+        self.assertEqual(groups[1]["quantities"]["front_speed_max"],
+                         {"mean": values[1], "members": 1, "unit": "1"})
+        for text in said.splitlines():
+            self.assertLessEqual(len(text), 100)
+
     def test_more_members_leave_the_first_ones_alone(self):
         self.talus("ensemble", "case.toml", "--out", "e", "--members", 2)
         before = {path.name: (path / "log.txt").read_bytes() for path in self.members("e")}

@@ -27,12 +27,24 @@ using cloud::Cloud;
 using cloud::Grains;
 using cloud::Parameters;
 
+/// Columns that the model has no use for, and that say that somebody thinks it has.
+void refuse_velocities(const Snapshot& points, std::vector<Problem>& problems) {
+  for (const char* name : {"velocity", "velocity_x", "velocity_y", "velocity_z", "vx", "vy", "vz"})
+    if (points.has(name))
+      problems.push_back({.key = "particles.file",
+                          .what = fmt::format("has a column {}: a cloud has no inertia, its velocities follow from "
+                                              "the places of the grains at every moment (Eq. 4a)",
+                                              name),
+                          .allowed = "columns x, y, z and radius"});
+}
+
 /// Reads the points of particles.file; radii that the file does not give are the mean radius.
-Grains read_grains(const CaseFile& file, const Parameters& p) {
+Grains read_grains(const CaseFile& file, const Parameters& p, std::vector<Problem>& problems) {
   std::filesystem::path path = p.particles.file;
   if (path.is_relative()) path = std::filesystem::path(file.name()).parent_path() / path;
   const PointSet points = read_points_csv(path);
   const Snapshot view = points.view();
+  refuse_velocities(view, problems);
   Grains grains;
   grains.position.assign(view.positions().begin(), view.positions().end());
   if (view.has("radius")) {
@@ -151,9 +163,11 @@ PreparedCase prepare_cloud(const CaseFile& file) {
 
   std::optional<Grains> given;
   if (p.particles.shape == cloud::Shape::file) {
-    given = read_grains(file, p);
+    std::vector<Problem> problems;
+    given = read_grains(file, p, problems);
     ParameterReader points(file);
     for_each_parameter(points, p);
+    points.check(problems);
     points.check(cloud::check_grains(p, *given));
     points.raise();
     p.particles.count = static_cast<std::int64_t>(given->radius.size());

@@ -43,6 +43,7 @@ ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::p
       say("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value, other->value - value.value,
           value.unit == "1" ? "" : value.unit);
 
+  if (picture.empty()) return ExitStatus::done;
   const Series s = read_series(first.series()), t = read_series(second.series());
   figure::Figure figure{.title = name_of(a) + " and " + name_of(b)};
   for (std::size_t c = 1; c < s.names.size(); ++c) {

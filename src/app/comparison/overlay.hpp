@@ -8,8 +8,9 @@
 
 namespace talus::app {
 
-/// Prints the quantities of both summaries with their differences, says which keys of the cases differ, and draws every
-/// series that both have.
+/// Prints the quantities of both summaries with their differences, says which keys of the cases differ, and, where a
+/// picture is asked for, draws every series that both have.
+/// \param picture PNG; empty: none
 /// \throws FileError
 ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::path& b,
                         const std::filesystem::path& picture);

@@ -106,7 +106,8 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .smoothing_length = {},
                         .air = p.air.enabled,
                         .has_floor = is_mirror(p.box.floor),
-                        .level_ground = !p.wedge.half_angle && p.plates.empty()};
+                        .level_ground = !p.wedge.half_angle && p.plates.empty(),
+                        .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};
   else if (p.plate.height)

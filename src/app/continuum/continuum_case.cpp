@@ -38,7 +38,9 @@ std::vector<NamedValue> groups(const Parameters& p) {
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty())
-    groups.push_back({"floor_stress_expected", "Pa", density * p.gravity.acceleration * p.bed.height});
+    groups.push_back({"floor_stress_expected", "Pa",
+                      density * p.gravity.acceleration * p.bed.height /
+                          (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const auto outlet = continuum::outlet_of(p))
     groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;

@@ -8,6 +8,7 @@
 
 #include "models/cloud/stability.hpp"
 #include "numerics/chebyshev.hpp"
+#include "numerics/dormand_prince.hpp"
 
 namespace talus::cloud {
 
@@ -38,13 +39,18 @@ double longest_step(const Parameters& p, double rate) {
   return rate > 0 ? std::min(step, longest_stable_step(p, rate)) : step;
 }
 
+/// \param stiffness the step times the stiffest rate
+double evaluations_of_step(const Parameters& p, double stiffness) {
+  if (p.integration.method == Method::dormand_prince) return dormand_prince::evaluations;
+  return p.integration.method == Method::euler || !(stiffness < 1e12) ? 1 : stages_for(stiffness, stage_damping);
+}
+
 }  // namespace
 
 Forecast forecast(const Parameters& p, double end, double grains) {
   const double rate = stiffest_rate(p, grains);
   const double step = longest_step(p, rate);
-  const bool euler = p.integration.method == Method::euler;
-  const double stages = euler || !(step * rate < 1e12) ? 1 : stages_for(step * rate, stage_damping);
+  const double stages = evaluations_of_step(p, step * rate);
   Forecast f{.steps = std::ceil(end / step), .evaluations = 0};
   f.evaluations = f.steps * (stages + stiffness_estimates);
   if (lies_on_slope(p)) {

@@ -21,7 +21,7 @@ namespace talus::cloud {
 enum class Shape { circle, rectangle, triangle, wedge, ball, dome, file };
 enum class RadiusDistribution { uniform, normal };
 enum class Boundary { centres, whole };
-enum class Method { chebyshev, euler };
+enum class Method { chebyshev, dormand_prince, euler };
 
 struct Parameters {
   std::int64_t seed = 1;
@@ -145,7 +145,8 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.method",
                   {},
                   {},
-                  "damped Runge-Kutta-Chebyshev of first order, or explicit Euler at its "
+                  "damped Runge-Kutta-Chebyshev of first order; Dormand and Prince's Runge-Kutta pair of fifth order, "
+                  "for grains that hardly touch (stiff contacts make its steps short); or explicit Euler at its "
                   "stability limit (a reference for tests)"},
         p.integration.method);
   visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
@@ -197,5 +198,6 @@ inline constexpr auto choices<cloud::RadiusDistribution> = std::to_array<std::st
 template <>
 inline constexpr auto choices<cloud::Boundary> = std::to_array<std::string_view>({"centres", "whole"});
 template <>
-inline constexpr auto choices<cloud::Method> = std::to_array<std::string_view>({"chebyshev", "euler"});
+inline constexpr auto choices<cloud::Method> = std::to_array<std::string_view>({"chebyshev", "dormand-prince",
+                                                                                "euler"});
 }  // namespace talus

@@ -2,6 +2,7 @@
 #include "models/cloud/stability.hpp"
 
 #include "numerics/chebyshev.hpp"
+#include "numerics/dormand_prince.hpp"
 #include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::cloud {
@@ -13,6 +14,7 @@ double contact_rate(const Parameters& p) {
 }
 
 double longest_stable_step(const Parameters& p, double rate) {
+  if (p.integration.method == Method::dormand_prince) return dormand_prince::stability / rate;
   constexpr int most_stages = 250;
   return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, stage_damping).stability / rate;
 }

@@ -14,8 +14,8 @@ inline constexpr double stage_damping = 0.1;
 /// mobility of touching grains is small), 6 without (a triangular lattice of springs).
 double contact_rate(const Parameters& parameters);
 
-/// The longest step with which a rate is stable, s: of as many stages as there may be, or of one with explicit Euler.
-/// \param rate 1/s, > 0
+/// The longest step with which a rate is stable, s: of as many stages as Chebyshev's may be, of Dormand and Prince's,
+/// or of the one of explicit Euler. \param rate 1/s, > 0
 double longest_stable_step(const Parameters& parameters, double rate);
 
 }  // namespace talus::cloud

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A step in order: (1) now and then the stiffest rate is measured and the grains are re-sorted; (2) as many Chebyshev
-/// stages are taken as that rate and the step's length ask for; (3) the velocities at the new places are evaluated:
-/// they open the next step and tell whether this one may stand; (4) if not, it is repeated at half its length. On entry
-/// and exit: velocity, contact_force and overlap belong to position.
+/// stages are taken as that rate and the step's length ask for, or those of Dormand and Prince; (3) the velocities at
+/// the new places are evaluated: they open the next step and tell whether this one may stand; (4) if not, it is
+/// repeated at half its length. On entry and exit: velocity, contact_force and overlap belong to position.
 #include "models/cloud/step.hpp"
 
 #include <fmt/format.h>
@@ -16,6 +16,7 @@
 #include "models/cloud/stiffness.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/chebyshev.hpp"
+#include "numerics/dormand_prince.hpp"
 
 namespace talus::cloud {
 
@@ -27,22 +28,38 @@ constexpr int steps_between_sorts = 16;
 constexpr double least_step_over_largest = 1e-6;
 constexpr double farthest_move = 1e4;  // of a grain within a step, in mean radii: the error control refuses less
 
-double root_mean_square_error(ThreadTeam& team, const State& state, const Workspace& work, double step,
-                              double second_order) {
+double root_mean_square(ThreadTeam& team, std::size_t count, auto&& vector) {
+  const double sum = reduce(
+      team, count, 0.0,
+      [&](std::size_t i) {
+        const Vector3 v = vector(i);
+        return dot(v, v);
+      },
+      [](double a, double b) { return a + b; });
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+double error_of_first_order(ThreadTeam& team, const State& state, const Workspace& work, double step,
+                            double second_order) {
   if (state.last_step == 0) return 0;
   // A first-order step errs by |1/2 - c_2| h^2 x''; the change of the displacement from one step to the next shows
   // h (h + h_last)/2 x'', and unlike differences of velocities it does not see the stiff modes that the stages have
   // damped.
   const double ratio = step / state.last_step;
   const double factor = std::abs(0.5 - second_order) * 2 * step / (step + state.last_step);
-  const double sum = reduce(
-      team, state.position.size(), 0.0,
-      [&](std::size_t i) {
-        const Vector3 change = work.latest[i] - state.position[i] - ratio * state.increment[i];
-        return dot(change, change);
-      },
-      [](double a, double b) { return a + b; });
-  return factor * std::sqrt(sum / static_cast<double>(state.position.size()));
+  return factor * root_mean_square(team, state.position.size(), [&](std::size_t i) {
+           return work.latest[i] - state.position[i] - ratio * state.increment[i];
+         });
+}
+
+/// Of the embedded solution: one order below what the step itself has.
+double error_of_dormand_prince(ThreadTeam& team, const State& state, const Workspace& work, double step) {
+  return step * root_mean_square(team, state.position.size(), [&](std::size_t i) {
+           Vector3 sum = dormand_prince::error.front() * state.velocity[i];
+           for (std::size_t s = 1; s + 1 < dormand_prince::stages; ++s)
+             sum += dormand_prince::error[s] * work.rates[s - 1][i];
+           return sum + dormand_prince::error.back() * work.trial_velocity[i];
+         });
 }
 
 bool all_finite(ThreadTeam& team, std::span<const Vector3> v) {
@@ -59,8 +76,26 @@ bool all_near(ThreadTeam& team, const std::vector<Vector3>& before, const std::v
 
 /// Takes the stages of a step; the result is in work.latest. \returns false as soon as a velocity is not finite or a
 /// grain is farther than `farthest` from where it was
-bool take_stages(ThreadTeam& team, State& state, Workspace& work, const ChebyshevStages& scheme, double step,
-                 double farthest) {
+bool take_dormand_prince(ThreadTeam& team, State& state, Workspace& work, double step, double farthest) {
+  for (std::size_t s = 1; s < dormand_prince::stages; ++s) {
+    for_each(team, state.position.size(), [&](std::size_t i) {
+      Vector3 sum = dormand_prince::weight[s].front() * state.velocity[i];
+      for (std::size_t r = 1; r < s; ++r) sum += dormand_prince::weight[s][r] * work.rates[r - 1][i];
+      work.latest[i] = state.position[i] + step * sum;
+    });
+    if (!all_near(team, state.position, work.latest, farthest)) return false;
+    if (s + 1 == dormand_prince::stages) break;
+    work.velocities(team, work.latest, work.trial_velocity);
+    ++state.evaluations;
+    if (!all_finite(team, work.trial_velocity)) return false;
+    work.rates[s - 1].swap(work.trial_velocity);
+  }
+  return true;
+}
+
+/// The same with Chebyshev's.
+bool take_chebyshev(ThreadTeam& team, State& state, Workspace& work, const ChebyshevStages& scheme, double step,
+                    double farthest) {
   const std::size_t count = state.position.size();
   for_each(team, count, [&](std::size_t i) {
     work.before[i] = state.position[i];
@@ -133,6 +168,50 @@ std::string place_of(const State& state, std::size_t grain) {
   throw NumericalError(report);
 }
 
+/// A trial step: what it left in the workspace, and whether it may stand.
+struct Trial {
+  bool finite = false;
+  std::uint64_t stages = 0;
+  double error = 0;    ///< root mean square of the local error, m
+  double overlap = 0;  ///< largest, m
+  int order = 2;       ///< the local error goes as the step to this power
+};
+
+/// \param rate of the stiffest motion, 1/s
+Trial try_step(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, double step, double rate) {
+  const bool pair = p.integration.method == Method::dormand_prince;
+  const double farthest = farthest_move * p.particles.radius;
+  ChebyshevStages scheme;
+  if (!pair)
+    scheme = chebyshev_stages(p.integration.method == Method::euler ? 1 : stages_for(step * rate, stage_damping),
+                              stage_damping);
+  Trial trial{.stages = pair ? dormand_prince::stages - 1 : scheme.stages.size(),
+              .order = pair ? dormand_prince::order : 2};
+  if (!(pair ? take_dormand_prince(team, state, work, step, farthest)
+             : take_chebyshev(team, state, work, scheme, step, farthest)))
+    return trial;
+  work.velocities(team, work.latest, work.trial_velocity);
+  ++state.evaluations;
+  trial.finite = all_finite(team, work.trial_velocity);
+  trial.overlap = work.velocities.largest_overlap();
+  trial.error = pair ? error_of_dormand_prince(team, state, work, step)
+                     : error_of_first_order(team, state, work, step, scheme.second_order);
+  return trial;
+}
+
+/// The length of the next step over this one's. \param error over what is allowed
+double growth(double error, int order) {
+  const double tiny = 1e-4;  // what is below asks for the largest growth anyway
+  const double root = order == 2 ? std::sqrt(std::max(error, tiny)) : std::pow(std::max(error, tiny), 1.0 / order);
+  return std::clamp(0.8 / root, 0.5, 1.5);
+}
+
+/// That a step must be stable with, 1/s. The pair's error tells when grains come to touch: until they do, none is.
+double stiffest_rate(const Parameters& p, const State& state, double largest_overlap) {
+  if (p.integration.method == Method::dormand_prince && !(largest_overlap > 0)) return 0;
+  return std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
+}
+
 /// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
 void check_stiffness(const Parameters& p, const State& state, double largest_step) {
   const double share = longest_stable_step(p, contact_rate(p)) / largest_step;  // infinite without contacts
@@ -152,7 +231,7 @@ NumericalError::Report step_limit(const Parameters& p, const State& state) {
     return static_cast<std::size_t>(std::max_element(column.begin(), column.end(), less) - column.begin());
   };
   const auto shorter = [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); };
-  const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
+  const double rate = stiffest_rate(p, state, *std::max_element(state.overlap.begin(), state.overlap.end()));
   NumericalError::Report report{};
   if (rate > 0 && state.last_step > 0.9 * longest_stable_step(p, rate)) {
     report.term = fmt::format("stability of the contacts, whose stiffest rate is {:.3g} 1/s, Eq. 2", rate);
@@ -173,7 +252,10 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       scales(cloud::scales(parameters)),
       latest(state.position.size()),
       before(state.position.size()),
-      trial_velocity(state.position.size()) {}
+      trial_velocity(state.position.size()) {
+  if (parameters.integration.method == Method::dormand_prince)
+    rates.assign(dormand_prince::stages - 2, std::vector<Vector3>(state.position.size()));
+}
 
 void derive(ThreadTeam& team, State& state, Workspace& work) {
   state.velocity.resize(state.position.size());
@@ -209,20 +291,11 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
 
   double step = std::min(state.next_step, largest_step);
   while (true) {
-    const double rate = std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
-    const bool euler = p.integration.method == Method::euler;
+    const double rate = stiffest_rate(p, state, overlap_before);
     if (rate > 0) step = std::min(step, longest_stable_step(p, rate));
-    const ChebyshevStages scheme = chebyshev_stages(euler ? 1 : stages_for(step * rate, stage_damping), stage_damping);
-
-    bool finite = take_stages(team, state, work, scheme, step, farthest_move * a);
-    double error = 0, overlap = 0;
-    if (finite) {
-      work.velocities(team, work.latest, work.trial_velocity);
-      ++state.evaluations;
-      finite = all_finite(team, work.trial_velocity);
-      overlap = work.velocities.largest_overlap();
-      error = root_mean_square_error(team, state, work, step, scheme.second_order) / (p.integration.tolerance * a);
-    }
+    const Trial trial = try_step(team, p, state, work, step, rate);
+    const double overlap = trial.overlap, error = trial.error / (p.integration.tolerance * a);
+    const bool finite = trial.finite;
     const bool at_least = step < least_step_over_largest * largest_step;
     const bool overlapped = overlap > p.integration.largest_overlap * a;
     if ((!finite || overlapped) && at_least) give_up(p, state, work, finite, overlap);
@@ -235,9 +308,9 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
       keep_derived(state, work);
       state.time += step;
       state.last_step = step;
-      state.stages = scheme.stages.size();
+      state.stages = trial.stages;
       ++state.step;
-      state.next_step = std::min(largest_step, step * std::clamp(0.8 / std::sqrt(std::max(error, 1e-4)), 0.5, 1.5));
+      state.next_step = std::min(largest_step, step * growth(error, trial.order));
       return;
     }
     ++state.rejected_steps;

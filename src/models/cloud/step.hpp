@@ -17,6 +17,7 @@ struct Workspace {
   Velocities velocities;
   Scales scales;
   std::vector<Vector3> latest, before, trial_velocity;
+  std::vector<std::vector<Vector3>> rates;  ///< of the stages after the first, Dormand and Prince's alone
 
   Workspace(const Parameters& parameters, const State& state);
 };

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "models/continuum/atmosphere.hpp"
+#include "models/continuum/loading.hpp"
 #include "models/continuum/material.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
@@ -31,19 +32,23 @@ double step_of(const Parameters& p) {
   return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
 }
 
-/// A bed that falls together under its own weight swings about its rest with its slowest wave, omega = pi c/(2 H) for
-/// the height H, whose speed is at most 4/pi g/omega; damping of time tau makes it die out with the slower root of
-/// s^2 - s/tau + omega^2, until hardly a particle is faster than settle.speed.
+/// A bed whose weight comes on at once swings about its rest with its slowest wave, omega = pi c/(2 H) for the height
+/// H, whose speed is at most 4/pi g/omega; one whose weight comes on as half a cosine over n periods of it has 1/(4
+/// n^2) of that left. Damping of time tau makes it die out with the slower root of s^2 - s/tau + omega^2, until hardly
+/// a particle is faster than settle.speed.
 double settling_time(const Parameters& p) {
   if (p.gate.opens == GateOpens::from_the_start) return 0;
   if (p.gate.opens == GateOpens::at_time) return p.gate.time;
   constexpr double pi = std::numbers::pi;
-  if (!p.settle.damping_time) return p.settle.duration + p.settle.longest / 10;
-  const double frequency = 0.5 * pi * wave_speed(p) / p.bed.height;
+  const double frequency = 0.5 * pi * wave_speed(p) / p.bed.height, loading = loading_time(p, wave_speed(p));
+  const double periods = loading * frequency / (2 * pi);
+  const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
+  const double excess = std::log(std::max(1.0, speed / p.settle.speed)), least = loading + p.settle.duration;
+  if (!(excess > 0)) return std::min(p.settle.longest, least);
+  if (!p.settle.damping_time) return std::min(p.settle.longest, least + p.settle.longest / 10);
   const double half_rate = 0.5 / *p.settle.damping_time;
   const double rate = half_rate - std::sqrt(std::max(0.0, half_rate * half_rate - frequency * frequency));
-  const double speed = 4 / pi * p.gravity.acceleration / frequency;
-  return std::min(p.settle.longest, p.settle.duration + std::log(std::max(1.0, speed / p.settle.speed)) / rate);
+  return std::min(p.settle.longest, least + excess / rate);
 }
 
 }  // namespace
@@ -75,10 +80,11 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
     return problems;
   }
   const double settling = settling_time(p);
-  const char* const key = p.integration.step ? "integration.step"
-                          : settling <= end  ? "run.end"
-                          : p.gate.time > 0  ? "gate.time"
-                                             : "settle.duration";
+  const char* const key = p.integration.step                                      ? "integration.step"
+                          : settling <= end                                       ? "run.end"
+                          : p.gate.time > 0                                       ? "gate.time"
+                          : p.settle.loading_time.value_or(0) > p.settle.duration ? "settle.loading_time"
+                                                                                  : "settle.duration";
   if (!((end + settling) / step <= most_steps))
     problems.push_back(
         {.key = key,

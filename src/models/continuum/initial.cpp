@@ -10,7 +10,8 @@ State initial_state(const Parameters& parameters, const Material& material) {
   state.mass = lattice_of(parameters).mass;
   state.position = bed_positions(parameters);
   const std::size_t count = state.position.size();
-  state.velocity.assign(count, Vector3{});
+  const std::array<double, 3> velocity = parameters.bed.velocity.value_or(std::array<double, 3>{});
+  state.velocity.assign(count, Vector3{velocity[0], velocity[1], velocity[2]});
   state.density.assign(count, parameters.bed.packing * parameters.grains.density);
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
   for (auto& column : state.material.stress) column.assign(count, 0.0);

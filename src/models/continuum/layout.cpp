@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where things stand: the box with its plates and walls, and the particles of the bed.
+#include "models/continuum/layout.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -174,6 +174,10 @@ std::vector<Problem> check(const Parameters& p) {
   check_wedge(p, problems);
   check_inclined_plates(p, problems);
   check_bed(p, problems);
+  if (p.settle.loading_time && *p.settle.loading_time >= p.settle.longest)
+    problems.push_back({.key = "settle.loading_time",
+                        .what = fmt::format("{:g} s: the bed could not settle before", *p.settle.loading_time),
+                        .allowed = fmt::format("less than settle.longest, {:g} s", p.settle.longest)});
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   for (const Problem& problem : check_air(p)) problems.push_back(problem);
   if (p.collisions.form != granular::Collisions::none && !(p.gravity.acceleration > 0))

@@ -15,6 +15,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
+#include "models/continuum/layout.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
@@ -71,6 +72,7 @@ struct Parameters {
     double height = 0;
     std::optional<double> bottom;
     std::optional<double> left, right;
+    std::optional<std::array<double, 3>> velocity;
   } bed;
   granular::LawParameters law;
   granular::CollisionParameters collisions;
@@ -98,6 +100,7 @@ struct Parameters {
     double speed = 0.5e-3;
     double duration = 20e-3;
     double longest = 1;
+    std::optional<double> loading_time;
     std::optional<double> damping_time;
   } settle;
   struct Integration {
@@ -173,7 +176,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
 
-  visit(Parameter{"bed.packing", dimension::none, between(0.1, 0.74), "packing fraction at the start"}, p.bed.packing);
+  visit(Parameter{"bed.packing", dimension::none, between(1e-4, 0.74), "packing fraction at the start"}, p.bed.packing);
   visit(Parameter{"bed.spacing", dimension::length, above(0),
                   "distance of the particles at the start; fitted to whole numbers of particles along each side", true},
         p.bed.spacing);
@@ -189,6 +192,8 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.bed.left);
   visit(Parameter{"bed.right", dimension::length, above(0), "where the bed ends along x; left out: the right face"},
         p.bed.right);
+  visit(Parameter{"bed.velocity", dimension::velocity, {}, "velocity of the bed at the start; left out: it is at rest"},
+        p.bed.velocity);
 
   granular::for_each_parameter(visit, p.law);
   granular::for_each_parameter(visit, p.collisions);
@@ -245,6 +250,12 @@ void for_each_parameter(Visit&& visit, P& p) {
   settling(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
   settling(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
            p.settle.longest);
+  settling(
+      Parameter{"settle.loading_time", dimension::time, at_least(0),
+                "time over which gravity comes on while the bed settles, so that no wave passes through it that would "
+                "press it harder than its weight does; 0: at once; left out: that of twenty passages of a pressure "
+                "wave through the bed's height, at most a quarter of settle.longest"},
+      p.settle.loading_time);
   auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
   gated(Parameter{"settle.damping_time", dimension::time, above(0),
                   "time in which velocities decay by a factor e until the gate opens, which spares waiting; left out: "
@@ -268,42 +279,6 @@ void for_each_parameter(Visit&& visit, P& p) {
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
-
-/// The slit of the plate or the outlet of the wedge: what the grains leave through.
-struct Outlet {
-  double height, left, right;  ///< m
-};
-std::optional<Outlet> outlet_of(const Parameters& parameters);
-
-/// Where the bed begins and ends along x, and its bottom, m.
-struct Extent {
-  double low, high;
-};
-Extent bed_along_x(const Parameters& parameters);
-double bed_bottom(const Parameters& parameters);
-
-/// The box, and the plates with their gates shut unless there are none.
-Domain domain_of(const Parameters& parameters);
-
-/// The lattice on which the particles stand at the start.
-struct Lattice {
-  Vector3 corner;                     ///< of the bed, m
-  Vector3 spacing;                    ///< m, close to bed.spacing
-  std::array<std::int64_t, 3> count;  ///< particles along x, y, z
-  double mass;  ///< of a particle, kg: the bed's mass is its volume times packing and grain density
-};
-Lattice lattice_of(const Parameters& parameters);
-
-/// Where the particles stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
-/// between, and farther than a quarter of the spacing from plates at any angle.
-std::vector<Vector3> bed_positions(const Parameters& parameters);
-
-/// Places of a lattice, whether or not a plate hides them.
-double places_of(const Lattice& lattice);
-
-/// Number of those particles, without placing them; exact unless plates stand in a bed of more than a million places
-/// a layer, of which then only some are looked at.
-double bed_count(const Parameters& parameters);
 
 }  // namespace talus::continuum
 

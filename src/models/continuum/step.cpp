@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "models/continuum/displacement.hpp"
+#include "models/continuum/loading.hpp"
 #include "models/continuum/sort.hpp"
 #include "models/continuum/walls.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -25,8 +26,8 @@ namespace {
 
 constexpr std::uint64_t builds_between_sorts = 16;
 
-Vector3 gravity(const Parameters& p) {
-  return {0, 0, -p.gravity.acceleration};
+Vector3 gravity(const Parameters& p, const Workspace& w, double time) {
+  return {0, 0, -share_of_gravity(time, w.loading_time) * p.gravity.acceleration};
 }
 
 /// Acceleration by the air, which lasts over a step of its own.
@@ -54,11 +55,11 @@ void strain(ThreadTeam& team, State& s, Workspace& w, double dt) {
 
 /// The explicit midpoint rule.
 void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
-  const Vector3 g = gravity(p);
+  const Vector3 start = gravity(p, w, s.time), g = gravity(p, w, s.time + 0.5 * dt);
   const std::size_t count = s.position.size();
   for_each(team, count, [&](std::size_t i) {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
-    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + g + by_air(s, i));
+    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
     w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
   });
   measure_strain_at(team, s, w, w.position);
@@ -79,7 +80,7 @@ void runge_kutta(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, 
 /// Velocities live half a step before positions, densities and stresses: kick, half a drift, strain, half a drift. It
 /// neither damps nor feeds waves, and evaluates forces and gradients once each.
 void leapfrog(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, double dt) {
-  const Vector3 g = gravity(p);
+  const Vector3 g = gravity(p, w, s.time);
   const double kick = 0.5 * (s.last_step + dt);
   const std::size_t count = s.position.size();
   for_each(team, count,
@@ -234,7 +235,7 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
       team, s.velocity.size(), std::size_t{0},
       [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
       [](std::size_t a, std::size_t b) { return a + b; });
-  const bool quiet = 100 * moving <= s.velocity.size();
+  const bool quiet = s.time >= w.loading_time && 100 * moving <= s.velocity.size();
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);
@@ -259,6 +260,7 @@ void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w
 Workspace::Workspace(const Parameters& parameters, const State& state)
     : material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
+      loading_time(continuum::loading_time(parameters, sound_speed)),
       sweep(parameters, state.mass, sound_speed),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters) : nullptr),
       position(state.position.size()),

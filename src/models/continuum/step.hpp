@@ -17,7 +17,8 @@ namespace talus::continuum {
 /// What a step needs beside the state; made anew from the state when a run is resumed.
 struct Workspace {
   Material material;
-  double sound_speed;  ///< bound for the time step, m/s
+  double sound_speed;   ///< bound for the time step, m/s
+  double loading_time;  ///< over which gravity comes on, s
   Sweep sweep;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum

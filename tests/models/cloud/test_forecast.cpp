@@ -60,6 +60,13 @@ TEST(CloudForecast, OfBallsInALiquid) {
   expect_forecast("ball", p, 20);
 }
 
+TEST(CloudForecast, OfFreeGrainsByDormandAndPrince) {
+  Parameters p = disc(100);
+  p.contact.enabled = false;
+  p.integration.method = Method::dormand_prince;
+  expect_forecast("disc", p, 3e-3);
+}
+
 TEST(CloudForecast, RefusesWhatNoMachineComesToTheEndOf) {
   Parameters p = disc(100);
   EXPECT_FALSE(check_steps(p, 1));

@@ -72,40 +72,100 @@ TEST(Advance, WithoutDragThePatternIsKept) {
   }
 }
 
-TEST(Advance, WithoutContactsReversedGravityTakesACloudBack) {
-  // Stokes flow is reversible; what remains is the step's error, of first order.
-  Parameters p = polystyrene(Shape::ball, 60);
+/// A cloud falls and is brought back by reversed gravity. \returns by how much the grains miss their places, in radii
+double missed_on_return(Parameters p, Method method, double largest_step) {
+  p.integration.method = method;
+  p.integration.largest_step = largest_step;
+  ThreadTeam team(1);
+  const Grains start = pack(p);
+  Grains grains = start;
+  double end = 2 * scales(p).stokes_time;
+  for (const double upwards : {-1.0, 1.0}) {
+    p.gravity.direction = {0, 0, upwards};
+    Cloud cloud(p, grains);
+    cloud.begin(team);
+    run_until(cloud, team, end * (1 - 1e-9));
+    end = cloud.state().time;
+    if (upwards < 0) {
+      const double fallen = start.position[0].z - cloud.state().position[0].z;
+      EXPECT_GT(fallen, 4 * p.particles.radius) << "something has moved";
+    }
+    grains.position = cloud.state().position;
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i < start.position.size(); ++i)
+    worst = std::max(worst, norm(grains.position[i] - start.position[i]));
+  return worst / p.particles.radius;
+}
+
+Parameters cloud_without_contacts(std::int64_t count) {
+  Parameters p = polystyrene(Shape::ball, count);
   p.particles.size = 12 * p.particles.radius;
   p.motion = Motion::xyz;
   p.slope.enabled = p.contact.enabled = false;
   p.fluid.mobility = hydrodynamics::Mobility::zuk_2014;
   p.integration.tolerance = 1e3;
-  ThreadTeam team(1);
-  const Grains start = pack(p);
-  auto missed = [&](double largest_step) {
-    p.integration.largest_step = largest_step;
-    Grains grains = start;
-    double end = 2 * scales(p).stokes_time;
-    for (const double upwards : {-1.0, 1.0}) {
-      p.gravity.direction = {0, 0, upwards};
-      Cloud cloud(p, grains);
-      cloud.begin(team);
-      run_until(cloud, team, end * (1 - 1e-9));
-      end = cloud.state().time;
-      if (upwards < 0) {
-        const double fallen = start.position[0].z - cloud.state().position[0].z;
-        EXPECT_GT(fallen, 4 * p.particles.radius) << "something has moved";
-      }
-      grains.position = cloud.state().position;
-    }
-    double worst = 0;
-    for (std::size_t i = 0; i < start.position.size(); ++i)
-      worst = std::max(worst, norm(grains.position[i] - start.position[i]));
-    return worst / p.particles.radius;
-  };
-  const double coarse = missed(0.02), fine = missed(0.01);
+  return p;
+}
+
+// Stokes flow is reversible; what remains is the steps' error.
+TEST(Advance, WithoutContactsReversedGravityTakesACloudBack) {
+  const Parameters p = cloud_without_contacts(60);
+  const double coarse = missed_on_return(p, Method::chebyshev, 0.02);
+  const double fine = missed_on_return(p, Method::chebyshev, 0.01);
   EXPECT_LT(fine, 0.2);
-  EXPECT_NEAR(coarse / fine, 2, 0.3);
+  EXPECT_NEAR(coarse / fine, 2, 0.3) << "of first order";
+}
+
+TEST(Advance, DormandPrinceTakesACloudBackToAMillionthOfARadius) {
+  EXPECT_LT(missed_on_return(cloud_without_contacts(50), Method::dormand_prince, 0.01), 1e-6);
+}
+
+TEST(Advance, DormandPrinceIsOfFifthOrder) {
+  // Three unequal grains at places that give them no symmetry.
+  Parameters p = cloud_without_contacts(3);
+  p.integration.method = Method::dormand_prince;
+  p.gravity.direction = {0, 0, -1};
+  const double a = p.particles.radius, end = 4 * scales(p).stokes_time;
+  const Grains grains{{{0, 0, 0}, {2.5 * a, 0.2 * a, 0.3 * a}, {-0.4 * a, 2.6 * a, 0.9 * a}}, {a, 0.8 * a, 1.1 * a}};
+  ThreadTeam team(1);
+  const auto after = [&](int steps) {
+    p.integration.largest_step = 4.0 / steps;
+    Cloud cloud(p, grains);
+    cloud.begin(team);
+    cloud.mutable_state().next_step = end;  // steps of equal length from the first
+    run_until(cloud, team, end * (1 - 1e-9));
+    EXPECT_EQ(cloud.state().step, static_cast<std::uint64_t>(steps));
+    return cloud.state().position;
+  };
+  const auto exact = after(512);
+  const auto error = [&](int steps) {
+    const auto places = after(steps);
+    double worst = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) worst = std::max(worst, norm(places[i] - exact[i]));
+    return worst / a;
+  };
+  const double coarse = error(16), fine = error(32);
+  EXPECT_LT(fine, 1e-4);
+  EXPECT_NEAR(std::log2(coarse / fine), 5, 0.6);
+}
+
+TEST(Advance, DormandPrinceHoldsItsTolerance) {
+  Parameters p = cloud_without_contacts(20);
+  p.integration.method = Method::dormand_prince;
+  p.integration.largest_step = 10;
+  p.gravity.direction = {0, 0, -1};
+  ThreadTeam team(1);
+  const Grains grains = pack(p);
+  const auto steps = [&](double tolerance) {
+    p.integration.tolerance = tolerance;
+    Cloud cloud(p, grains);
+    cloud.begin(team);
+    run_until(cloud, team, 30 * scales(p).stokes_time);
+    return static_cast<double>(cloud.state().step);
+  };
+  // The local error of the embedded solution goes as the fifth power of the step.
+  EXPECT_NEAR(steps(1e-10) / steps(1e-8), std::pow(100, 0.2), 0.3);
 }
 
 TEST(Advance, ARestingGrainSinksIntoTheSlopeByItsWeightOverTheStiffness) {
@@ -155,6 +215,7 @@ TEST(Advance, ChebyshevAndEulerConvergeToTheSameMotion) {
     return std::sqrt(sum / static_cast<double>(a.size())) / p.particles.radius;
   };
   const auto reference = after(Method::euler, 1e-4);
+  EXPECT_LT(distance(after(Method::dormand_prince, 0.02), reference), 1e-3);
   const double coarse = distance(after(Method::chebyshev, 0.02), reference);
   const double fine = distance(after(Method::chebyshev, 0.005), reference);
   EXPECT_LT(coarse, 0.02);

@@ -45,6 +45,27 @@ TEST(ContinuumForecast, OfASettlingBed) {
   expect_forecast("high bed", section(10e-3, 100e-3), 2e-3);
 }
 
+TEST(ContinuumForecast, OfABedWithoutDamping) {
+  Parameters p = section(10e-3, 30e-3);
+  p.settle.damping_time.reset();
+  expect_forecast("loaded slowly", p, 2e-3);
+}
+
+TEST(ContinuumForecast, OfABedThatGetsItsWeightAtOnce) {
+  Parameters p = section(10e-3, 30e-3);
+  p.settle.loading_time = 0;
+  expect_forecast("at once", p, 2e-3);
+}
+
+TEST(Check, ABedThatIsNotLoadedBeforeItsTimeIsOverIsRefused) {
+  Parameters p = section(10e-3, 30e-3);
+  p.settle.loading_time = 0.9;
+  EXPECT_TRUE(check(p).empty());
+  p.settle.loading_time = 1;
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_EQ(check(p)[0].key, "settle.loading_time");
+}
+
 TEST(ContinuumForecast, OfASofterBedByTheOtherMethod) {
   Parameters p = section(10e-3, 60e-3);
   p.law.of<granular::YuuUmekageIsotropic>().fits.scale = 1.5;

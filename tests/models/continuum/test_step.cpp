@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <optional>
 
 #include "cases.hpp"
 
@@ -89,6 +91,51 @@ TEST(Advance, ABedSettlesOnItsFloorWhichThenCarriesItsWeight) {
       EXPECT_NEAR(stress[static_cast<std::size_t>(k)], weight_above, 0.01 * weight_above);
     }
     EXPECT_LT(norm(momentum_error(s)), 1e-12 * norm(s.gravity_impulse));
+  }
+}
+
+/// Horizontal over vertical stress of a settled bed of friction 0.28 between smooth walls.
+double settled_stress_ratio(double damping_time, std::optional<double> loading_time) {
+  Parameters p = column(3, 1, 20, 10);
+  make_granular(p);
+  p.law = granular::DruckerPrager::Parameters{.friction = 0.28};
+  p.walls.friction = Friction::none;
+  p.gate.opens = GateOpens::when_settled;
+  p.settle.loading_time = loading_time;
+  p.settle.damping_time = damping_time;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  while (model.state().gate_time < 0) model.advance(team);
+  const auto& stress = model.state().material.stress;
+  return std::accumulate(stress[0].begin(), stress[0].end(), 0.0) /
+         std::accumulate(stress[2].begin(), stress[2].end(), 0.0);
+}
+
+TEST(Advance, ABedThatTakesUpItsWeightSlowlyIsNotOverconsolidated) {
+  // At yield in uniaxial strain, |s| = sqrt(2) mu p: K = (1 - mu/sqrt(3))/(1 + 2 mu/sqrt(3)).
+  const double m = 0.28 / std::sqrt(3.0), exact = (1 - m) / (1 + 2 * m);
+  EXPECT_GT(settled_stress_ratio(20e-3, 0.0), 1.2 * exact) << "pressed by a wave, and unloaded elastically";
+  for (const double damping_time : {20e-3, 2e-3})
+    EXPECT_NEAR(settled_stress_ratio(damping_time, std::nullopt), exact, 0.03 * exact) << damping_time;
+}
+
+TEST(Advance, ABedBeginsWithItsVelocity) {
+  for (const Method method : methods) {
+    Parameters p = free_block(3, 2, 3);
+    p.integration.method = method;
+    p.bed.velocity = {0.3, 0, 0.5};
+    ThreadTeam team(1);
+    Continuum model = started(p, team);
+    const State& s = model.state();
+    const auto start = by_identity(s, s.position);
+    while (s.time < 0.02) model.advance(team);
+    const auto end = by_identity(s, s.position);
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      EXPECT_NEAR(end[i].x - start[i].x, 0.3 * s.time, 1e-12);
+      EXPECT_NEAR(end[i].z - start[i].z, 0.5 * s.time - 0.5 * 9.81 * s.time * s.time, 1e-12);
+    }
   }
 }
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Where things stand: the box with its plates and walls, and the particles of the bed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "numerics/geometry/domain.hpp"
+
+namespace talus::continuum {
+
+struct Parameters;
+
+/// The slit of the plate or the outlet of the wedge: what the grains leave through.
+struct Outlet {
+  double height, left, right;  ///< m
+};
+std::optional<Outlet> outlet_of(const Parameters& parameters);
+
+/// Where the bed begins and ends along x, and its bottom, m.
+struct Extent {
+  double low, high;
+};
+Extent bed_along_x(const Parameters& parameters);
+double bed_bottom(const Parameters& parameters);
+
+/// The box, and the plates with their gates shut unless there are none.
+Domain domain_of(const Parameters& parameters);
+
+/// The lattice on which the particles stand at the start.
+struct Lattice {
+  Vector3 corner;                     ///< of the bed, m
+  Vector3 spacing;                    ///< m, close to bed.spacing
+  std::array<std::int64_t, 3> count;  ///< particles along x, y, z
+  double mass;  ///< of a particle, kg: the bed's mass is its volume times packing and grain density
+};
+Lattice lattice_of(const Parameters& parameters);
+
+/// Where the particles stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
+/// between, and farther than a quarter of the spacing from plates at any angle.
+std::vector<Vector3> bed_positions(const Parameters& parameters);
+
+/// Places of a lattice, whether or not a plate hides them.
+double places_of(const Lattice& lattice);
+
+/// Number of those particles, without placing them; exact unless plates stand in a bed of more than a million places
+/// a layer, of which then only some are looked at.
+double bed_count(const Parameters& parameters);
+
+}  // namespace talus::continuum
