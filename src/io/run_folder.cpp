@@ -127,6 +127,19 @@ void check_overwritable(const RunFolder& folder, const std::optional<std::string
              "--out for another folder, or move it away");
 }
 
+/// A snapshot that the list does not name is somebody else's, or its line in the list is damaged: a run that went on
+/// without it would leave it out of every table.
+void check_snapshots_are_listed(const RunFolder& folder) {
+  const std::optional<FileList> list = FileList::read(folder.path());
+  if (!list || !fs::is_directory(folder.snapshots())) return;
+  for (const std::string& name : names_in(folder.snapshots()))
+    for (const std::string_view kind : {"particles", "air"})
+      if (snapshot_number(name, kind) && !list->holds("snapshots/" + name))
+        refuse(folder.snapshots() / name,
+               fmt::format("is there, and {} does not say that Talus wrote it", FileList::file_name),
+               "move it away; --overwrite to begin anew");
+}
+
 /// Whether the folder may be used. Changes nothing.
 void check(const RunFolder& folder, Existing existing) {
   if (is_fresh(folder)) return;
@@ -138,6 +151,7 @@ void check(const RunFolder& folder, Existing existing) {
   refuse_links(folder.path());
   if (existing == Existing::overwrite) return check_overwritable(folder, fault);
   if (fault) refuse(folder.path(), fmt::format("holds no run to resume: {}", *fault));
+  check_snapshots_are_listed(folder);
 }
 
 /// A list in a new folder, or in one whose run's files are removed first. A run of a version that kept none goes on

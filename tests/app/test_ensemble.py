@@ -116,6 +116,13 @@ class Ensemble(ProgramTest):
         with open(self.folder / "e/stiffness=10Nm/members.csv", encoding="utf-8") as file:
             self.assertEqual([row[1] for row in csv.reader(file)], ["status", "done", "done"])
 
+    def test_what_a_kill_left_of_a_member_that_had_ended_goes(self):
+        arguments = ("ensemble", "case.toml", "--out", "e", "--members", 1)
+        self.talus(*arguments)
+        (self.folder / "e/all/seed_0003.out").write_text("said before the kill")
+        self.talus(*arguments, "--resume")
+        self.assertFalse((self.folder / "e/all/seed_0003.out").exists())
+
     def test_existing_folder_and_changed_case(self):
         self.talus("ensemble", "case.toml", "--out", "e", "--members", 1)
         before = tree(self.folder)

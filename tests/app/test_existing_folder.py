@@ -4,6 +4,7 @@ import json
 import unittest
 
 from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, tree
+from test_points import POINTS
 
 
 class ExistingFolder(ProgramTest):

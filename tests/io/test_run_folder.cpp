@@ -216,6 +216,17 @@ TEST(RunFolder, ARemovalThatWasCutShortIsRepeated) {
   EXPECT_THAT(names_in(scratch / "run"), ElementsAre("analysis", "files.txt", "mine", "pictures", "snapshots"));
 }
 
+TEST(RunFolder, IsNotResumedWithASnapshotThatItsListDoesNotName) {
+  const ScratchFolder scratch;
+  run_in(scratch / "run");
+  const std::filesystem::path list = scratch / "run/files.txt";
+  std::string text = content_of(list);
+  text[text.find("particles_0009") - 12] ^= 1;  // in the line's checksum
+  put_content(list, text);
+  EXPECT_THAT(refusal(scratch / "run", Existing::resume),
+              HasSubstr("particles_0009.vtkhdf: is there, and files.txt does not say that Talus wrote it"));
+}
+
 TEST(RunFolder, IsLockedWhileARunWritesIntoIt) {
   const ScratchFolder scratch;
   {

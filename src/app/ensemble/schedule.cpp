@@ -23,6 +23,13 @@ namespace {
 
 constexpr int interrupted_status = static_cast<int>(ExitStatus::interrupted);
 
+/// What a member says, until it has ended well.
+std::filesystem::path output_of(const EnsembleMember& member) {
+  std::filesystem::path output = member.folder;
+  output += ".out";
+  return output;
+}
+
 run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
   run::Job job{.arguments = {run::own_program(), "run", run.case_path, "--out", run.member.folder.string(), "--threads",
                              "1", "--set", "output.pictures=false"},
@@ -72,18 +79,19 @@ ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {
   ScheduleResult result;
   std::vector<const ScheduledRun*> open;
   for (const ScheduledRun& run : runs) {
-    if (is_done(run.member))
+    if (is_done(run.member)) {
       ++result.found_done;
-    else
+      std::error_code ignored;  // what it said, where a kill came before it was removed
+      std::filesystem::remove(output_of(run.member), ignored);
+    } else {
       open.push_back(&run);
+    }
   }
 
   std::vector<run::Job> list;
   for (const ScheduledRun* run : open) {
     make_folder(run->member.folder.parent_path());
-    std::filesystem::path output = run->member.folder;
-    output += ".out";
-    list.push_back(job_of(*run, output));
+    list.push_back(job_of(*run, output_of(run->member)));
   }
 
   run::Progress progress(stderr);

@@ -17,6 +17,10 @@ namespace {
 constexpr double most_steps = 1e12;  // at a microsecond each, twelve days
 constexpr double impact_steps = 7;   // over integration.overlap_growth
 constexpr double most_impact_steps = 1e6;
+// Steps of Dormand and Prince's pair are held by the tolerance, not by largest_step; measured on a disc of 100 grains
+// without contacts, the steps that are tried again included.
+constexpr double dormand_prince_steps = 1.8;
+constexpr double dormand_prince_evaluations = 8;
 constexpr double impact_time = 4;              // in a_p/v_s
 constexpr double impact_stages = 10;           // of those steps
 constexpr double contact_rate_on_slope = 3.2;  // over contact_rate(), in a plane
@@ -41,7 +45,7 @@ double longest_step(const Parameters& p, double rate) {
 
 /// \param stiffness the step times the stiffest rate
 double evaluations_of_step(const Parameters& p, double stiffness) {
-  if (p.integration.method == Method::dormand_prince) return dormand_prince::evaluations;
+  if (p.integration.method == Method::dormand_prince) return dormand_prince_evaluations;
   return p.integration.method == Method::euler || !(stiffness < 1e12) ? 1 : stages_for(stiffness, stage_damping);
 }
 
@@ -51,7 +55,8 @@ Forecast forecast(const Parameters& p, double end, double grains) {
   const double rate = stiffest_rate(p, grains);
   const double step = longest_step(p, rate);
   const double stages = evaluations_of_step(p, step * rate);
-  Forecast f{.steps = std::ceil(end / step), .evaluations = 0};
+  const double more = p.integration.method == Method::dormand_prince ? dormand_prince_steps : 1;
+  Forecast f{.steps = std::ceil(more * end / step), .evaluations = 0};
   f.evaluations = f.steps * (stages + stiffness_estimates);
   if (lies_on_slope(p)) {
     const double share = 1 - std::exp(-end / (impact_time * scales(p).stokes_time));

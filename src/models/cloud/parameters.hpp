@@ -151,7 +151,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.integration.method);
   visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
         p.integration.largest_step);
-  auto adaptive = only_if(where("integration.method", p.integration.method, Method::chebyshev), visit);
+  auto adaptive = only_if(unless("integration.method", p.integration.method, Method::euler), visit);
   adaptive(Parameter{"integration.tolerance", dimension::none, above(0),
                      "allowed root mean square of the local error of a "
                      "step, in a_p"},

@@ -45,12 +45,6 @@ TEST(ContinuumForecast, OfASettlingBed) {
   expect_forecast("high bed", section(10e-3, 100e-3), 2e-3);
 }
 
-TEST(ContinuumForecast, OfABedWithoutDamping) {
-  Parameters p = section(10e-3, 30e-3);
-  p.settle.damping_time.reset();
-  expect_forecast("loaded slowly", p, 2e-3);
-}
-
 TEST(ContinuumForecast, OfABedThatGetsItsWeightAtOnce) {
   Parameters p = section(10e-3, 30e-3);
   p.settle.loading_time = 0;
