@@ -140,11 +140,13 @@ class Extended(ProgramTest):
 
     def test_of_an_ensemble(self):
         (self.folder / "case.toml").write_text(CASE.replace('snapshots = "0.1 ms"\n', ""))
-        command = ("ensemble", "case.toml", "--out", "e", "--members", 2, "--jobs", 1)
-        self.talus(*command, "--set", "run.end=0.1 ms")
-        self.talus(*command, "--resume", "--set", "run.end=0.2 ms")
-        self.assertEqual(len(self.snapshots("e/all/seed_0004")), 41)
-        said = self.talus(*command, "--resume", "--set", "run.end=0.2 ms").stdout
+        command = ("ensemble", "case.toml", "--members", 2, "--jobs", 1, "--out")
+        self.talus(*command, "e", "--set", "run.end=0.4 ms")
+        self.talus(*command, "e", "--resume", "--set", "run.end=0.6 ms")
+        self.talus(*command, "whole", "--set", "run.end=0.6 ms", "--set", "output.snapshots=0.02 ms")
+        for member in ("all/seed_0003", "all/seed_0004"):
+            self.assertEqual(bits(self.folder / "e" / member), bits(self.folder / "whole" / member))
+        said = self.talus(*command, "e", "--resume", "--set", "run.end=0.6 ms").stdout
         self.assertIn("2 of 2 runs done", said)
 
 
