@@ -250,7 +250,6 @@ class Choices(Input):
                 ("gate.time=1 ms", 'gate.opens is "when-settled"'),
                 ("settle.speed=1 mm/s", 'gate.opens is "at-time"', "gate.opens=at-time"),
                 ("walls.coefficient=0.5", 'walls.friction is "none"', "walls.friction=none"),
-                ("integration.courant=0.2", "integration.step is given", "integration.step=1 us"),
                 ("collisions.normal=1", 'collisions.form is "none"', "collisions.form=none"),
                 ("law.yuu-umekage.compaction=1", 'law.yuu-umekage.volume is "density"')):
             self.assert_one(setting, f"given, but {but}", others=others)

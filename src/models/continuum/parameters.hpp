@@ -254,10 +254,9 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.method", {}, {}, "second-order Runge-Kutta, or leapfrog"}, p.integration.method);
   visit(Parameter{"integration.step", dimension::time, above(0), "a fixed time step in place of the Courant number's"},
         p.integration.step);
-  auto stepping = only_if(without("integration.step", p.integration.step), visit);
-  stepping(Parameter{"integration.courant", dimension::none, above(0),
-                     "time step times the speed of pressure waves over the smallest smoothing length"},
-           p.integration.courant);
+  visit(Parameter{"integration.courant", dimension::none, above(0),
+                  "time step times the speed of pressure waves over the smallest smoothing length"},
+        p.integration.courant);
   visit(Parameter{"integration.skin", dimension::none, between(0, 2),
                   "skin of the neighbour lists, in particle spacings: wider lists last longer and cost more"},
         p.integration.skin);
