@@ -104,6 +104,41 @@ def check_cycles(root):
     return problems
 
 
+def check_app_folders(root):
+    """The folders of src/app, with the commands beside them as one more, include each other in no circle."""
+    app, graph = root / "src" / "app", {}
+
+    def folder(path):
+        parts = path.relative_to(app).parts
+        return parts[0] if len(parts) > 1 else "(the commands)"
+
+    for path in sorted(app.rglob("*.?pp")) if app.is_dir() else []:
+        for number, system, name in includes(path):
+            target = root / "src" / name
+            if system or not name.startswith("app/") or not target.exists() or folder(target) == folder(path):
+                continue
+            where = f"{path.relative_to(root)}:{number}: includes {name}"
+            graph.setdefault(folder(path), {}).setdefault(folder(target), where)
+
+    def way(start, goal, seen):
+        """The includes that lead from a folder to another; nothing if there is no way."""
+        for target, where in graph.get(start, {}).items():
+            if target == goal:
+                return [where]
+            if target not in seen:
+                rest = way(target, goal, seen | {target})
+                if rest:
+                    return [where] + rest
+        return []
+
+    problems = []
+    for start in graph:
+        circle = way(start, start, {start})
+        if circle:
+            problems.append(circle[0] + ", which leads back to its own folder: " + "; ".join(circle[1:]))
+    return problems
+
+
 def check_lengths(root):
     problems = []
     for folder in ("src", "tests", "benchmarks", "tools"):
@@ -118,7 +153,14 @@ def check_lengths(root):
     return problems
 
 
-CHECKS = (check_layers, check_run_names_no_model, check_instruction_set_files, check_cycles, check_lengths)
+CHECKS = (
+    check_layers,
+    check_run_names_no_model,
+    check_instruction_set_files,
+    check_cycles,
+    check_app_folders,
+    check_lengths,
+)
 
 
 def main():

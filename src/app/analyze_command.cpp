@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/models/models.hpp"
 #include "app/points/measures.hpp"
-#include "app/prepared_case.hpp"
 #include "base/nearest.hpp"
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
@@ -84,8 +84,10 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   const RunFolder folder(options.file);
   const Manifest manifest = read_manifest(folder.manifest());
   Summary summary = read_summary(folder.summary());
-  const std::vector<NamedValue> quantities =
-      analyze_run(CaseFile::from_text(manifest.case_text, folder.manifest().string()), folder.path());
+  const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
+  const ModelEntry& model = model_of(resolved);
+  const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path());
+  model.draw(resolved, folder.path());
   std::erase_if(summary.quantities, [&](const NamedValue& old) {
     return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == old.name; });
   });

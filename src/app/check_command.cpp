@@ -10,7 +10,7 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
-#include "app/prepared_case.hpp"
+#include "app/models/models.hpp"
 #include "base/memory.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_writer.hpp"

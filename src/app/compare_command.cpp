@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/comparison/evaluation.hpp"
 #include "app/comparison/overlay.hpp"
+#include "app/models/models.hpp"
 #include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
-#include "app/prepared_case.hpp"
-#include "app/run_case.hpp"
+#include "app/models/models.hpp"
+#include "app/runs/run_case.hpp"
 
 namespace talus::app {
 

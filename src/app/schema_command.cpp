@@ -9,7 +9,7 @@
 
 #include "analysis/measure.hpp"
 #include "app/commands.hpp"
-#include "app/prepared_case.hpp"
+#include "app/models/models.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_schema.hpp"
 
@@ -81,10 +81,10 @@ void add_schema_command(CLI::App& app, Action& action) {
     bool page = false, quantities = false;
   };
   auto options = std::make_shared<Options>();
+  std::vector<std::string> names;
+  for (const ModelEntry& entry : models()) names.emplace_back(entry.name);
   CLI::App* command = app.add_subcommand("schema", "print the JSON Schema of a model's cases");
-  command->add_option("MODEL", options->model, "model")
-      ->check(CLI::IsMember(std::vector<std::string>(model_names.begin(), model_names.end())))
-      ->capture_default_str();
+  command->add_option("MODEL", options->model, "model")->check(CLI::IsMember(names))->capture_default_str();
   command->add_flag("--markdown", options->page, "print the reference page instead");
   command->add_flag("--quantities", options->quantities, "print the page of all quantities of all models instead");
   command->callback([options, &action] {
@@ -93,7 +93,9 @@ void add_schema_command(CLI::App& app, Action& action) {
         fmt::print("{}", page_of_quantities());
         return ExitStatus::done;
       }
-      const ParameterList list = parameters_of(options->model);
+      const ParameterList list = std::find_if(models().begin(), models().end(), [&](const ModelEntry& entry) {
+                                   return entry.name == options->model;
+                                 })->parameters();
       if (options->page)
         fmt::print("{}\n{}", page_head(options->model), reference_page(list));
       else

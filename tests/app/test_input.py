@@ -6,7 +6,7 @@ import unittest
 
 from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, tree
 
-TWELVE_FAULTS = """model = "clowd"
+ELEVEN_FAULTS = """model = "cloud"
 seed = -1
 motoin = "xy"
 [particles]
@@ -41,10 +41,9 @@ class Input(ProgramTest):
 
 
 class BadCase(Input):
-    def test_twelve_faults_are_twelve_messages_by_line(self):
-        (self.folder / "case.toml").write_text(TWELVE_FAULTS)
+    def test_eleven_faults_are_eleven_messages_by_line(self):
+        (self.folder / "case.toml").write_text(ELEVEN_FAULTS)
         expected = [
-            (1, "model", "there is no model \"clowd\"", "did you mean 'cloud'?"),
             (2, "seed", "-1", "from 0"),
             (3, "motoin", "unknown key", "did you mean 'motion'?"),
             (5, "particles.shape", "circel", "did you mean 'circle'?"),
@@ -59,12 +58,26 @@ class BadCase(Input):
         ]
         for command in ("run", "check", "ensemble"):
             problems = self.problems(command, "case.toml")
-            self.assertEqual(len(problems), 12, problems)
+            self.assertEqual(len(problems), 11, problems)
             for problem, (line, key, what, allowed) in zip(problems, expected):
                 place = f"case.toml:{line}: {key}: " if line else f"case.toml: {key}: "
                 self.assertTrue(problem.startswith(place), problem)
                 self.assertIn(what, problem)
                 self.assertIn(allowed, problem)
+        self.assert_nothing_written()
+
+    def test_an_unknown_model_is_told_before_its_keys_are_read(self):
+        for model, what in (('"clowd"', "there is no model \"clowd\"; allowed: cloud, continuum, air; did you mean 'cloud'?"),
+                            ('"dem"', 'there is no model "dem"; allowed: cloud, continuum, air'),
+                            ("3", "is not a model's name in quotes; allowed: cloud, continuum, air")):
+            (self.folder / "case.toml").write_text(ELEVEN_FAULTS.replace('"cloud"', model))
+            for command in ("run", "check", "ensemble"):
+                self.assertEqual(self.problems(command, "case.toml"), [f"case.toml:1: model: {what}"])
+        (self.folder / "case.toml").write_text(HOPPER.replace('model = "continuum"\n', ""))
+        self.assertEqual(self.problems("check", "case.toml"),
+                         ["case.toml: model: missing; allowed: cloud, continuum, air"])
+        self.assertEqual(self.problems("check", "case.toml", "--set", "model=contiuum")[0].split("; did")[1],
+                         " you mean 'continuum'?")
         self.assert_nothing_written()
 
     def test_faults_of_options_name_the_option(self):

@@ -59,6 +59,26 @@ class Layers(Tree):
         self.write("src/base/d.hpp", '#include "base/c.hpp"\n')
         self.assertIn("includes itself", check_layers.check_cycles(self.root)[0])
 
+    def test_a_circle_among_the_folders_of_app_is_found(self):
+        self.write("src/app/one/a.hpp", "")
+        self.write("src/app/one/a.cpp", '#include "app/two/b.hpp"\n')
+        self.write("src/app/two/b.hpp", '#include "app/three/c.hpp"\n')
+        self.write("src/app/three/c.hpp", "")
+        self.write("src/app/run_command.cpp", '#include "app/one/a.hpp"\n')
+        self.assertEqual(check_layers.check_app_folders(self.root), [])
+        self.write("src/app/three/c.cpp", '\n#include "app/one/a.hpp"\n')
+        self.assertIn(
+            "src/app/one/a.cpp:1: includes app/two/b.hpp, which leads back to its own folder: "
+            "src/app/two/b.hpp:1: includes app/three/c.hpp; src/app/three/c.cpp:2: includes app/one/a.hpp",
+            check_layers.check_app_folders(self.root),
+        )
+
+    def test_folders_of_app_do_not_include_the_commands_that_include_them(self):
+        self.write("src/app/commands.hpp", "")
+        self.write("src/app/one/a.hpp", '#include "app/commands.hpp"\n')
+        self.write("src/app/run_command.cpp", '#include "app/one/a.hpp"\n')
+        self.assertEqual(len(check_layers.check_app_folders(self.root)), 2)
+
     def test_a_template_header_behind_an_instruction_set_file_is_found(self):
         self.write("src/base/v.hpp", "#include <vector>\n")
         self.write("src/models/cloud/sum_avx2.cpp", '#include "base/v.hpp"\n')

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/stopwatch.hpp"
+#include "app/case/stopwatch.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
@@ -82,13 +82,17 @@ ParameterList air_parameters() {
   return list;
 }
 
-std::vector<NamedValue> analyze_air(const std::filesystem::path& folder) {
+std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std::filesystem::path& folder) {
   const Series series = read_series(RunFolder(folder).series());
   std::vector<NamedValue> quantities;
   for (std::size_t n = 0; n < series.names.size(); ++n)
     if (series.rows() > 0 && series.names[n] != "time" && series.names[n] != "step")
       quantities.push_back({series.names[n], series.units[n], series.columns[n].back()});
   return quantities;
+}
+
+std::vector<std::filesystem::path> draw_air_run(const CaseFile&, const std::filesystem::path&) {
+  return {};
 }
 
 PreparedCase prepare_air(const CaseFile& file) {
@@ -113,8 +117,6 @@ PreparedCase prepare_air(const CaseFile& file) {
   prepared.forecast = forecast(p, run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
-  prepared.analyze = analyze_air;
-  prepared.draw = [](const std::filesystem::path&) { return std::vector<std::filesystem::path>{}; };
   return prepared;
 }
 

@@ -2,7 +2,11 @@
 /// Cases of the model `air`.
 #pragma once
 
-#include "app/prepared_case.hpp"
+#include <filesystem>
+#include <vector>
+
+#include "app/case/prepared_case.hpp"
+#include "io/case_file.hpp"
 
 namespace talus::app {
 
@@ -12,7 +16,8 @@ PreparedCase prepare_air(const CaseFile& file);
 /// All parameters of such a case, with their defaults.
 ParameterList air_parameters();
 
-/// The quantities of a run's summary: the last row of its series. \param folder of the run
-std::vector<NamedValue> analyze_air(const std::filesystem::path& folder);
+/// As ModelEntry (models.hpp) has them: the last row of the series; no pictures.
+std::vector<NamedValue> analyse_air_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<std::filesystem::path> draw_air_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 }  // namespace talus::app

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "app/run_tables.hpp"
+#include "app/case/run_tables.hpp"
 #include "base/error.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"

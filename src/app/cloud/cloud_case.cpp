@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "analysis/fronts.hpp"
+#include "app/case/stopwatch.hpp"
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/cloud/cloud_pictures.hpp"
-#include "app/stopwatch.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
@@ -117,6 +117,15 @@ CloudStudy study_of(const CaseFile& file) {
   return {run.title, frame_of(p), cloud::scales(p).contact_ratio};
 }
 
+std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  return analyze_cloud(folder, study_of(resolved).frame);
+}
+
+std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  const CloudStudy study = study_of(resolved);
+  return draw_cloud(folder, study.frame, study.title);
+}
+
 ParameterList cloud_parameters() {
   ParameterList list;
   const run::RunParameters run;
@@ -132,7 +141,6 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   ParameterReader reader(file);
   run::for_each_parameter(reader, run);
   cloud::for_each_parameter(reader, p);
-  reader.check(check_model(run.model));
   reader.check(cloud::check(p));
   reader.finish();
   if (run.snapshots == 0) run.snapshots = run.end / 20;
@@ -170,11 +178,6 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = {.column = "front_x", .name = p.slope.enabled ? "front" : "foremost grain", .is_rate = true};
-  const CloudFrame frame = frame_of(p);
-  prepared.analyze = [frame](const std::filesystem::path& folder) { return analyze_cloud(folder, frame); };
-  prepared.draw = [frame, title = run.title](const std::filesystem::path& folder) {
-    return draw_cloud(folder, frame, title);
-  };
   return prepared;
 }
 

@@ -2,15 +2,22 @@
 /// The cloud model as the commands see it.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
+#include "app/case/prepared_case.hpp"
 #include "app/cloud/cloud_analysis.hpp"
-#include "app/prepared_case.hpp"
+#include "io/case_file.hpp"
 
 namespace talus::app {
 
 /// \throws InputError with every problem of the case, of the file of points it names, and of their combination
 PreparedCase prepare_cloud(const CaseFile& file);
+
+/// As ModelEntry (models.hpp) has them. \param resolved the manifest's case, whose points need not be there any more
+std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 /// What a study needs to know of a run's case.
 struct CloudStudy {

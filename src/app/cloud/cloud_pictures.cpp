@@ -13,7 +13,7 @@
 #include "analysis/frontal_angle.hpp"
 #include "analysis/heads.hpp"
 #include "analysis/statistics.hpp"
-#include "app/run_tables.hpp"
+#include "app/case/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/file_list.hpp"
 #include "io/series.hpp"

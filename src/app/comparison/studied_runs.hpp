@@ -2,10 +2,15 @@
 /// The runs of a reference, read, and the numbers of its rows.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "analysis/row_values.hpp"
 #include "app/comparison/found_runs.hpp"
 #include "app/comparison/reference.hpp"
 
@@ -15,7 +20,30 @@ namespace talus::app {
 /// needs are not there. \throws std::logic_error if the row asks for what no such runs have
 using StudiedRuns = std::function<std::vector<std::optional<double>>(const ComparisonRow& row)>;
 
-/// Reads runs, all of one model, at least one ensemble. \throws FileError
-StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found);
+template <class Run>
+struct StudiedEnsemble {
+  std::string case_name, variant;
+  std::vector<Run> runs;  ///< in the order of the seeds
+};
+
+/// The runs of one model with its measures. \param read makes a run from its folder and its resolved case
+template <class Run, class Read>
+StudiedRuns studied(const std::vector<FoundEnsemble>& found, MeasuresOfModel<Run> measures, Read&& read) {
+  const auto ensembles = std::make_shared<std::vector<StudiedEnsemble<Run>>>();
+  for (const FoundEnsemble& e : found) {
+    ensembles->push_back({e.case_name, e.variant, {}});
+    for (std::size_t n = 0; n < e.folders.size(); ++n) ensembles->back().runs.push_back(read(e.folders[n], e.files[n]));
+  }
+  return [ensembles, measures](const ComparisonRow& row) {
+    std::vector<const std::vector<Run>*> groups;
+    for (const std::string& variant : row.variants) {
+      const auto found = std::find_if(ensembles->begin(), ensembles->end(), [&](const StudiedEnsemble<Run>& e) {
+        return e.case_name == row.case_name && e.variant == variant;
+      });
+      groups.push_back(found == ensembles->end() ? nullptr : &found->runs);
+    }
+    return RowValues<Run>(row, std::move(groups), measures).values();
+  };
+}
 
 }  // namespace talus::app

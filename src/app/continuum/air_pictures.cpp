@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "analysis/curve.hpp"
+#include "app/case/run_tables.hpp"
 #include "app/continuum/continuum_pictures.hpp"
-#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "analysis/discharge.hpp"
-#include "app/run_tables.hpp"
+#include "app/case/run_tables.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/case/stopwatch.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hopper_observers.hpp"
-#include "app/stopwatch.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
@@ -77,6 +77,25 @@ Problem too_large(const Parameters& p, double available) {
       .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
 }
 
+struct Case {
+  run::RunParameters run;
+  Parameters model;
+};
+
+/// \throws InputError with every problem
+Case read_case(const CaseFile& file) {
+  Case read;
+  read.model.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
+  ParameterReader reader(file, continuum::renamed_keys);
+  run::for_each_parameter(reader, read.run);
+  continuum::for_each_parameter(reader, read.model);
+  reader.check(continuum::check(read.model));
+  reader.finish();
+  reader.check(continuum::check_steps(read.model, read.run.end));
+  reader.raise();
+  return read;
+}
+
 }  // namespace
 
 ParameterList continuum_parameters() {
@@ -90,16 +109,7 @@ ParameterList continuum_parameters() {
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
-  Parameters p;
-  run::RunParameters run;
-  p.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
-  ParameterReader reader(file, continuum::renamed_keys);
-  run::for_each_parameter(reader, run);
-  continuum::for_each_parameter(reader, p);
-  reader.check(continuum::check(p));
-  reader.finish();
-  reader.check(continuum::check_steps(p, run.end));
-  reader.raise();
+  auto [run, p] = read_case(file);
   if (run.snapshots == 0) run.snapshots = run.end / 20;
 
   PreparedCase prepared;
@@ -117,28 +127,20 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   if (p.plate.height || continuum::outlet_of(p)) prepared.headline = {.column = "discharge_rate", .name = "discharge"};
-  prepared.analyze = [p](const std::filesystem::path& folder) { return analyze_continuum(folder, hopper_setting(p)); };
-  prepared.draw = [p, title = run.title](const std::filesystem::path& folder) {
-    return draw_continuum(folder, hopper_setting(p), title);
-  };
   return prepared;
 }
 
 HopperSetting hopper_setting_of(const CaseFile& resolved) {
-  Parameters p;
-  run::RunParameters run;
-  ParameterReader reader(resolved);
-  run::for_each_parameter(reader, run);
-  continuum::for_each_parameter(reader, p);
-  reader.finish();
-  return hopper_setting(p);
+  return hopper_setting(read_case(resolved).model);
 }
 
-std::vector<NamedValue> analyze_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  const PreparedCase prepared = prepare_continuum(resolved);
-  std::vector<NamedValue> quantities = prepared.analyze(folder);
-  prepared.draw(folder);
-  return quantities;
+std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  return analyze_continuum(folder, hopper_setting_of(resolved));
+}
+
+std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+  const Case read = read_case(resolved);
+  return draw_continuum(folder, hopper_setting(read.model), read.run.title);
 }
 
 }  // namespace talus::app

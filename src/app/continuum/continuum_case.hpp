@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "analysis/hopper.hpp"
-#include "app/prepared_case.hpp"
+#include "app/case/prepared_case.hpp"
+#include "io/case_file.hpp"
 
 namespace talus::app {
 
@@ -20,8 +21,8 @@ ParameterList continuum_parameters();
 /// \throws InputError
 HopperSetting hopper_setting_of(const CaseFile& resolved);
 
-/// Analyses the run in a folder and draws its pictures once more. \param resolved the manifest's case
-/// \throws FileError, InputError
-std::vector<NamedValue> analyze_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
+/// As ModelEntry (models.hpp) has them. \param resolved the manifest's case
+std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 }  // namespace talus::app

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "analysis/curve.hpp"
+#include "app/case/run_tables.hpp"
 #include "app/continuum/air_pictures.hpp"
-#include "app/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
 #include "io/file_list.hpp"

@@ -7,8 +7,8 @@
 #include <cctype>
 #include <set>
 
-#include "app/prepared_case.hpp"
-#include "app/run_case.hpp"
+#include "app/models/models.hpp"
+#include "app/runs/run_case.hpp"
 #include "base/error.hpp"
 #include "io/parameter_writer.hpp"
 

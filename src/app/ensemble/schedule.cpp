@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "app/run_case.hpp"
+#include "app/runs/run_case.hpp"
 #include "base/error.hpp"
 #include "io/file_list.hpp"
 #include "io/manifest.hpp"

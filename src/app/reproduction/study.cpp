@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "app/comparison/evaluation.hpp"
-#include "app/comparison/studied_runs.hpp"
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/schedule.hpp"
+#include "app/models/models.hpp"
 #include "app/reproduction/figures_script.hpp"
 #include "base/nearest.hpp"
 #include "base/terminal.hpp"

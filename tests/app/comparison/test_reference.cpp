@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/prepared_case.hpp"
+#include "app/models/models.hpp"
 #include "base/error.hpp"
 #include "io/case_file.hpp"
 #include "io/scratch_folder.hpp"

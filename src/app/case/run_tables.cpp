@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/run_tables.hpp"
+#include "app/case/run_tables.hpp"
 
 #include <algorithm>
 

@@ -2,17 +2,14 @@
 /// A case that was read and found valid, joined to its model: what the commands work with.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "numerics/named_value.hpp"
 #include "run/any_model.hpp"
@@ -56,31 +53,6 @@ struct PreparedCase {
   std::function<double(ThreadTeam& team)> measure_evaluation;
   /// What to change where memory_bytes is more than there is. \param available bytes
   std::function<Problem(double available)> too_large;
-  /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
-  std::function<std::vector<NamedValue>(const std::filesystem::path& folder)> analyze;
-  /// Draws a run's pictures and returns their paths, the one to look at first first.
-  std::function<std::vector<std::filesystem::path>(const std::filesystem::path& folder)> draw;
 };
-
-/// Reads a case: the model it names, then all parameters of model and run.
-/// \throws InputError with every problem
-PreparedCase prepare_case(const CaseFile& file);
-
-/// \throws InputError if the run needs more memory than there is now, on this machine, with the line of the case that
-/// asks for it
-void check_memory(const PreparedCase& prepared, const CaseFile& file);
-
-/// A problem if there is no such model.
-std::vector<Problem> check_model(const std::string& model);
-
-/// The parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
-ParameterList parameters_of(const std::string& model);
-
-/// Analyses the run in a folder and draws its pictures once more, as PreparedCase does at the end of a run. \param
-/// resolved the manifest's case \throws FileError, InputError
-std::vector<NamedValue> analyze_run(const CaseFile& resolved, const std::filesystem::path& folder);
-
-/// The models there are.
-inline constexpr std::array<std::string_view, 3> model_names{"cloud", "continuum", "air"};
 
 }  // namespace talus::app

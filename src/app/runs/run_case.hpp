@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/prepared_case.hpp"
+#include "app/case/prepared_case.hpp"
 #include "base/error.hpp"
 #include "io/manifest.hpp"
 #include "io/run_folder.hpp"

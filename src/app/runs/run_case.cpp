@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/run_case.hpp"
+#include "app/runs/run_case.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,6 +12,7 @@
 #include <array>
 #include <mutex>
 
+#include "app/models/models.hpp"
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
@@ -159,8 +160,9 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                   .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
-    summary.quantities = prepared.analyze(folder.path());
-    if (prepared.run.pictures) pictures = prepared.draw(folder.path());
+    const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
+    summary.quantities = model_of(resolved).analyse(resolved, folder.path());
+    if (prepared.run.pictures) pictures = model_of(resolved).draw(resolved, folder.path());
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
   summary.warnings = texts_of(regime);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cloud/cloud_studies.hpp"
+
+#include "app/cloud/cloud_analysis.hpp"
+#include "app/cloud/cloud_case.hpp"
+
+namespace talus::app {
+
+namespace {
+
+AvalancheRun cloud_run(const std::filesystem::path& folder, const CaseFile& file) {
+  const CloudStudy study = study_of(file);
+  AvalancheRun run = read_avalanche(folder, study.frame);
+  run.contact_weight_ratio = study.contact_weight_ratio;
+  return run;
+}
+
+}  // namespace
+
+StudiedRuns study_avalanches(const std::vector<FoundEnsemble>& found) {
+  return studied<AvalancheRun>(found, {avalanche_measures(), avalanche_group_measures(), mean_run}, cloud_run);
+}
+
+}  // namespace talus::app

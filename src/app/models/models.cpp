@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/models/models.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
+#include <utility>
+
+#include "app/air/air_case.hpp"
+#include "app/cloud/cloud_case.hpp"
+#include "app/cloud/cloud_studies.hpp"
+#include "app/continuum/continuum_case.hpp"
+#include "app/continuum/continuum_studies.hpp"
+#include "base/memory.hpp"
+#include "base/nearest.hpp"
+#include "io/parameter_reader.hpp"
+
+namespace talus::app {
+
+namespace {
+
+constexpr ModelEntry entries[] = {
+    {.name = "cloud",
+     .prepare = prepare_cloud,
+     .analyse = analyse_cloud_run,
+     .draw = draw_cloud_run,
+     .parameters = cloud_parameters,
+     .studies = study_avalanches},
+    {.name = "continuum",
+     .prepare = prepare_continuum,
+     .analyse = analyse_continuum_run,
+     .draw = draw_continuum_run,
+     .parameters = continuum_parameters,
+     .studies = study_hoppers},
+    {.name = "air",
+     .prepare = prepare_air,
+     .analyse = analyse_air_run,
+     .draw = draw_air_run,
+     .parameters = air_parameters,
+     .studies = nullptr},
+};
+
+}  // namespace
+
+std::span<const ModelEntry> models() {
+  return entries;
+}
+
+const ModelEntry& model_of(const CaseFile& file) {
+  const CaseEntry* const given = file.find("model");
+  const auto* const name = given ? std::get_if<std::string>(&given->value.value) : nullptr;
+  std::vector<std::string_view> names;
+  for (const ModelEntry& entry : entries) {
+    if (name && *name == entry.name) return entry;
+    names.push_back(entry.name);
+  }
+  std::vector<Problem> problems = file.problems();
+  problems.push_back({.where = given ? given->where : file.name(),
+                      .line = given ? given->line : 0,
+                      .key = "model",
+                      .what = !given ? "missing"
+                              : name ? fmt::format("there is no model \"{}\"", *name)
+                                     : "is not a model's name in quotes",
+                      .allowed = fmt::format("{}", fmt::join(names, ", ")),
+                      .nearest = name ? std::string(nearest(*name, names)) : std::string()});
+  throw InputError(problems);
+}
+
+StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found) {
+  const CaseFile& file = found.front().files.front();
+  const ModelEntry& model = model_of(file);
+  if (!model.studies)
+    throw InputError({{.where = file.name(),
+                       .key = "model",
+                       .what = fmt::format("no study is of runs of the model \"{}\"", model.name)}});
+  return model.studies(found);
+}
+
+PreparedCase prepare_case(const CaseFile& file) {
+  return model_of(file).prepare(file);
+}
+
+void check_memory(const PreparedCase& prepared, const CaseFile& file) {
+  const std::optional<double> available = available_memory();
+  if (!available || prepared.forecast.memory_bytes <= *available) return;
+  Problem problem = prepared.too_large(*available);
+  problem.what += fmt::format(", which need {:.3g} GB of memory; {:.3g} GB are free here",
+                              prepared.forecast.memory_bytes / 1e9, *available / 1e9);
+  ParameterReader reader(file);
+  reader.check({std::move(problem)});
+  reader.raise();
+}
+
+}  // namespace talus::app

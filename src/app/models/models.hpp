@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The models there are, in one table: what the commands ask of a model. A model is added by a row.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "app/case/prepared_case.hpp"
+#include "app/comparison/studied_runs.hpp"
+#include "io/case_file.hpp"
+#include "io/parameter_value.hpp"
+#include "numerics/named_value.hpp"
+
+namespace talus::app {
+
+struct ModelEntry {
+  std::string_view name;  ///< of the key `model`
+  /// Reads and checks a case. \throws InputError with every problem
+  PreparedCase (*prepare)(const CaseFile& file);
+  /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
+  /// \param resolved the manifest's case; \throws FileError, InputError
+  std::vector<NamedValue> (*analyse)(const CaseFile& resolved, const std::filesystem::path& folder);
+  /// Draws a run's pictures and returns their paths, the one to look at first first.
+  std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder);
+  /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
+  ParameterList (*parameters)();
+  /// Reads runs that a reference is about. Null: no study is of this model. \throws FileError
+  StudiedRuns (*studies)(const std::vector<FoundEnsemble>& found);
+};
+
+std::span<const ModelEntry> models();
+
+/// The model that a case names. \throws InputError if it names none, or one that there is not, with the nearest
+const ModelEntry& model_of(const CaseFile& file);
+
+/// Reads runs, all of one model, at least one ensemble. \throws FileError; \throws InputError if no study is of their
+/// model
+StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found);
+
+/// Reads a case: the model it names, then all parameters of model and run.
+/// \throws InputError with every problem; where there is no such model, with that alone
+PreparedCase prepare_case(const CaseFile& file);
+
+/// \throws InputError if the run needs more memory than there is now, on this machine, with the line of the case that
+/// asks for it
+void check_memory(const PreparedCase& prepared, const CaseFile& file);
+
+}  // namespace talus::app
