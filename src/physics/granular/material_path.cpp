@@ -44,7 +44,7 @@ Tensor3<> deformed(const Tensor3<>& deformation, const Tensor3<>& velocity_gradi
 template <class Law>
 MaterialPoint<Law> updated(const Law& law, const MaterialPoint<Law>& old, Tensor3<>& deformation,
                            const Tensor3<>& velocity_gradient, double density, double step) {
-  if constexpr (std::is_same_v<Law, YuuUmekagePrinted>)
+  if constexpr (requires { law.by_displacements(); })
     if (law.by_displacements()) {
       const Tensor3<> unit = full(isotropic(1.0));
       deformation = deformed(deformation, velocity_gradient, step);
