@@ -7,6 +7,7 @@
 
 #include "app/case/prepared_case.hpp"
 #include "base/error.hpp"
+#include "io/case_file.hpp"
 #include "io/manifest.hpp"
 #include "io/run_folder.hpp"
 
