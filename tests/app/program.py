@@ -35,6 +35,23 @@ snapshots = "0.1 ms"
 pictures = false
 """
 
+HOPPER = """model = "continuum"
+[box]
+width = "100 mm"
+depth = "5 mm"
+height = "100 mm"
+[plate]
+height = "40 mm"
+slit_left = "20 mm"
+slit_right = "80 mm"
+[bed]
+spacing = "5 mm"
+height = "40 mm"
+[run]
+end = "1 ms"
+"""
+
+
 
 def checkpoints(folder):
     """Steps of the whole checkpoints of a run, by name; each is verified against its own first lines."""
@@ -135,3 +152,17 @@ class ProgramTest(unittest.TestCase):
     def kill(self, process):
         process.send_signal(signal.SIGKILL)
         process.wait()
+
+
+class InputTest(ProgramTest):
+    """What bad input is told."""
+
+    def problems(self, *arguments, status=2):
+        """The messages, without the last line, which counts them."""
+        lines = self.talus(*arguments, status=status).stderr.splitlines()
+        count = len(lines) - 1
+        self.assertEqual(lines[-1], f"talus: {count} problem{'s' * (count != 1)} in the input")
+        return lines[:-1]
+
+    def assert_nothing_written(self):
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["case.toml"])

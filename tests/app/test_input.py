@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input: every problem at once, exit status 2, and nothing written."""
-import json
 import subprocess
 import unittest
 
-from program import CASE, PROGRAM, PROJECT, ProgramTest, bits, tree
+from program import CASE, HOPPER, PROGRAM, PROJECT, InputTest, ProgramTest, bits, tree
 
 ELEVEN_FAULTS = """model = "cloud"
 seed = -1
@@ -28,19 +27,7 @@ snapshots = "0.1 ms"
 POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
-class Input(ProgramTest):
-    def problems(self, *arguments, status=2):
-        """The messages, without the last line, which counts them."""
-        lines = self.talus(*arguments, status=status).stderr.splitlines()
-        count = len(lines) - 1
-        self.assertEqual(lines[-1], f"talus: {count} problem{'s' * (count != 1)} in the input")
-        return lines[:-1]
-
-    def assert_nothing_written(self):
-        self.assertEqual([path.name for path in self.folder.iterdir()], ["case.toml"])
-
-
-class BadCase(Input):
+class BadCase(InputTest):
     def test_eleven_faults_are_eleven_messages_by_line(self):
         (self.folder / "case.toml").write_text(ELEVEN_FAULTS)
         expected = [
@@ -209,119 +196,78 @@ class BadCase(Input):
             self.assertTrue(self.talus(*arguments).stdout)
 
 
-HOPPER = """model = "continuum"
-[box]
-width = "100 mm"
-depth = "5 mm"
-height = "100 mm"
-[plate]
-height = "40 mm"
-slit_left = "20 mm"
-slit_right = "80 mm"
-[bed]
-spacing = "5 mm"
-height = "40 mm"
-[run]
-end = "1 ms"
-"""
-
-
-class Choices(Input):
-    """Keys that mean nothing under the choices of a case, and those that have another name now."""
-
-    def setUp(self):
-        super().setUp()
-        (self.folder / "case.toml").write_text(HOPPER)
-
-    def given(self, *settings, command="check"):
-        return self.problems(command, "case.toml", *(part for s in settings for part in ("--set", s)))
-
-    def assert_one(self, setting, *parts, others=()):
-        [problem] = self.given(*others, setting)
-        self.assertTrue(problem.startswith(f"--set {setting}: {setting.split('=')[0]}: "), problem)
-        for part in parts:
-            self.assertIn(part, problem)
-
-    def test_a_key_of_another_law(self):
-        self.assert_one("law.drucker-prager.friction=0.5", 'given, but law.name is "yuu-umekage"',
-                        'allowed: law.name = "drucker-prager"')
-        self.assert_one("law.linear-elastic.lambda=1 MPa", 'but law.name is "drucker-prager"',
-                        others=["law.name=drucker-prager"])
-
-    def test_a_key_of_the_chosen_law(self):
-        said = self.talus("check", "case.toml", "--set", "law.name=drucker-prager", "--set",
-                          "law.drucker-prager.friction=0.5").stdout
-        self.assertIn("law.drucker-prager.friction", said)
-        self.assertNotIn("law.yuu-umekage.", said)
-
-    def test_a_key_of_an_option_that_is_not_taken(self):
-        for setting, but, *others in (
-                ("air.pressure=10 Pa", "air.enabled is false"),
-                ("air.cell=5 mm", "air.enabled is false", "air.enabled=false"),
-                ("air.top_pressure=1 Pa", 'air.top is "wall"', "air.enabled=true", "air.top=wall"),
-                ("air.upwind=0.5", 'air.motion is "frozen"', "air.enabled=true", "air.motion=frozen"),
-                ("gate.time=1 ms", 'gate.opens is "when-settled"'),
-                ("settle.speed=1 mm/s", 'gate.opens is "at-time"', "gate.opens=at-time"),
-                ("walls.coefficient=0.5", 'walls.friction is "none"', "walls.friction=none"),
-                ("collisions.normal=1", 'collisions.form is "none"', "collisions.form=none"),
-                ("law.yuu-umekage.compaction=1", 'law.yuu-umekage.volume is "density"')):
-            self.assert_one(setting, f"given, but {but}", others=others)
-
-    def test_keys_of_the_cloud_too(self):
-        (self.folder / "case.toml").write_text(CASE)
-        self.assert_one("contact.stiffness=1 N/m", "contact.enabled is false", others=["contact.enabled=false"])
-        self.assert_one("fluid.precision=single", 'fluid.mobility is "none"', others=["fluid.mobility=none"])
-
-    def test_old_names_tell_the_new_ones(self):
-        (self.folder / "case.toml").write_text(HOPPER + '[law]\nscale = 4\nform = "printed"\ncollisions = "none"\n'
-                                               'friction = 0.4\n')
-        problems = self.problems("run", "case.toml")
-        for problem, (line, key, now) in zip(problems, ((16, "scale", "law.yuu-umekage.scale"),
-                                                        (17, "form", 'law.name = "yuu-umekage"'),
-                                                        (18, "collisions", "collisions.form"),
-                                                        (19, "friction", "law.drucker-prager.friction")), strict=True):
-            self.assertTrue(problem.startswith(f"case.toml:{line}: law.{key}: has another name now"), problem)
-            self.assertIn(now, problem)
-        self.assert_nothing_written()
-
-    def test_an_angle_for_a_friction(self):
-        self.assert_one("walls.coefficient=35", "35 looks like an angle in degrees, whose tangent is 0.70")
-        self.assert_one("law.drucker-prager.friction=35", "35 looks like an angle", "0.70",
-                        others=["law.name=drucker-prager"])
-
-    def warnings(self, *settings):
-        """Names of the warnings of a run's summary; `check` and the card have the same before and at the end."""
-        options = [part for s in settings for part in ("--set", s)]
-        checked = self.talus("check", "case.toml", *options).stdout
-        out = f"r{len(list(self.folder.iterdir()))}"
-        said = self.talus("run", "case.toml", "--out", out, *options, "--set", "output.pictures=false", "--set",
-                          "gate.opens=from-the-start").stdout
-        found = json.loads((self.folder / out / "summary.json").read_text())["warnings"]
-        for warning in found:
-            self.assertIn("! " + warning.split(": ", 1)[1], said)
-        names = [warning.split(":")[0] for warning in found]
-        for name in ("grain-diameter", "particles-across-the-outlet", "particle-spacing-over-grain-diameter",
-                     "weight-of-the-bed-over-its-area", "grains-across-the-outlet"):
-            self.assertEqual(name in names, f"! {name.replace('-', ' ')} = " in checked, checked)
-        return names
-
-    def test_what_leaves_the_range_of_the_law_is_warned_of(self):
-        self.assertEqual([n for n in self.warnings() if "grain" in n or "particle" in n or "weight" in n], [])
-        self.assertIn("grain-diameter", self.warnings("grains.diameter=1 mm"))
-        self.assertNotIn("grain-diameter", self.warnings("grains.diameter=1 mm", "law.name=drucker-prager",
-                                                         "law.drucker-prager.friction=0.5"))
-        metre = self.warnings("grains.diameter=1 m")
-        for name in ("grain-diameter", "particle-spacing-over-grain-diameter", "grains-across-the-outlet"):
-            self.assertIn(name, metre)
-        self.assertIn("particles-across-the-outlet", self.warnings("plate.slit_left=40 mm", "plate.slit_right=65 mm"))
-        self.assertIn("weight-of-the-bed-over-its-area", self.warnings("law.yuu-umekage.scale=0.5"))
-
-    def test_warnings_of_a_cloud(self):
-        (self.folder / "case.toml").write_text(CASE)
-        self.assertIn("Reynolds number of a single grain", self.talus("check", "case.toml").stdout.split("Warnings")[1])
+class ExistingFolder(ProgramTest):
+    def test_is_refused_without_resume_or_overwrite(self):
         self.talus("run", "case.toml", "--out", "r")
-        found = json.loads((self.folder / "r/summary.json").read_text())["warnings"]
-        self.assertIn("reynolds-number-of-a-single-grain", [warning.split(":")[0] for warning in found])
+        before = tree(self.folder)
+        said = self.talus("run", "case.toml", "--out", "r", status=2).stderr
+        self.assertIn("r: holds a run already; allowed: --resume to go on with it, --overwrite to replace it", said)
+        self.assertEqual(tree(self.folder), before)
+        self.talus("run", "case.toml", "--out", "none", "--resume", status=2)
+        self.assertEqual(tree(self.folder), before)
+
+    def test_changed_case_is_not_resumed(self):
+        self.talus("run", "case.toml", "--out", "r")
+        before = tree(self.folder)
+        said = self.talus("run", "case.toml", "--out", "r", "--resume", "--set", "slope.angle=40 deg", "--set",
+                          "seed=4", "--set", "run.end=0.5 ms", "--set", "gravity.direction=[1, 0, -1]", "--set",
+                          "output.snapshots=0.2 ms", status=2).stderr
+        for text in ('slope.angle: "45 deg" in the run there, "40 deg" now', "seed: 3 in the run there, 4 now",
+                     "gravity.direction: not given in the run there, [1.0, 0.0, -1.0] now",
+                     'output.snapshots: "0.0001 s" in the run there, "0.0002 s" now',
+                     "run.end: 0.0005 s, before the end of the run there, 0.001 s"):
+            self.assertIn(text, said)
+        self.assertEqual(len(said.splitlines()), 6, said)
+        self.assertEqual(tree(self.folder), before)
+
+    def test_other_instruction_set_is_not_resumed(self):
+        portable = ("--set", "integration.instruction_set=portable")
+        self.talus("run", "case.toml", "--out", "r", *portable)
+        self.talus("run", "case.toml", "--out", "r", "--resume", *portable)
+        self.talus("run", "case.toml", "--out", "automatic")
+        if '"instruction_set": "portable"' in (self.folder / "automatic/manifest.json").read_text():
+            self.skipTest("this processor has no other instruction set")
+        before = tree(self.folder)
+        said = self.talus("run", "case.toml", "--out", "r", "--resume", status=2).stderr
+        self.assertRegex(said, r"integration\.instruction_set: portable in the run there, \w+ now")
+        self.assertEqual(tree(self.folder), before)
+
+    def test_changed_points_are_not_resumed(self):
+        (self.folder / "case.toml").write_text(POINTS)
+        (self.folder / "points.csv").write_text("x [m],y [m]\n0,0\n0.02,0\n0,0.03\n")
+        self.talus("run", "case.toml", "--out", "r")
+        self.talus("run", "case.toml", "--out", "r", "--resume")
+        (self.folder / "points.csv").write_text("x [m],y [m]\n0,0\n0.02,0\n0,0.04\n")
+        before = tree(self.folder)
+        self.assertIn("particles.file: its points are not those",
+                      self.talus("run", "case.toml", "--out", "r", "--resume", status=2).stderr)
+        self.assertEqual(tree(self.folder), before)
+
+    def test_later_end_gives_the_bits_of_the_later_end_at_once(self):
+        self.talus("run", "case.toml", "--out", "at-once", "--set", "run.end=1.5 ms")
+        self.talus("run", "case.toml", "--out", "r", "--set", "run.end=0.77 ms")
+        self.talus("run", "case.toml", "--out", "r", "--set", "run.end=1.5 ms", "--resume")
+        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "at-once"))
+        self.assertIn(r'end = \"0.0015 s\"', (self.folder / "r/manifest.json").read_text())
+
+    def test_overwriting_leaves_nothing_of_the_old_run_but_what_others_put_there(self):
+        self.talus("run", "case.toml", "--out", "r", "--set", "output.pictures=true")
+        for name in ("analysis/head_widths.csv", "pictures/frames.png", "pictures/front.png",
+                     "pictures/front_speed.png", "snapshots/particles_0010.vtkhdf"):
+            self.assertTrue((self.folder / "r" / name).exists(), name)
+        (self.folder / "r/snapshots/particles_0077.vtkhdf.part").touch()
+        for name in ("notes.txt", "analysis/mine.txt", "pictures/mine.svg"):
+            (self.folder / "r" / name).write_text("mine")
+        # Without a slope there is neither a head nor a front.
+        other = ("--set", "slope.enabled=false", "--set", "gravity.direction=[1, 0, 0]", "--set",
+                 "output.snapshots=0.5 ms")
+        self.talus("run", "case.toml", "--out", "r", "--overwrite", *other)
+        self.talus("run", "case.toml", "--out", "fresh", *other)
+        self.assertEqual(set(tree(self.folder / "r")) - set(tree(self.folder / "fresh")),
+                         {"notes.txt", "analysis/mine.txt", "pictures/mine.svg",
+                          "snapshots/particles_0077.vtkhdf.part"})
+        (self.folder / "r/snapshots/particles_0077.vtkhdf.part").unlink()
+        self.assertEqual(bits(self.folder / "r"), bits(self.folder / "fresh"))
 
 
 if __name__ == "__main__":
