@@ -25,9 +25,9 @@ concept Model = requires(M model, const M constant, ThreadTeam& team, const RunR
   model.advance(team);  // one step; throws NumericalError
   { constant.time_origin() } -> std::same_as<double>;    // from which run.end counts; infinite while it has not come
   { constant.latest_origin() } -> std::same_as<double>;  // when it has come at the latest
-  { constant.step_limit() } -> std::same_as<NumericalError::Report>;  // what holds the last step, where, what to try
-  { constant.totals() } -> std::same_as<std::vector<NamedValue>>;     // the same names every time
-  { constant.regime(record) } -> std::same_as<std::vector<RegimeLine>>;     // at the end of a run
+  { constant.step_limit() } -> std::same_as<NumericalError::Report>;     // what holds the last step, where, what to try
+  { constant.totals() } -> std::same_as<std::vector<NamedValue>>;        // the same names every time
+  { constant.regime(record) } -> std::same_as<std::vector<RegimeLine>>;  // at the end of a run
 };
 
 }  // namespace talus

@@ -12,8 +12,8 @@
 #include "io/checkpoint.hpp"
 #include "numerics/grid_snapshot.hpp"
 #include "numerics/named_value.hpp"
-#include "numerics/snapshot.hpp"
 #include "numerics/run_record.hpp"
+#include "numerics/snapshot.hpp"
 #include "numerics/snapshot_of.hpp"
 
 namespace talus::run {

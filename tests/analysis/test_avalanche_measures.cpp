@@ -224,7 +224,8 @@ TEST(Reference, EveryRowOfThePaperCanBeEvaluated) {
     EXPECT_NO_THROW({
       std::vector<const std::vector<AvalancheRun>*> groups;
       for (const auto& members : ensembles) groups.push_back(&members);
-      for (const auto& value : RowValues<AvalancheRun>(row, groups, measures_of_model()).values()) EXPECT_TRUE(value) << row.id;
+      for (const auto& value : RowValues<AvalancheRun>(row, groups, measures_of_model()).values())
+        EXPECT_TRUE(value) << row.id;
     }) << row.id;
   }
 }
