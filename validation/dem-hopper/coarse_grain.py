@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fields, surfaces and numbers of the referee's runs, from the frames that hopper.in writes, as small CSV files.
 
-usage: coarse_grain.py RUN_FOLDER ... --out data
+usage: coarse_grain.py RUN_FOLDER ... [--out data] [--pictures RUN ...]
 
 Averages. Packing and velocity are sums over beads spread in x and z by a Gaussian of 2 mm, through the whole depth, with
 mirror images at side walls and floor. Stress is that of Babic (1997, Int. J. Eng. Sci. 35, 523): over a box of volume V,
@@ -34,6 +34,8 @@ LEVEL = 0.3                   # packing on a surface
 SPACING = WIDTH / 60          # of the places where a surface is taken for its slopes: that of the case's particles
 HEIGHTS = 0.105, 0.12, 0.14, 0.16          # m, of profiles
 TIMES = 0.1, 0.15, 0.2, 0.25, 0.3          # s, of profiles
+PICTURES = 0.1, 0.16, 0.2, 0.3, 0.4        # s
+PICTURE_CELL = 2e-3
 HALF_WINDOW = 10e-3                        # s, about them
 FOOT_HEIGHT, FOOT_PACKING = 5e-3, 0.15
 #: Boxes for packing and stress: x from and to (and their mirror images), z from and to, m; times, s.
@@ -392,15 +394,37 @@ def add_run(tables, run):
         tables.add("walls", run.name, *row)
 
 
+def write_pictures(folder, run):
+    """A file a run of packing and mean speed in cells of 2 mm, at the times of the pictures; empty cells are left out."""
+    edges = [np.arange(round(size / PICTURE_CELL) + 1) * PICTURE_CELL for size in (WIDTH, TOP)]
+    with open(folder / f"picture-{run.name}.csv", "w", encoding="utf-8") as file:
+        file.write("time_s,x_mm,z_mm,packing,speed_m_per_s\n")
+        for time in PICTURES:
+            if not run.reaches(time):
+                continue
+            frame = run.frame(round(time / FRAME))
+            speed = np.linalg.norm(frame.velocity, axis=1)
+            volume, flux = (np.histogram2d(frame.x, frame.z, edges, weights=w)[0]
+                            for w in (frame.volume, frame.volume * speed))
+            for i, k in np.argwhere(volume > 0):
+                file.write(f"{time:g},{(edges[0][i] + PICTURE_CELL / 2) * 1e3:g},{(edges[1][k] + PICTURE_CELL / 2) * 1e3:g},"
+                           f"{volume[i, k] / (PICTURE_CELL**2 * run.depth):.2g},{flux[i, k] / volume[i, k]:.2g}\n")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument("--pictures", nargs="*", default=[], metavar="RUN", help="names of runs to be shown as pictures")
     parser.add_argument("--out", type=Path, default=Path(__file__).resolve().parent / "data")
     given = parser.parse_args()
     tables = Tables()
+    given.out.mkdir(parents=True, exist_ok=True)
     for folder in given.folders:
         try:
-            add_run(tables, Run(folder))
+            run = Run(folder)
+            add_run(tables, run)
+            if run.name in given.pictures:
+                write_pictures(given.out, run)
         except (OSError, ValueError) as error:
             sys.exit(f"{error}")
     tables.write(given.out)
