@@ -140,8 +140,7 @@ TEST(Hopper, FrameOfAFoot) {
   const HopperSetting paper = setting();
   const test::GrainColumns both = layer(12 * h, 18 * h), right = layer(0, 18 * h);
   EXPECT_NEAR(hopper::foot_reach(HopperSnapshot(paper, both.view(), gate), {{"height", 5e-3}}), 15 * h, 0.4 * h);
-  const HopperSnapshot one_side(paper, right.view(), gate);
-  EXPECT_NEAR(hopper::foot_reach(one_side, {{"height", 5e-3}}), 9 * h, h) << "what the kernel spreads over the middle";
+  EXPECT_TRUE(std::isnan(hopper::foot_reach(HopperSnapshot(paper, right.view(), gate), {{"height", 5e-3}})));
 }
 
 /// Numbers of 21 snapshots, one every 50 ms.

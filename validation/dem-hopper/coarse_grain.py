@@ -117,15 +117,18 @@ class Section:
     z = (np.arange(round(TOP / CELL)) + 0.5) * CELL
 
     def __init__(self, frame, depth, smoothing=SMOOTHING):
-        self._edges = [np.arange(len(axis) + 1) * CELL for axis in (self.x, self.z)]
+        self._shares = _shares(frame.x, len(self.x)), _shares(frame.z, len(self.z))
         self._spread = [_gaussian(axis, size, smoothing) for axis, size in ((self.x, WIDTH), (self.z, None))]
         self.frame, self.depth = frame, depth
         self.packing = self.sum_of(frame.volume)
 
     def sum_of(self, values):
         """Of a number a bead: its sum over a unit of volume."""
-        sums = np.histogram2d(self.frame.x, self.frame.z, self._edges, weights=values)[0] / (CELL**2 * self.depth)
-        return self._spread[0] @ sums @ self._spread[1].T
+        sums = np.zeros(len(self.x) * len(self.z))
+        for column, across in self._shares[0]:
+            for row, up in self._shares[1]:
+                sums += np.bincount(column * len(self.z) + row, values * across * up, len(sums))
+        return self._spread[0] @ sums.reshape(len(self.x), len(self.z)) @ self._spread[1].T / (CELL**2 * self.depth)
 
     def mean_of(self, values):
         """Of a number a bead: its mean weighted with the beads' volume; nan where there are none."""
@@ -136,6 +139,15 @@ class Section:
         """The values at the cells that the beads are in."""
         column = np.clip((self.frame.x / CELL).astype(int), 0, len(self.x) - 1)
         return values[column, np.clip((self.frame.z / CELL).astype(int), 0, len(self.z) - 1)]
+
+
+def _shares(places, cells):
+    """The two cells between whose centres each place lies, with its linear shares in them; beyond the last centres the
+    outermost cell has all. What is above the top has none."""
+    at = places / CELL - 0.5
+    first = np.floor(at)
+    known = (places < cells * CELL).astype(float)
+    return [(np.clip(first + n, 0, cells - 1).astype(int), known * np.where(n, at - first, 1 - at + first)) for n in (0, 1)]
 
 
 def _gaussian(places, size, width):
@@ -372,10 +384,11 @@ def add_run(tables, run):
             if any(abs(frame.time - t) < 1e-6 for t in times):
                 packing, contact, kinetic = box_state(frame, section, x, z)
                 s = contact + kinetic
-                tables.add("states", run.name, frame.time, place, packing, *s, kinetic[:3].sum() / s[:3].sum(),
-                           s[0] / s[2])
+                with np.errstate(invalid="ignore", divide="ignore"):
+                    share, ratio = kinetic[:3].sum() / s[:3].sum(), s[0] / s[2]
+                tables.add("states", run.name, frame.time, place, packing, *s, share, ratio)
                 number("packing", place, f"{frame.time:g}", "1", packing)
-                number("stress_ratio", place, f"{frame.time:g}", "1", s[0] / s[2])
+                number("stress_ratio", place, f"{frame.time:g}", "1", ratio)
         if n == max(run.steps) // 10 * 10:
             number("repose_angle_hopper", "", f"{frame.time:g}", "deg", repose_angle(section, hopper))
             number("repose_angle_bin", "", f"{frame.time:g}", "deg", repose_angle(section, bin_))
