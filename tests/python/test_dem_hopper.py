@@ -31,7 +31,7 @@ def lattice(heights, bottom=0.0, time=0.0):
     return cg.Frame(time, np.full(len(x), RADIUS), x, z, np.zeros((len(x), 3)), np.zeros((len(x), 4)))
 
 
-def write(folder, frames, walls=()):
+def write(folder, frames, walls={}):
     """A run's folder as hopper.in leaves it, a frame every 100 steps."""
     (folder / "frames").mkdir(parents=True)
     parameters = {"diameter": 2 * RADIUS, "depth": DEPTH, "seed": 1, "rolling": 0.0, "stiffness": 1.0}
@@ -42,8 +42,8 @@ def write(folder, frames, walls=()):
         with open(folder / "frames" / f"{100 * n}.txt", "w") as file:
             file.write(head)
             np.savetxt(file, np.column_stack([f.radius, f.x, f.z, f.velocity, -f.stress]), "%.9g")
-    if len(walls):
-        np.savetxt(folder / "walls.txt", walls, "%.9g", header="of fix ave/time")
+    for begun, rows in walls.items():
+        np.savetxt(folder / f"walls.{begun}.txt", rows, "%.9g", header="of fix ave/time")
 
 
 class Surfaces(unittest.TestCase):
@@ -153,9 +153,9 @@ class Folder(unittest.TestCase):
         np.testing.assert_allclose(velocity, -0.5)
         np.testing.assert_allclose(packing, PACKING, rtol=1e-6)
 
-    def test_wall_loads_are_means_of_20_ms_and_a_repeated_time_counts_once(self):
+    def test_wall_loads_are_means_of_20_ms_and_a_resumed_run_counts(self):
         rows = [[100 * n, *np.full(8, 1.0 * n)] for n in range(1, 21)]
-        write(self.folder / "run", self.falling(3), rows[:12] + [[1200, *np.full(8, 99.0)]] + rows[12:])
+        write(self.folder / "run", self.falling(3), {0: rows[:12], 1100: [[1200, *np.full(8, 99.0)]] + rows[12:]})
         loads = cg.wall_loads(cg.Run(self.folder / "run"))
         np.testing.assert_allclose(loads[:, 0], [0.01, 0.03])
         np.testing.assert_allclose(loads[0, 1:], 5.5 * cg.DEPTH / DEPTH)

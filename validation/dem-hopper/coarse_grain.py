@@ -304,11 +304,11 @@ def profile(run, time, height, columns=25):
 
 def wall_loads(run):
     """20 ms means of the forces of the walls on the grains in 5 mm, N: rows of time and left, right, floor, plate, each
-    along x and z. A resumed run may have written a time twice; the later one counts."""
-    path = run.folder / "walls.txt"
-    rows = np.loadtxt(path, ndmin=2) if path.is_file() else np.empty((0, 9))
-    number = np.round(rows[:, 0] / run.steps[1]).astype(int) if len(rows) else np.empty(0, int)
-    latest = {n: row for n, row in zip(number, rows) if n > 0}
+    along x and z. A resumed run writes a file of its own; what it has counts."""
+    latest = {}
+    for path in sorted(run.folder.glob("walls.*.txt"), key=lambda path: int(path.stem.split(".")[1])):
+        for row in np.loadtxt(path, ndmin=2):
+            latest[round(row[0] / run.steps[1])] = row
     means = []
     for last in range(10, max(latest, default=0) + 1, 10):
         group = [latest[n][1:] for n in range(last - 9, last + 1) if n in latest]

@@ -70,7 +70,7 @@ def main():
         command += ["-var", variable, f"{parameters[name]:.10g}"]
     if checkpoint:
         command[command.index("lammps.log")] = "resumed.log"
-        command += ["-var", "resume", checkpoint.name]
+        command += ["-var", "resumed", "1", "-var", "restart", checkpoint.name]
     sys.exit(subprocess.run(command, cwd=folder, env={**os.environ, "OMP_NUM_THREADS": "1"}).returncode)
 
 
