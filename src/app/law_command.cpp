@@ -70,7 +70,7 @@ ExitStatus follow(const LawOptions& options) {
   const LawCase parameters = read_law_case(options.case_options.read());
   const std::vector<granular::PathStretch> stretches = read_path(options.path);
   FollowedPath path{.parameters = parameters,
-                    .law = granular::make_law(parameters.law, parameters.grains.density),
+                    .law = granular::make_law(parameters.law, parameters.grains.density, parameters.grains.diameter),
                     .stretches = stretches,
                     .options = path_options(parameters, stretches.size()),
                     .points = {}};
