@@ -41,4 +41,16 @@ double surface_angle(const FreeSurface& surface, double middle);
 /// How much higher the middle is than the places `beside` to its left and right: means over `width` each. m
 double surface_swelling(const FreeSurface& surface, double middle, double beside, double width);
 
+/// The two stretches of a surface beside a stream that falls on it, or beside the lip above an outlet.
+struct Flanks {
+  double left_from = 0, left_to = 0, right_from = 0, right_to = 0;  ///< x, m
+};
+
+/// surface_angle() of the flanks alone; nan unless each has three heights.
+double flank_angle(const FreeSurface& surface, const Flanks& flanks);
+
+/// How much higher the middle is, mean over `width`, than where the lines through the flanks, prolonged, have it; their
+/// mean. m; nan unless each flank has three heights
+double swelling_above_flanks(const FreeSurface& surface, const Flanks& flanks, double middle, double width);
+
 }  // namespace talus

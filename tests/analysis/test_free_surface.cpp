@@ -138,5 +138,20 @@ TEST(HeapSlopes, EndAtGaps) {
   EXPECT_NEAR(surface_angle(surface, 30) / degree, 45, 1e-9);
 }
 
+TEST(FreeSurface, FlanksLeaveOutWhatFallsOnTheMiddle) {
+  const double slope = std::tan(20 * degree);
+  FreeSurface surface;
+  for (int n = 0; n < 100; ++n) {
+    const double x = n + 0.5, from_middle = std::abs(x - 50);
+    surface.x.push_back(x);
+    surface.z.push_back(x < 5 || x > 95 ? 99 : from_middle < 20 ? 60 : 50 - slope * from_middle);
+  }
+  const Flanks flanks{5, 28, 72, 95};
+  EXPECT_NEAR(flank_angle(surface, flanks) / degree, 20, 1e-9);
+  EXPECT_NEAR(swelling_above_flanks(surface, flanks, 50, 10), 10, 1e-9);
+  EXPECT_TRUE(std::isnan(flank_angle(surface, {5, 6, 72, 95}))) << "two heights are no line";
+  EXPECT_TRUE(std::isnan(swelling_above_flanks(surface, {5, 6, 72, 95}, 50, 10)));
+}
+
 }  // namespace
 }  // namespace talus
