@@ -86,18 +86,25 @@ double surface_angle(const FreeSurface& surface, double middle) {
   return std::atan(0.5 * (std::abs((left ? left : right)->slope) + std::abs((right ? right : left)->slope)));
 }
 
-double flank_angle(const FreeSurface& surface, const Flanks& flanks) {
-  const auto left = line(surface, flanks.left_from, flanks.left_to);
-  const auto right = line(surface, flanks.right_from, flanks.right_to);
-  return left && right ? std::atan(0.5 * (std::abs(left->slope) + std::abs(right->slope))) : none;
-}
-
-double swelling_above_flanks(const FreeSurface& surface, const Flanks& flanks, double middle, double width) {
-  const auto left = line(surface, flanks.left_from, flanks.left_to);
-  const auto right = line(surface, flanks.right_from, flanks.right_to);
+double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width) {
+  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
   if (!left || !right) return none;
   const double prolonged = 0.5 * (left->intercept + right->intercept + (left->slope + right->slope) * middle);
   return surface.mean_height(middle - 0.5 * width, middle + 0.5 * width) - prolonged;
+}
+
+double height_beside(const FreeSurface& surface, double middle, double from, double to) {
+  std::vector<double> heights;
+  for (std::size_t n = 0; n < surface.x.size(); ++n)
+    if (const double away = std::abs(surface.x[n] - middle); away >= from && away <= to && std::isfinite(surface.z[n]))
+      heights.push_back(surface.z[n]);
+  return mean(heights);
+}
+
+double outward_angle(const FreeSurface& surface, double middle, double from, double to) {
+  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
+  if (!left && !right) return none;
+  return std::atan(0.5 * ((left ? left->slope : -right->slope) - (right ? right->slope : -left->slope)));
 }
 
 double surface_swelling(const FreeSurface& surface, double middle, double beside, double width) {

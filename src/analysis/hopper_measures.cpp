@@ -34,8 +34,6 @@ bool air(const Run& run) {
   return run.setting.air;
 }
 
-const std::vector<std::string_view> flanks{"margin", "left", "right"};
-
 const std::vector<Row> list = {
     Row("floor_stress_settled", "Pa",
         "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate "
@@ -117,6 +115,61 @@ const std::vector<Row> list = {
         at(surface_angle_in<Where::bin>), {{bin}}),
     Row("surface_angle_hopper", "deg", "the same of the hopper's surface, mean over the window",
         mean_of(surface_angle_in<Where::hopper>), {{outlet, while_it_flows}}),
+    Row("surface_height_bin", "m",
+        "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
+        "middle, "
+        "left and right together",
+        at(surface_height_in<Where::bin>), {}, beside),
+    Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
+        beside),
+    Row("surface_outward_angle_bin", "deg",
+        "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
+        "of "
+        "the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        at(surface_outward_angle_in<Where::bin>), {}, beside),
+    Row("surface_inward_angle_hopper", "deg",
+        "the same of the hopper's surface, towards the middle; negative where it falls towards the walls",
+        at(surface_inward_angle_hopper), {}, beside),
+    Row("surface_inward_angle_largest_fall", "deg", "as surface_angle_largest_fall, of surface_inward_angle_hopper",
+        {largest_fall_of<surface_inward_angle_hopper>}, {}, beside),
+    Row("surface_inward_angle_end_difference", "deg", "surface_inward_angle_hopper less repose_angle_hopper",
+        {above_repose<surface_inward_angle_hopper>}, {}, beside),
+    Row("swelling_above_flanks", "m",
+        "height of the hopper's surface in the middle, mean over `width`, less where the lines through it between "
+        "distances `from` and `to` from the middle, prolonged, have it, mean over the window",
+        mean_of(swelling_above_flanks), {}, {"from", "to", "width"}),
+    Row("foot_speed", "m/s",
+        "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
+        "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
+        "`height` "
+        "of the bin passes 0.15",
+        {foot_speed}, {}, {"height", "from", "to"}),
+    Row("surface_swelling", "m",
+        "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
+        mean_of(surface_swelling), {}, {"beside", "width"}),
+    Row("surface_angle_largest_fall", "deg",
+        "largest by which surface_angle_hopper lies below an earlier value, 10 ms means, once it has passed 1 degree",
+        {largest_fall_of<surface_angle_in<Where::hopper>>}),
+    Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
+        {above_repose<surface_angle_in<Where::hopper>>}),
+    Row("surface_height_bin", "m",
+        "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
+        "middle, "
+        "left and right together",
+        at(surface_height_in<Where::bin>), {}, beside),
+    Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
+        beside),
+    Row("surface_outward_angle_bin", "deg",
+        "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
+        "of "
+        "the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        at(surface_outward_angle_in<Where::bin>), {}, beside),
+    Row("foot_speed", "m/s",
+        "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
+        "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
+        "`height` "
+        "of the bin passes 0.15",
+        {foot_speed}, {}, {"height", "from", "to"}),
     Row("surface_swelling", "m",
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
         mean_of(surface_swelling), {}, {"beside", "width"}),

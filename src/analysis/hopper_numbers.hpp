@@ -23,6 +23,15 @@ template <Where where>
 double surface_angle_in(const HopperSnapshot& s, const Place&) {
   return surface_angle(surface_in(s, where), s.shape().middle()) / (std::numbers::pi / 180);
 }
+template <Where where>
+double surface_height_in(const HopperSnapshot& s, const Place& place) {  ///< from, to: away from the middle
+  return height_beside(surface_in(s, where), s.shape().middle(), length_of(place, "from"), length_of(place, "to"));
+}
+template <Where where>
+double surface_outward_angle_in(const HopperSnapshot& s, const Place& place) {  ///< from, to: away from the middle
+  return outward_angle(surface_in(s, where), s.shape().middle(), length_of(place, "from"), length_of(place, "to")) /
+         (std::numbers::pi / 180);
+}
 template <Where where, double ReposeAngle::*angle>
 double repose_angle_in(const HopperSnapshot& s, const Place&) {
   return repose_in(s, where).*angle / (std::numbers::pi / 180);
@@ -42,12 +51,8 @@ double cell_gradient(const HopperSnapshot& s, const Place&) {
 
 double mass(const HopperSnapshot& s, const Place& place);                         ///< of all particles
 double surface_swelling(const HopperSnapshot& s, const Place& place);             ///< beside, width
-double swelling_above_flanks(const HopperSnapshot& s, const Place& place);        ///< margin, left, right, width
-double flank_angle_in(const HopperSnapshot& s, Where where, const Place& place);  ///< margin, left, right
-template <Where where>
-double surface_angle_of_flanks_in(const HopperSnapshot& s, const Place& place) {
-  return flank_angle_in(s, where, place);
-}
+double swelling_above_flanks(const HopperSnapshot& s, const Place& place);        ///< from, to, width
+double surface_inward_angle_hopper(const HopperSnapshot& s, const Place& place);  ///< from, to
 double quiescent_speed(const HopperSnapshot& s, const Place& place);
 double packing_max(const HopperSnapshot& s, const Place& place);
 double packing_max_outside_impact(const HopperSnapshot& s, const Place& place);  ///< distance
@@ -65,6 +70,9 @@ double stream_packing(const HopperSnapshot& s, const Place& place);
 double stream_stripes(const HopperSnapshot& s, const Place& place);
 /// Mean vertical stress in the stream over that of the grains above the outlet.
 double stream_stress_share(const HopperSnapshot& s, const Place& place);
+/// How far the layer on the bin's floor reaches from the middle, mean of left and right: to where the mean packing of
+/// the lowest `height` passes 0.15; nan where one side has none.
+double foot_reach(const HopperSnapshot& s, const Place& place);
 
 /// Means over x from `left` to `right` at z = `height`.
 double hopper_velocity(const HopperSnapshot& s, const Place& place);

@@ -146,11 +146,9 @@ TEST(FreeSurface, FlanksLeaveOutWhatFallsOnTheMiddle) {
     surface.x.push_back(x);
     surface.z.push_back(x < 5 || x > 95 ? 99 : from_middle < 20 ? 60 : 50 - slope * from_middle);
   }
-  const Flanks flanks{5, 28, 72, 95};
-  EXPECT_NEAR(flank_angle(surface, flanks) / degree, 20, 1e-9);
-  EXPECT_NEAR(swelling_above_flanks(surface, flanks, 50, 10), 10, 1e-9);
-  EXPECT_TRUE(std::isnan(flank_angle(surface, {5, 6, 72, 95}))) << "two heights are no line";
-  EXPECT_TRUE(std::isnan(swelling_above_flanks(surface, {5, 6, 72, 95}, 50, 10)));
+  EXPECT_NEAR(outward_angle(surface, 50, 22, 45) / degree, 20, 1e-9);
+  EXPECT_NEAR(swelling_above_flanks(surface, 50, 22, 45, 10), 10, 1e-9);
+  EXPECT_TRUE(std::isnan(swelling_above_flanks(surface, 50, 44, 45, 10))) << "two heights are no line";
 }
 
 }  // namespace
