@@ -83,6 +83,9 @@ double above_repose(const HopperRun& run, const Place& place, const Window& wind
 /// Of the angles of repose of bin and hopper, the one nearer to 30 degrees, or the other.
 double repose(const HopperRun& run, const Window& window, bool nearer);
 
+/// Those measures of hopper_measures() that need the air.
+std::vector<Measure<HopperRun>> hopper_air_measures();
+
 // Two runs, one of each variant.
 using Pair = std::span<const std::vector<HopperRun>>;
 std::optional<double> ratio_at_largest(Pair runs, const Window& window);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The list of measures of grains in a vessel. A row: name, unit, what it means, how it is made; the lengths that it
-/// takes from a place; where a summary lists it.
+/// The list of measures of grains in a vessel; those of the air stand in hopper_air_measures.cpp. A row: name, unit,
+/// what it means, how it is made; the lengths that it takes from a place; where a summary lists it.
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
 #include "analysis/statistics.hpp"
@@ -30,11 +30,8 @@ bool bin(const Run& run) {
 bool outlet_and_bin(const Run& run) {
   return outlet(run) && bin(run);
 }
-bool air(const Run& run) {
-  return run.setting.air;
-}
 
-const std::vector<Row> list = {
+const std::vector<Row> of_grains = {
     Row("floor_stress_settled", "Pa",
         "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate "
         "opens; "
@@ -117,15 +114,13 @@ const std::vector<Row> list = {
         mean_of(surface_angle_in<Where::hopper>), {{outlet, while_it_flows}}),
     Row("surface_height_bin", "m",
         "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
-        "middle, "
-        "left and right together",
+        "middle, left and right together",
         at(surface_height_in<Where::bin>), {}, beside),
     Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
         beside),
     Row("surface_outward_angle_bin", "deg",
         "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
-        "of "
-        "the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        "of the mean of the slopes of two lines, left and right; negative where it rises towards them",
         at(surface_outward_angle_in<Where::bin>), {}, beside),
     Row("surface_inward_angle_hopper", "deg",
         "the same of the hopper's surface, towards the middle; negative where it falls towards the walls",
@@ -141,8 +136,7 @@ const std::vector<Row> list = {
     Row("foot_speed", "m/s",
         "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
         "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
-        "`height` "
-        "of the bin passes 0.15",
+        "`height` of the bin passes 0.15",
         {foot_speed}, {}, {"height", "from", "to"}),
     Row("surface_swelling", "m",
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
@@ -154,21 +148,18 @@ const std::vector<Row> list = {
         {above_repose<surface_angle_in<Where::hopper>>}),
     Row("surface_height_bin", "m",
         "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
-        "middle, "
-        "left and right together",
+        "middle, left and right together",
         at(surface_height_in<Where::bin>), {}, beside),
     Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
         beside),
     Row("surface_outward_angle_bin", "deg",
         "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
-        "of "
-        "the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        "of the mean of the slopes of two lines, left and right; negative where it rises towards them",
         at(surface_outward_angle_in<Where::bin>), {}, beside),
     Row("foot_speed", "m/s",
         "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
         "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
-        "`height` "
-        "of the bin passes 0.15",
+        "`height` of the bin passes 0.15",
         {foot_speed}, {}, {"height", "from", "to"}),
     Row("surface_swelling", "m",
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
@@ -178,22 +169,6 @@ const std::vector<Row> list = {
         {largest_fall_of<surface_angle_in<Where::hopper>>}),
     Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
         {above_repose<surface_angle_in<Where::hopper>>}),
-    Row("surface_angle_of_flanks_bin", "deg",
-        "as surface_angle_bin, of the bin's surface from `margin` beside the left wall to `left`, and from `right` to "
-        "as "
-        "far from the right wall: without the stream that falls on its middle",
-        at(surface_angle_of_flanks_in<Where::bin>), {}, flanks),
-    Row("surface_angle_of_flanks_hopper", "deg",
-        "the same of the hopper's surface: without the lip above the outlet, mean over the window",
-        mean_of(surface_angle_of_flanks_in<Where::hopper>), {}, flanks),
-    Row("flank_angle_largest_fall", "deg", "as surface_angle_largest_fall, of surface_angle_of_flanks_hopper",
-        {largest_fall_of<surface_angle_of_flanks_in<Where::hopper>>}, {}, flanks),
-    Row("flank_angle_end_difference", "deg", "surface_angle_of_flanks_hopper less repose_angle_hopper",
-        {above_repose<surface_angle_of_flanks_in<Where::hopper>>}, {}, flanks),
-    Row("swelling_above_flanks", "m",
-        "height of the hopper's surface in the middle, mean over `width`, less where the lines through its flanks, "
-        "prolonged, have it, mean over the window",
-        mean_of(swelling_above_flanks), {}, {"margin", "left", "right", "width"}),
     Row("weight_balance_error", "1", "upward force of all walls, from their impulses over 20 ms, over M g, less 1",
         {balance_error}, {{always}}),
     Row("quiescent_speed", "m/s",
@@ -278,47 +253,6 @@ const std::vector<Row> list = {
         "layer "
         "of that height, without the outermost h/2",
         at(corner_packing_over_middle_bin), {}, {"size"}),
-    Row("drag_to_weight", "1",
-        "upward drag of the air on the grains (Eq. 20, without the pressure's part) over their weight, of the cells of "
-        "the air's grid from `left` to `right` at `height`",
-        at(drag_to_weight), {}, across),
-    Row("air_pressure_drop_height", "m",
-        "z of the largest size of dP/dz (central differences) at `x`, from `from` to `to`",
-        at(air_pressure_drop_height), {}, {"x", "from", "to"}),
-    Row("air_pressure_gradient_at_drop", "Pa/m", "dP/dz there", at(air_pressure_gradient_at_drop), {},
-        {"x", "from", "to"}),
-    Row("air_pressure_outside_inside", "Pa",
-        "at `height` the mean pressure where packing < 0.01, less the mean where packing > 0.1",
-        at(air_pressure_outside_inside), {}, {"height"}),
-    Row("air_velocity_within_plug", "m/s",
-        "mean u_z of the air at `height` where the grains' −u_z is above half its largest value there",
-        at(air_velocity_within_plug), {}, {"height"}),
-    Row("air_velocity_beside_plug", "m/s", "its largest mean over five cells beside them", at(air_velocity_beside_plug),
-        {}, {"height"}),
-    Row("air_velocity_slowness", "1", "speed of the air within the moving grains over that of the grains",
-        at(air_velocity_slowness), {}, {"height"}),
-    Row("air_vortex_product_bin", "1",
-        "circulation of the left half of the bin times that of the right one over the sum of their squares; "
-        "circulation: integral of ∂u_x/∂z − ∂u_z/∂x over the cells with packing below 0.01",
-        {vortex_product<Where::bin>}),
-    Row("air_vortex_product_hopper", "1", "the same in the hopper", {vortex_product<Where::hopper>}),
-    Row("air_vortex_product_bed", "1",
-        "the same in the hopper over the cells with packing above 0.1: within the grains",
-        {vortex_product<Where::hopper, Cells::filled>}),
-    Row("air_vortex_reversal_hopper", "1",
-        "circulation of the hopper's left half at the beginning of the window times that at its end, over its size",
-        {vortex_reversal<>}),
-    Row("air_vortex_reversal_bed", "1",
-        "circulation within the grains of the hopper's left half at the beginning of the window times that above them "
-        "at its end, over its size",
-        {vortex_reversal<Cells::filled>}),
-    Row("particle_reynolds_max", "1",
-        "largest D |u − u_p| ρ/μ of a grain at any step of the air since the start; the slip of a particle is the mean "
-        "of the cells it is spread over",
-        {[](const Run& r, const Place&, const Window& w) {
-          return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1);
-        }},
-        {{air}}),
     Row("momentum_error", "1",
         "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
         "gravity's impulse; settling included",
@@ -345,6 +279,12 @@ const GroupMeasure<Run> of_two[] = {
 }  // namespace
 
 std::span<const Measure<Run>> hopper_measures() {
+  static const std::vector<Row> list = [] {
+    std::vector<Row> all = of_grains;
+    const std::vector<Row> of_air = hopper_air_measures();
+    all.insert(all.end(), of_air.begin(), of_air.end());
+    return all;
+  }();
   return list;
 }
 
