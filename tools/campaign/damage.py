@@ -43,7 +43,7 @@ class Damage(Attack):
         self.talus(RUN, self.folder)
         self.expected = bits(self.folder / "r")
         # The same stopped on its way, as a kill leaves it, and stopped at its end.
-        self.talus([*RUN[:3], "half", *RUN[4:], "--walltime", "0.05"], self.folder, (130,))
+        self.talus([*RUN[:3], "half", *RUN[4:], "--walltime", "0.02"], self.folder, (130,))
 
     def trial(self, random, folder, most):
         (folder / "case.toml").write_text(self.text)
