@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,10 +22,11 @@ struct Ghost {
 
 class Neighbourhood {
  public:
-  explicit Neighbourhood(Domain domain) : domain_(std::move(domain)) {}
+  /// \param domain outlives it
+  explicit Neighbourhood(const Domain& domain) : domain_(domain) {}
+  explicit Neighbourhood(Domain&&) = delete;
 
   const Domain& domain() const { return domain_; }
-  void open_gates(double time = std::numeric_limits<double>::infinity()) { domain_.open_gates(time); }
 
   /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + a_j + skin.
   /// \param position inside the domain, m; \param radius m; one entry a particle; \param skin >= 0, m
@@ -49,7 +49,7 @@ class Neighbourhood {
   bool is_near_plate(std::size_t i) const { return near_plate_[i]; }           ///< or a panel
 
  private:
-  Domain domain_;
+  const Domain& domain_;
   double skin_ = -1;
   double reach_ = 0;
   std::vector<Vector3> reference_;

@@ -118,12 +118,12 @@ Continuum::Continuum(const Parameters& parameters)
     : parameters_(parameters), state_(initial_state(parameters, Material(parameters))) {}
 
 void Continuum::begin(ThreadTeam& team) {
-  workspace_.emplace(parameters_, state_);
+  workspace_ = std::make_unique<Workspace>(parameters_, state_);
   continuum::begin(team, parameters_, state_, *workspace_);
 }
 
 void Continuum::resume(ThreadTeam& team) {
-  workspace_.emplace(parameters_, state_);
+  workspace_ = std::make_unique<Workspace>(parameters_, state_);
   derive(team, parameters_, state_, *workspace_);
 }
 
@@ -149,14 +149,13 @@ std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
   const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
   const Vector3 p = momentum(s);
-  std::vector<NamedValue> values = {
-      {"step_size", "s", s.last_step},
-      {"speed_max", "m/s", largest_speed(s)},
-      {"density_min", "kg/m3", *least},
-      {"density_max", "kg/m3", *most},
-      {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
-      {"gate_time", "s", s.gate_time},
-      {"mass_outside", "kg", mass_outside(workspace_->sweep.neighbourhood().domain().box(), s)}};
+  std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
+                                    {"speed_max", "m/s", largest_speed(s)},
+                                    {"density_min", "kg/m3", *least},
+                                    {"density_max", "kg/m3", *most},
+                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+                                    {"gate_time", "s", s.gate_time},
+                                    {"mass_outside", "kg", mass_outside(domain().box(), s)}};
   const auto add = [&](const std::string& name, const Vector3& v) {
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };
@@ -164,8 +163,7 @@ std::vector<NamedValue> Continuum::totals() const {
   add("impulse_gravity", s.gravity_impulse);
   add("impulse_damping", s.damping_impulse);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
-    if (bears_load(workspace_->sweep.neighbourhood().domain(), wall))
-      add("impulse_" + wall_name(workspace_->sweep.neighbourhood().domain(), wall), s.wall_impulse[wall]);
+    if (bears_load(domain(), wall)) add("impulse_" + wall_name(domain(), wall), s.wall_impulse[wall]);
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
     const PressureRange pressure = pressure_range(air);

@@ -36,7 +36,7 @@ void Rates::resize(std::size_t count) {
   wall_push.resize(count);
 }
 
-Sweep::Sweep(const Parameters& p, double mass, double sound_speed)
+Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
     : mass_(mass),
       fixed_smoothing_length_(
           p.sph.smoothing == Smoothing::fixed ? sph::smoothing_length(mass, p.bed.packing * p.grains.density) : 0.0),
@@ -45,7 +45,7 @@ Sweep::Sweep(const Parameters& p, double mass, double sound_speed)
       stress_form_(p.sph.stress_form),
       corrected_continuity_(p.sph.continuity == Continuity::corrected),
       constants_{mass, sound_speed, p.sph.viscosity_alpha, p.sph.viscosity_beta},
-      around_(domain_of(p)) {
+      around_(domain) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   for (const Wanted wanted : {Wanted::all, Wanted::gradients, Wanted::forces})
     sum_[static_cast<std::size_t>(wanted)] = choose(set, wanted);

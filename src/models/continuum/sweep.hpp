@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -42,9 +41,9 @@ struct ParticleView {
 
 class Sweep {
  public:
-  /// \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
+  /// \param domain outlives the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
   /// \throws InputError if the processor does not have the case's instruction set
-  Sweep(const Parameters& parameters, double mass, double sound_speed);
+  Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed);
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
@@ -52,8 +51,6 @@ class Sweep {
   /// Builds the neighbour lists.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
   const Neighbourhood& neighbourhood() const { return around_; }
-  /// \param time from the opening of the case's gate, s
-  void open_gates(double time = std::numeric_limits<double>::infinity()) { around_.open_gates(time); }
 
   /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
   void operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates);

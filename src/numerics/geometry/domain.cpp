@@ -94,6 +94,7 @@ bool Domain::has_gates_due(double time) const {
 }
 
 void Domain::open_gates(double time) {
+  if (has_gates_due(time)) ++openings_;
   for (Plate& plate : plates_)
     for (Opening& opening : plate.openings) opening.shut = false;
   for (Panel& panel : panels_)

@@ -65,6 +65,9 @@ class Domain {
   /// \param time from the opening of the gate of the case, s
   void open_gates(double time = std::numeric_limits<double>::infinity());
 
+  /// How often gates have opened: who keeps what follows from the openings looks whether it has changed.
+  int openings() const { return openings_; }
+
   /// Unit normal of a wall, along its axis where it has one. \param wall number of a face, plate or panel
   Vector3 normal(int wall) const;
 
@@ -140,6 +143,7 @@ class Domain {
   Box box_;
   std::vector<Plate> plates_;
   std::vector<Panel> panels_;
+  int openings_ = 0;
   std::vector<Mirror> mirrors_;  // panels, then faces across x and z; none without panels
 };
 

@@ -25,10 +25,8 @@ namespace talus::coupling {
 class Deposition {
  public:
   /// \throws std::invalid_argument if the grid does not fill the domain's box, or if a plate is not on faces of cells
+  /// \param domain outlives it
   Deposition(const Grid& grid, const Domain& domain);
-
-  /// \param time from the opening of the case's gate, s
-  void open_gates(double time) { domain_.open_gates(time); }
 
   /// Finds the weights. \param smoothing_length of each particle, m; the kernel reaches twice as far
   void weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
@@ -60,7 +58,7 @@ class Deposition {
   void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
 
   Grid grid_;
-  Domain domain_;
+  const Domain& domain_;
   std::vector<int> layer_;  // of the faces on which each plate lies
   std::size_t count_ = 0;
   std::vector<Block> blocks_;

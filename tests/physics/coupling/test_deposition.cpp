@@ -26,14 +26,13 @@ struct Silo {
   double volume = 0.6 * spacing * spacing * spacing;
 
   explicit Silo(FaceKind front = FaceKind::symmetry, int threads = 1)
-      : team(threads),
-        domain({.low = {},
-                .high = {20e-3, 5e-3, 40e-3},
-                .faces = {FaceKind::wall, FaceKind::wall, front, front, FaceKind::wall, FaceKind::open}},
-               {{.axis = 2, .position = 15e-3, .openings = {{.low = {7.5e-3, -1, 0}, .high = {12.5e-3, 1, 0}}}}}),
-        deposition(grid, domain),
-        fraction(grid.cell_field()),
-        flux(grid.face_field()) {}
+      : Silo(Domain({.low = {},
+                     .high = {20e-3, 5e-3, 40e-3},
+                     .faces = {FaceKind::wall, FaceKind::wall, front, front, FaceKind::wall, FaceKind::open}},
+                    {{.axis = 2, .position = 15e-3, .openings = {{.low = {7.5e-3, -1, 0}, .high = {12.5e-3, 1, 0}}}}}),
+             threads) {}
+  explicit Silo(const Domain& around, int threads = 1)
+      : team(threads), domain(around), deposition(grid, domain), fraction(grid.cell_field()), flux(grid.face_field()) {}
 
   void place(const Vector3& x, const Vector3& u = {}) {
     position.push_back(x), velocity.push_back(u), smoothing_length.push_back(spacing);
@@ -186,21 +185,19 @@ TEST(Deposition, RefusesAGridThatDoesNotFillTheBox) {
 TEST(Deposition, NothingIsSpreadBehindAPanel) {
   for (const FaceKind side : {FaceKind::wall, FaceKind::periodic}) {
     const Panel panel{.name = "slope", .from = {4e-3, 0, 5e-3}, .to = {17e-3, 0, 25e-3}};
-    Silo silo;
-    silo.domain =
-        Domain({.low = {},
-                .high = {20e-3, 5e-3, 40e-3},
-                .faces = {side, side, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::wall}},
-               {}, {panel});
-    silo.deposition = Deposition(silo.grid, silo.domain);
+    const Domain sloping(
+        {.low = {},
+         .high = {20e-3, 5e-3, 40e-3},
+         .faces = {side, side, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::wall}},
+        {}, {panel});
+    Silo silo(sloping);
     place_at_random(silo, 200);
     silo.gather();
     EXPECT_NEAR(total(silo.grid, silo.fraction), 200 * silo.volume, 1e-12 * 200 * silo.volume);
 
     const double s = 0.4 * panel.length(), away = 0.4 * spacing;
     for (const double to : {-away, away}) {
-      Silo one;
-      one.domain = silo.domain, one.deposition = silo.deposition;
+      Silo one(sloping);
       one.place(panel.from + s * panel.along() + to * panel.normal());
       one.gather();
       int reached = 0;
