@@ -30,10 +30,9 @@ Parameters with_moving_walls(Parameters p) {
 
 }  // namespace
 
-AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates,
-                 const std::vector<Panel>& panels)
+AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls)
     : parameters_(with_moving_walls(parameters)),
-      passages_(grid, parameters_.boundaries, plates, panels),
+      passages_(grid, parameters_.boundaries, walls),
       convection_(passages_),
       viscosity_(passages_),
       solver_(grid, periodic_axes(parameters.boundaries)),
@@ -45,8 +44,8 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
     *field = grid.face_field();
 }
 
-void AirFlow::set_walls(const std::vector<Plate>& plates, const std::vector<Panel>& panels) {
-  passages_ = Passages(passages_.grid, parameters_.boundaries, plates, panels);
+void AirFlow::set_walls(const std::vector<Wall>& walls) {
+  passages_ = Passages(passages_.grid, parameters_.boundaries, walls);
 }
 
 /// From the momentum at the start of the step: velocity and pressure after dt, under the convection and viscosity of

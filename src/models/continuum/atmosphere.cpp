@@ -24,7 +24,7 @@ Atmosphere::Atmosphere(const Parameters& p, const Domain& domain)
       grain_density_(p.grains.density),
       medium_(gas_of(p).medium()),
       deposition_(air_grid(p), domain_),
-      flow_(air_grid(p), gas_of(p), domain_.plates(), domain_.panels()),
+      flow_(air_grid(p), gas_of(p), domain_.walls()),
       per_solid_volume_(air_grid(p).face_field()) {}
 
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
@@ -47,7 +47,7 @@ void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing
   AirAround& a = s.air;
   if (openings_ != domain_.openings()) {
     openings_ = domain_.openings();
-    flow_.set_walls(domain_.plates(), domain_.panels());
+    flow_.set_walls(domain_.walls());
   }
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];

@@ -25,11 +25,6 @@ Vector3 momentum(const State& s) {
   return s.mass * sum;
 }
 
-bool bears_load(const Domain& domain, std::size_t wall) {
-  if (wall < 6) return is_mirror(domain.box().faces[wall]);
-  return wall - 6 < domain.plates().size() + domain.panels().size();
-}
-
 /// Mass beyond the open faces of the box, kg: what has left.
 double mass_outside(const Box& box, const State& s) {
   std::size_t outside = 0;
@@ -39,8 +34,9 @@ double mass_outside(const Box& box, const State& s) {
   return s.mass * static_cast<double>(outside);
 }
 
-std::string wall_name(const Domain& domain, std::size_t wall) {
-  return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
+std::string wall_name(const Domain& domain, int wall) {
+  return wall < wall_number(0) ? wall_names[static_cast<std::size_t>(wall)]
+                               : domain.walls()[static_cast<std::size_t>(wall - wall_number(0))].name();
 }
 
 /// Of the particles, without the stress by collisions, Pa.
@@ -162,8 +158,9 @@ std::vector<NamedValue> Continuum::totals() const {
   add("momentum", p);
   add("impulse_gravity", s.gravity_impulse);
   add("impulse_damping", s.damping_impulse);
-  for (std::size_t wall = 0; wall < most_walls; ++wall)
-    if (bears_load(domain(), wall)) add("impulse_" + wall_name(domain(), wall), s.wall_impulse[wall]);
+  for (int wall = 0; wall < domain().wall_count(); ++wall)
+    if (domain().bears_load(wall))
+      add("impulse_" + wall_name(domain(), wall), s.wall_impulse[static_cast<std::size_t>(wall)]);
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
     const PressureRange pressure = pressure_range(air);

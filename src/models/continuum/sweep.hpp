@@ -61,13 +61,6 @@ class Sweep {
     std::int32_t image;  ///< of the group, -1: particles
   };
 
-  /// A wall that an image loads, and what of its force, in the direction of the wall's normal.
-  struct Bearing {
-    int wall = -1;
-    Vector3 part;
-  };
-
-  std::array<Bearing, 3> bearings(const Image& image) const;
   void pack(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
@@ -81,10 +74,10 @@ class Sweep {
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_;  // by what is wanted
   Neighbourhood around_;
-  std::vector<std::array<Bearing, 3>> bearings_;  // by image; those that are used first
-  std::vector<ParticleRecord> records_;           // particles, images, nobody
-  std::vector<Group> groups_;                     // of every particle's neighbours, one particle after the other
-  std::vector<std::uint32_t> first_group_;        // of a particle; one more than particles
+  std::vector<std::array<Domain::Load, 3>> loads_;  // by image
+  std::vector<ParticleRecord> records_;             // particles, images, nobody
+  std::vector<Group> groups_;                       // of every particle's neighbours, one particle after the other
+  std::vector<std::uint32_t> first_group_;          // of a particle; one more than particles
 };
 
 }  // namespace talus::continuum
