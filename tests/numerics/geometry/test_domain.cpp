@@ -68,7 +68,7 @@ TEST(Images, OfOneMirrorOppositeAnOpenFaceThereIsOne) {
 
 TEST(Images, ReverseTheNormalVelocityExceptAtPrintedFaces) {
   const Box box{{0, 0, 0}, {10, 3, 10}, {wall, periodic, printed, symmetry, open, open}};
-  EXPECT_THROW(Domain(box), std::invalid_argument);
+  EXPECT_THROW(Domain{box}, std::invalid_argument);
   const Box valid{{0, 0, 0}, {10, 3, 10}, {wall, wall, printed, symmetry, open, open}};
   for (const Image& image : Domain(valid).images(4)) {
     const Vector3 v = image.vector({1, 1, 1});
@@ -184,7 +184,9 @@ TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {
     EXPECT_NEAR(end->z, same->z, 1e-9);
     const auto bounce = layered.bounce(own, source), other = followed.bounce(own, source);
     ASSERT_EQ(bounce.has_value(), other.has_value());
-    if (bounce) EXPECT_EQ(bounce->image.position(source), other->image.position(source));
+    if (bounce) {
+      EXPECT_EQ(bounce->image.position(source), other->image.position(source));
+    }
   }
   EXPECT_GT(most, 5u);
 }
