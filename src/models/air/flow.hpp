@@ -71,6 +71,7 @@ class AirFlow {
   struct Rates;
   void take_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
+  void drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
   void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;

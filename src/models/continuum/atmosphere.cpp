@@ -27,16 +27,6 @@ Atmosphere::Atmosphere(const Parameters& p, const Domain& domain)
       flow_(air_grid(p), gas_of(p), domain_.walls()),
       per_solid_volume_(air_grid(p).face_field()) {}
 
-void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposition_.weigh(team, s.position, smoothing_length);
-  deposition_.gather(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
-}
-
-void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposit(team, smoothing_length, s);
-  flow_.begin(team, s.air.solids, s.air.flow);
-}
-
 void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
   if (is_due(s)) move_air(team, dt, s);
   --s.air.steps_left;
@@ -85,6 +75,16 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   a.last_step = duration;
   a.iterations = static_cast<std::uint64_t>(flow_.iterations());
   measure_slip(team, s);
+}
+
+void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposition_.weigh(team, s.position, smoothing_length);
+  deposition_.gather(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+}
+
+void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposit(team, smoothing_length, s);
+  flow_.begin(team, s.air.solids, s.air.flow);
 }
 
 /// The slip of each particle is the mean of its cells'.
