@@ -82,7 +82,8 @@ bool Domain::are_layers(double apart) const {
   const auto is_layer = [&](const Wall& wall) {
     const int axis = wall.axis(), along = 2 - axis;
     if (axis < 0 || axis != walls_[0].axis()) return false;
-    const auto [low, high] = std::minmax(wall.from()[along], wall.to()[along]);
+    const double low = std::min(wall.from()[along], wall.to()[along]);
+    const double high = std::max(wall.from()[along], wall.to()[along]);
     return low <= box_.low[along] && high >= box_.high[along] && box_.face(along, 0) != FaceKind::open &&
            box_.face(along, 1) != FaceKind::open && wall.from()[axis] > box_.low[axis] &&
            wall.from()[axis] < box_.high[axis];
