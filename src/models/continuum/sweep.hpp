@@ -72,6 +72,8 @@ class Sweep {
 
   std::array<Bearing, 3> bearings(const Image& image) const;
   void pack(ThreadTeam& team, const ParticleView& particles);
+  /// Measures the gradients that the stabilisers take of the packed records, and packs theirs (stabilise.cpp).
+  void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
 
@@ -82,7 +84,10 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;  // by what is wanted
+  std::array<SumNeighbours, 3> sum_;     // by what is wanted
+  SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
+  bool local_sound_speed_;
+  std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood around_;
   std::vector<std::array<Bearing, 3>> bearings_;  // by image; those that are used first
   std::vector<ParticleRecord> records_;           // particles, images, nobody
