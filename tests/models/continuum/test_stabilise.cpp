@@ -97,7 +97,7 @@ TEST(Stabilise, GrainsThatAreLooseDoNotDiffuse) {
   for (std::size_t i = 0; i < e.state.density.size(); ++i)
     e.state.density[i] = alternating(e.state.position[i]) > 0 ? 1500 : 1200;
   e.evaluate();
-  for (const double rate : e.rates.density_rate) EXPECT_EQ(rate, 0);
+  for (const double rate : e.rates.density_rate) EXPECT_NEAR(rate, 0, 1e-8);  // a jump of 300 would fade at 3e5
 }
 
 TEST(Stabilise, VelocitiesThatAreLinearArePushedAsWithout) {
