@@ -44,7 +44,7 @@ class Surfaces:
     """The free surfaces of a run on cells of a given width."""
 
     def __init__(self, run, cell):
-        self.run, self.cell = run, cell
+        self.run, self.cell, self.gate = run, cell, run.gate_time or 0.0
         case = run.case
         self.depth = float(case["box"]["depth"])
         bed, grains = case["bed"], case["grains"]
@@ -69,29 +69,42 @@ class Surfaces:
         count = np.histogram2d(x.ravel(), z.ravel(), [np.arange(0, WIDTH + 1e-9, self.cell), edges])[0]
         return count * self.solid / PARTS**2 / (self.cell**2 * self.depth)
 
-    def at(self, time):
-        """(hopper, bin) in mm, one value a cell, that of the ground where there is nothing; the snapshot nearest to the
-        time."""
-        snapshot = min(self.run.snapshots, key=lambda one: abs(one.time - time))
-        if abs(snapshot.time - time) > 2e-3:
+    def around(self, time):
+        """The last snapshot up to a time from the opening of the gate, the next one, and the share of the latter."""
+        times = np.array([one.time for one in self.run.snapshots]) - self.gate
+        if not times[0] <= time <= times[-1]:
             return None
-        packing = self.packing(snapshot)
-        return tuple(self._first_empty(packing, start) for start in (round(PLATE / self.cell), 0))
+        k = min(np.searchsorted(times, time, "right") - 1, len(times) - 2)
+        return self.run.snapshots[k], self.run.snapshots[k + 1], (time - times[k]) / (times[k + 1] - times[k])
+
+    def at(self, time):
+        """(hopper, bin) in mm, one value a cell, that of the ground where there is nothing, in proportion between two
+        snapshots."""
+        around = self.around(time)
+        if around is None:
+            return None
+        earlier, later, share = around
+        return tuple((1 - share) * self._first_empty(self.packing(earlier), start) +
+                     share * self._first_empty(self.packing(later), start) for start in (round(PLATE / self.cell), 0))
 
     def discharge(self, start, end):
         """Mass that passes the plate's height in a unit of time, of a hopper 5 mm deep, kg/s."""
-        first, last = (min(self.run.snapshots, key=lambda one, t=t: abs(one.time - t)) for t in (start, end))
-        if last.time - first.time < 0.9 * (end - start):
+        if self.around(end) is None:
             return math.nan
-        passed = sum(np.sum(np.asarray(one.positions)[:, 2] < PLATE) * sign for one, sign in ((last, 1), (first, -1)))
-        return passed * self.solid * self.grain_density * 5e-3 / self.depth / (last.time - first.time)
+        passed = 0
+        for time, sign in ((end, 1), (start, -1)):
+            earlier, later, share = self.around(time)
+            passed += sign * sum(part * np.sum(np.asarray(one.positions)[:, 2] < PLATE)
+                                 for one, part in ((earlier, 1 - share), (later, share)))
+        return passed * self.solid * self.grain_density * 5e-3 / self.depth / (end - start)
 
     def roughness(self, time):
         """How much the pressure alternates from particle to particle in the hopper: mean distance of a particle's from
         the mean of those within 1.5 spacings, over that mean, where it exceeds 100 Pa."""
-        snapshot = min(self.run.snapshots, key=lambda one: abs(one.time - time))
-        if abs(snapshot.time - time) > 2e-3:
+        around = self.around(time)
+        if around is None:
             return math.nan
+        snapshot = around[0]
         places = np.asarray(snapshot.positions)[:, [0, 2]]
         pressure = sum(np.asarray(snapshot[f"stress_{axis}"]) for axis in ("xx", "yy", "zz")) / 3
         spacing = float(self.run.case["bed"]["spacing"])
@@ -179,7 +192,7 @@ def main():
         def quantity(name):
             return float(summary[name]) if name in summary else math.nan
 
-        end = run.snapshots[-1].time > 0.9
+        end = run.snapshots[-1].time - surfaces.gate > 0.9
         ends = [f"{shown(quantity('repose_angle_bin'))}, {shown(quantity('repose_angle_hopper'))}" if end else "-",
                 shown(1e3 * quantity("quiescent_speed"), ".2f") if end else "-", shown(quantity("packing_max"), ".3f"), shown(surfaces.roughness(0.2), ".2f")]
         print(describe(folder.name, hopper, bins, x, reference, shown(rate, ".3f"), ends))
