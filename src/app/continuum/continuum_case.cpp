@@ -89,7 +89,7 @@ struct Case {
 /// \throws InputError with every problem
 Case read_case(const CaseFile& file) {
   Case read;
-  read.model.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
+  read.model.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   ParameterReader reader(file, continuum::renamed_keys);
   run::for_each_parameter(reader, read.run);
   continuum::for_each_parameter(reader, read.model);

@@ -17,11 +17,16 @@ struct Stabilised {
   Parameters parameters;
   Material material;
   State state;
+  Domain domain;
   Sweep sweep;
   Rates rates;
 
   explicit Stabilised(const Parameters& p)
-      : parameters(p), material(p), state(initial_state(p, material)), sweep(p, state.mass, 50) {
+      : parameters(p),
+        material(p),
+        state(initial_state(p, material)),
+        domain(domain_of(p)),
+        sweep(p, domain, state.mass, 50) {
     load(1000);
   }
   void load(double pressure) {
