@@ -27,7 +27,7 @@ FreeSurface surface_of(Height&& z) {
 
 TEST(PackingSection, IsTheMeanOverTheDepth) {
   const auto points = lattice(width, depth, 0, 0.1, h, [](double x, double z) { return x + z < 0.15; });
-  const Domain domain = box(width, depth, height, {test::plate(0.06, 0.05, 0.15, depth)});
+  const Domain domain = box(width, depth, height, {test::plate(width, 0.06, 0.05, 0.15)});
   const Section section = packing_section(test::particles(points, h), domain, h, 0.5 * h);
   EXPECT_EQ(section.columns, 100u);
   EXPECT_EQ(section.rows, 200u);
@@ -136,6 +136,19 @@ TEST(HeapSlopes, EndAtGaps) {
   EXPECT_EQ(slopes[1].from, 40);
   EXPECT_NEAR(slopes[0].slope, -1, 1e-12);
   EXPECT_NEAR(surface_angle(surface, 30) / degree, 45, 1e-9);
+}
+
+TEST(FreeSurface, FlanksLeaveOutWhatFallsOnTheMiddle) {
+  const double slope = std::tan(20 * degree);
+  FreeSurface surface;
+  for (int n = 0; n < 100; ++n) {
+    const double x = n + 0.5, from_middle = std::abs(x - 50);
+    surface.x.push_back(x);
+    surface.z.push_back(x < 5 || x > 95 ? 99 : from_middle < 20 ? 60 : 50 - slope * from_middle);
+  }
+  EXPECT_NEAR(outward_angle(surface, 50, 22, 45) / degree, 20, 1e-9);
+  EXPECT_NEAR(swelling_above_flanks(surface, 50, 22, 45, 10), 10, 1e-9);
+  EXPECT_TRUE(std::isnan(swelling_above_flanks(surface, 50, 44, 45, 10))) << "two heights are no line";
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <mutex>
 
 #include "app/models/models.hpp"
+#include "app/runs/check_folder.hpp"
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
@@ -237,7 +238,10 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   run::catch_signals();
   const RunFolder folder = RunFolder::create(request.folder, request.existing);
   const Manifest manifest = manifest_of(prepared, request.threads);
-  if (request.existing == Existing::resume) check_resumable(prepared, folder, manifest);
+  if (request.existing == Existing::resume) {
+    check_resumable(prepared, folder, manifest);
+    check_resumable_files(folder);
+  }
   write_manifest(folder.manifest(), manifest);  // before any other file: it marks the folder as a run's
   const auto log = open_log(folder, request.existing == Existing::resume);
   log->info("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/air/regime.hpp"
+
 namespace talus::air {
 
 namespace {
@@ -107,7 +109,7 @@ AirModel::AirModel(const ModelParameters& parameters)
 }
 
 void AirModel::begin(ThreadTeam& team) {
-  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas, std::vector<Plate>{});
+  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas);
   if (parameters_.start.flow == InitialFlow::taylor_green)
     for (int axis = 0; axis < 3; ++axis)
       for_each_place(flow_->passages().faces(axis), grid_, [&](std::size_t face, int i, int j, int k) {
@@ -118,7 +120,7 @@ void AirModel::begin(ThreadTeam& team) {
 }
 
 void AirModel::resume(ThreadTeam&) {
-  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas, std::vector<Plate>{});
+  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas);
 }
 
 void AirModel::advance(ThreadTeam& team) {
@@ -197,11 +199,10 @@ std::vector<RegimeLine> AirModel::regime(const RunRecord&) const {
   });
   const double rho = parameters_.gas.density();
   const double mach = speed / std::sqrt(1.4 * parameters_.gas.pressure / rho);
-  const double reynolds = rho * speed * grid_.spacing.x / parameters_.gas.viscosity;
-  return {
-      {"Mach number", fmt::format("{:.3g}", mach), "the air is taken for incompressible, up to about 0.3", mach > 0.3},
-      {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
-       "speed times cell over kinematic viscosity; central convection (air.upwind = 0) oscillates far above 2", false}};
+  std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  lines.push_back({"Mach number", fmt::format("{:.3g}", mach),
+                   "of the last state; the air is taken for incompressible, up to about 0.3", mach > 0.3});
+  return lines;
 }
 
 }  // namespace talus::air
