@@ -11,8 +11,7 @@
 
 namespace talus {
 
-/// A team of threads that waits passively between loops, and whose loops wait only for the threads that have taken
-/// part. One loop runs at a time; a loop is not started inside a loop.
+/// A team of threads that waits passively between loops. One loop runs at a time; a loop is not started inside a loop.
 class ThreadTeam {
  public:
   /// \param threads at least 1; the calling thread is one of them
