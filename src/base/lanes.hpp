@@ -66,8 +66,8 @@ struct Lanes {
   Register row[rows];
 
   Lanes() = default;
-  /// The same number everywhere.
-  TALUS_INLINE Lanes(double value) {
+  /// The same number everywhere. Implicit, so that laws read alike for numbers and lanes.
+  TALUS_INLINE Lanes(double value) {  // NOLINT(google-explicit-constructor)
     TALUS_UNROLL for (int r = 0; r < rows; ++r) row[r] = Register{} + static_cast<T>(value);
   }
   /// One number a row, repeated over its lanes. \param values `rows` numbers

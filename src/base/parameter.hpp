@@ -120,12 +120,6 @@ Condition unless(std::string key, const T& value, const std::type_identity_t<T>&
   return {std::move(key), "is " + value_text(value), "other than " + value_text(unwanted), value != unwanted};
 }
 
-/// That an optional key is not given.
-template <class T>
-Condition without(std::string key, const std::optional<T>& value) {
-  return {std::move(key), "is given", "left out", !value.has_value()};
-}
-
 /// Visits keys that mean nothing unless a condition holds. Of several, the outermost that fails is told.
 template <class Visit>
 auto only_if(Condition condition, Visit& visit) {

@@ -15,7 +15,7 @@ class Descriptor {
   Descriptor() = default;
   /// \param flags of open(2); new files get the permissions that the umask leaves
   /// \param reported path that errors name; empty: `path`
-  Descriptor(const std::string& path, int flags, std::string reported = {});
+  Descriptor(const std::string& path, int flags, const std::string& reported = {});
   ~Descriptor();
   Descriptor(Descriptor&& other) noexcept
       : number_(std::exchange(other.number_, -1)), reported_(std::move(other.reported_)) {}

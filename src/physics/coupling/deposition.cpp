@@ -99,7 +99,7 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
   const double per_width = sph::support / reach;
   for (int axis = 0; axis < 3; ++axis)
     scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
-  const auto& [along_x, along_y, along_z] = scratch.along;
+  const Scratch::Along &along_x = scratch.along[0], &along_y = scratch.along[1], &along_z = scratch.along[2];
   const std::size_t columns = along_x.cell.size(), rows = along_y.cell.size();
   scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
   scratch.weight.resize(along_x.square.size());

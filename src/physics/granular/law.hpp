@@ -58,8 +58,9 @@ struct LawParameters {
   Laws::Parameters own;
 
   LawParameters() = default;
-  /// Chooses the law that has these parameters.
+  /// Chooses the law that has these parameters, which may stand where a law is due.
   template <class P>
+  // NOLINTNEXTLINE(google-explicit-constructor)
   requires(Laws::has_parameters<P>) LawParameters(const P& parameters) : name(LawName{Laws::index_of<P>()}) {
     std::get<P>(own) = parameters;
   }

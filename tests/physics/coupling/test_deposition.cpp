@@ -142,7 +142,9 @@ TEST(Deposition, OfAParticleThatLeavesTheAirHasTheShareWithinTheBox) {
     silo.gather();
     const double share = total(silo.grid, silo.fraction) / silo.volume;
     EXPECT_LE(share, before + 1e-13);
-    if (std::abs(z - 40e-3) < 2e-6) EXPECT_NEAR(share, 0.5, 0.12);  // the faces of the cells do not halve a kernel
+    if (std::abs(z - 40e-3) < 2e-6) {
+      EXPECT_NEAR(share, 0.5, 0.12);  // the faces of the cells do not halve a kernel
+    }
     before = share;
     std::vector<Vector3> received(1);
     FaceField given = silo.grid.face_field();
