@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Vector registers of the instruction set that the including file is compiled for: the compiler's vector types, and
-/// the operations that those do not know. What lanes.hpp is made of; nothing else includes it.
+/// the operations that those do not know. What simd.hpp is made of; nothing else includes it.
 #pragma once
 
 #include <cmath>

@@ -3,7 +3,7 @@
 /// invariants; usable on host and device.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus {
 

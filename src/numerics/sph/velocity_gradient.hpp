@@ -4,7 +4,7 @@
 /// 58; Bonet & Lok 1999.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "base/tensor.hpp"
 #include "base/vector.hpp"
 

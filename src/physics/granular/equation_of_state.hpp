@@ -3,7 +3,7 @@
 /// Source: Yuu & Umekage 2011, section 2.1.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus::granular {
 

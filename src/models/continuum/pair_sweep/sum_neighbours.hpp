@@ -3,7 +3,7 @@
 /// into columns. Included by one file for each instruction set; its contents live in that set's namespace.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "base/tensor.hpp"
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -14,7 +14,7 @@
 namespace talus::continuum {
 inline namespace TALUS_INSTRUCTION_SET {
 
-using Number = Lanes<double>;
+using Number = SimdVector<double>;
 
 struct LaneVector {
   Number x, y, z;
