@@ -35,7 +35,7 @@ class CheckpointWriter {
 
   /// for_each_field(writer, state)
   template <class T>
-  void operator()(const Field& field, const T& member) {
+  void operator()(const FieldInfo& field, const T& member) {
     if (field.role == FieldRole::kept) put("state/" + std::string(field.name), member, field.unit);
   }
 
@@ -58,7 +58,7 @@ class CheckpointReader {
  public:
   /// for_each_field(reader, state): fills the kept fields
   template <class T>
-  void operator()(const Field& field, T& member) const {
+  void operator()(const FieldInfo& field, T& member) const {
     if (field.role == FieldRole::kept) get("state/" + std::string(field.name), member);
   }
 

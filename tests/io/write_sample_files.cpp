@@ -39,8 +39,8 @@ int main(int, char** arguments) {
     grid.count = {6, 1, 4};
     talus::write_grid(std::string(arguments[1]) + "/section_000" + std::to_string(frame) + ".vtkhdf", grid);
     talus::CheckpointWriter checkpoint("f00d");
-    checkpoint(talus::Field{"position", "m"}, position);
-    checkpoint(talus::Field{"step", "1"}, points.step);
+    checkpoint(talus::FieldInfo{"position", "m"}, position);
+    checkpoint(talus::FieldInfo{"step", "1"}, points.step);
     talus::CheckpointFiles(arguments[1]).save(checkpoint);
   }
 }

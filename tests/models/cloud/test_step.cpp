@@ -237,7 +237,7 @@ TEST(Advance, SameBitsForAnyNumberOfThreads) {
 
 /// What a checkpoint leaves of a state: derived columns are gone.
 struct ForgetDerived {
-  void operator()(const Field& field, auto& member) const {
+  void operator()(const FieldInfo& field, auto& member) const {
     if (field.role == FieldRole::derived) member = {};
   }
 };
