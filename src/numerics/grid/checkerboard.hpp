@@ -55,7 +55,7 @@ class Checkerboard {
 
   /// Repeats the ends of a run behind its other end where x is periodic.
   template <class Number>
-  void close_run(Number* run, int length) const {
+  void fill_ghosts(Number* run, int length) const {
     if (!periodic_[0]) return;
     run[-1] = run[length - 1];
     run[length] = run[0];

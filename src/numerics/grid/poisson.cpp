@@ -102,7 +102,7 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
           }
           matrix_.outside[c] = outside;
         }
-        for (auto& low : matrix_.low) board_.close_run(low.data() + own, length);
+        for (auto& low : matrix_.low) board_.fill_ghosts(low.data() + own, length);
       }
     }
   });
@@ -266,7 +266,7 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
   if (board_.is_periodic(0))
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = 0; r < board_.rows(); ++r)
-        board_.close_run(value_.data() + board_.run(colour, r), board_.length(colour, r));
+        board_.fill_ghosts(value_.data() + board_.run(colour, r), board_.length(colour, r));
   apply(team, value_, image_);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) residual_[c] -= image_[c];
