@@ -21,7 +21,7 @@ int main(int, char** arguments) {
                                  .columns = {{"position", "m", position},
                                              {"velocity", "m/s", velocity},
                                              {"radius", "m", radius},
-                                             {"packing_order", "1", order}}};
+                                             {"spatial_order", "1", order}}};
     talus::write_points(std::string(arguments[1]) + "/particles_000" + std::to_string(frame) + ".vtkhdf",
                         points.view());
     talus::GridSnapshot grid{.time = 0.25 * frame,

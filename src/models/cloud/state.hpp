@@ -25,7 +25,7 @@ struct State {
   // Warm starts and memory of the step control: kept, so that a resumed run takes the same steps.
   std::vector<Vector3> increment;           ///< m, the last step's displacement
   std::vector<Vector3> stiff_mode;          ///< unit vector of the stiffest motion found so far
-  std::vector<std::int64_t> packing_order;  ///< order in which the pair sum packs the grains
+  std::vector<std::int64_t> spatial_order;  ///< order in which the pair sum packs the grains
   double last_step = 0;                     ///< s, length of the last step; 0 before the first
   double next_step = 0;                     ///< s, proposed by the error control
   double spectral_radius = 0;               ///< 1/s, estimate of the stiffest rate
@@ -45,7 +45,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"overlap", "m", FieldRole::derived}, s.overlap);
   visit(FieldInfo{"increment", "m", FieldRole::kept, false}, s.increment);
   visit(FieldInfo{"stiff_mode", "1", FieldRole::kept, false}, s.stiff_mode);
-  visit(FieldInfo{"packing_order", "1", FieldRole::kept, false}, s.packing_order);
+  visit(FieldInfo{"spatial_order", "1", FieldRole::kept, false}, s.spatial_order);
   visit(FieldInfo{"last_step", "s"}, s.last_step);
   visit(FieldInfo{"next_step", "s"}, s.next_step);
   visit(FieldInfo{"spectral_radius", "1/s"}, s.spectral_radius);

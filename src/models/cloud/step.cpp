@@ -125,8 +125,8 @@ void keep_derived(State& state, Workspace& work) {
 
 void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   const auto order = spatial_order(state.position, 4 * p.particles.radius);
-  state.packing_order.assign(order.begin(), order.end());
-  work.velocities.reorder(state.packing_order);
+  state.spatial_order.assign(order.begin(), order.end());
+  work.velocities.reorder(state.spatial_order);
 }
 
 std::string place_of(const State& state, std::size_t grain) {
@@ -259,7 +259,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
 
 void derive(ThreadTeam& team, State& state, Workspace& work) {
   state.velocity.resize(state.position.size());
-  work.velocities.reorder(state.packing_order);
+  work.velocities.reorder(state.spatial_order);
   work.velocities(team, state.position, work.trial_velocity);
   keep_derived(state, work);
 }
