@@ -40,7 +40,7 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
       drag_(grid.cell_field()),
       source_(drag_),
       guess_(drag_) {
-  for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &dragged_, &rate_,
+  for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_, &rate_,
                            &viscous_, &conductance_, &stream_.velocity, &stream_.mass})
     *field = grid.face_field();
 }
@@ -74,47 +74,47 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
         decay[f] = slip.decay, mean[f] = slip.mean;
       }
       const auto from = [&](auto& field) { return field[a].data() + run.begin; };
-      move_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
-               (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
-               {.open = from(passages_.open),
-                .void_fraction = from(void_fraction_),
-                .momentum = from(start.momentum),
-                .grain_velocity = from(grain_velocity_),
-                .convection = from(rate_),
-                .viscous = from(viscous_),
-                .decay = from(decay_),
-                .mean = from(mean_)},
-               from(dragged_), from(stream.velocity), from(conductance_));
+      predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
+                  (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
+                  {.open = from(passages_.open),
+                   .void_fraction = from(void_fraction_),
+                   .momentum = from(start.momentum),
+                   .grain_velocity = from(grain_velocity_),
+                   .convection = from(rate_),
+                   .viscous = from(viscous_),
+                   .decay = from(decay_),
+                   .mean = from(mean_)},
+                  from(after_drag_), from(stream.velocity), from(conductance_));
     });
   }
   // Pressure's share of the velocity over dt.
-  const auto press = [&](double share) {
+  const auto add_pressure = [&](double share) {
     fill_ghosts(pressure);
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
       const double factor = share * dt / (rho * grid.spacing[axis]);
       for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
         const double* high = pressure.data() + begin;
-        press_row(end - begin, factor, grains_share(),
-                  {.open = passages_.open[a].data() + begin,
-                   .void_fraction = void_fraction_[a].data() + begin,
-                   .mean = mean_[a].data() + begin,
-                   .low = high - grid.stride(axis),
-                   .high = high},
-                  stream.velocity[a].data() + begin);
+        add_pressure_row(end - begin, factor, grains_share(),
+                         {.open = passages_.open[a].data() + begin,
+                          .void_fraction = void_fraction_[a].data() + begin,
+                          .mean = mean_[a].data() + begin,
+                          .low = high - grid.stride(axis),
+                          .high = high},
+                         stream.velocity[a].data() + begin);
       });
     }
   };
   if (implicit_) {
     // With the guessed pressure at work: viscosity then meets the velocity to come, and a steady flow is exact.
-    press(1);
+    add_pressure(1);
     viscous_ = stream.velocity;
     stream.velocity = before_;  // nearer to what comes than what viscosity has not met
     viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream.velocity);
-    press(-1);
+    add_pressure(-1);
   }
   project(team, dt, stream, pressure);
-  press(1);
+  add_pressure(1);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double *phi = void_fraction_[a].data(), *velocity = stream.velocity[a].data();
@@ -126,7 +126,8 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
 /// What the air lost to drag, and in model A what the pressure does to the solid, over its volume: first on the faces,
 /// then as the cells' means, so that it is handed out with the weights by which the solids were gathered.
 /// \param velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
-void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse) {
+void AirFlow::exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state,
+                                FaceField& impulse) {
   const Grid& grid = passages_.grid;
   const double rho = parameters_.density();
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,19 +136,19 @@ void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, 
     for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
       const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
       const double* high = state.pressure.data() + begin;
-      hand_over_row(end - begin, dt, rho, grains_share() / grid.spacing[axis],
-                    {.open = from(passages_.open),
-                     .void_fraction = from(void_fraction_),
-                     .solid_fraction = from(solid_fraction_),
-                     .grain_velocity = from(grain_velocity_),
-                     .velocity = from(velocity),
-                     .momentum = from(state.momentum),
-                     .decay = from(decay_),
-                     .mean = from(mean_),
-                     .dragged = from(dragged_),
-                     .low = high - stride,
-                     .high = high},
-                    rate_[a].data() + begin, viscous_[a].data() + begin);
+      exchange_row(end - begin, dt, rho, grains_share() / grid.spacing[axis],
+                   {.open = from(passages_.open),
+                    .void_fraction = from(void_fraction_),
+                    .solid_fraction = from(solid_fraction_),
+                    .grain_velocity = from(grain_velocity_),
+                    .velocity = from(velocity),
+                    .momentum = from(state.momentum),
+                    .decay = from(decay_),
+                    .mean = from(mean_),
+                    .after_drag = from(after_drag_),
+                    .low = high - stride,
+                    .high = high},
+                   rate_[a].data() + begin, viscous_[a].data() + begin);
     });
     passages_.wrap(rate_[a]);
     passages_.wrap(viscous_[a]);
@@ -160,7 +161,7 @@ void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, 
 }
 
 void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
-  take_solids(team, solids);
+  set_solids(team, solids);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     for_each_face(team, passages_, axis, [&](std::ptrdiff_t face) {
@@ -191,7 +192,7 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   for (int axis = 0; axis < 3; ++axis) stiffness += 4 / (grid.spacing[axis] * grid.spacing[axis]);
   implicit_ = dt * parameters_.viscosity / parameters_.density() * stiffness > 1;
   iterations_ = 0;
-  take_solids(team, solids);
+  set_solids(team, solids);
 
   stream_.velocity = state.velocity, stream_.mass = state.momentum;
   measure_drag(team, solids, stream_.velocity);
@@ -206,7 +207,7 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   measure_drag(team, solids, stream_.velocity);
   state.pressure = guess_;
   stage(team, dt, stream_, state, state.pressure);
-  hand_over(team, dt, stream_.velocity, state, impulse);
+  exchange_momentum(team, dt, stream_.velocity, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
     passages_.wrap(stream_.velocity[a]), passages_.wrap(stream_.mass[a]);
     std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);

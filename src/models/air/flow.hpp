@@ -70,10 +70,10 @@ class AirFlow {
 
  private:
   struct Rates;
-  void take_solids(ThreadTeam& team, const Solids& solids);
+  void set_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
-  void hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
+  void exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
   void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;
   void project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure);
   void find_storage(ThreadTeam& team, double dt);
@@ -91,7 +91,7 @@ class AirFlow {
 
   FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
   CellField drag_;                                             // beta of cells, kg/(m^3 s)
-  FaceField decay_, mean_, dragged_, rate_, viscous_;          // of a stage, on faces
+  FaceField decay_, mean_, after_drag_, rate_, viscous_;       // of a stage, on faces
   FaceField before_;                                           // velocity before a stage, where viscosity is implicit
   FaceField conductance_;
   CellField source_, guess_;

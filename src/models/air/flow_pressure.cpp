@@ -132,7 +132,7 @@ void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, Ce
 double AirFlow::largest_divergence(const Solids& solids, const AirState& state) {
   ThreadTeam alone;
   const Grid& grid = passages_.grid;
-  take_solids(alone, solids);
+  set_solids(alone, solids);
   find_volume_flow(alone, parameters_.continuity == Continuity::mixture, state.velocity, rate_);
   return largest_of_cells(alone, grid, [&](std::ptrdiff_t c) {
     double sum = 0;

@@ -21,13 +21,12 @@ struct StageRow {
   const double *decay, *mean;    ///< coupling::SlipDecay
 };
 
-/// Velocity of a stage without pressure: `dragged` is what the drag leaves of the start's, and conductance that of the
-/// pressure.
-/// \param grains_share 1 if the grains have a share in the pressure's gradient, that of their volume, else 0
-/// \param per_pressure dt over density times area over distance of the centres
-void move_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share, double per_pressure,
-              const StageRow& row, double* __restrict dragged, double* __restrict velocity,
-              double* __restrict conductance);
+/// Velocity of a stage without pressure: `after_drag` is what the drag leaves of the start's, and conductance that of
+/// the pressure. \param grains_share 1 if the grains have a share in the pressure's gradient, that of their volume,
+/// else 0 \param per_pressure dt over density times area over distance of the centres
+void predict_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
+                 double per_pressure, const StageRow& row, double* __restrict after_drag, double* __restrict velocity,
+                 double* __restrict conductance);
 
 /// What the pressure does to a row of faces.
 struct PressureRow {
@@ -39,8 +38,8 @@ struct PressureRow {
 
 /// velocity -= factor * mean * share/Phi * difference of the pressure, where open.
 /// \param factor time over density and distance of the centres
-void press_row(std::ptrdiff_t count, double factor, double grains_share, const PressureRow& row,
-               double* __restrict velocity);
+void add_pressure_row(std::ptrdiff_t count, double factor, double grains_share, const PressureRow& row,
+                      double* __restrict velocity);
 
 /// Air and grains that pass a row of faces.
 struct VolumeFlowRow {
@@ -54,21 +53,21 @@ void find_volume_flow_of_row(std::ptrdiff_t count, double carried, const VolumeF
 void find_source_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& area, const double* x,
                         const double* y, const double* z, double* __restrict source);
 
-/// What hand_over knows of a row of faces.
-struct HandOverRow {
+/// What exchange_momentum knows of a row of faces.
+struct ExchangeRow {
   const double *open, *void_fraction, *solid_fraction;
   const double* grain_velocity;
   const double* velocity;      ///< of the air at the end of the step, m/s
   const double* momentum;      ///< at its start
   const double *decay, *mean;  ///< coupling::SlipDecay
-  const double* dragged;       ///< of move_row
+  const double* after_drag;    ///< of predict_row
   const double *low, *high;    ///< pressure of the cells on either side, Pa
 };
 
 /// \param grains_pressure grains' share of the pressure over the distance of the centres
 /// \param received out: impulse of drag and pressure over the solid's volume; \param drag out: N/m^3
-void hand_over_row(std::ptrdiff_t count, double dt, double rho, double grains_pressure, const HandOverRow& row,
-                   double* __restrict received, double* __restrict drag);
+void exchange_row(std::ptrdiff_t count, double dt, double rho, double grains_pressure, const ExchangeRow& row,
+                  double* __restrict received, double* __restrict drag);
 
 /// Means of two rows.
 void average_row(std::ptrdiff_t count, const double* first, const double* second, double* __restrict mean);

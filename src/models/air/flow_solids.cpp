@@ -13,7 +13,7 @@ namespace talus::air {
 
 /// Void fraction, solid fraction and grains' velocity on the faces: means of the two cells, of the one within at an
 /// end.
-void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
+void AirFlow::set_solids(ThreadTeam& team, const Solids& solids) {
   const Grid& grid = passages_.grid;
   const double* fraction = solids.fraction.data();
   for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t c) {

@@ -88,7 +88,7 @@ inline SlipDecay slip_decay(double steps) {
 
 /// Velocity that the drag leaves of the air's after dt without other forces, u_p + decay (u - u_p), m/s.
 /// \param momentum rho Phi u, kg/(m^2 s); \param per_mass 1/(rho Phi), m^3/kg; \param grain_velocity u_p, m/s
-constexpr double dragged_velocity(double decay, double momentum, double per_mass, double grain_velocity) {
+constexpr double velocity_after_drag(double decay, double momentum, double per_mass, double grain_velocity) {
   return decay * momentum * per_mass + (1 - decay) * grain_velocity;
 }
 
