@@ -40,8 +40,8 @@ TALUS_CLONES void find_fluxes_of_row(int count, double upwind, const FluxRow& gi
   const std::ptrdiff_t across = row.across;
   for (int f = 0; f < count; ++f) {
     const double mass = 0.5 * (row.mass[f] + row.mass[f - row.along]);
-    flux[f] = convected_momentum(mass, carried_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across],
-                                                        row.wide[f], mass > 0 ? 1.0 : -1.0, upwind));
+    flux[f] = convected_momentum(mass, advected_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across],
+                                                         row.wide[f], mass > 0 ? 1.0 : -1.0, upwind));
   }
 }
 

@@ -14,8 +14,8 @@ namespace talus::air {
 /// \param u_ll, u_l, u_r, u_rr velocities in the order of the axis, m/s
 /// \param wide 1 or 0: whether the outer two may be used; \param direction the sign of the flow, 1 or -1
 /// \param upwind 0 to 1
-constexpr double carried_velocity(double u_ll, double u_l, double u_r, double u_rr, double wide, double direction,
-                                  double upwind) {
+constexpr double advected_velocity(double u_ll, double u_l, double u_r, double u_rr, double wide, double direction,
+                                   double upwind) {
   const double middle = 0.5 * (u_l + u_r), jump = u_r - u_l;
   const double outer = (u_l + u_r - u_ll - u_rr) * (1.0 / 12.0);
   const double bend = (u_rr - 3 * jump - u_ll) * (1.0 / 12.0);
