@@ -100,19 +100,18 @@ struct Viscosity::System {
   }
   double apply_to_direction() {
     v.wrap(v.direction_);
-    v.find_divergence(team, Walls::at_rest, v.direction_, v.image_);
+    v.find_divergence(team, Walls::at_rest, v.direction_, v.applied_);
     return v
         .sum_over_rows(
             team,
             [&](std::size_t a, std::ptrdiff_t f, int count) {
-              return TwoSums{
-                  find_image_of_row(count, amount, &v.per_weight_[a][f], &v.direction_[a][f], &v.image_[a][f]), 0};
+              return TwoSums{apply_row(count, amount, &v.per_weight_[a][f], &v.direction_[a][f], &v.applied_[a][f]), 0};
             })
         .first;
   }
   void advance(double step) {
     v.for_all_rows(team, [&](std::size_t a, std::ptrdiff_t f, int count) {
-      step_row(count, step, &v.direction_[a][f], &v.image_[a][f], &velocity[a][f], &v.residual_[a][f]);
+      step_row(count, step, &v.direction_[a][f], &v.applied_[a][f], &velocity[a][f], &v.residual_[a][f]);
     });
   }
 };
@@ -124,9 +123,9 @@ struct Viscosity::Diagonal {
   const System& system;
 
   double apply(double) { return system.preconditioned; }
-  void turn(double turn) {
+  void update_direction(double beta) {
     v.for_all_rows(team, [&](std::size_t a, std::ptrdiff_t f, int count) {
-      turn_row(count, turn, &v.per_diagonal_[a][f], &v.residual_[a][f], &v.direction_[a][f]);
+      update_direction_row(count, beta, &v.per_diagonal_[a][f], &v.residual_[a][f], &v.direction_[a][f]);
     });
   }
 };
@@ -136,12 +135,12 @@ int Viscosity::advance_implicitly(ThreadTeam& team, const FaceField& start, cons
   constexpr int most_iterations = 500;
   constexpr double tolerance = 1e-6;
   const Grid& grid = passages_.grid;
-  for (FaceField* field : {&residual_, &direction_, &image_, &per_weight_, &per_diagonal_})
+  for (FaceField* field : {&residual_, &direction_, &applied_, &per_weight_, &per_diagonal_})
     if (field->front().empty()) *field = grid.face_field();
   double own = 0;  // of the Laplacian and of the gradient of the divergence
   for (int axis = 0; axis < 3; ++axis) own += 2 / (grid.spacing[axis] * grid.spacing[axis]);
   wrap(velocity);
-  find_divergence(team, Walls::moving, velocity, image_);
+  find_divergence(team, Walls::moving, velocity, applied_);
   const double source =
       sum_over_rows(team, [&](std::size_t a, std::ptrdiff_t f, int count) {
         const double width = grid.spacing[static_cast<int>(a)];
@@ -152,7 +151,7 @@ int Viscosity::advance_implicitly(ThreadTeam& team, const FaceField& start, cons
                                   .weight = &weight[a][f],
                                   .start = &start[a][f],
                                   .velocity = &velocity[a][f],
-                                  .viscous = &image_[a][f]},
+                                  .viscous = &applied_[a][f]},
                                  &per_weight_[a][f], &per_diagonal_[a][f], &residual_[a][f], &direction_[a][f]),
                        0};
       }).first;

@@ -39,7 +39,7 @@ class Viscosity {
 
   const Passages& passages_;
   CellField divergence_;  // of the velocity
-  FaceField residual_, direction_, image_, per_weight_,
+  FaceField residual_, direction_, applied_, per_weight_,
       per_diagonal_;  // of the implicit step; made when it is asked for
   std::vector<TwoSums> row_sums_;
 };

@@ -52,14 +52,15 @@ double begin_row(int count, double amount, double own, const ImplicitRow& row, d
 /// \returns square of the residual, and its product with itself over the diagonal
 TwoSums measure_residual_of_row(int count, const double* per_diagonal, const double* residual);
 
-/// direction := residual/diagonal + turn direction.
-void turn_row(int count, double turn, const double* per_diagonal, const double* residual, double* __restrict direction);
+/// direction := residual/diagonal + beta direction.
+void update_direction_row(int count, double beta, const double* per_diagonal, const double* residual,
+                          double* __restrict direction);
 
-/// \param image in: the viscous divergence of the direction; \returns its product with the direction
-double find_image_of_row(int count, double amount, const double* per_weight, const double* direction,
-                         double* __restrict image);
+/// \param applied in: the viscous divergence of the direction; \returns its product with the direction
+double apply_row(int count, double amount, const double* per_weight, const double* direction,
+                 double* __restrict applied);
 
-void step_row(int count, double step, const double* direction, const double* image, double* __restrict velocity,
+void step_row(int count, double step, const double* direction, const double* applied, double* __restrict velocity,
               double* __restrict residual);
 
 }  // namespace talus::air

@@ -52,7 +52,7 @@ class PoissonSolver {
   void for_each_range(ThreadTeam& team, Body&& body) const;
   template <class Term>
   double sum(ThreadTeam& team, Term&& term);
-  double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& image);
+  double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& applied);
   double residual_square(ThreadTeam& team);
   void find_closed_regions();
   double unbalanced() const;
@@ -70,8 +70,8 @@ class PoissonSolver {
   double scale_ = 1;                              // brings the conductances near 1
   std::vector<unsigned char> pattern_;            // which faces of a cell are open
   std::vector<std::vector<std::size_t>> closed_;  // cells of each closed region, in the board's order
-  // In the board's order. Pads of the residual and of the image are zero, so that they add nothing to sums.
-  std::vector<double> value_, residual_, direction_, image_, correction_;
+  // In the board's order. Pads of the residual and of the applied are zero, so that they add nothing to sums.
+  std::vector<double> value_, residual_, direction_, applied_, correction_;
   std::vector<double> partial_;
 };
 
