@@ -38,12 +38,12 @@ void AirFlow::fill_ghosts(CellField& pressure) const {
 
 /// The volume flow through every face, of air and grains or of the air.
 void AirFlow::find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const {
-  const double carried = with_grains ? 1 : 0;
+  const double mixture = with_grains ? 1 : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     for_each_row(team, passages_.grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
       const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
-      find_volume_flow_of_row(end - begin, carried,
+      find_volume_flow_of_row(end - begin, mixture,
                               {.open = from(passages_.open),
                                .void_fraction = from(void_fraction_),
                                .velocity = from(velocity),

@@ -31,12 +31,12 @@ TALUS_CLONES void add_pressure_row(std::ptrdiff_t count, double factor, double g
   }
 }
 
-TALUS_CLONES void find_volume_flow_of_row(std::ptrdiff_t count, double carried, const VolumeFlowRow& given,
+TALUS_CLONES void find_volume_flow_of_row(std::ptrdiff_t count, double mixture, const VolumeFlowRow& given,
                                           double* __restrict flow) {
   const VolumeFlowRow row = given;
   for (std::ptrdiff_t f = 0; f < count; ++f)
     flow[f] = row.open[f] *
-              (row.void_fraction[f] * row.velocity[f] + carried * row.solid_fraction[f] * row.grain_velocity[f]);
+              (row.void_fraction[f] * row.velocity[f] + mixture * row.solid_fraction[f] * row.grain_velocity[f]);
 }
 
 TALUS_CLONES void find_source_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& area,

@@ -46,8 +46,8 @@ struct VolumeFlowRow {
   const double *open, *void_fraction, *velocity, *solid_fraction, *grain_velocity;
 };
 
-/// \param carried 1: volume flow of air and grains; 0: of the air
-void find_volume_flow_of_row(std::ptrdiff_t count, double carried, const VolumeFlowRow& row, double* __restrict flow);
+/// \param mixture 1: volume flow of air and grains; 0: of the air
+void find_volume_flow_of_row(std::ptrdiff_t count, double mixture, const VolumeFlowRow& row, double* __restrict flow);
 
 /// What flows in through the faces of cells.
 void find_source_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& area, const double* x,
