@@ -20,7 +20,7 @@ std::array<bool, 3> periodic_axes(const FlowBoundaries& boundaries) {
   return {boundaries.is_periodic(0), boundaries.is_periodic(1), boundaries.is_periodic(2)};
 }
 
-/// With the case's velocities of the walls among the boundaries.
+/// Adds the wall velocities of the case to the boundaries.
 Parameters with_moving_walls(Parameters p) {
   for (std::size_t face = 0; face < 6; ++face)
     p.boundaries.wall_velocity[face] +=
@@ -87,7 +87,7 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
                   from(after_drag_), from(stream.velocity), from(conductance_));
     });
   }
-  // Pressure's share of the velocity over dt.
+  // Adds the share of the pressure term over dt to the velocity.
   const auto add_pressure = [&](double share) {
     fill_ghosts(pressure);
     for (int axis = 0; axis < 3; ++axis) {
@@ -106,10 +106,10 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
     }
   };
   if (implicit_) {
-    // With the guessed pressure at work: viscosity then meets the velocity to come, and a steady flow is exact.
+    // Includes the guessed pressure: viscosity then acts on the final velocity, and a steady flow is exact.
     add_pressure(1);
     viscous_ = stream.velocity;
-    stream.velocity = before_;  // nearer to what comes than what viscosity has not met
+    stream.velocity = before_;  // a better first guess than the velocity without viscosity
     viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream.velocity);
     add_pressure(-1);
   }
@@ -123,9 +123,9 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
   }
 }
 
-/// What the air lost to drag, and in model A what the pressure does to the solid, over its volume: first on the faces,
-/// then as the cells' means, so that it is handed out with the weights by which the solids were gathered.
-/// \param velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
+/// Impulse of the drag, and in model A of the pressure, on the solid, per solid volume: first on faces, then as the
+/// mean in cells, so that it is distributed to the particles with the weights by which their volume was deposited.
+/// \param velocity at the end of the step; state.momentum is that of the start, state.pressure that of the step
 void AirFlow::exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state,
                                 FaceField& impulse) {
   const Grid& grid = passages_.grid;
