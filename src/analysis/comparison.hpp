@@ -76,7 +76,7 @@ enum class Statistic {
   difference  ///< the first less the second
 };
 
-/// The statistic of numbers, one a member; nan as those of statistics.hpp. Ratio and difference take two, one a
+/// The statistic of numbers, one per member; nan as those of statistics.hpp. Ratio and difference take two, one a
 /// variant.
 double evaluate(Statistic statistic, std::span<const double> numbers);
 

@@ -19,7 +19,7 @@ struct FallingCloud {
   double flatness = 0;  ///< root mean square lateral distance, over sqrt(2) times that along gravity: 1 for a sphere
 };
 
-/// \param position, velocity m, m/s, one a grain, at least one \param gravity unit vector
+/// \param position, velocity m, m/s, one per grain, at least one \param gravity unit vector
 /// \param initial_radius of the cloud, m
 FallingCloud measure_falling_cloud(std::span<const Vector3> position, std::span<const Vector3> velocity,
                                    const Vector3& gravity, double initial_radius);

@@ -28,7 +28,7 @@ std::string page_head(const std::string& model) {
   return fmt::format("# Case reference: {}\n\n{}\n", model, wrapped(text, width, 0, 0));
 }
 
-/// One row a measure, those that a summary lists first.
+/// One row per measure, those that a summary lists first.
 std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) {
   std::string table = "| name | unit | definition | place |\n|---|---|---|---|\n";
   for (const MeasureText& m : measures) {

@@ -71,7 +71,7 @@ struct SimdVector {
   TALUS_INLINE SimdVector(double value) {  // NOLINT(google-explicit-constructor)
     TALUS_UNROLL for (int r = 0; r < rows; ++r) row[r] = Register{} + static_cast<T>(value);
   }
-  /// One number a row, repeated over its lanes. \param values `rows` numbers
+  /// One number per row, repeated over its lanes. \param values `rows` numbers
   TALUS_INLINE static SimdVector broadcast(const T* values) {
     SimdVector x;
     TALUS_UNROLL for (int r = 0; r < rows; ++r) x.row[r] = Register{} + values[r];

@@ -5,7 +5,7 @@
 /// renamed over the older of the two, so that at any moment, also on a full disk, the newest whole one is there; room
 /// for three is needed. A file is HDF5 behind a user block of 512 bytes of text:
 ///
-///     Talus checkpoint / format 1 / sequence 12 / bytes 345678 / crc32 89abcdef      (one a line)
+///     Talus checkpoint / format 1 / sequence 12 / bytes 345678 / crc32 89abcdef      (one per line)
 ///
 /// The sequence number tells the newer of the two. The checksum covers the lines before it and all bytes of the HDF5
 /// file, and is verified before the library sees them: a torn file and a turned bit are both noticed.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Particles as a table of comma-separated values: a header line that names the columns, then one line a particle.
+/// Particles as a table of comma-separated values: a header line that names the columns, then one line per particle.
 ///
 ///     x [mm],y [mm],z [mm],radius [um],velocity_x [m/s],velocity_y [m/s],velocity_z [m/s],mass [g]
 ///     1.5,0,2,200,0,0,-0.1,3.2e-5

@@ -24,7 +24,7 @@ struct FieldInfo {
   std::string_view unit;  ///< SI; "1" for numbers
   FieldRole role = FieldRole::kept;
   bool in_snapshots = true;
-  bool of_particles = true;  ///< a column: one entry a particle, in their order
+  bool of_particles = true;  ///< a column: one entry per particle, in their order
 };
 
 }  // namespace talus

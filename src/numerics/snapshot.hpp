@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// One column: one entry a particle.
+/// One column: one entry per particle.
 struct ColumnView {
   std::string_view name;
   std::string_view unit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one place where a model's type is forgotten: `run` drives any model through these few virtual calls a step.
+/// The one place where a model's type is forgotten: `run` drives any model through these few virtual calls per step.
 #pragma once
 
 #include <memory>

@@ -28,7 +28,7 @@ struct Headline {
 
 struct LoopOptions {
   double end = 0;  ///< simulated time after the model's origin, s: the first step that reaches it is the last
-  double series_interval = 0;           ///< simulated time between rows of series.csv, s; 0: a row a step
+  double series_interval = 0;           ///< simulated time between rows of series.csv, s; 0: a row per step
   double snapshot_interval = 0;         ///< simulated time between snapshots, s, > 0
   double checkpoint_interval = 30;      ///< wall time between checkpoints, s
   std::optional<double> walltime = {};  ///< wall time after which the run leaves with a checkpoint, s

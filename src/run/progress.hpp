@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How far a run is, and when it will end. On a terminal one line that lives, rewritten in place and cut to its width;
-/// elsewhere, and in a log, a line a tenth of the way.
+/// elsewhere, and in a log, a line per tenth of the way.
 ///
 /// The forecast knows phases (a bed settles, then the run): each has a speed of its own, measured over its latest
 /// quarter, since steps grow dearer or cheaper as a run goes on.

@@ -16,7 +16,7 @@
 
 namespace talus::app {
 
-/// A row's numbers: one a variant of the row, or one alone if it is made from several; nothing where the runs that it
+/// A row's numbers: one per variant of the row, or one alone if it is made from several; nothing where the runs that it
 /// needs are not there. \throws std::logic_error if the row asks for what no such runs have
 using StudiedRuns = std::function<std::vector<std::optional<double>>(const ComparisonRow& row)>;
 

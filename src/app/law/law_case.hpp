@@ -60,7 +60,7 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
 /// \throws InputError with every problem
 LawCase read_law_case(const CaseFile& file);
 
-/// Reads a path: a line a stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity
+/// Reads a path: a line per stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity
 /// gradient, of which those left out are zero. \throws FileError, InputError with every bad line
 std::vector<granular::PathStretch> read_path(const std::filesystem::path& path);
 

@@ -40,7 +40,7 @@ class PairSum {
     double viscosity = 0;  ///< Pa s, > 0
   };
 
-  /// \param radius one a sphere, m, > 0
+  /// \param radius one per sphere, m, > 0
   /// \param order as `reorder`
   /// \throws InputError if the processor does not have the instruction set
   PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order = {});
@@ -54,7 +54,7 @@ class PairSum {
   /// velocity[i] = sum over j != i of M_ij F_j; the sphere's own Stokes drag is not in it. Overwrites; components
   /// outside the plane of motion become 0. With the printed tensor two spheres at one place get a velocity that is not
   /// finite; with zuk-2014 every configuration has a finite one.
-  /// \param position m; \param force N; \param velocity m/s; one a sphere, in the order of the radii
+  /// \param position m; \param force N; \param velocity m/s; one per sphere, in the order of the radii
   /// \throws std::invalid_argument if a length is not the number of spheres
   void velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                   std::span<Vector3> velocity);

@@ -17,7 +17,7 @@ namespace talus::cloud {
 
 class Velocities {
  public:
-  /// \param radius m, one a grain; copied
+  /// \param radius m, one per grain; copied
   Velocities(const Parameters& parameters, std::span<const double> radius);
 
   /// Sets the order in which the pair sum packs the grains (part of the definition of the sum's bits).

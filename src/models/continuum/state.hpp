@@ -19,7 +19,7 @@ namespace talus::continuum {
 struct MaterialColumns {
   std::array<std::vector<double>, 6> stress;       ///< the law's, Pa, compression positive: xx yy zz xy yz zx
   std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order
-  std::vector<std::vector<double>> history;        ///< one column a slot of the law
+  std::vector<std::vector<double>> history;        ///< one column per slot of the law
 };
 
 /// The names of the walls that may bear load, and of the columns of their impulses.

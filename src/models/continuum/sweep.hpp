@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The sweep over pairs: what each particle feels from its neighbours and from their images behind the boundaries.
-/// Particles are packed into records, one a particle; images exist only as records, made from those of their sources.
+/// Particles are packed into records, one per particle; images exist only as records, made from those of their sources.
 /// The loops themselves stand in pair_sweep/, compiled once for each instruction set.
 #pragma once
 

@@ -29,7 +29,7 @@ struct PairConstants {
 /// other one the images by one mirror.
 struct Neighbours {
   const std::uint32_t* record;
-  const std::uint32_t* group_end;  ///< one a group: where it ends in `record`
+  const std::uint32_t* group_end;  ///< one per group: where it ends in `record`
   int groups;
   std::uint32_t nobody;  ///< a record far away from all others, which fills up registers
 };
@@ -44,7 +44,7 @@ struct PairSums {
 
 enum class Wanted { all, gradients, forces };
 
-/// \param acceleration one a group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
+/// \param acceleration one per group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
 /// wanted
 using SumNeighbours = void (*)(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
