@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A measure: a name, a unit, what it means, and the function that makes the number from a run, a place and a window of
-/// time. Each stands in one row of one list, hopper_measures() or avalanche_measures(); the summary of a run, its table
-/// of snapshots, the rows of a reference and docs/quantities.md follow from the lists.
+/// time. Each is one row of one list, hopper_measures() or avalanche_measures(); the summary of a run, its table of
+/// snapshots, the rows of a reference and docs/quantities.md follow from the lists.
 #pragma once
 
 #include <cstddef>

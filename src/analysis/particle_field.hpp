@@ -34,7 +34,7 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
 
 class ParticleField {
  public:
-  /// \param domain with its gates as they are at that time
+  /// \param domain with its gates in their state at that time
   /// \throws std::invalid_argument if a position is not finite or a smoothing length not above 0
   ParticleField(Particles particles, Domain domain);
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A number that is many numbers: `SimdVector<T, rows>` holds `rows` vector registers of doubles or floats and computes
-/// with all of them at once. A law written as a template over its number type works on double, on float and on SIMD
-/// vectors alike, with `select` in place of branches. Several rows in one number keep several independent chains of
-/// operations in flight, which is what hides the latency of each; a single row is combined with every row of its
-/// partner.
+/// SIMD vectors: `SimdVector<T, rows>` holds `rows` vector registers of doubles or floats and computes with all of them
+/// at once. A law written as a template over its number type works on double, on float and on SIMD vectors alike, with
+/// `select` in place of branches. Several rows in one number keep several independent chains of operations in flight,
+/// which is what hides the latency of each; a single row is combined with every row of its partner.
 ///
 /// The instruction set is the one that the including file is compiled for, and everything here lives in a namespace of
 /// its name: two files compiled for different sets share no function.
@@ -17,7 +16,7 @@
 
 namespace talus {
 
-// A number alone. Products and sums are rounded one by one.
+// Scalars. Products and sums are rounded separately.
 template <class T>
 concept Scalar = std::is_floating_point_v<T>;
 
@@ -45,7 +44,7 @@ template <Scalar T>
 TALUS_INLINE constexpr T maximum(T a, T b) {
   return a > b ? a : b;
 }
-/// f of every number of x; of a number alone f(x).
+/// f of every number of x; for a scalar f(x).
 template <Scalar T, class Function>
 TALUS_INLINE T map_lanes(T x, Function&& f) {
   return f(x);
@@ -67,7 +66,7 @@ struct SimdVector {
   Register row[rows];
 
   SimdVector() = default;
-  /// The same number everywhere. Implicit, so that laws read alike for numbers and lanes.
+  /// The same number everywhere. Implicit, so that laws can be written alike for scalars and vectors.
   TALUS_INLINE SimdVector(double value) {  // NOLINT(google-explicit-constructor)
     TALUS_UNROLL for (int r = 0; r < rows; ++r) row[r] = Register{} + static_cast<T>(value);
   }
@@ -178,7 +177,7 @@ TALUS_INLINE SimdMask<T, rows> operator||(SimdMask<T, rows> a, SimdMask<T, rows>
   return a;
 }
 
-/// Lane by lane, `yes` where the condition holds and `no` elsewhere, whatever stands in the other.
+/// Lane by lane, `yes` where the condition holds and `no` elsewhere; the other value may be anything.
 template <class T, int rows, int p, int q>
 TALUS_INLINE SimdVector<T, rows> select(SimdMask<T, rows> condition, SimdVector<T, p> yes, SimdVector<T, q> no) {
   SimdVector<T, rows> x;
@@ -213,7 +212,7 @@ TALUS_INLINE SimdVector<T, rows> log(SimdVector<T, rows> x) {
   return map_lanes(x, [](T number) { return std::log(number); });
 }
 
-/// As gather_rows of a number alone.
+/// As gather_rows of a scalar.
 template <int count, class T, int rows, class RowOf>
 TALUS_INLINE void gather_rows(SimdVector<T, rows> x, RowOf&& row_of, SimdVector<T, rows> (&values)[count]) {
   for (int r = 0; r < rows; ++r) {

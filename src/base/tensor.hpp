@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Second-order tensors in three dimensions, over any number type (double, float, vector lanes). Plain numbers, no
+/// Second-order tensors in three dimensions, over any number type (double, float, SIMD vectors). Plain numbers, no
 /// invariants; usable on host and device.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Checkpoints: all that a run needs to go on with the same bits.
+/// Checkpoints: all that a run needs to continue with the same bits.
 ///
 /// Two files alternate, checkpoint_a.h5 and checkpoint_b.h5. A new one is written whole under a temporary name and then
 /// renamed over the older of the two, so that at any moment, also on a full disk, the newest whole one is there; room
@@ -7,9 +7,9 @@
 ///
 ///     Talus checkpoint / format 1 / sequence 12 / bytes 345678 / crc32 89abcdef      (one per line)
 ///
-/// The sequence number tells the newer of the two. The checksum covers the lines before it and all bytes of the HDF5
-/// file, and is verified before the library sees them: a torn file and a turned bit are both noticed.
-/// Within: /state/NAME, the model's kept fields; anything else by its own path; the attribute "units" on each.
+/// The sequence number identifies the newer of the two. The checksum covers the lines before it and all bytes of the
+/// HDF5 file, and is verified before the library sees them: a torn file and a turned bit are both noticed. Within:
+/// /state/NAME, the model's kept fields; anything else by its own path; the attribute "units" on each.
 #pragma once
 
 #include <array>

@@ -28,7 +28,7 @@ class Descriptor {
   int number() const { return number_; }
   void write(std::string_view bytes);
   std::string read();               ///< from here to the end
-  void truncate(std::size_t size);  ///< cuts there and goes on there
+  void truncate(std::size_t size);  ///< truncates and continues there
   void sync();                      ///< to the disk; a file system that cannot flush a folder is let be
   void close();
 

@@ -25,7 +25,7 @@ namespace talus {
 
 class ParameterReader {
  public:
-  /// \param file outlives the reader; \param renamed keys that were, to tell what stands in their place
+  /// \param file outlives the reader; \param renamed former keys, to report the new ones
   explicit ParameterReader(const CaseFile& file, std::span<const RenamedKey> renamed = {});
 
   /// Reads one parameter. The member keeps its initial value if the key is missing or faulty, or where its condition

@@ -13,7 +13,7 @@
 namespace talus {
 
 /// \tparam M a type with the members below. A for_each_field(visit, state) and a for_each_parameter(visit, parameters)
-///           stand in the namespace of its State and Parameters.
+///           are in the namespace of its State and Parameters.
 template <class M>
 concept Model = requires(M model, const M constant, ThreadTeam& team, const RunRecord& record) {
   typename M::Parameters;

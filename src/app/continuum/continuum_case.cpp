@@ -57,7 +57,7 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   return forecast;
 }
 
-/// Of a step of all particles. A bed of some thousand is measured as it is, a larger one by a sample.
+/// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample.
 double measure_step(const Parameters& p, ThreadTeam& team) {
   constexpr double most = 8000;
   const double count = continuum::bed_count(p);

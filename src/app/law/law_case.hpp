@@ -64,7 +64,7 @@ LawCase read_law_case(const CaseFile& file);
 /// gradient, of which those left out are zero. \throws FileError, InputError with every bad line
 std::vector<granular::PathStretch> read_path(const std::filesystem::path& path);
 
-/// How the case asks for a path of so many stretches to be followed.
+/// Options of the case for a path of so many stretches.
 granular::PathOptions path_options(const LawCase& parameters, std::size_t stretches);
 
 }  // namespace talus::app

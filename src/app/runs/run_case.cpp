@@ -24,7 +24,7 @@ namespace talus::app {
 
 namespace {
 
-// The wish for an instruction set does not count, but what it resolves to: case_fingerprint.
+// Not the choice of an instruction set counts but the set it resolves to: case_fingerprint.
 constexpr std::array<std::string_view, 5> not_in_fingerprint{
     "run.end", "title", "output.pictures", "output.checkpoint_interval", "integration.instruction_set"};
 
@@ -61,7 +61,8 @@ Manifest manifest_of(const PreparedCase& prepared, int threads) {
   return manifest;
 }
 
-/// Whether the run in a folder may go on as this case; reads only. \throws InputError with every key that differs
+/// Checks that the run in a folder can be continued with this case; reads only. \throws InputError with every key that
+/// differs
 void check_resumable(const PreparedCase& prepared, const RunFolder& folder, const Manifest& now) {
   if (!std::filesystem::exists(folder.manifest())) return;  // killed before it began
   const Manifest then = read_manifest(folder.manifest());
@@ -143,7 +144,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
     return ExitStatus::interrupted;
   }
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
-           loop.wall_seconds, loop.cpu_seconds);
+            loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
   say("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
       folder.path().string());
@@ -151,7 +152,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   return ExitStatus::done;
 }
 
-/// Where even this cannot be written, the trouble that led here is the one to tell.
+/// If even this cannot be written, the original error is the one to report.
 void summarize_failure(const PreparedCase& prepared, const RunFolder& folder, const Manifest& manifest) {
   try {
     write_summary(

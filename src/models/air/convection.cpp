@@ -23,7 +23,7 @@ std::size_t plus(std::size_t index, std::ptrdiff_t by) {
   return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + by);
 }
 
-// Rows of faces. Functions of their own, so that the compiler makes vectors of them.
+// Loops over rows of faces: separate functions so that the compiler vectorises them.
 
 /// A row of faces and what flows between them and those before them along a second axis.
 struct FluxRow {

@@ -40,7 +40,7 @@ Extremes on_middle_line(const Grid& grid, const AirState& state, int component, 
   std::array<int, 3> low{}, high{};
   for (std::size_t a = 0; a < 3; ++a) {
     const int n = grid.count[a];
-    // Velocities along `component` stand on faces: number n/2 is in the middle where n is even.
+    // Velocities along `component` are on faces: number n/2 is in the middle where n is even.
     const bool on_face = static_cast<int>(a) == component;
     low[a] = on_face ? n / 2 : (n - 1) / 2;
     high[a] = on_face ? (n + 1) / 2 : n / 2;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the air knows between its steps: of the solids in its cells, and of itself.
+/// The state of the air between its steps, and the solids in its cells.
 #pragma once
 
 #include "numerics/grid/grid.hpp"
 
 namespace talus::air {
 
-/// What stands in the air, cell by cell.
+/// The grains in the air, cell by cell.
 struct Solids {
   CellField fraction;  ///< solid volume over volume, 0 to below 1
   FaceField flux;      ///< by component, of every cell: fraction times the solid's velocity, m/s

@@ -168,7 +168,7 @@ std::string place_of(const State& state, std::size_t grain) {
   throw NumericalError(report);
 }
 
-/// A trial step: what it left in the workspace, and whether it may stand.
+/// A trial step: its result in the workspace, and whether it is accepted.
 struct Trial {
   bool finite = false;
   std::uint64_t stages = 0;
@@ -201,12 +201,12 @@ Trial try_step(ThreadTeam& team, const Parameters& p, State& state, Workspace& w
 
 /// The length of the next step over this one's. \param error over what is allowed
 double growth(double error, int order) {
-  const double tiny = 1e-4;  // what is below asks for the largest growth anyway
+  const double tiny = 1e-4;  // smaller errors give the largest growth anyway
   const double root = order == 2 ? std::sqrt(std::max(error, tiny)) : std::pow(std::max(error, tiny), 1.0 / order);
   return std::clamp(0.8 / root, 0.5, 1.5);
 }
 
-/// That a step must be stable with, 1/s. The pair's error tells when grains come to touch: until they do, none is.
+/// That a step must be stable with, 1/s. The error of the pair detects new contacts: before them, no limit is needed.
 double stiffest_rate(const Parameters& p, const State& state, double largest_overlap) {
   if (p.integration.method == Method::dormand_prince && !(largest_overlap > 0)) return 0;
   return std::max(stiffness_margin * state.spectral_radius, contact_rate(p));

@@ -22,7 +22,7 @@ class Checkerboard {
   const std::array<int, 3>& count() const { return count_; }
   bool is_periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
   std::size_t rows() const { return rows_; }
-  /// Length of an array; its tail is a row of zeros that stands for whatever lies outside the grid.
+  /// Length of an array; its tail is a row of zeros that represents all cells outside the grid.
   std::size_t size() const { return 2 * (rows_ + 1) * stride_; }
 
   /// First cell of the colour in row r; one pad cell before and at least one after the run.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Preconditioned conjugate gradients (Hestenes & Stiefel 1952; Saad 2003, Iterative Methods for Sparse Linear Systems,
-/// algorithm 9.1) for a symmetric matrix A. Where the columns stand, how their sums are joined and what M is like is
-/// the system's and the preconditioner's business: any order is fine that does not depend on the number of threads.
+/// algorithm 9.1) for a symmetric matrix A. The storage of the columns, the order of their sums and M are up to the
+/// system and the preconditioner; the order must not depend on the number of threads.
 #pragma once
 
 #include <cmath>

@@ -35,7 +35,7 @@ class PoissonSolver {
   PoissonSolver(const Grid& grid, std::array<bool, 3> periodic);
 
   /// Takes the conductances, at least 0, unit [source] / [value]; those of the high faces of a periodic axis are not
-  /// read. Finds the regions anew where the pattern of zeros has changed.
+  /// read. Finds the regions again if the pattern of zeros has changed.
   /// \param storage at least 0 in every cell, in the grid's order; none: 0
   void set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage = nullptr);
 

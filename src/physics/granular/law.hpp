@@ -58,7 +58,7 @@ struct LawParameters {
   Laws::Parameters own;
 
   LawParameters() = default;
-  /// Chooses the law that has these parameters, which may stand where a law is due.
+  /// Chooses the law with these parameters; implicit, so that they can be passed as a law.
   template <class P>
   // NOLINTNEXTLINE(google-explicit-constructor)
   requires(Laws::has_parameters<P>) LawParameters(const P& parameters) : name(LawName{Laws::index_of<P>()}) {

@@ -20,7 +20,7 @@
 
 namespace talus::granular {
 
-/// A number that a law remembers of each point: a column of the state.
+/// A history variable of a law: a column of the state.
 struct HistorySlot {
   const char* name;  ///< snake_case, unique within the law
   const char* unit;  ///< SI; "1" for numbers
@@ -28,14 +28,14 @@ struct HistorySlot {
   int axis = 0, other_axis = 0;
 };
 
-/// Grains at one place, as a law sees them. A new point is all zeros: no stress, nothing remembered.
+/// A material point. A new one is all zeros: no stress, no history.
 template <class Law, class Number = double>
 struct MaterialPoint {
   SymmetricTensor3<Number> stress;                 ///< Pa, strain-rate independent part, compression positive
   typename Law::template History<Number> history;  ///< named by Law::for_each_slot(visit, history)
 };
 
-/// What a law was made for. Outside of it the law still gives numbers, and `talus check` and the regime card warn.
+/// The range of validity of a law. Outside of it `talus check` and the regime card warn.
 struct LawRange {
   double grain_diameter = 0;  ///< of the grains that it is a fit to, m; 0: of any
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< Pa
