@@ -24,10 +24,4 @@ struct FallingCloud {
 FallingCloud measure_falling_cloud(std::span<const Vector3> position, std::span<const Vector3> velocity,
                                    const Vector3& gravity, double initial_radius);
 
-/// Mean speed of equal spheres at random places in a sphere, over the Stokes speed of one: 1 + (N - 1) 6/(5 R), the
-/// mean of the Oseen tensor over all pairs of places. The tensor's term in a^2 has no mean over directions; that no two
-/// centres are closer than 2 a takes another (N - 1) 6/R^3 away.
-/// \param count N, >= 1; \param radius R of the cloud over the spheres', > 2
-double fall_speed_of_sphere(double count, double radius);
-
 }  // namespace talus

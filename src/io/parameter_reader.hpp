@@ -68,12 +68,4 @@ class ParameterReader {
   std::set<std::string, std::less<>> meant_;  // keys that unknown ones were meant to be
 };
 
-/// One parameter before the others: `read_parameter(file, {"model", {}, {}, "the model", true}, model)`.
-template <class T>
-void read_parameter(const CaseFile& file, const Parameter& parameter, T& member) {
-  ParameterReader reader(file);
-  reader(parameter, member);
-  reader.raise();
-}
-
 }  // namespace talus

@@ -25,9 +25,4 @@ namespace talus {
 ///         finite or too large, and columns that are missing, doubled or in an unknown unit
 PointSet read_points_csv(const std::filesystem::path& path, std::span<const std::string_view> required = {});
 
-/// Writes all columns of a snapshot, whole or not at all, numbers in the shortest form that reads back to the same bits
-/// (integers come back as reals).
-/// \throws FileError with the system's reason
-void write_points_csv(const std::filesystem::path& path, const Snapshot& snapshot);
-
 }  // namespace talus

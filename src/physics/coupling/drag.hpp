@@ -37,11 +37,6 @@ constexpr double umekage_yuu(double void_fraction) {
   return 3.8 + (2.6 / void_fraction - 5.4) / void_fraction;
 }
 
-/// Number of grains in a unit volume, 1/m^3.
-constexpr double number_density(double solid_fraction, double diameter) {
-  return solid_fraction * 6 / (3.14159265358979323846 * diameter * diameter * diameter);
-}
-
 /// beta of Yuu & Umekage 2011, Eqs 20 and 21: 3 pi mu D_p (1 + 0.15 Re_p^0.687) n zeta(Phi) / C_c.
 /// \param solid_fraction 1 - Phi, 0 to 0.74; \param slip |u - u_p|, m/s; \returns kg/(m^3 s)
 inline double schiller_naumann_umekage_yuu(const DragMedium& medium, double solid_fraction, double slip) {

@@ -74,13 +74,4 @@ constexpr void for_each_tensor_slot(Visit&& visit, const char* const (&names)[6]
   visit(HistorySlot{names[5], unit, 2, 0}, tensor.zx);
 }
 
-/// Number of slots of a law.
-template <class Law>
-constexpr int history_slots() {
-  int count = 0;
-  typename Law::template History<double> history{};
-  Law::for_each_slot([&](HistorySlot, double&) { ++count; }, history);
-  return count;
-}
-
 }  // namespace talus::granular
