@@ -106,7 +106,7 @@ double spearman_correlation(std::span<const double> x, std::span<const double> y
   require_pairs(x, y);
   const std::vector<double> x_rank = ranks(x), y_rank = ranks(y);
   const double scatter = cross_sum(x_rank, x_rank) * cross_sum(y_rank, y_rank);
-  return scatter > 0 ? cross_sum(x_rank, y_rank) / std::sqrt(spread) : nan;
+  return scatter > 0 ? cross_sum(x_rank, y_rank) / std::sqrt(scatter) : nan;
 }
 
 Line fit_line(std::span<const double> x, std::span<const double> y) {
