@@ -70,15 +70,14 @@ template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"seed", dimension::none, between(0, 9e15), "seed of the radii and positions"}, p.seed);
 
-  visit(
-      Parameter{"particles.shape",
-                {},
-                {},
-                "where the grains are at the start: circle, rectangle, triangle and wedge (a heap with a level surface "
-                "behind a gate upright to the slope) in the plane of motion, ball and dome (half a ball on the slope) "
-                "in space, or a file of points",
-                true},
-      p.particles.shape);
+  visit(Parameter{"particles.shape",
+                  {},
+                  {},
+                  "initial arrangement of the grains: circle, rectangle, triangle and wedge (a heap with a level "
+                  "surface behind a gate perpendicular to the slope) in the plane of motion, ball and dome (half a "
+                  "ball on the slope) in space, or a file of points",
+                  true},
+        p.particles.shape);
   auto packed = only_if(unless("particles.shape", p.particles.shape, Shape::file), visit);
   packed(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains"}, p.particles.count);
   visit(
@@ -113,8 +112,8 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"fluid.mobility",
                   {},
                   {},
-                  "how grains drag each other: the printed tensor, its symmetric form for "
-                  "unequal and overlapping spheres, or not at all"},
+                  "hydrodynamic interaction of the grains: the printed tensor, its symmetric form for unequal and "
+                  "overlapping spheres, or none"},
         p.fluid.mobility);
   auto dragged = only_if(unless("fluid.mobility", p.fluid.mobility, hydrodynamics::Mobility::none), visit);
   dragged(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
@@ -126,7 +125,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   touching(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
            p.contact.stiffness);
 
-  visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 carries the grains (a wall for contacts only)"},
+  visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 supports the grains (a wall for contacts only)"},
         p.slope.enabled);
   visit(Parameter{"slope.angle", dimension::angle, between(0, 1.5707963267948966), "incline; x points down the slope"},
         p.slope.angle);
@@ -146,8 +145,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   {},
                   "damped Runge-Kutta-Chebyshev of first order; Dormand and Prince's Runge-Kutta pair of fifth order, "
-                  "for grains that hardly touch (stiff contacts make its steps short); or explicit Euler at its "
-                  "stability limit (a reference for tests)"},
+                  "for grains with few contacts (stiff contacts shorten its steps); or explicit Euler at its stability "
+                  "limit (a reference for tests)"},
         p.integration.method);
   visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
         p.integration.largest_step);
