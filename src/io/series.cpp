@@ -29,7 +29,7 @@ std::string header_of(const std::vector<SeriesColumn>& columns) {
 
 }  // namespace
 
-SeriesWriter::SeriesWriter(std::filesystem::path path, const std::vector<SeriesColumn>& columns)
+SeriesWriter::SeriesWriter(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns)
     : columns_(columns.size()) {
   claim_file(path);
   file_ = Descriptor(path.string(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
@@ -38,7 +38,7 @@ SeriesWriter::SeriesWriter(std::filesystem::path path, const std::vector<SeriesC
   bytes_ = header.size();
 }
 
-SeriesWriter SeriesWriter::resume(std::filesystem::path path, const std::vector<SeriesColumn>& columns,
+SeriesWriter SeriesWriter::resume(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
                                   std::uint64_t rows) {
   SeriesWriter writer;
   claim_file(path);

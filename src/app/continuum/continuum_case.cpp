@@ -111,7 +111,9 @@ ParameterList continuum_parameters() {
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
-  auto [run, p] = read_case(file);
+  const Case read = read_case(file);
+  const Parameters& p = read.model;
+  run::RunParameters run = read.run;
   if (run.snapshots == 0) run.snapshots = run.end / 20;
 
   PreparedCase prepared;
