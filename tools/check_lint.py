@@ -53,11 +53,12 @@ def check(build, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build"))
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    parser.add_argument("--build", type=pathlib.Path, default=None, help="root/build if not given")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
-    root = pathlib.Path(__file__).resolve().parent.parent
-    build = arguments.build.resolve()
+    root = arguments.root.resolve()
+    build = (arguments.build or root / "build").resolve()
     clean = build / "lint"
     clean.mkdir(exist_ok=True)
     made_of = dependencies(build)
