@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What convection does to the air's velocities on the faces of a grid.
+/// Convection of the velocities of the air on the faces of a grid.
 #pragma once
 
 #include "base/parallel.hpp"
@@ -7,7 +7,7 @@
 
 namespace talus::air {
 
-/// Velocity and what flows with it.
+/// Velocity and mass flux.
 struct Stream {
   FaceField velocity;  ///< m/s
   FaceField mass;      ///< rho Phi u, kg/(m^2 s)
@@ -21,8 +21,8 @@ class Convection {
   /// enters.
   void fill_ghosts(Stream& stream) const;
 
-  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3; what one face's volume gains another loses. Ghosts filled.
-  /// \param upwind 0 central, 1 third-order upstream
+  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3; conservative. Ghosts must be filled.
+  /// \param upwind 0 central, 1 third-order upwind-biased
   void find_force(ThreadTeam& team, const Stream& stream, double upwind, FaceField& force);
 
  private:

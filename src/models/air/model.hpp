@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The model `air`: air alone in a box, for flows whose answer is known (driven cavities, channels, decaying vortices).
+/// The model `air`: air alone in a box, for flows with known solutions (driven cavities, channels, decaying vortices).
 /// It is the same AirFlow that moves around grains in the model `continuum`.
 #pragma once
 
@@ -113,9 +113,9 @@ class AirModel {
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
 
-  /// Step, kinetic energy, largest speed, range of the pressure, what the pressure left of the divergence, iterations;
-  /// extremes of u on the upright middle line and of w on the level one; of Taylor and Green's vortices the largest
-  /// error of a face's velocity over start.speed, and the energy over the exact one.
+  /// Step, kinetic energy, largest speed, range of the pressure, remaining divergence, iterations; extremes of u on the
+  /// upright middle line and of w on the level one; of Taylor and Green's vortices the largest error of a face's
+  /// velocity over start.speed, and the energy over the exact one.
   std::vector<NamedValue> totals() const;
   std::optional<GridSnapshot> grid() const;
   std::vector<RegimeLine> regime(const RunRecord& record) const;

@@ -15,11 +15,11 @@ struct Solids {
   explicit Solids(const Grid& grid) : fraction(grid.cell_field()), flux(grid.face_field()) {}
 };
 
-/// What the air remembers between steps.
+/// The fields of the air.
 struct AirState {
   FaceField velocity;  ///< m/s
   FaceField momentum;  ///< rho Phi u, kg/(m^2 s)
-  CellField pressure;  ///< against the boundaries' reference, Pa; mean of the last step
+  CellField pressure;  ///< relative to that of the surroundings, Pa; mean of the last step
   FaceField drag;      ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
 
   AirState() = default;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What viscosity does to the air's velocities on the faces of a grid: explicitly, or implicitly where its time limit
-/// is shorter than the step.
+/// Viscous terms of the velocities of the air on the faces of a grid: explicit, or implicit where the viscous time
+/// limit is shorter than the step.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a case of the cloud model says: grains that drag each other through a viscous fluid on an incline or in free
-/// space (Niiya, Awazu & Nishimori 2020). SI, angles in radians; the initial values are the defaults.
+/// Parameters of the cloud model: grains that interact through a viscous fluid on an incline or in free space (Niiya,
+/// Awazu & Nishimori 2020). SI, angles in radians; the initial values are the defaults.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Parameters {
   struct Particles {
     Shape shape = Shape::circle;
     std::int64_t count = 2000;
-    std::optional<double> size, length, width;  ///< m; those that the shape has, check() sees to it
+    std::optional<double> size, length, width;  ///< m; those that the shape needs, ensured by check()
     std::string file;
     double radius = 0;
     double radius_spread = 0.05;
@@ -171,7 +171,7 @@ void for_each_parameter(Visit&& visit, P& p) {
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
 
-/// How far a case is from what the model assumes: the lines of the regime card that are known before the run.
+/// Whether a case is within the assumptions of the model: the lines of the regime card that are known before the run.
 std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
 
 /// Quantities that follow from the parameters alone.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The state of a cloud: its columns and counters, each named once.
+/// The state of a cloud: its fields and counters, each defined once.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct State {
   // Warm starts and memory of the step control: kept, so that a resumed run takes the same steps.
   std::vector<Vector3> increment;           ///< m, the last step's displacement
   std::vector<Vector3> stiff_mode;          ///< unit vector of the stiffest motion found so far
-  std::vector<std::int64_t> spatial_order;  ///< order in which the pair sum packs the grains
+  std::vector<std::int64_t> spatial_order;  ///< order in which the pair sum stores the grains
   double last_step = 0;                     ///< s, length of the last step; 0 before the first
   double next_step = 0;                     ///< s, proposed by the error control
   double spectral_radius = 0;               ///< 1/s, estimate of the stiffest rate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A step in order: (1) now and then the stiffest rate is measured and the grains are re-sorted; (2) as many Chebyshev
-/// stages are taken as that rate and the step's length ask for, or those of Dormand and Prince; (3) the velocities at
-/// the new places are evaluated: they open the next step and tell whether this one may stand; (4) if not, it is
-/// repeated at half its length. On entry and exit: velocity, contact_force and overlap belong to position.
+/// The stages of a step: (1) at intervals the stiffest rate is estimated and the grains are sorted; (2) the Chebyshev
+/// stages that this rate and the step size require, or those of Dormand and Prince; (3) the velocities at the new
+/// positions, which start the next step and decide whether this one is accepted; (4) if not, it is repeated with half
+/// the step size. On entry and exit: velocity, contact_force and overlap belong to position.
 #include "models/cloud/step.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ constexpr double stiffness_margin = 1.1;  // on the measured rate, which is a lo
 constexpr int steps_between_estimates = 5;
 constexpr int steps_between_sorts = 16;
 constexpr double least_step_over_largest = 1e-6;
-constexpr double farthest_move = 1e4;  // of a grain within a step, in mean radii: the error control refuses less
+constexpr double farthest_move = 1e4;  // of a grain within a step, in mean radii: the error control rejects less
 
 double root_mean_square(ThreadTeam& team, std::size_t count, auto&& vector) {
   const double sum = reduce(
@@ -52,7 +52,7 @@ double error_of_first_order(ThreadTeam& team, const State& state, const Workspac
          });
 }
 
-/// Of the embedded solution: one order below what the step itself has.
+/// Of the embedded solution: one order lower than the step itself.
 double error_of_dormand_prince(ThreadTeam& team, const State& state, const Workspace& work, double step) {
   return step * root_mean_square(team, state.position.size(), [&](std::size_t i) {
            Vector3 sum = dormand_prince::error.front() * state.velocity[i];
@@ -148,7 +148,7 @@ std::string place_of(const State& state, std::size_t grain) {
         "a larger contact.stiffness (overlaps grow like the square root of the number of grains), or a larger "
         "integration.largest_overlap";
   } else {
-    // One force that is not finite leaves no velocity finite: it comes first.
+    // A single force that is not finite makes all velocities so: it is checked first.
     const auto forces = work.velocities.contact_force();
     const auto not_finite = [](const Vector3& v) { return !std::isfinite(v.x + v.y + v.z); };
     const auto broken_force = std::find_if(forces.begin(), forces.end(), not_finite);
@@ -206,13 +206,15 @@ double growth(double error, int order) {
   return std::clamp(0.8 / root, 0.5, 1.5);
 }
 
-/// That a step must be stable with, 1/s. The error of the pair detects new contacts: before them, no limit is needed.
+/// The rate for which a step must be stable, 1/s. The error of the pair detects new contacts: before them, no limit is
+/// needed.
 double stiffest_rate(const Parameters& p, const State& state, double largest_overlap) {
   if (p.integration.method == Method::dormand_prince && !(largest_overlap > 0)) return 0;
   return std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
 }
 
-/// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
+/// Steps of the minimum size are always accepted: with such contacts the tolerance could not be met, and the run would
+/// not end.
 void check_stiffness(const Parameters& p, const State& state, double largest_step) {
   const double share = longest_stable_step(p, contact_rate(p)) / largest_step;  // infinite without contacts
   if (share >= least_step_over_largest) return;
