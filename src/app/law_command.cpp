@@ -70,7 +70,7 @@ ExitStatus follow(const LawOptions& options) {
   const LawCase parameters = read_law_case(options.case_options.read());
   const std::vector<granular::PathStretch> stretches = read_path(options.path);
   FollowedPath path{.parameters = parameters,
-                    .law = granular::make_law(parameters.law, parameters.grains.density),
+                    .law = granular::make_law(parameters.law, parameters.grains.density, parameters.grains.diameter),
                     .stretches = stretches,
                     .options = path_options(parameters, stretches.size()),
                     .points = {}};
@@ -116,7 +116,7 @@ void add_law_command(CLI::App& app, Action& action) {
       "  1,0,-0.0001\n"
       "  1,0,0.002\n\n"
       "Stress and strain are positive in compression, and the law's answer does not depend on the durations but for\n"
-      "a law's smoothing_time and the stress by collisions.");
+      "a law's smoothing_time, the law critical-state and the stress by collisions.");
   command->callback([options, &action] { action = [options] { return follow(*options); }; });
 }
 

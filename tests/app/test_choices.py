@@ -42,7 +42,10 @@ class Choices(InputTest):
                 ("settle.speed=1 mm/s", 'gate.opens is "at-time"', "gate.opens=at-time"),
                 ("walls.coefficient=0.5", 'walls.friction is "none"', "walls.friction=none"),
                 ("collisions.normal=1", 'collisions.form is "none"', "collisions.form=none"),
-                ("law.yuu-umekage.compaction=1", 'law.yuu-umekage.volume is "density"')):
+                ("law.yuu-umekage.compaction=1", 'law.yuu-umekage.volume is "density"'),
+                ("collisions.range=printed", 'collisions.form is "none"', "collisions.form=none"),
+                ("law.critical-state.healing_time=1 ms", "law.critical-state.strength_at_rest is 0",
+                 "law.name=critical-state", "law.critical-state.strength_at_rest=0")):
             self.assert_one(setting, f"given, but {but}", others=others)
 
     def test_keys_of_the_cloud_too(self):

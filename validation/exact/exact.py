@@ -153,6 +153,15 @@ def thrown_place(runs):
     return float(np.abs(by_identity(last, "position") - exact).max()) / (0.8 * t), 0
 
 
+def jet(runs):
+    run = runs("jet")
+    last = run.points(-1)
+    aside = last["position"][:, 0] - 0.12
+    turned = np.abs(aside) > 0.03
+    assert turned.sum() > 0.3 * len(aside), "the jet has not been turned"
+    return float((np.sign(aside) * last["velocity"][:, 0])[turned].mean()), 1
+
+
 WAVE_SPEED = math.sqrt(2e6 / 1500)
 
 

@@ -66,6 +66,7 @@ granular::PathOptions path_options(const LawCase& parameters, std::size_t stretc
   constexpr std::size_t rows = 600;
   const double at_touch = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
     if constexpr (requires { own.contact; }) return own.contact.reference_packing;
+    if constexpr (requires { own.reference_packing; }) return own.reference_packing;
     return granular::Contact{}.reference_packing;
   });
   return {.density = path.packing.value_or(at_touch) * parameters.grains.density,

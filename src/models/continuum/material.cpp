@@ -36,7 +36,7 @@ concept TakesAStrain = requires(const Law law, const granular::MaterialPoint<Law
 
 }  // namespace
 
-Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grains.density)) {
+Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grains.density, p.grains.diameter)) {
   const std::vector<granular::HistorySlot> remembered = slots();
   for (std::size_t k = 0; k < remembered.size(); ++k) {
     if (remembered[k].name == std::string_view("strain_xx")) first_strain_slot_ = k;

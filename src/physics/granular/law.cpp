@@ -14,9 +14,12 @@ std::vector<Problem> check(const LawParameters& parameters) {
   });
 }
 
-AnyLaw make_law(const LawParameters& parameters, double grain_density) {
+AnyLaw make_law(const LawParameters& parameters, double grain_density, double grain_diameter) {
   return *with_chosen_law(parameters, [&]<class Law>(const typename Law::Parameters& own) {
-    return std::optional<AnyLaw>(Law(own, grain_density));
+    if constexpr (std::constructible_from<Law, const typename Law::Parameters&, double, double>)
+      return std::optional<AnyLaw>(Law(own, grain_density, grain_diameter));
+    else
+      return std::optional<AnyLaw>(Law(own, grain_density));
   });
 }
 

@@ -16,6 +16,7 @@
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
+#include "physics/granular/critical_state.hpp"
 #include "physics/granular/drucker_prager.hpp"
 #include "physics/granular/linear_elastic.hpp"
 #include "physics/granular/yuu_umekage_isotropic.hpp"
@@ -24,7 +25,7 @@
 namespace talus::granular {
 
 /// All laws; the first is the default.
-using AnyLaw = std::variant<YuuUmekageIsotropic, YuuUmekagePrinted, DruckerPrager, LinearElastic>;
+using AnyLaw = std::variant<YuuUmekageIsotropic, YuuUmekagePrinted, DruckerPrager, CriticalState, LinearElastic>;
 
 template <class Variant>
 struct LawsOf;
@@ -120,8 +121,8 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
 /// Contradictions between keys of the chosen law that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const LawParameters& parameters);
 
-/// \param grain_density rho_p, kg/m^3
-AnyLaw make_law(const LawParameters& parameters, double grain_density);
+/// \param grain_density rho_p, kg/m^3; \param grain_diameter D_p, m, for laws that depend on the rate
+AnyLaw make_law(const LawParameters& parameters, double grain_density, double grain_diameter = fitted_diameter);
 
 }  // namespace talus::granular
 

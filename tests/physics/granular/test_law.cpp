@@ -36,6 +36,8 @@ std::vector<LawParameters> many_laws() {
       Printed{.unloading = PrintedUnloading::none},
       DruckerPrager::Parameters{},
       DruckerPrager::Parameters{.friction = 0.4, .contact = {.volume = Volume::strain}},
+      CriticalState::Parameters{},
+      CriticalState::Parameters{.dilatancy = 0, .strength_at_rest = 0},
       LinearElastic::Parameters{}};
 }
 
