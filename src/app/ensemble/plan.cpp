@@ -54,7 +54,7 @@ std::string folder_name(const std::string& text) {
 }
 
 bool has_seed(const PreparedCase& prepared) {
-  return std::any_of(prepared.defaults.begin(), prepared.defaults.end(),
+  return std::any_of(prepared.parameters.begin(), prepared.parameters.end(),
                      [](const DescribedParameter& item) { return item.parameter.key == "seed"; });
 }
 

@@ -124,8 +124,9 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
     const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
-    summary.quantities = model_of(resolved).analyse(resolved, folder.path());
-    if (prepared.run.pictures) pictures = model_of(resolved).draw(resolved, folder.path());
+    const ModelEntry& entry = model_of(resolved);
+    summary.quantities = entry.analyse(resolved, folder.path());
+    if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path());
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
   summary.warnings = texts_of(regime);
