@@ -14,7 +14,7 @@ constexpr double mm = 1e-3, spacing = 5 * mm / 3;
 struct Hopper {
   ThreadTeam team;
   Grid grid{.count = {80, 4, 200}, .low = {}, .spacing = {1.25 * mm, 1.25 * mm, 1.25 * mm}};
-  Plate plate{.axis = 2, .position = 100 * mm, .openings = {{.low = {30 * mm, -1, 0}, .high = {70 * mm, 1, 0}}}};
+  Wall plate{"plate", {0, 0, 100 * mm}, {100 * mm, 0, 100 * mm}, {{30 * mm, 70 * mm}}};
   Domain domain{{.low = {},
                  .high = {100 * mm, 5 * mm, 250 * mm},
                  .faces = {FaceKind::wall, FaceKind::wall, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall,

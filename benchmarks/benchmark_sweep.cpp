@@ -18,6 +18,7 @@ struct Bed {
   State state;
   Material material;
   ThreadTeam team;
+  Domain domain;
   Sweep sweep;
   Rates rates;
   std::vector<double> h;
@@ -42,7 +43,8 @@ struct Bed {
         state(initial_state(parameters, Material(parameters))),
         material(parameters),
         team(static_cast<int>(run.range(3))),
-        sweep(parameters, state.mass, 100) {
+        domain(domain_of(parameters)),
+        sweep(parameters, domain, state.mass, 100) {
     Random random(1);
     const auto shift = [&] { return 0.1 * parameters.bed.spacing * random.uniform(-1, 1); };
     for (Vector3& x : state.position) x += Vector3{shift(), shift(), shift()};

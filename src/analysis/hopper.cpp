@@ -19,7 +19,7 @@ const T& made_once(std::optional<T>& value, Make&& make) {
 
 Domain HopperSnapshot::domain() const {
   Domain domain = setting.domain;
-  if (time >= 0) domain.open_gates();
+  if (time >= 0) domain.open_gates(time);
   return domain;
 }
 

@@ -14,7 +14,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   skin_ = skin;
   reach_ = 2 * largest + skin;
   if (!(reach_ <= domain_.largest_reach()))
-    throw std::invalid_argument("a particle reaches farther than plates and faces are apart");
+    throw std::invalid_argument("a particle reaches farther than walls and faces are apart");
   reference_.assign(position.begin(), position.end());
   reference_radius_.assign(radius.begin(), radius.end());
 
@@ -31,30 +31,21 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     points.push_back(image(ghost).position(position[ghost.source]));
     radii.push_back(radius[ghost.source]);
   }
-  near_panel_.assign(count, 0);
-  if (!domain_.panels().empty())
-    for_each(team, count, [&](std::size_t i) { near_panel_[i] = domain_.is_near_panel(position[i], reach_ + skin); });
-  // An image in a plate is seen from the other side only. Pairs of which neither can change sides are left out. Images
-  // in panels are seen from near them only.
+  near_wall_.resize(count);
+  for_each(team, count, [&](std::size_t i) { near_wall_[i] = domain_.is_near_wall(position[i], reach_ + skin); });
+  // Images in walls are seen from near them only.
   const NeighbourList::Keep may_see = [&](std::size_t i, std::uint32_t j) {
     if (j < count) return true;
-    if (image(ghosts_[j - count]).is_in_panels()) return near_panel_[i] != 0;
-    const int plate = image(ghosts_[j - count]).plate;
-    if (plate < 0) return true;
-    const Plate& wall = domain_.plates()[static_cast<std::size_t>(plate)];
-    const double above_i = points[i][wall.axis] - wall.position, above_j = points[j][wall.axis] - wall.position;
-    return (above_i > 0) != (above_j > 0) || std::min(std::abs(above_i), std::abs(above_j)) <= skin;
+    const Image& mirrored = image(ghosts_[j - count]);
+    return !mirrored.is_in_walls() || (near_wall_[i] && domain_.may_see(points[i], points[j], mirrored, skin));
   };
-  list_.build(team, points, radii, skin, count,
-              domain_.plates().empty() && domain_.panels().empty() ? nullptr : may_see);
+  list_.build(team, points, radii, skin, count, domain_.walls().empty() ? nullptr : may_see);
 
   first_ghost_.resize(count);
-  near_plate_.resize(count);
   for_each(team, count, [&](std::size_t i) {
     const auto neighbours = list_.of(i);
     const auto first = std::lower_bound(neighbours.begin(), neighbours.end(), count);
     first_ghost_[i] = static_cast<std::uint32_t>(first - neighbours.begin());
-    near_plate_[i] = near_panel_[i] || domain_.is_near_plate(position[i], reach_ + skin);
   });
 }
 

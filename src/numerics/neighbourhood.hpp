@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,10 +22,11 @@ struct Ghost {
 
 class Neighbourhood {
  public:
-  explicit Neighbourhood(Domain domain) : domain_(std::move(domain)) {}
+  /// \param domain outlives it
+  explicit Neighbourhood(const Domain& domain) : domain_(domain) {}
+  explicit Neighbourhood(Domain&&) = delete;
 
   const Domain& domain() const { return domain_; }
-  void open_gates(double time = std::numeric_limits<double>::infinity()) { domain_.open_gates(time); }
 
   /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + a_j + skin.
   /// \param position inside the domain, m; \param radius m; one entry per particle; \param skin >= 0, m
@@ -43,13 +43,13 @@ class Neighbourhood {
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
 
   /// The neighbours of particle i, itself not among them, sorted: first particles, then ghosts, numbered from
-  /// particles() on. Whether i sees them is not decided here: where is_near_plate(i), ask the domain.
+  /// particles() on. Whether i sees them is not decided here: where is_near_wall(i), ask the domain.
   std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
-  bool is_near_plate(std::size_t i) const { return near_plate_[i]; }           ///< or a panel
+  bool is_near_wall(std::size_t i) const { return near_wall_[i]; }
 
  private:
-  Domain domain_;
+  const Domain& domain_;
   double skin_ = -1;
   double reach_ = 0;
   std::vector<Vector3> reference_;
@@ -58,7 +58,7 @@ class Neighbourhood {
   std::vector<Ghost> ghosts_;
   NeighbourList list_;
   std::vector<std::uint32_t> first_ghost_;
-  std::vector<char> near_plate_, near_panel_;
+  std::vector<char> near_wall_;
 };
 
 }  // namespace talus

@@ -13,6 +13,8 @@
 
 namespace talus {
 
+class Domain;
+
 /// One column: one entry per particle.
 struct ColumnView {
   std::string_view name;
@@ -26,6 +28,7 @@ struct Snapshot {
   double time = 0;  ///< s
   std::uint64_t step = 0;
   std::vector<ColumnView> columns;
+  const Domain* domain = nullptr;  ///< where the particles are; null: no boundaries, or not known
 
   /// Number of particles; 0 where a model has none, and no columns.
   std::size_t size() const;

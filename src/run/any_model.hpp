@@ -50,7 +50,11 @@ class ModelAdapter final : public AnyModel {
   NumericalError::Report step_limit() const override { return model_.step_limit(); }
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }
-  Snapshot snapshot() const override { return snapshot_of(model_.state()); }
+  Snapshot snapshot() const override {
+    Snapshot snapshot = snapshot_of(model_.state());
+    if constexpr (requires { model_.domain(); }) snapshot.domain = &model_.domain();
+    return snapshot;
+  }
   std::optional<GridSnapshot> grid() const override {
     if constexpr (requires { model_.grid(); }) return model_.grid();
     return std::nullopt;

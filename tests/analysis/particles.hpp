@@ -11,17 +11,17 @@
 namespace talus::test {
 
 /// A box of width x depth x height from the origin: walls, mirrors front and rear, an open top.
-inline Domain box(double width, double depth, double height, std::vector<Plate> plates = {}) {
+inline Domain box(double width, double depth, double height, std::vector<Wall> walls = {}) {
   return Domain(
       {{0, 0, 0},
        {width, depth, height},
        {FaceKind::wall, FaceKind::wall, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::open}},
-      std::move(plates));
+      std::move(walls));
 }
 
-/// A plate at a height with a slit over the whole depth.
-inline Plate plate(double height, double left, double right, double depth) {
-  return {.axis = 2, .position = height, .openings = {{{left, -depth, 0}, {right, 2 * depth, 0}, true}}};
+/// A plate over the whole width, at a height, with a slit.
+inline Wall plate(double width, double height, double left, double right) {
+  return {"plate", {0, 0, height}, {width, 0, height}, {{left, right, true}}};
 }
 
 /// The points of a lattice of spacing h that fill the box between two heights, those taken by `is_there(x, z)`.

@@ -27,7 +27,7 @@ FreeSurface surface_of(Height&& z) {
 
 TEST(PackingSection, IsTheMeanOverTheDepth) {
   const auto points = lattice(width, depth, 0, 0.1, h, [](double x, double z) { return x + z < 0.15; });
-  const Domain domain = box(width, depth, height, {test::plate(0.06, 0.05, 0.15, depth)});
+  const Domain domain = box(width, depth, height, {test::plate(width, 0.06, 0.05, 0.15)});
   const Section section = packing_section(test::particles(points, h), domain, h, 0.5 * h);
   EXPECT_EQ(section.columns, 100u);
   EXPECT_EQ(section.rows, 200u);

@@ -52,8 +52,7 @@ TEST(VelocityGradientSizes, OfSimpleShearAndCompression) {
   const Domain domain(
       {{-1, -1, -1},
        {1, 1, 1},
-       {FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open}},
-      {});
+       {FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open, FaceKind::open}});
   std::vector<Vector3> velocity;
   for (const Vector3& x : points) velocity.push_back({7 * x.z - x.x, 0, 0});
   std::vector<double> packing(points.size(), 0.6);

@@ -27,7 +27,7 @@ constexpr double gate = 0.25;  // s, in the run's time
 
 HopperSetting setting() {
   return {.shape = {width, depth, height, HopperShape::Plate{plate, 0.03, 0.07}, h},
-          .domain = test::box(width, depth, height, {test::plate(plate, 0.03, 0.07, depth)}),
+          .domain = test::box(width, depth, height, {test::plate(width, plate, 0.03, 0.07)}),
           .particle_mass = particle_mass,
           .particles = 9000,
           .grain_density = grain_density,

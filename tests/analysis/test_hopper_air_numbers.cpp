@@ -43,7 +43,7 @@ struct Air {
 
 HopperSetting setting() {
   return {.shape = {.width = 0.1, .depth = 5e-3, .height = 0.25, .plate = {{0.1, 0.03, 0.07}}, .spacing = 1.67e-3},
-          .domain = Domain({.low = {}, .high = {0.1, 5e-3, 0.25}, .faces = {}}, {}),
+          .domain = Domain({.low = {}, .high = {0.1, 5e-3, 0.25}, .faces = {}}),
           .particle_mass = 1,
           .particles = 1,
           .grain_density = 2500,

@@ -79,7 +79,7 @@ TEST(ParticleField, GradientsAreExactForLinearVelocities) {
 
 TEST(ParticleField, SeesThroughOpenGatesOnly) {
   const auto points = lattice(0.1, 0.03, 0, 0.1, h);  // below the plate
-  Domain domain = box(0.1, 0.03, 0.3, {test::plate(0.1, 0.03, 0.07, 0.03)});
+  Domain domain = box(0.1, 0.03, 0.3, {test::plate(0.1, 0.1, 0.03, 0.07)});
   const ParticleField shut(test::particles(points, h), domain);
   EXPECT_EQ(shut.packing({0.05, 0.015, 0.105}), 0);
   EXPECT_NEAR(shut.packing({0.05, 0.015, 0.0999}), 0.6, 0.012) << "a plate mirrors";

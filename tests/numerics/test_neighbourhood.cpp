@@ -53,7 +53,8 @@ TEST(Neighbourhood, FindsEveryCopyOfEveryNeighbourAlsoInThinBoxes) {
     const Points points = random_points(box, 60, 0.5, 0.8);
     const double skin = 0.2;
     ThreadTeam team(2);
-    Neighbourhood around{Domain(box, {})};
+    const Domain domain(box);
+    Neighbourhood around(domain);
     around.build(team, points.position, points.radius, skin);
     std::size_t with_itself = 0;
     for (std::size_t i = 0; i < 60; ++i) {
@@ -90,7 +91,8 @@ TEST(Neighbourhood, FindsEveryCopyOfEveryNeighbourAlsoInThinBoxes) {
 TEST(Neighbourhood, HoldsUntilMotionAndGrowthTogetherPassHalfTheSkin) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
   ThreadTeam team(1);
-  Neighbourhood around{Domain(box, {})};
+  const Domain domain(box);
+  Neighbourhood around(domain);
   std::vector<Vector3> x = {{1, 1, 1}, {2, 1, 1}};
   std::vector<double> a = {1, 1};
   EXPECT_FALSE(around.holds(team, x, a));
@@ -109,11 +111,12 @@ TEST(Neighbourhood, HoldsUntilMotionAndGrowthTogetherPassHalfTheSkin) {
 TEST(Neighbourhood, RefusesAReachThatPassesFromPlateToFloor) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
   ThreadTeam team(1);
-  Neighbourhood around{Domain(box, {{.axis = 2, .position = 1.5, .openings = {}}})};
+  const Domain domain(box, {Wall("plate", {0, 0, 1.5}, {10, 0, 1.5})});
+  Neighbourhood around(domain);
   const std::vector<Vector3> x = {{5, 5, 5}};
   EXPECT_THROW(around.build(team, x, std::vector<double>{0.7}, 0.2), std::invalid_argument);
   EXPECT_NO_THROW(around.build(team, x, std::vector<double>{0.6}, 0.2));
-  EXPECT_FALSE(around.is_near_plate(0));
+  EXPECT_FALSE(around.is_near_wall(0));
 }
 
 }  // namespace

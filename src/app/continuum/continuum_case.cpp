@@ -82,7 +82,7 @@ Problem too_large(const Parameters& p, double available) {
 /// \throws InputError with every problem
 ModelCase<Parameters> read_continuum(const CaseFile& file) {
   Parameters defaults;
-  defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_plates + 1));
+  defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   ParameterReader reader(file, continuum::renamed_keys);
   ModelCase<Parameters> read = read_case(reader, std::move(defaults));
   reader.check(continuum::check_steps(read.model, read.run.end));

@@ -72,23 +72,19 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
   add(2, 0, {0, 0, 0}, {s.width, 0, 0});
   add(0, 0, {0, 0, 0}, {0, 0, top});
   add(0, 1, {s.width, 0, 0}, {s.width, 0, top});
-  for (const auto& panel : setting.domain.panels()) {
+  for (const Wall& wall : setting.domain.walls()) {
     double begin = 0;
     const auto draw = [&](double end) {
       if (end > begin)
-        lines.push_back(
-            {.from = panel.from + begin * panel.along(), .to = panel.from + end * panel.along(), .colour = colour});
+        lines.push_back({.from = wall.from() + begin * wall.direction(),
+                         .to = wall.from() + end * wall.direction(),
+                         .colour = colour});
     };
-    for (const auto& opening : panel.openings) {
+    for (const auto& opening : wall.openings()) {
       draw(opening.begin);
       begin = opening.end;
     }
-    draw(panel.length());
-  }
-  if (s.plate && !setting.domain.plates().empty()) {
-    const double z = s.plate->height;
-    lines.push_back({.from = {0, 0, z}, .to = {s.plate->slit_left, 0, z}, .colour = colour});
-    lines.push_back({.from = {s.plate->slit_right, 0, z}, .to = {s.width, 0, z}, .colour = colour});
+    draw(wall.length());
   }
   return lines;
 }

@@ -59,9 +59,7 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     const auto places = pick(position);
     const auto velocities = pick(velocity);
     const auto densities = pick(density);
-    Domain domain = continuum::domain_of(p);
-    domain.open_gates();
-    const ParticleField field(particles_of_density(places, densities, mass, p.grains.density), domain);
+    const ParticleField field(particles_of_density(places, densities, mass, p.grains.density), *snapshot.domain);
     slit_velocity = field.value(slit, velocities).z;
     probe_velocity = field.value(probe, velocities).z;
     probe_density = field.value(probe, densities);

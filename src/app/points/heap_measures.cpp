@@ -30,8 +30,7 @@ Domain box_around(const PointsToMeasure& set) {
   return Domain(
       {low,
        high,
-       {FaceKind::wall, FaceKind::wall, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::open}},
-      {});
+       {FaceKind::wall, FaceKind::wall, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::open}});
 }
 
 struct Heap {

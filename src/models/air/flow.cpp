@@ -30,10 +30,9 @@ Parameters with_moving_walls(Parameters p) {
 
 }  // namespace
 
-AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates,
-                 const std::vector<Panel>& panels)
+AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls)
     : parameters_(with_moving_walls(parameters)),
-      passages_(grid, parameters_.boundaries, plates, panels),
+      passages_(grid, parameters_.boundaries, walls),
       convection_(passages_),
       viscosity_(passages_),
       solver_(grid, periodic_axes(parameters.boundaries)),
@@ -45,8 +44,49 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
     *field = grid.face_field();
 }
 
-void AirFlow::set_walls(const std::vector<Plate>& plates, const std::vector<Panel>& panels) {
-  passages_ = Passages(passages_.grid, parameters_.boundaries, plates, panels);
+void AirFlow::set_walls(const std::vector<Wall>& walls) {
+  passages_ = Passages(passages_.grid, parameters_.boundaries, walls);
+}
+
+void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
+  if (parameters_.motion == Motion::frozen) return drag_alone(team, dt, solids, state, impulse);
+  double stiffness = 0;  // of the Laplacian, 1/m^2
+  for (int axis = 0; axis < 3; ++axis) stiffness += 4 / (passages_.grid.spacing[axis] * passages_.grid.spacing[axis]);
+  implicit_ = dt * parameters_.viscosity / parameters_.density() * stiffness > 1;
+  iterations_ = 0;
+  set_solids(team, solids);
+
+  stream_.velocity = state.velocity, stream_.mass = state.momentum;
+  measure_drag(team, solids, stream_.velocity);
+  guess_ = state.pressure;
+  if (parameters_.compressibility == Compressibility::isothermal) {
+    start_pressure_ = state.pressure;
+    cell_void_fraction_.resize(solids.fraction.size());
+    for (std::size_t c = 0; c < solids.fraction.size(); ++c) cell_void_fraction_[c] = 1 - solids.fraction[c];
+  }
+  stage(team, 0.5 * dt, stream_, state, guess_);
+  for (std::size_t a = 0; a < 3; ++a) passages_.wrap(stream_.velocity[a]);
+  measure_drag(team, solids, stream_.velocity);
+  state.pressure = guess_;
+  stage(team, dt, stream_, state, state.pressure);
+  exchange_momentum(team, dt, stream_.velocity, state, impulse);
+  for (std::size_t a = 0; a < 3; ++a) {
+    passages_.wrap(stream_.velocity[a]), passages_.wrap(stream_.mass[a]);
+    std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);
+  }
+}
+
+/// What air that does not move does to the grains.
+void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
+  measure_drag(team, solids, state.velocity);
+  for_each_cell(team, passages_.grid, [&](int, int, int, std::ptrdiff_t place) {
+    const auto c = static_cast<std::size_t>(place);
+    const double s = solids.fraction[c];
+    for (std::size_t a = 0; a < 3; ++a) {
+      state.drag[a][c] = s > 0 ? -drag_[c] * solids.flux[a][c] / s : 0;
+      impulse[a][c] = s > 0 ? dt * state.drag[a][c] / s : 0;
+    }
+  });
 }
 
 /// From the momentum at the start of the step: velocity and pressure after dt, under the convection and viscosity of
@@ -171,46 +211,6 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
     });
     passages_.wrap(state.velocity[a]);
     passages_.wrap(state.momentum[a]);
-  }
-}
-
-void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
-  const Grid& grid = passages_.grid;
-  if (parameters_.motion == Motion::frozen) {
-    measure_drag(team, solids, state.velocity);
-    for_each_cell(team, grid, [&](int, int, int, std::ptrdiff_t place) {
-      const auto c = static_cast<std::size_t>(place);
-      const double s = solids.fraction[c];
-      for (std::size_t a = 0; a < 3; ++a) {
-        state.drag[a][c] = s > 0 ? -drag_[c] * solids.flux[a][c] / s : 0;
-        impulse[a][c] = s > 0 ? dt * state.drag[a][c] / s : 0;
-      }
-    });
-    return;
-  }
-  double stiffness = 0;  // of the Laplacian, 1/m^2
-  for (int axis = 0; axis < 3; ++axis) stiffness += 4 / (grid.spacing[axis] * grid.spacing[axis]);
-  implicit_ = dt * parameters_.viscosity / parameters_.density() * stiffness > 1;
-  iterations_ = 0;
-  set_solids(team, solids);
-
-  stream_.velocity = state.velocity, stream_.mass = state.momentum;
-  measure_drag(team, solids, stream_.velocity);
-  guess_ = state.pressure;
-  if (parameters_.compressibility == Compressibility::isothermal) {
-    start_pressure_ = state.pressure;
-    cell_void_fraction_.resize(solids.fraction.size());
-    for (std::size_t c = 0; c < solids.fraction.size(); ++c) cell_void_fraction_[c] = 1 - solids.fraction[c];
-  }
-  stage(team, 0.5 * dt, stream_, state, guess_);
-  for (std::size_t a = 0; a < 3; ++a) passages_.wrap(stream_.velocity[a]);
-  measure_drag(team, solids, stream_.velocity);
-  state.pressure = guess_;
-  stage(team, dt, stream_, state, state.pressure);
-  exchange_momentum(team, dt, stream_.velocity, state, impulse);
-  for (std::size_t a = 0; a < 3; ++a) {
-    passages_.wrap(stream_.velocity[a]), passages_.wrap(stream_.mass[a]);
-    std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);
   }
 }
 

@@ -30,14 +30,13 @@ namespace talus::air {
 
 class AirFlow {
  public:
-  /// \param plates, panels walls; the air passes through their openings
-  AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Plate>& plates,
-          const std::vector<Panel>& panels = {});
+  /// \param walls the air passes through their openings
+  AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls = {});
   AirFlow(const AirFlow&) = delete;
   AirFlow& operator=(const AirFlow&) = delete;
 
-  /// Replaces plates and panels after a gate has opened.
-  void set_walls(const std::vector<Plate>& plates, const std::vector<Panel>& panels = {});
+  /// Replaces the walls after a gate has opened.
+  void set_walls(const std::vector<Wall>& walls);
 
   /// Initial momentum from the velocities of the state.
   void begin(ThreadTeam& team, const Solids& solids, AirState& state);
@@ -72,6 +71,7 @@ class AirFlow {
   struct Rates;
   void set_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
+  void drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
   void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
   void exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
   void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;

@@ -107,7 +107,7 @@ AirModel::AirModel(const ModelParameters& parameters)
 }
 
 void AirModel::begin(ThreadTeam& team) {
-  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas, std::vector<Plate>{});
+  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas);
   if (parameters_.start.flow == InitialFlow::taylor_green)
     for (int axis = 0; axis < 3; ++axis)
       for_each_place(flow_->passages().faces(axis), grid_, [&](std::size_t face, int i, int j, int k) {
@@ -118,7 +118,7 @@ void AirModel::begin(ThreadTeam& team) {
 }
 
 void AirModel::resume(ThreadTeam&) {
-  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas, std::vector<Plate>{});
+  flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas);
 }
 
 void AirModel::advance(ThreadTeam& team) {

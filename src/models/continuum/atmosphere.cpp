@@ -18,42 +18,27 @@ air::Parameters gas_of(const Parameters& p) {
 
 }  // namespace
 
-Atmosphere::Atmosphere(const Parameters& p)
-    : domain_(domain_of(p)),
+Atmosphere::Atmosphere(const Parameters& p, const Domain& domain)
+    : domain_(domain),
+      openings_(domain.openings()),
       grain_density_(p.grains.density),
       medium_(gas_of(p).medium()),
       deposition_(air_grid(p), domain_),
-      flow_(air_grid(p), gas_of(p), domain_.plates(), domain_.panels()),
+      flow_(air_grid(p), gas_of(p), domain_.walls()),
       per_solid_volume_(air_grid(p).face_field()) {}
 
-void Atmosphere::open_gates(double time) {
-  domain_.open_gates(time);
-  deposition_.open_gates(time);
-  flow_.set_walls(domain_.plates(), domain_.panels());
-}
-
-void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposition_.weigh(team, s.position, smoothing_length);
-  deposition_.gather(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
-}
-
-void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposit(team, smoothing_length, s);
-  flow_.begin(team, s.air.solids, s.air.flow);
-}
-
-double Atmosphere::advance(ThreadTeam& team, std::span<const double> smoothing_length, double dt, State& s) {
-  if (s.air.steps_left > 0)
-    dt = s.last_step;
-  else
-    move_air(team, smoothing_length, dt, s);
+void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
+  if (is_due(s)) move_air(team, dt, s);
   --s.air.steps_left;
   s.air.impulse += dt * s.air.force;
-  return dt;
 }
 
-void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& s) {
+void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
   AirAround& a = s.air;
+  if (openings_ != domain_.openings()) {
+    openings_ = domain_.openings();
+    flow_.set_walls(domain_.walls());
+  }
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
   });
@@ -61,9 +46,12 @@ void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_le
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
   });
-  const double longest = flow_.time_step(team, a.solids, a.flow);
-  dt = std::min(dt, longest);
-  a.steps_left = static_cast<std::uint64_t>(longest / dt);
+  longest_ = flow_.time_step(team, a.solids, a.flow);
+}
+
+void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
+  AirAround& a = s.air;
+  a.steps_left = static_cast<std::uint64_t>(longest_ / dt);
   const double duration = static_cast<double>(a.steps_left) * dt;
   try {
     flow_.advance(team, duration, a.solids, a.flow, per_solid_volume_);
@@ -87,6 +75,16 @@ void Atmosphere::move_air(ThreadTeam& team, std::span<const double> smoothing_le
   a.last_step = duration;
   a.iterations = static_cast<std::uint64_t>(flow_.iterations());
   measure_slip(team, s);
+}
+
+void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposition_.weigh(team, s.position, smoothing_length);
+  deposition_.gather(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+}
+
+void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposit(team, smoothing_length, s);
+  flow_.begin(team, s.air.solids, s.air.flow);
 }
 
 /// The slip of each particle is the mean of its cells'.

@@ -12,6 +12,7 @@
 #include "models/air/flow.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
+#include "numerics/geometry/domain.hpp"
 #include "physics/coupling/deposition.hpp"
 
 namespace talus::continuum {
@@ -25,19 +26,25 @@ std::vector<Problem> check_air(const Parameters& parameters);
 
 class Atmosphere {
  public:
-  explicit Atmosphere(const Parameters& parameters);
-
-  /// \param time from the opening of the case's gate, s
-  void open_gates(double time);
+  /// \param domain outlives the atmosphere; gates that open in it are open to the air from its next step on
+  Atmosphere(const Parameters& parameters, const Domain& domain);
 
   /// Air at rest around the particles of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
 
-  /// Where the particles have come to the end of the air's step, moves the air on by the next one: a whole number of
-  /// steps of the particles, which are all of one length. \param dt the particles' step as they would have it, s;
-  /// \returns as it is to be \throws NumericalError for a void fraction out of range, or a pressure that does not
-  /// converge: cell and residual
-  double advance(ThreadTeam& team, std::span<const double> smoothing_length, double dt, State& state);
+  /// Whether the particles have come to the end of the air's step.
+  bool is_due(const State& state) const { return state.air.steps_left == 0; }
+
+  /// Where it is due: takes up the particles as they are now.
+  void take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
+
+  /// The longest step of the air among the particles last taken up, s.
+  double longest_step() const { return longest_; }
+
+  /// Where it is due, moves the air on by the next step: as many steps of the particles as are within the longest, all
+  /// of one length. Counts one of them as taken. \param dt the particles' step, s, at most longest_step()
+  /// \throws NumericalError for a void fraction out of range, or a pressure that does not converge: cell and residual
+  void advance(ThreadTeam& team, double dt, State& state);
 
   /// What holds the air's last step, and in which cell.
   NumericalError::Report step_limit(const State& state) const {
@@ -45,17 +52,19 @@ class Atmosphere {
   }
 
  private:
-  void move_air(ThreadTeam& team, std::span<const double> smoothing_length, double& dt, State& state);
+  void move_air(ThreadTeam& team, double dt, State& state);
   void deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
   void measure_slip(ThreadTeam& team, State& state);
 
-  Domain domain_;
+  const Domain& domain_;
+  int openings_;  // of the domain, that the air has taken up
   double grain_density_;
   coupling::DragMedium medium_;
   coupling::Deposition deposition_;
   air::AirFlow flow_;
   FaceField per_solid_volume_;  // of cells: impulse, then slip
   std::vector<Vector3> received_;
+  double longest_ = 0;
 };
 
 }  // namespace talus::continuum

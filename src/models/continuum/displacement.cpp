@@ -19,9 +19,9 @@ void measure_strain(ThreadTeam& team, const Neighbourhood& around, std::span<con
       const bool ghost = n >= count;
       const std::size_t source = ghost ? around.ghosts()[n - count].source : n;
       const Image image = ghost ? around.image(around.ghosts()[n - count]) : Image{};
-      const Vector3 offset = image.position(position[source]) - position[i];
+      const Vector3 place = image.position(position[source]), offset = place - position[i];
       if (dot(offset, offset) > radius * radius) continue;
-      if (around.is_near_plate(i) && !around.domain().sees(position[i], position[source], image)) continue;
+      if (around.is_near_wall(i) && !around.domain().sees(position[i], place, image)) continue;
       halves.add(offset, image.vector(position[source] - reset_position[source]));
     }
     strain[i] = granular::almansi_strain(halves.gradient());

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "models/continuum/parameters.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 
@@ -16,44 +17,47 @@ namespace {
 constexpr std::int64_t most_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
 constexpr double most_places_looked_at = 1e6;                   // to count the particles of a bed
 
-Panel panel_between(std::string name, double x0, double z0, double x1, double z1) {
-  return {.name = std::move(name), .from = {x0, 0, z0}, .to = {x1, 0, z1}, .openings = {}};
+using Openings = std::vector<Wall::Opening>;
+
+/// From `begin` to `end` along a wall. The rim of an opening is solid: one that ends where the wall does has none
+/// there.
+Wall::Opening opening(double begin, double end, double length, bool shut, double opens_after = 0) {
+  return {.begin = begin > 0 ? begin : -length,
+          .end = end < length ? end : 2 * length,
+          .shut = shut,
+          .opens_after = opens_after};
 }
 
-std::vector<Panel> panels_of(const Parameters& p) {
-  std::vector<Panel> panels;
+/// What [plate], [wedge] and [[plates]] put into the box.
+std::vector<Wall> walls_of(const Parameters& p) {
+  std::vector<Wall> walls;
   const bool gated = p.gate.opens != GateOpens::from_the_start;
-  if (const auto outlet = outlet_of(p); outlet && p.wedge.half_angle) {
-    const double top = outlet->height + outlet->left / std::tan(*p.wedge.half_angle);
-    panels.push_back(panel_between("wedge_left", outlet->left, outlet->height, 0, top));
-    panels.push_back(panel_between("wedge_right", outlet->right, outlet->height, p.box.width, top));
-    if (gated && p.wedge.outlet > 0) {
-      panels.push_back(panel_between("wedge_gate", outlet->left, outlet->height, outlet->right, outlet->height));
-      // Its ends are the ends of the walls: all of it goes.
-      panels.back().openings.push_back({.begin = -p.box.width, .end = 2 * p.box.width, .shut = true});
-    }
-  }
-  if (p.plates.empty()) return panels;
+  const auto outlet = outlet_of(p);
   if (p.plate.height) {
-    Panel plate = panel_between("plate", 0, *p.plate.height, p.box.width, *p.plate.height);
-    if (const auto slit = outlet_of(p))
-      plate.openings.push_back({.begin = slit->left, .end = slit->right, .shut = gated});
-    panels.insert(panels.begin(), std::move(plate));
+    Openings slit;
+    if (outlet) slit.push_back(opening(outlet->left, outlet->right, p.box.width, gated));
+    walls.emplace_back("plate", Vector3{0, 0, *p.plate.height}, Vector3{p.box.width, 0, *p.plate.height}, slit);
+  }
+  if (p.wedge.half_angle) {
+    const double top = outlet->height + outlet->left / std::tan(*p.wedge.half_angle);
+    const Vector3 left{outlet->left, 0, outlet->height}, right{outlet->right, 0, outlet->height};
+    walls.emplace_back("wedge_left", left, Vector3{0, 0, top});
+    walls.emplace_back("wedge_right", right, Vector3{p.box.width, 0, top});
+    // Its ends are the ends of the walls: all of it goes.
+    if (gated && p.wedge.outlet > 0)
+      walls.emplace_back("wedge_gate", left, right, Openings{opening(0, p.box.width, p.box.width, true)});
   }
   for (std::size_t n = 0; n < p.plates.size(); ++n) {
     const auto& given = p.plates[n];
-    Panel plate =
-        panel_between(fmt::format("plates_{}", n + 1), given.from[0], given.from[1], given.to[0], given.to[1]);
-    // The rim of an opening is solid: one that ends where the plate does has none there.
-    const double length = plate.length();
+    const Vector3 from{given.from[0], 0, given.from[1]}, to{given.to[0], 0, given.to[1]};
+    Openings openings;
     for (std::size_t k = 0; k + 1 < given.openings.size(); k += 2)
-      plate.openings.push_back({.begin = given.openings[k] > 0 ? given.openings[k] : -length,
-                                .end = given.openings[k + 1] < length ? given.openings[k + 1] : 2 * length,
-                                .shut = given.opens_after && (gated || *given.opens_after > 0),
-                                .opens_after = given.opens_after.value_or(0)});
-    panels.push_back(std::move(plate));
+      openings.push_back(opening(given.openings[k], given.openings[k + 1], std::hypot(to.x - from.x, to.z - from.z),
+                                 given.opens_after && (gated || *given.opens_after > 0),
+                                 given.opens_after.value_or(0)));
+    walls.emplace_back(fmt::format("plates_{}", n + 1), from, to, openings);
   }
-  return panels;
+  return walls;
 }
 
 }  // namespace
@@ -78,21 +82,12 @@ Domain domain_of(const Parameters& p) {
   const Box box{.low = {0, 0, 0},
                 .high = {p.box.width, p.box.depth, p.box.height},
                 .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
-  if (std::vector<Panel> panels = panels_of(p); !panels.empty()) return {box, {}, std::move(panels)};
-  std::vector<Plate> plates;
-  if (p.plate.height) {
-    Plate plate{.axis = 2, .position = *p.plate.height, .openings = {}};
-    if (p.plate.slit_left && p.plate.slit_right) {
-      // The rim of an opening is solid: one that ends at a face has none there, nor at front and rear.
-      const double left = *p.plate.slit_left > 0 ? *p.plate.slit_left : -p.box.width;
-      const double right = *p.plate.slit_right < p.box.width ? *p.plate.slit_right : 2 * p.box.width;
-      plate.openings.push_back({.low = {left, -p.box.depth, 0},
-                                .high = {right, 2 * p.box.depth, 0},
-                                .shut = p.gate.opens != GateOpens::from_the_start});
-    }
-    plates.push_back(std::move(plate));
-  }
-  return {box, std::move(plates)};
+  return Domain(box, walls_of(p), least_distance_of_layers(p));
+}
+
+double least_distance_of_layers(const Parameters& p) {
+  // Images reach twice the support and the skin; particles grow as they thin out, so some room is left.
+  return 3 * sph::support * p.bed.spacing;
 }
 
 Lattice lattice_of(const Parameters& p) {
@@ -112,8 +107,8 @@ Lattice lattice_of(const Parameters& p) {
 
 namespace {
 
-/// The places of the lattice and which of them hold particles: plates go through the whole depth, so all places along y
-/// are alike.
+/// The places of the lattice and which of them hold particles: walls go through the whole depth, so all places along y
+/// are alike. The bed may stand on both sides of a [plate], and on one side only of other walls.
 struct Bed {
   const Parameters& parameters;
   Lattice lattice = lattice_of(parameters);
@@ -124,9 +119,9 @@ struct Bed {
     return lattice.corner +
            Vector3{(i + 0.5) * lattice.spacing.x, (j + 0.5) * lattice.spacing.y, (k + 0.5) * lattice.spacing.z};
   }
+  bool is_whole = !parameters.wedge.half_angle && parameters.plates.empty();
   bool holds(const Vector3& x) const {
-    return domain.panels().empty() ||
-           (!domain.is_near_panel(x, 0.25 * parameters.bed.spacing) && !domain.blocks(x, top));
+    return is_whole || (!domain.is_near_wall(x, 0.25 * parameters.bed.spacing) && !domain.blocks(x, top));
   }
 };
 
@@ -151,7 +146,7 @@ double places_of(const Lattice& lattice) {
 double bed_count(const Parameters& p) {
   const Bed bed{p};
   const auto& count = bed.lattice.count;
-  if (bed.domain.panels().empty()) return places_of(bed.lattice);
+  if (bed.is_whole) return places_of(bed.lattice);
   const double layer = static_cast<double>(count[0]) * static_cast<double>(count[2]);
   const auto stride = static_cast<std::int64_t>(std::ceil(std::sqrt(std::max(1.0, layer / most_places_looked_at))));
   double held = 0, looked_at = 0;

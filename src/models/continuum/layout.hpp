@@ -27,8 +27,11 @@ struct Extent {
 Extent bed_along_x(const Parameters& parameters);
 double bed_bottom(const Parameters& parameters);
 
-/// The box, and the plates with their gates shut unless there are none.
+/// The box and the walls in it, with their gates shut unless there are none.
 Domain domain_of(const Parameters& parameters);
+
+/// How far a wall from face to face is from others at least, to be a layer of the domain, m.
+double least_distance_of_layers(const Parameters& parameters);
 
 /// The lattice on which the particles stand at the start.
 struct Lattice {

@@ -25,11 +25,6 @@ Vector3 momentum(const State& s) {
   return s.mass * sum;
 }
 
-bool bears_load(const Domain& domain, std::size_t wall) {
-  if (wall < 6) return is_mirror(domain.box().faces[wall]);
-  return wall - 6 < domain.plates().size() + domain.panels().size();
-}
-
 /// Mass beyond the open faces of the box, kg: what has left.
 double mass_outside(const Box& box, const State& s) {
   std::size_t outside = 0;
@@ -39,8 +34,9 @@ double mass_outside(const Box& box, const State& s) {
   return s.mass * static_cast<double>(outside);
 }
 
-std::string wall_name(const Domain& domain, std::size_t wall) {
-  return wall >= 6 && wall - 6 < domain.panels().size() ? domain.panels()[wall - 6].name : wall_names[wall];
+std::string wall_name(const Domain& domain, int wall) {
+  return wall < wall_number(0) ? wall_names[static_cast<std::size_t>(wall)]
+                               : domain.walls()[static_cast<std::size_t>(wall - wall_number(0))].name();
 }
 
 /// Of the particles, without the stress by collisions, Pa.
@@ -118,12 +114,12 @@ Continuum::Continuum(const Parameters& parameters)
     : parameters_(parameters), state_(initial_state(parameters, Material(parameters))) {}
 
 void Continuum::begin(ThreadTeam& team) {
-  workspace_.emplace(parameters_, state_);
+  workspace_ = std::make_unique<Workspace>(parameters_, state_);
   continuum::begin(team, parameters_, state_, *workspace_);
 }
 
 void Continuum::resume(ThreadTeam& team) {
-  workspace_.emplace(parameters_, state_);
+  workspace_ = std::make_unique<Workspace>(parameters_, state_);
   derive(team, parameters_, state_, *workspace_);
 }
 
@@ -149,23 +145,22 @@ std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
   const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
   const Vector3 p = momentum(s);
-  std::vector<NamedValue> values = {
-      {"step_size", "s", s.last_step},
-      {"speed_max", "m/s", largest_speed(s)},
-      {"density_min", "kg/m3", *least},
-      {"density_max", "kg/m3", *most},
-      {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
-      {"gate_time", "s", s.gate_time},
-      {"mass_outside", "kg", mass_outside(workspace_->sweep.neighbourhood().domain().box(), s)}};
+  std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
+                                    {"speed_max", "m/s", largest_speed(s)},
+                                    {"density_min", "kg/m3", *least},
+                                    {"density_max", "kg/m3", *most},
+                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+                                    {"gate_time", "s", s.gate_time},
+                                    {"mass_outside", "kg", mass_outside(domain().box(), s)}};
   const auto add = [&](const std::string& name, const Vector3& v) {
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };
   add("momentum", p);
   add("impulse_gravity", s.gravity_impulse);
   add("impulse_damping", s.damping_impulse);
-  for (std::size_t wall = 0; wall < most_walls; ++wall)
-    if (bears_load(workspace_->sweep.neighbourhood().domain(), wall))
-      add("impulse_" + wall_name(workspace_->sweep.neighbourhood().domain(), wall), s.wall_impulse[wall]);
+  for (int wall = 0; wall < domain().wall_count(); ++wall)
+    if (domain().bears_load(wall))
+      add("impulse_" + wall_name(domain(), wall), s.wall_impulse[static_cast<std::size_t>(wall)]);
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
     const PressureRange pressure = pressure_range(air);

@@ -2,6 +2,7 @@
 /// The continuum model: grains as particles of a continuum that carry stress (Yuu & Umekage 2011, in a vacuum).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,8 @@ class Continuum {
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
   /// When the gate opened, s.
+  /// Where the particles are, its gates as they are now. \pre begun or resumed
+  const Domain& domain() const { return workspace_->domain; }
   double time_origin() const;
   double latest_origin() const;
   NumericalError::Report step_limit() const;
@@ -50,7 +53,7 @@ class Continuum {
  private:
   Parameters parameters_;
   State state_;
-  std::optional<Workspace> workspace_;  // made by begin or resume
+  std::unique_ptr<Workspace> workspace_;  // made by begin or resume
 };
 
 static_assert(Model<Continuum>);

@@ -36,7 +36,7 @@ void Rates::resize(std::size_t count) {
   wall_push.resize(count);
 }
 
-Sweep::Sweep(const Parameters& p, double mass, double sound_speed)
+Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
     : mass_(mass),
       fixed_smoothing_length_(
           p.sph.smoothing == Smoothing::fixed ? sph::smoothing_length(mass, p.bed.packing * p.grains.density) : 0.0),
@@ -45,7 +45,7 @@ Sweep::Sweep(const Parameters& p, double mass, double sound_speed)
       stress_form_(p.sph.stress_form),
       corrected_continuity_(p.sph.continuity == Continuity::corrected),
       constants_{mass, sound_speed, p.sph.viscosity_alpha, p.sph.viscosity_beta},
-      around_(domain_of(p)) {
+      around_(domain) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   for (const Wanted wanted : {Wanted::all, Wanted::gradients, Wanted::forces})
     sum_[static_cast<std::size_t>(wanted)] = choose(set, wanted);
@@ -59,39 +59,9 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   around_.build(team, position, smoothing_length, skin_);
-  bearings_.clear();
-  for (const Image& image : around_.images()) bearings_.push_back(bearings(image));
+  loads_.clear();
+  for (const Image& image : around_.images()) loads_.push_back(around_.domain().loads(image));
   find_groups();
-}
-
-/// Faces and plates at right angles bear the force along their axes. Where the line to the image meets a panel and
-/// another wall, the force is the sum of two along their normals.
-std::array<Sweep::Bearing, 3> Sweep::bearings(const Image& image) const {
-  const Domain& domain = around_.domain();
-  std::array<Bearing, 3> found;
-  std::size_t count = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    if (const int side = image.side[static_cast<std::size_t>(axis)]; side != 0) {
-      const int wall = face_number(axis, side > 0);
-      found[count++] = {wall, domain.normal(wall)};
-    }
-  if (image.plate >= 0) found[count++] = {wall_of_plate(image.plate), domain.normal(wall_of_plate(image.plate))};
-  std::array<int, 2> met{-1, -1};
-  for (const std::int8_t number : image.mirrors) {
-    const int wall = number < 0 ? -1 : domain.mirrors()[static_cast<std::size_t>(number)].wall;
-    if (wall < 0 || wall == met[0] || wall == met[1]) continue;
-    met[met[0] < 0 ? 0 : 1] = wall;
-  }
-  for (std::size_t n = 0; n < 2 && met[n] >= 0; ++n) {
-    Vector3 part = domain.normal(met[n]);
-    if (met[1] >= 0) {
-      const Vector3 other = domain.normal(met[1 - n]);
-      const Vector3 across{-other.z, 0, other.x};
-      if (const double sine = dot(across, part); std::abs(sine) > 1e-6) part = (1 / sine) * across;
-    }
-    found[count++] = {met[n], part};
-  }
-  return found;
 }
 
 /// Where each group of a particle's neighbours ends: particles first, then images by mirror, as the lists are sorted.
@@ -151,36 +121,31 @@ void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
                      .unused = 0};
 }
 
-/// The neighbours of a particle that it sees. Near a plate they are picked into `record` and `end`.
+/// The neighbours of a particle that it sees. Near a wall they are picked into `record` and `end`.
 Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
+  static constexpr Image identity;
   const auto neighbours = around_.of(i);
   const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
-  const bool near_plate = around_.is_near_plate(i), panels = !around_.domain().panels().empty();
+  const bool near_wall = around_.is_near_wall(i);
+  const auto place = [this](std::size_t r) {
+    const double* x = records_[r].position;
+    return Vector3{x[0], x[1], x[2]};
+  };
   record.clear();
   end.clear();
   std::uint32_t n = 0;
   for (std::uint32_t g = first; g < last; ++g) {
-    if (near_plate) {
-      const auto place = [this](std::uint32_t r) {
-        const double* x = records_[r].position;
-        return Vector3{x[0], x[1], x[2]};
-      };
-      const int image = groups_[g].image;
-      const int plate = image < 0 ? -1 : around_.images()[static_cast<std::size_t>(image)].plate;
-      const Vector3 own = place(static_cast<std::uint32_t>(i));
-      const auto sees = [&](std::uint32_t r) {
-        if (!panels) return around_.domain().sees(own, place(r), plate);
-        if (image < 0) return !around_.domain().blocks(own, place(r));
-        return around_.domain().sees_source(own, place(r), place(around_.ghosts()[r - around_.particles()].source));
-      };
+    if (near_wall) {
+      const Image& image =
+          groups_[g].image < 0 ? identity : around_.images()[static_cast<std::size_t>(groups_[g].image)];
       for (; n < groups_[g].end; ++n)
-        if (sees(neighbours[n])) record.push_back(neighbours[n]);
+        if (around_.domain().sees(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
       end.push_back(static_cast<std::uint32_t>(record.size()));
     } else {
       end.push_back(groups_[g].end);
     }
   }
-  return {near_plate ? record.data() : neighbours.data(), end.data(), static_cast<int>(end.size()),
+  return {near_wall ? record.data() : neighbours.data(), end.data(), static_cast<int>(end.size()),
           static_cast<std::uint32_t>(records_.size() - 1)};
 }
 
@@ -212,9 +177,9 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted w
       const std::int32_t image = groups_[first_group_[i] + g].image;
       if (image < 0) continue;
       const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
-      for (const Bearing& bearing : bearings_[static_cast<std::size_t>(image)]) {
-        if (bearing.wall < 0) break;
-        push[static_cast<std::size_t>(bearing.wall)] += dot(bearing.part, a);
+      for (const Domain::Load& load : loads_[static_cast<std::size_t>(image)]) {
+        if (load.wall < 0) break;
+        push[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
       }
     }
     rates.acceleration[i] = all;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -42,9 +41,9 @@ struct ParticleView {
 
 class Sweep {
  public:
-  /// \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
+  /// \param domain outlives the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
   /// \throws InputError if the processor does not have the case's instruction set
-  Sweep(const Parameters& parameters, double mass, double sound_speed);
+  Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed);
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
@@ -52,8 +51,6 @@ class Sweep {
   /// Builds the neighbour lists.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
   const Neighbourhood& neighbourhood() const { return around_; }
-  /// \param time from the opening of the case's gate, s
-  void open_gates(double time = std::numeric_limits<double>::infinity()) { around_.open_gates(time); }
 
   /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
   void operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates);
@@ -64,13 +61,6 @@ class Sweep {
     std::int32_t image;  ///< of the group, -1: particles
   };
 
-  /// A wall that an image loads, and what of its force, in the direction of the wall's normal.
-  struct Bearing {
-    int wall = -1;
-    Vector3 part;
-  };
-
-  std::array<Bearing, 3> bearings(const Image& image) const;
   void pack(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
@@ -84,10 +74,10 @@ class Sweep {
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_;  // by what is wanted
   Neighbourhood around_;
-  std::vector<std::array<Bearing, 3>> bearings_;  // by image; those that are used first
-  std::vector<ParticleRecord> records_;           // particles, images, nobody
-  std::vector<Group> groups_;                     // of every particle's neighbours, one particle after the other
-  std::vector<std::uint32_t> first_group_;        // of a particle; one more than particles
+  std::vector<std::array<Domain::Load, 3>> loads_;  // by image
+  std::vector<ParticleRecord> records_;             // particles, images, nobody
+  std::vector<Group> groups_;                       // of every particle's neighbours, one particle after the other
+  std::vector<std::uint32_t> first_group_;          // of a particle; one more than particles
 };
 
 }  // namespace talus::continuum

@@ -56,7 +56,8 @@ void set_axis(Image& image, const Box& box, int axis, const AxisImage& along) {
   if (!box.is_periodic(axis)) image.side[a] = static_cast<std::int8_t>((along.copy > 0) - (along.copy < 0));
 }
 
-Image mirrored_at(double plane, int axis, Image image = {}) {
+Image mirrored_at(double plane, int axis) {
+  Image image;
   image.sign[axis] *= -1;
   image.offset[axis] = 2 * plane - image.offset[axis];
   image.vector_sign[axis] *= -1;
@@ -65,60 +66,66 @@ Image mirrored_at(double plane, int axis, Image image = {}) {
 
 }  // namespace
 
-Domain::Domain(const Box& box, std::vector<Plate> plates, std::vector<Panel> panels)
-    : box_(box), plates_(std::move(plates)), panels_(std::move(panels)) {
+Domain::Domain(const Box& box, std::vector<Wall> walls, double apart) : box_(box), walls_(std::move(walls)) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(box.extent(axis) > 0)) throw std::invalid_argument("the box is empty");
     if ((box.face(axis, 0) == FaceKind::periodic) != (box.face(axis, 1) == FaceKind::periodic))
       throw std::invalid_argument("a periodic face needs a periodic one opposite");
   }
-  if (!plates_.empty() && !panels_.empty()) throw std::invalid_argument("plates and panels do not go together");
-  for (const Panel& panel : panels_)
-    if (!(panel.length() > 0)) throw std::invalid_argument("a panel has no length");
-  if (plates_.size() + panels_.size() > most_plates) throw std::invalid_argument("too many plates");
-  for (const Plate& plate : plates_) {
-    if (plate.axis != plates_[0].axis) throw std::invalid_argument("plates must be parallel");
-    if (!(plate.position > box.low[plate.axis] && plate.position < box.high[plate.axis]))
-      throw std::invalid_argument("a plate must lie inside the box");
-  }
+  if (walls_.size() > most_inner_walls) throw std::invalid_argument("too many walls");
+  layered_ = are_layers(apart);
   find_mirrors();
 }
 
-bool Domain::has_gates_due(double time) const {
-  const auto any = [](const auto& walls, auto&& due) {
-    return std::any_of(walls.begin(), walls.end(),
-                       [&](const auto& wall) { return std::any_of(wall.openings.begin(), wall.openings.end(), due); });
+/// Beyond an open face a wall ends, as a layer would not.
+bool Domain::are_layers(double apart) const {
+  const auto is_layer = [&](const Wall& wall) {
+    const int axis = wall.axis(), along = 2 - axis;
+    if (axis < 0 || axis != walls_[0].axis()) return false;
+    const double low = std::min(wall.from()[along], wall.to()[along]);
+    const double high = std::max(wall.from()[along], wall.to()[along]);
+    return low <= box_.low[along] && high >= box_.high[along] && box_.face(along, 0) != FaceKind::open &&
+           box_.face(along, 1) != FaceKind::open && wall.from()[axis] > box_.low[axis] &&
+           wall.from()[axis] < box_.high[axis];
   };
-  return any(plates_, [](const Opening& opening) { return opening.shut; }) ||
-         any(panels_, [&](const Panel::Opening& opening) { return opening.shut && time >= opening.opens_after; });
+  if (!std::all_of(walls_.begin(), walls_.end(), is_layer)) return false;
+  return walls_.empty() || distance_of_layers() >= apart;
+}
+
+bool Domain::has_gates_due(double time) const {
+  return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) { return wall.has_gates_due(time); });
 }
 
 void Domain::open_gates(double time) {
-  for (Plate& plate : plates_)
-    for (Opening& opening : plate.openings) opening.shut = false;
-  for (Panel& panel : panels_)
-    for (Panel::Opening& opening : panel.openings) opening.shut = opening.shut && time < opening.opens_after;
+  openings_ += has_gates_due(time);
+  for (Wall& wall : walls_) wall.open_gates(time);
 }
 
-Vector3 Domain::normal(int wall) const {
-  const auto number = static_cast<std::size_t>(wall - wall_of_plate(0));
-  if (wall >= wall_of_plate(0) && number < panels_.size()) return panels_[number].normal();
-  const int axis = wall < wall_of_plate(0) ? wall / 2 : number < plates_.size() ? plates_[number].axis : 2;
+Vector3 Domain::normal(int number) const {
+  if (number >= wall_number(0)) return wall_at(number).normal();
   Vector3 unit;
-  unit[axis] = 1;
+  unit[number / 2] = 1;
   return unit;
 }
 
+double Domain::above(int number, const Vector3& x) const {
+  return number < 6 ? x[number / 2] - box_.bound(number / 2, number % 2) : wall_at(number).above(x);
+}
+
 double Domain::largest_reach() const {
-  double reach = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < plates_.size(); ++p) {
-    const Plate& plate = plates_[p];
+  return layered_ ? distance_of_layers() : std::numeric_limits<double>::infinity();
+}
+
+double Domain::distance_of_layers() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < walls_.size(); ++p) {
+    const int axis = walls_[p].axis();
+    const double position = walls_[p].from()[axis];
     for (const int side : {0, 1})
-      if (box_.face(plate.axis, side) != FaceKind::open)
-        reach = std::min(reach, std::abs(box_.bound(plate.axis, side) - plate.position));
-    for (std::size_t q = 0; q < p; ++q) reach = std::min(reach, std::abs(plates_[q].position - plate.position));
+      if (box_.face(axis, side) != FaceKind::open) least = std::min(least, std::abs(box_.bound(axis, side) - position));
+    for (std::size_t q = 0; q < p; ++q) least = std::min(least, std::abs(walls_[q].from()[axis] - position));
   }
-  return reach;
+  return least;
 }
 
 std::vector<Image> Domain::images(double reach) const {
@@ -126,25 +133,26 @@ std::vector<Image> Domain::images(double reach) const {
   const auto along_x = axis_images(box_, 0, reach);
   const auto along_y = axis_images(box_, 1, reach);
   const auto along_z = axis_images(box_, 2, reach);
-  for (int plate = -1; plate < static_cast<int>(plates_.size()); ++plate)
+  const int layers = layered_ ? static_cast<int>(walls_.size()) : 0;
+  for (int layer = -1; layer < layers; ++layer)
     for (const AxisImage& z : along_z)
       for (const AxisImage& y : along_y)
         for (const AxisImage& x : along_x) {
-          if (plate < 0 && x.copy == 0 && y.copy == 0 && z.copy == 0) continue;
+          if (layer < 0 && x.copy == 0 && y.copy == 0 && z.copy == 0) continue;
           Image image;
           set_axis(image, box_, 0, x);
           set_axis(image, box_, 1, y);
           set_axis(image, box_, 2, z);
-          if (plate >= 0) {
-            const Plate& wall = plates_[static_cast<std::size_t>(plate)];
-            if (image.copy[static_cast<std::size_t>(wall.axis)] != 0) continue;  // farther than the reach
-            image = mirrored_at(wall.position, wall.axis, image);
-            image.plate = plate;
+          if (layer >= 0) {
+            const auto number = static_cast<std::size_t>(layer);
+            if (image.copy[static_cast<std::size_t>(walls_[number].axis())] != 0) continue;  // farther than the reach
+            image = mirrored(image, mirrors_[number]);
+            image.mirrors[0] = static_cast<std::int8_t>(layer);
           }
           images.push_back(image);
         }
-  if (panels_.empty()) return images;
-  for (const Image& image : images_in_panels(reach))
+  if (layered_) return images;
+  for (const Image& image : images_in_walls(reach))
     for (const AxisImage& y : along_y) {
       Image both = image;
       set_axis(both, box_, 1, y);
@@ -158,7 +166,7 @@ bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
   for (const std::int8_t number : image.mirrors) {
     if (number < 0) break;
     const Mirror& mirror = mirrors_[static_cast<std::size_t>(number)];
-    if (!(mirror.distance(place) <= reach)) return false;
+    if (!(distance_to_segment(place, mirror.from, mirror.to) <= reach)) return false;
     place = mirrored(Image{}, mirror).source(place);
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -166,18 +174,45 @@ bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
     if (copy < 0 && !(x[axis] >= box_.low[axis] - reach)) return false;
     if (copy > 0 && !(x[axis] <= box_.high[axis] + reach)) return false;
   }
-  if (image.plate < 0) return true;
-  const Plate& plate = plates_[static_cast<std::size_t>(image.plate)];
-  return std::abs(x[plate.axis] - plate.position) <= reach;
+  return true;
 }
 
-bool Domain::is_near_plate(const Vector3& x, double reach) const {
-  return std::any_of(plates_.begin(), plates_.end(),
-                     [&](const Plate& plate) { return std::abs(x[plate.axis] - plate.position) <= reach; });
+bool Domain::is_near_wall(const Vector3& x, double reach) const {
+  return std::any_of(walls_.begin(), walls_.end(),
+                     [&](const Wall& wall) { return std::abs(wall.above(x)) <= reach && wall.distance(x) <= reach; });
 }
 
-bool Domain::is_near_panel(const Vector3& x, double reach) const {
-  return std::any_of(panels_.begin(), panels_.end(), [&](const Panel& panel) { return panel.distance(x) <= reach; });
+bool Domain::may_see(const Vector3& from, const Vector3& to, const Image& image, double skin) const {
+  if (!layered_ || !image.is_in_walls()) return true;
+  const Wall& wall = walls_[static_cast<std::size_t>(image.mirrors[0])];
+  const double own = wall.above(from), other = wall.above(to);
+  return (own > 0) != (other > 0) || std::min(std::abs(own), std::abs(other)) <= skin;
+}
+
+std::array<Domain::Load, 3> Domain::loads(const Image& image) const {
+  std::array<Load, 3> found;
+  std::size_t count = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const int side = image.side[static_cast<std::size_t>(axis)]; side != 0) {
+      const int wall = face_number(axis, side > 0);
+      found[count++] = {wall, normal(wall)};
+    }
+  std::array<int, 2> met{-1, -1};
+  for (const std::int8_t number : image.mirrors) {
+    const int wall = number < 0 ? -1 : mirrors_[static_cast<std::size_t>(number)].wall;
+    if (wall < 0 || wall == met[0] || wall == met[1]) continue;
+    met[met[0] < 0 ? 0 : 1] = wall;
+  }
+  for (std::size_t n = 0; n < 2 && met[n] >= 0; ++n) {
+    Vector3 part = normal(met[n]);
+    if (met[1] >= 0) {
+      const Vector3 other = normal(met[1 - n]);
+      const Vector3 across{-other.z, 0, other.x};
+      if (const double sine = dot(across, part); std::abs(sine) > 1e-6) part = (1 / sine) * across;
+    }
+    found[count++] = {met[n], part};
+  }
+  return found;
 }
 
 std::optional<Domain::Bounce> Domain::bounce(const Vector3& from, const Vector3& to) const {
@@ -187,18 +222,13 @@ std::optional<Domain::Bounce> Domain::bounce(const Vector3& from, const Vector3&
       if (beyond > 0 && is_mirror(box_.face(axis, side)))
         return Bounce{face_number(axis, side), mirrored_at(box_.bound(axis, side), axis)};
     }
-  for (int p = 0; p < static_cast<int>(plates_.size()); ++p) {
-    const Plate& plate = plates_[static_cast<std::size_t>(p)];
-    if (plate.side_of(from) != plate.side_of(to) && plate.is_solid(fold(crossing(plate, from, to))))
-      return Bounce{wall_of_plate(p), mirrored_at(plate.position, plate.axis)};
-  }
   std::optional<Bounce> first;
   double earliest = 2;
-  for (int p = 0; p < static_cast<int>(panels_.size()); ++p) {
-    const auto at = panels_[static_cast<std::size_t>(p)].meets(from, to);
+  for (std::size_t w = 0; w < walls_.size(); ++w) {
+    const auto at = walls_[w].meets(from, to);
     if (!at || *at >= earliest) continue;
     earliest = *at;
-    first = Bounce{wall_of_plate(p), mirrored(Image{}, mirrors_[static_cast<std::size_t>(p)])};
+    first = Bounce{wall_number(static_cast<int>(w)), mirrored(Image{}, mirrors_[w])};
   }
   return first;
 }

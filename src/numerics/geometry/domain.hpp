@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The space that particles live in: a box and thin plates across it, or panels in it. It answers three questions:
-/// which images of a particle stand behind the boundaries, which of two points see each other, and where a particle
-/// goes that would pass a boundary.
+/// The space that particles live in: a box and thin walls in it.
+///
+/// What it offers is what grains, air and analysis ask of any vessel, and all that they ask: the images of a particle
+/// (images, is_near), which places see each other (sees, blocks, end_of_line), where a particle goes that would pass a
+/// boundary (bounce), which boundaries an image loads (loads), and of each boundary its number, its normal, whether a
+/// place is beside it and on which side. A vessel of triangles would offer the same.
 ///
 /// Images. A face that mirrors makes of each particle near it an image behind it; two parallel faces make images of
 /// images without end, of which all within reach are listed: in a box thinner than the reach a particle meets several
-/// images of the same neighbour and of itself. At edges and corners the images of the faces multiply. A plate mirrors
-/// all of these once more, to either side. Plates and faces of the same axis stand farther apart than the reach.
+/// images of the same neighbour and of itself. At edges and corners the images of the faces multiply.
 ///
-/// Panels stand at any angle to the faces and to each other. What a particle sees in them is what mirrors show: the
-/// straight line to an image is followed, turned at each panel or face that it meets, and ends where the source is if
+/// Walls stand at any angle to the faces and to each other. What a particle sees in them is what mirrors show: the
+/// straight line to an image is followed, turned at each wall or face that it meets, and ends where the source is if
 /// the image is seen. So every place around a particle holds one image at most, whatever the angles, and where two see
 /// each other's images their forces are each other's mirror images. Images of up to three turns are made: corners of
 /// 60 degrees and more are filled all around.
+///
+/// Layers. Where all walls are parallel to a pair of faces, reach from face to face and stand apart from these and from
+/// each other, nothing needs to be followed: a wall mirrors all images in the faces once more, to either side, and the
+/// place where the line passes its plane decides who sees them. That is the quick way, and it is taken in here alone.
 #pragma once
 
 #include <array>
@@ -24,100 +30,111 @@
 #include "base/vector.hpp"
 #include "numerics/geometry/box.hpp"
 #include "numerics/geometry/image.hpp"
-#include "numerics/geometry/panel.hpp"
-#include "numerics/geometry/plate.hpp"
+#include "numerics/geometry/wall.hpp"
 
 namespace talus {
 
-/// A panel, or a face of the box across x or z, as the mirrors of images in panels: through `from` and `to`.
+/// A wall, or a face of the box across x or z, as the mirrors of images: through `from` and `to`.
 struct Mirror {
   Vector3 from, to;  ///< m
   Vector3 normal;    ///< unit
   int wall;          ///< that bears the load; -1: none, the face is periodic
   Vector3 shift;     ///< of a periodic face: to where what passes it goes on, m
   bool printed;      ///< it leaves velocities as they are
-
-  double distance(const Vector3& x) const { return Panel{.name = {}, .from = from, .to = to}.distance(x); }
 };
 
-/// Walls that can bear load: the six faces, then the plates or panels.
-inline constexpr int most_plates = 10;
-inline constexpr int most_walls = 6 + most_plates;
-constexpr int wall_of_plate(int plate) {
-  return 6 + plate;
+/// Boundaries that can bear load, by number: the six faces, then the walls.
+inline constexpr int most_inner_walls = 10;
+inline constexpr int most_walls = 6 + most_inner_walls;
+constexpr int wall_number(int wall) {
+  return 6 + wall;
 }
 
 class Domain {
  public:
-  /// \throws std::invalid_argument for an empty box, a periodic face without its opposite, more than `most_plates`
-  ///         plates, a plate outside the box, a panel without length, plates and panels together
-  Domain(const Box& box, std::vector<Plate> plates, std::vector<Panel> panels = {});
+  /// \param apart how far walls stand from faces and from each other at least if they are to be layers, m
+  /// \throws std::invalid_argument for an empty box, a periodic face without its opposite, more than
+  ///         `most_inner_walls` walls
+  explicit Domain(const Box& box, std::vector<Wall> walls = {}, double apart = 0);
 
   const Box& box() const { return box_; }
-  const std::vector<Plate>& plates() const { return plates_; }
-  const std::vector<Panel>& panels() const { return panels_; }
-  const std::vector<Mirror>& mirrors() const { return mirrors_; }
+  const std::vector<Wall>& walls() const { return walls_; }
 
   /// Whether a gate is still shut that open_gates(time) would open.
   bool has_gates_due(double time) const;
 
-  /// Opens gates for good: every gate of a plate, and those of panels whose time has come.
-  /// \param time from the opening of the gate of the case, s
+  /// Opens the gates whose time has come, for good. \param time from the opening of the gate of the case, s
   void open_gates(double time = std::numeric_limits<double>::infinity());
 
-  /// Unit normal of a wall, along its axis where it has one. \param wall number of a face, plate or panel
-  Vector3 normal(int wall) const;
+  /// How often gates have opened: who keeps what follows from the openings looks whether it has changed.
+  int openings() const { return openings_; }
 
-  /// The largest reach for which the images are complete: the distance between plates and faces of the same axis.
+  /// The boundaries, by number, up to wall_number(walls().size()): whether one bears load,
+  bool bears_load(int number) const {
+    return number < 6 ? is_mirror(box_.faces[static_cast<std::size_t>(number)]) : number < wall_count();
+  }
+  /// whether it can rub,
+  bool is_solid(int number) const {
+    return number < 6 ? box_.faces[static_cast<std::size_t>(number)] == FaceKind::wall : number < wall_count();
+  }
+  int wall_count() const { return wall_number(static_cast<int>(walls_.size())); }
+  /// its unit normal, of a face along its axis,
+  Vector3 normal(int number) const;
+  /// the distance from its plane, to the side of the normal, m,
+  double above(int number, const Vector3& x) const;
+  /// the side on which a particle at x is: 1 that of the normal, -1 the other; of a face always within the box,
+  int side(int number, const Vector3& x) const {
+    return number < 6 ? (number % 2 == 0 ? 1 : -1) : above(number, x) >= 0 ? 1 : -1;
+  }
+  /// and whether it is there, beside x: no opening, no end.
+  bool is_beside(int number, const Vector3& x) const { return number < 6 || wall_at(number).is_solid(x); }
+
+  /// The largest reach for which the images are complete: the distance between layers and faces of the same axis.
   double largest_reach() const;
 
-  /// All images that can stand within `reach` of the box or of a plate, in a fixed order; the identity is not among
+  /// All images that can stand within `reach` of the box or of a wall, in a fixed order; the identity is not among
   /// them. \param reach m, at most largest_reach()
   std::vector<Image> images(double reach) const;
 
   /// Whether an image at x lies within `reach` of what made it.
   bool is_near(const Image& image, const Vector3& x, double reach) const;
 
-  /// Whether x is within `reach` of a plate's plane, so that some of its neighbours may be hidden.
-  bool is_near_plate(const Vector3& x, double reach) const;
+  /// Whether x is within `reach` of a wall. Farther ones see all their neighbours, and no image in walls.
+  bool is_near_wall(const Vector3& x, double reach) const;
 
-  /// Whether x is within `reach` of a panel. Farther ones see no image in panels.
-  bool is_near_panel(const Vector3& x, double reach) const;
+  /// Whether a particle near a wall may come to see an image at `to` before both have moved by half the skin: what it
+  /// never will needs not to be listed.
+  bool may_see(const Vector3& from, const Vector3& to, const Image& image, double skin) const;
 
-  /// Whether the straight line between two places inside the box meets the solid part of a plate or panel. The same
-  /// from both ends.
+  /// Whether the straight line between two places inside the box meets the solid part of a wall. The same from both
+  /// ends.
   bool blocks(const Vector3& a, const Vector3& b) const;
 
-  /// Whether a particle at `from` sees another, or its image, at `to`: the straight line between them passes plates
-  /// only through openings, and the plate that mirrors the image exactly where it is solid. Symmetric: `from` sees the
-  /// image of `to` in a plate if and only if `to` sees that of `from`.
-  /// \param plate the plate that mirrors the image at `to`; -1: none
-  bool sees(const Vector3& from, const Vector3& to, int plate = -1) const {
-    for (int p = 0; p < static_cast<int>(plates_.size()); ++p) {
-      const Plate& wall = plates_[static_cast<std::size_t>(p)];
-      const bool crosses = wall.side_of(from) != wall.side_of(to);
-      const bool meets_solid = crosses && wall.is_solid(fold(crossing(wall, from, to)));
-      if (meets_solid != (p == plate)) return false;
-    }
-    return true;
+  /// Whether a particle at `from` sees an image at `to`, or its source there through the identity: whether the line
+  /// between them, turned where it meets walls and faces, ends at the source. Symmetric: `from` sees the image of `to`
+  /// if and only if `to` sees that of `from`.
+  bool sees(const Vector3& from, const Vector3& to, const Image& image) const {
+    return layered_ ? sees_past_layers(from, to, image.mirrors[0]) : sees_source(from, to, image);
   }
 
-  /// The same with panels: whether the line from `from` to an image at `to`, turned where it meets panels and faces,
-  /// ends at the image's source.
-  bool sees_source(const Vector3& from, const Vector3& to, const Vector3& source) const;
+  /// Where the straight line from a place inside the box to another ends in the x-z plane, turned at each wall and face
+  /// that it meets; nothing where it is turned without end.
+  std::optional<Vector3> end_of_line(const Vector3& from, const Vector3& to) const;
 
-  /// Whether a particle at `from` sees that image of `source`, or the source itself through the identity, whatever
-  /// there is in the box.
-  bool sees(const Vector3& from, const Vector3& source, const Image& image) const {
-    return panels_.empty() ? sees(from, image.position(source), image.plate)
-                           : sees_source(from, image.position(source), source);
-  }
+  /// A boundary that an image loads, and what of the image's force, in the direction of the boundary's normal: of a
+  /// single one the part along the normal; where the line to the image meets two, the force is the sum of two along
+  /// their normals. Those that are loaded come first.
+  struct Load {
+    int wall = -1;
+    Vector3 part;
+  };
+  std::array<Load, 3> loads(const Image& image) const;
 
-  /// Where a particle that moved from `from` to `to` hits a wall, symmetry or printed face or a plate's solid part: the
+  /// Where a particle that moved from `from` to `to` hits a wall, symmetry or printed face or a wall's solid part: the
   /// image that stands for it on the side it came from. The mirrored motion is what the images would have done.
   /// \returns nothing if it passed none; one boundary at a time: ask again from the new place
   struct Bounce {
-    int wall;     ///< which face or plate
+    int wall;     ///< number of the boundary
     Image image;  ///< what the particle becomes
   };
   std::optional<Bounce> bounce(const Vector3& from, const Vector3& to) const;
@@ -129,18 +146,29 @@ class Domain {
   Vector3 wrap(const Vector3& x) const;
 
  private:
-  static Vector3 crossing(const Plate& plate, const Vector3& from, const Vector3& to) {
-    const double t = (plate.position - from[plate.axis]) / (to[plate.axis] - from[plate.axis]);
-    return from + t * (to - from);
+  const Wall& wall_at(int number) const { return walls_[static_cast<std::size_t>(number - wall_number(0))]; }
+  /// Whether the line meets the solid part of a layer, which stands in the copies of the box too.
+  bool meets_layer(const Wall& wall, const Vector3& from, const Vector3& to) const {
+    return wall.is_above(from) != wall.is_above(to) &&
+           wall.is_solid(fold(from + wall.share_to_plane(from, to) * (to - from)));
   }
-
+  /// \param mirror the layer that mirrors what is seen, -1: none
+  bool sees_past_layers(const Vector3& from, const Vector3& to, int mirror) const {
+    for (int w = 0; w < static_cast<int>(walls_.size()); ++w)
+      if (meets_layer(walls_[static_cast<std::size_t>(w)], from, to) != (w == mirror)) return false;
+    return true;
+  }
+  bool sees_source(const Vector3& from, const Vector3& to, const Image& image) const;
+  bool are_layers(double apart) const;
+  double distance_of_layers() const;
   void find_mirrors();
-  std::vector<Image> images_in_panels(double reach) const;
+  std::vector<Image> images_in_walls(double reach) const;
 
   Box box_;
-  std::vector<Plate> plates_;
-  std::vector<Panel> panels_;
-  std::vector<Mirror> mirrors_;  // panels, then faces across x and z; none without panels
+  std::vector<Wall> walls_;
+  bool layered_;
+  int openings_ = 0;
+  std::vector<Mirror> mirrors_;  // walls; unless these are layers, then faces across x and z
 };
 
 }  // namespace talus

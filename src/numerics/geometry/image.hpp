@@ -16,7 +16,7 @@ struct Turn {
   constexpr bool operator==(const Turn&) const = default;
 };
 
-/// x' = sign x + turn x + offset, v' = vector_sign v + vector_turn v. Only panels turn.
+/// x' = sign x + turn x + offset, v' = vector_sign v + vector_turn v. Only walls at an angle turn.
 struct Image {
   Vector3 sign{1, 1, 1};
   Vector3 offset;
@@ -24,12 +24,11 @@ struct Image {
   Turn turn, vector_turn;
   std::array<std::int8_t, 3> side{};  ///< the mirror face, per axis: -1 low, 1 high, 0 none (or periodic)
   std::array<std::int8_t, 3> copy{};  ///< number of the copy per axis, periodic ones too; 0: within the box
-  int plate = -1;                     ///< the plate that mirrors it, -1: none
-  /// Of an image in panels, by number in Domain::mirrors(): what the line to it meets, one after the other; -1: no
-  /// more.
+  /// Of an image in walls, by number in Domain::mirrors(): what the line to it meets, one after the other; -1: no more.
   std::array<std::int8_t, 3> mirrors{-1, -1, -1};
 
-  constexpr bool is_in_panels() const { return mirrors[0] >= 0; }
+  constexpr bool is_in_walls() const { return mirrors[0] >= 0; }
+  constexpr bool is_identity() const { return !is_in_walls() && copy == std::array<std::int8_t, 3>{}; }
   constexpr Vector3 position(const Vector3& x) const {
     return {sign.x * x.x + turn.xz * x.z + offset.x, sign.y * x.y + offset.y, sign.z * x.z + turn.zx * x.x + offset.z};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Images in panels, and who sees them.
+/// Images in walls that are no layers, and who sees them.
 #include "numerics/geometry/mirrors.hpp"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ bool same_map(const Image& a, const Image& b, double length) {
 
 /// Least distance of two mirrors that do not cross: one of the ends is nearest.
 double distance(const Mirror& a, const Mirror& b) {
-  return std::min({a.distance(b.from), a.distance(b.to), b.distance(a.from), b.distance(a.to)});
+  return std::min({distance_to_segment(b.from, a.from, a.to), distance_to_segment(b.to, a.from, a.to),
+                   distance_to_segment(a.from, b.from, b.to), distance_to_segment(a.to, b.from, b.to)});
 }
 
 }  // namespace
@@ -49,14 +50,14 @@ Image mirrored(Image image, const Mirror& mirror) {
 }
 
 void Domain::find_mirrors() {
-  if (panels_.empty()) return;
-  for (std::size_t p = 0; p < panels_.size(); ++p)
-    mirrors_.push_back({.from = panels_[p].from,
-                        .to = panels_[p].to,
-                        .normal = panels_[p].normal(),
-                        .wall = wall_of_plate(static_cast<int>(p)),
+  for (std::size_t w = 0; w < walls_.size(); ++w)
+    mirrors_.push_back({.from = walls_[w].from(),
+                        .to = walls_[w].to(),
+                        .normal = walls_[w].normal(),
+                        .wall = wall_number(static_cast<int>(w)),
                         .shift = {},
                         .printed = false});
+  if (layered_) return;
   for (const int axis : {0, 2})
     for (const int side : {0, 1}) {
       const FaceKind kind = box_.face(axis, side);
@@ -76,7 +77,7 @@ void Domain::find_mirrors() {
     }
 }
 
-std::vector<Image> Domain::images_in_panels(double reach) const {
+std::vector<Image> Domain::images_in_walls(double reach) const {
   std::vector<Image> images;
   // The mirror that the line meets last acts first.
   const auto add = [&](std::initializer_list<std::size_t> met) {
@@ -87,8 +88,8 @@ std::vector<Image> Domain::images_in_panels(double reach) const {
     if (std::none_of(images.begin(), images.end(), [&](const Image& i) { return same_map(i, image, length); }))
       images.push_back(image);
   };
-  for (std::size_t a = 0; a < panels_.size(); ++a) add({a});
-  for (std::size_t a = 0; a < panels_.size(); ++a)
+  for (std::size_t a = 0; a < walls_.size(); ++a) add({a});
+  for (std::size_t a = 0; a < walls_.size(); ++a)
     for (std::size_t b = a + 1; b < mirrors_.size(); ++b) {
       if (distance(mirrors_[a], mirrors_[b]) > reach) continue;
       add({a, b}), add({b, a}), add({a, b, a}), add({b, a, b});
@@ -100,16 +101,27 @@ bool Domain::blocks(const Vector3& a, const Vector3& b) const {
   // From both ends the same numbers, so that two never disagree on whether they see each other.
   const bool in_order = a.x != b.x ? a.x < b.x : a.z < b.z;
   const Vector3 &first = in_order ? a : b, &second = in_order ? b : a;
-  return std::any_of(panels_.begin(), panels_.end(),
-                     [&](const Panel& p) { return p.meets(first, second).has_value(); }) ||
-         std::any_of(plates_.begin(), plates_.end(), [&](const Plate& plate) {
-           return plate.side_of(first) != plate.side_of(second) && plate.is_solid(fold(crossing(plate, first, second)));
-         });
+  return std::any_of(walls_.begin(), walls_.end(),
+                     [&](const Wall& wall) { return wall.meets(first, second).has_value(); });
 }
 
-bool Domain::sees_source(const Vector3& from, const Vector3& to, const Vector3& source) const {
-  constexpr int most_turns = 8;
+bool Domain::sees_source(const Vector3& from, const Vector3& to, const Image& image) const {
+  if (image.is_identity()) return !blocks(from, to);
+  const std::optional<Vector3> end = end_of_line(from, to);
+  if (!end) return false;
+  const Vector3 off = *end - image.source(to);
   const double slack = 1e-9 * std::max(box_.extent(0), box_.extent(2));
+  return std::abs(off.x) < slack && std::abs(off.z) < slack;
+}
+
+std::optional<Vector3> Domain::end_of_line(const Vector3& from, const Vector3& to) const {
+  if (layered_) {
+    Vector3 end = to;
+    for (std::size_t w = 0; w < walls_.size(); ++w)
+      if (meets_layer(walls_[w], from, to)) end = mirrored(Image{}, mirrors_[w]).position(end);
+    return fold(end);
+  }
+  constexpr int most_turns = 8;
   Vector3 a = from, b = to;
   std::size_t last = mirrors_.size();
   for (int turns = 0; turns < most_turns; ++turns) {
@@ -118,8 +130,8 @@ bool Domain::sees_source(const Vector3& from, const Vector3& to, const Vector3& 
     for (std::size_t m = 0; m < mirrors_.size(); ++m) {
       if (m == last) continue;
       std::optional<double> at;
-      if (m < panels_.size()) {
-        at = panels_[m].meets(a, b);
+      if (m < walls_.size()) {
+        at = walls_[m].meets(a, b);
       } else {
         const Mirror& face = mirrors_[m];
         const int axis = face.normal.x != 0 ? 0 : 2;
@@ -129,7 +141,7 @@ bool Domain::sees_source(const Vector3& from, const Vector3& to, const Vector3& 
       }
       if (at && *at < earliest) earliest = *at, first = m;
     }
-    if (first == mirrors_.size()) return std::abs(b.x - source.x) < slack && std::abs(b.z - source.z) < slack;
+    if (first == mirrors_.size()) return b;
     const Mirror& mirror = mirrors_[first];
     a = a + earliest * (b - a);
     if (mirror.wall < 0) {
@@ -141,7 +153,7 @@ bool Domain::sees_source(const Vector3& from, const Vector3& to, const Vector3& 
     }
     last = mirror.wall < 0 ? mirrors_.size() : first;
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace talus

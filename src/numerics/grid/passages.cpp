@@ -28,23 +28,8 @@ std::size_t index(const Grid& grid, const Place& place) {
   return grid.index(place[0], place[1], place[2]);
 }
 
-/// Closes the faces of a plate's solid part.
-void close(const Grid& grid, const Plate& plate, FaceField& open) {
-  const double place = (plate.position - grid.low[plate.axis]) / grid.spacing[plate.axis];
-  const int layer = static_cast<int>(std::lround(place));
-  if (std::abs(place - layer) > 1e-6 || layer <= 0 || layer >= grid.count[static_cast<std::size_t>(plate.axis)])
-    throw std::invalid_argument("Passages: a plate must lie on faces of the cells, within the box");
-  Place low{}, high = grid.count;
-  low[static_cast<std::size_t>(plate.axis)] = layer;
-  high[static_cast<std::size_t>(plate.axis)] = layer + 1;
-  for_each_place(low, high, [&](const Place& at) {
-    if (plate.is_solid(grid.centre(at[0], at[1], at[2])))
-      open[static_cast<std::size_t>(plate.axis)][index(grid, at)] = 0;
-  });
-}
-
-/// Closes the faces that a panel's solid part stands before.
-void close(const Passages& passages, const Panel& panel, FaceField& open) {
+/// Closes the faces that a wall's solid part stands before.
+void close(const Passages& passages, const Wall& wall, FaceField& open) {
   const Grid& grid = passages.grid;
   for (const int axis : {0, 2}) {
     const auto a = static_cast<std::size_t>(axis);
@@ -53,15 +38,14 @@ void close(const Passages& passages, const Panel& panel, FaceField& open) {
     const auto faces = passages.faces(axis);
     for_each_place({0, 0, 0}, {faces[0], faces[1], faces[2]}, [&](const Place& at) {
       const Vector3 after = grid.centre(at[0], at[1], at[2]);
-      if (panel.meets(after - step, after)) open[a][index(grid, at)] = 0;
+      if (wall.meets(after - step, after)) open[a][index(grid, at)] = 0;
     });
   }
 }
 
 }  // namespace
 
-Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Plate>& plates,
-                   const std::vector<Panel>& panels)
+Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Wall>& walls)
     : grid(cells), boundaries(bounds), open(grid.face_field()), wall(open), drive(open), inner(grid.cell_field()) {
   link = {open, open, open}, wide = link;
   for (int axis = 0; axis < 3; ++axis) {
@@ -73,8 +57,7 @@ Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::v
       open[a][index(grid, at)] = passes;
     });
   }
-  for (const Plate& plate : plates) close(grid, plate, open);
-  for (const Panel& panel : panels) close(*this, panel, open);
+  for (const Wall& solid : walls) close(*this, solid, open);
   for (auto& faces_of_axis : open) wrap(faces_of_axis);
 
   for_each_place({0, 0, 0}, grid.count, [&](const Place& at) {

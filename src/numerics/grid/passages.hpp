@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where a fluid passes on a grid: the boundaries of the box, the plates and panels within it, and which neighbouring
+/// Where a fluid passes on a grid: the boundaries of the box, the walls within it, and which neighbouring
 /// velocities see each other.
 ///
-/// Velocities stand on faces (Harlow & Welch 1965). The neighbour of a face along another axis is hidden where a plate
-/// or the box comes between; a rough wall then holds the velocity at the wall's, half a cell away. At a plate's rim,
-/// where it covers one of two cells, it counts as a wall. A panel at an angle closes the faces of which it stands
-/// between the two cells' centres: a staircase, through which nothing passes; cells that it cuts count as whole ones.
+/// Velocities stand on faces (Harlow & Welch 1965). The neighbour of a face along another axis is hidden where a wall
+/// or the box comes between; a rough wall then holds the velocity at the wall's, half a cell away. At a wall's rim,
+/// where it covers one of two cells, it counts as one. A wall closes the faces of which it stands between the
+/// two cells' centres: the faces that it lies on, or a staircase, through which nothing passes; cells that it cuts
+/// count as whole ones.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "numerics/geometry/panel.hpp"
-#include "numerics/geometry/plate.hpp"
+#include "numerics/geometry/wall.hpp"
 #include "numerics/grid/grid.hpp"
 
 namespace talus {
@@ -48,9 +48,8 @@ struct Passages {
   FaceField drive;  ///< sum of 2/width^2 times the velocity of those walls, 1/(m s)
   CellField inner;  ///< 1: a cell without a face open to outside the grid
 
-  /// \throws std::invalid_argument for a periodic face without its opposite, a plate off the faces of the cells
-  Passages(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Plate>& plates,
-           const std::vector<Panel>& panels = {});
+  /// \throws std::invalid_argument for a periodic face without its opposite
+  Passages(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls);
 
   /// Faces of an axis along a second one: one more than cells along the axis itself, unless it is periodic.
   int faces(int axis, int along) const {

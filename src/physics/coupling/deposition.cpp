@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "base/clones.hpp"
@@ -39,10 +40,17 @@ struct Deposition::Scratch {
     static constexpr int left = -1;
 
     void find(const Grid& grid, const Box& box, int axis, double x, double reach);
+    /// The slot of the cell whose centre is at x, if it is one of these.
+    std::optional<std::size_t> slot_at(const Grid& grid, int axis, double x) const;
   };
+  struct Slots {
+    std::size_t x, z;
+  };
+  using Seen = std::optional<Slots>;
   std::array<Along, 3> along;
   std::vector<double> weight;  // of a row along x
   std::vector<double> sum;     // by slots along x, y, z
+  std::vector<Seen> seen;      // by cells along x and z: whose share each one's is
 };
 
 void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, double x, double reach) {
@@ -65,6 +73,15 @@ void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis
   square.resize((square.size() + 7) / 8 * 8, 4 * reach * reach);
 }
 
+std::optional<std::size_t> Deposition::Scratch::Along::slot_at(const Grid& grid, int axis, double x) const {
+  const double place = (x - grid.low[axis]) / grid.spacing[axis] - 0.5, nearest = std::round(place);
+  if (std::abs(place - nearest) > 1e-6) return std::nullopt;
+  const bool within = nearest >= 0 && nearest < grid.count[static_cast<std::size_t>(axis)];
+  const auto found = std::find(cell.begin(), cell.end(), within ? static_cast<int>(nearest) : left);
+  if (found == cell.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - cell.begin());
+}
+
 Deposition::Deposition(const Grid& grid, const Domain& domain) : grid_(grid), domain_(domain) {
   const auto close = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,12 +89,6 @@ Deposition::Deposition(const Grid& grid, const Domain& domain) : grid_(grid), do
     const double high = grid.low[axis] + width * grid.count[static_cast<std::size_t>(axis)];
     if (!close(grid.low[axis], domain.box().low[axis], width) || !close(high, domain.box().high[axis], width))
       throw std::invalid_argument("Deposition: the grid must fill the box");
-  }
-  for (const Plate& plate : domain.plates()) {
-    const double width = grid.spacing[plate.axis], place = (plate.position - grid.low[plate.axis]) / width;
-    layer_.push_back(static_cast<int>(std::lround(place)));
-    if (std::abs(place - layer_.back()) > 1e-6)
-      throw std::invalid_argument("Deposition: a plate must lie on faces of the cells");
   }
 }
 
@@ -104,33 +115,27 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
   scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
   scratch.weight.resize(along_x.square.size());
   double *sum = scratch.sum.data(), *weight = scratch.weight.data();
-  const auto slot = [&](std::size_t i, std::size_t j, std::size_t k) {
-    return along_x.slot[i] + columns * (along_y.slot[j] + rows * along_z.slot[k]);
-  };
-  const bool beside_plate = domain_.is_near_plate(x, reach);
-  const auto spread = [&](bool beside_panel) {
+  const auto spread = [&](bool beside_wall) {
+    if (beside_wall) find_seen(x, scratch);
     for (std::size_t k = 0; k < along_z.slot.size(); ++k)
       for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
         const double beside = along_y.square[j] + along_z.square[k];
         if (beside >= reach * reach) continue;
         weigh_row(along_x.square.size(), along_x.square.data(), beside, per_width, weight);
-        if (beside_panel) {
+        if (beside_wall) {
+          const Scratch::Seen* seen = scratch.seen.data() + k * along_x.slot.size();
           for (std::size_t i = 0; i < along_x.slot.size(); ++i)
-            if (!is_behind_panel(x, scratch, {i, j, k})) sum[slot(i, j, k)] += weight[i];
-        } else if (beside_plate) {
-          for (std::size_t i = 0; i < along_x.slot.size(); ++i)
-            if (const auto seen = in_front_of_plates(x, scratch, {i, j, k}))
-              sum[slot((*seen)[0], (*seen)[1], (*seen)[2])] += weight[i];
+            if (seen[i]) sum[seen[i]->x + columns * (along_y.slot[j] + rows * seen[i]->z)] += weight[i];
         } else {
-          double* row = sum + slot(0, j, k) - along_x.slot[0];
+          double* row = sum + columns * (along_y.slot[j] + rows * along_z.slot[k]);
           for (std::size_t i = 0; i < along_x.slot.size(); ++i) row[along_x.slot[i]] += weight[i];
         }
       }
   };
-  const bool beside_panel = domain_.is_near_panel(x, reach);
-  spread(beside_panel);
+  const bool beside_wall = domain_.is_near_wall(x, reach);
+  spread(beside_wall);
   // In a corner too narrow for a cell's centre a particle sees none: then it has all.
-  if (beside_panel && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
+  if (beside_wall && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
     spread(false);
 
   const std::size_t begin = block.end.empty() ? 0 : block.end.back(), most = begin + scratch.sum.size();
@@ -153,39 +158,21 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
   block.end.push_back(end);
 }
 
-/// Of a cell within reach, by its numbers along the axes: itself, or its mirror image on this side of the plates behind
-/// whose solid part it is hidden.
-std::optional<std::array<std::size_t, 3>> Deposition::in_front_of_plates(const Vector3& x, const Scratch& scratch,
-                                                                         std::array<std::size_t, 3> cell) const {
-  std::array<int, 3> place;
-  for (std::size_t a = 0; a < 3; ++a) place[a] = scratch.along[a].from + static_cast<int>(cell[a]);
-  const Vector3 centre = grid_.centre(place[0], place[1], place[2]);
-  if (domain_.sees(x, centre)) return cell;
-  for (std::size_t p = 0; p < layer_.size(); ++p) {
-    const Plate& plate = domain_.plates()[p];
-    const auto a = static_cast<std::size_t>(plate.axis);
-    if (plate.side_of(x) == plate.side_of(centre)) continue;
-    place[a] = 2 * layer_[p] - 1 - place[a];
-    cell[a] = static_cast<std::size_t>(place[a] - scratch.along[a].from);
-    if (cell[a] >= scratch.along[a].slot.size()) return {};  // out of reach, by rounding
-  }
-  return cell;
-}
-
-/// Whether a panel stands between a particle and a cell within reach, or the one within the box that stands for it.
-bool Deposition::is_behind_panel(const Vector3& x, const Scratch& scratch, std::array<std::size_t, 3> cell) const {
-  std::array<int, 3> place, within;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const Scratch::Along& along = scratch.along[a];
-    place[a] = along.from + static_cast<int>(cell[a]), within[a] = along.cell[along.slot[cell[a]]];
-    if (within[a] == Scratch::Along::left) within[a] = place[a];
-  }
-  const Vector3 centre = grid_.centre(within[0], within[1], within[2]);
-  const Vector3 moved = centre - grid_.centre(place[0], place[1], place[2]);
-  Vector3 from = x;  // the copy beside the cell, through periodic faces
-  for (int axis = 0; axis < 3; ++axis)
-    if (domain_.box().face(axis, 0) == FaceKind::periodic) from[axis] += moved[axis];
-  return domain_.blocks(from, centre);
+/// For each cell within reach, that which has its share: where the line to its centre ends, turned at walls and faces.
+/// Behind a wall that lies on faces of the cells this is the cell's mirror image; where it is no cell's centre, nobody
+/// has it.
+void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  scratch.seen.assign(along_x.slot.size() * along_z.slot.size(), {});
+  for (std::size_t k = 0; k < along_z.slot.size(); ++k)
+    for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
+      Vector3 centre = grid_.centre(along_x.from + static_cast<int>(i), 0, along_z.from + static_cast<int>(k));
+      centre.y = x.y;
+      const std::optional<Vector3> end = domain_.end_of_line(x, centre);
+      if (!end) continue;
+      const auto column = along_x.slot_at(grid_, 0, end->x), row = along_z.slot_at(grid_, 2, end->z);
+      if (column && row) scratch.seen[i + k * along_x.slot.size()] = Scratch::Slots{*column, *row};
+    }
 }
 
 /// Calls body(particle, begin, end) with the range of each particle's cells.

@@ -3,16 +3,15 @@
 /// with the SPH kernel, and what cells hand back with the same weights ("averaged in an air cell", Yuu & Umekage 2011).
 ///
 /// The weights of a particle are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
-/// round-off. What would fall beyond a face of the box or the solid part of a plate is folded back, as the particle's
-/// image behind it would spread it, so that a bed is as dense at a face as within; what would leave through a periodic
-/// face comes in at the other. What would fall beyond an open face has left: no cell has it, so that the weights of a
-/// particle that leaves fall to nothing without a jump, and a stream is as dense at the face as within. Cells that a
-/// panel hides from a particle have no share in it, those it sees the more.
+/// round-off. What would fall beyond a face of the box or a wall is folded back, as the particle's image behind it
+/// would spread it, so that a bed is as dense at a face as within; what would leave through a periodic face comes in at
+/// the other. What would fall beyond an open face has left: no cell has it, so that the weights of a particle that
+/// leaves fall to nothing without a jump, and a stream is as dense at the face as within. Behind a wall that does not
+/// lie on faces of the cells, images of cells are no cells: these have no share, those that the particle sees the more.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,11 +23,9 @@ namespace talus::coupling {
 
 class Deposition {
  public:
-  /// \throws std::invalid_argument if the grid does not fill the domain's box, or if a plate is not on faces of cells
+  /// \throws std::invalid_argument if the grid does not fill the domain's box
+  /// \param domain outlives it
   Deposition(const Grid& grid, const Domain& domain);
-
-  /// \param time from the opening of the case's gate, s
-  void open_gates(double time) { domain_.open_gates(time); }
 
   /// Finds the weights. \param smoothing_length of each particle, m; the kernel reaches twice as far
   void weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
@@ -53,15 +50,12 @@ class Deposition {
   };
   struct Scratch;
   void weigh(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
-  bool is_behind_panel(const Vector3& position, const Scratch& scratch, std::array<std::size_t, 3> cell) const;
-  std::optional<std::array<std::size_t, 3>> in_front_of_plates(const Vector3& position, const Scratch& scratch,
-                                                               std::array<std::size_t, 3> cell) const;
+  void find_seen(const Vector3& position, Scratch& scratch) const;
   template <class Body>
   void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
 
   Grid grid_;
-  Domain domain_;
-  std::vector<int> layer_;  // of the faces on which each plate lies
+  const Domain& domain_;
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
 };

@@ -14,7 +14,7 @@ Domain box() {
       {{0, 0, 0},
        {10, 10, 10},
        {FaceKind::wall, FaceKind::wall, FaceKind::symmetry, FaceKind::symmetry, FaceKind::wall, FaceKind::open}},
-      {{.axis = 2, .position = 5, .openings = {{{4, -1, 0}, {6, 11, 0}, false}}}});
+      {Wall("plate", {0, 0, 5}, {10, 0, 5}, {{4, 6}})});
 }
 
 TEST(ParticleDots, AreNormalWithinTwiceH) {

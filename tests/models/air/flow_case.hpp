@@ -36,11 +36,11 @@ struct Case {
   AirState state;
   FaceField impulse;
 
-  Case(const Grid& cells, const Parameters& p, const std::vector<Plate>& plates = {}, int threads = 1)
+  Case(const Grid& cells, const Parameters& p, const std::vector<Wall>& walls = {}, int threads = 1)
       : team(threads),
         grid(cells),
         parameters(p),
-        flow(cells, p, plates),
+        flow(cells, p, walls),
         solids(cells),
         state(cells),
         impulse(cells.face_field()) {}

@@ -197,7 +197,7 @@ Parameters pressed_from_below() {
 TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
   const Parameters p = pressed_from_below();
   const double h = 1e-3;
-  Plate plate{.axis = 2, .position = 8 * h, .openings = {{.low = {3 * h, -1, 0}, .high = {7 * h, 1, 0}, .shut = true}}};
+  Wall plate("plate", {0, 0, 8 * h}, {10 * h, 0, 8 * h}, {{3 * h, 7 * h, true}});
   Case c({.count = {10, 2, 16}, .low = {}, .spacing = {h, h, h}}, p, {plate});
   c.begin();
   c.advance(20e-6, 5);
@@ -205,7 +205,7 @@ TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
   // Shut, each side has the pressure of its opening.
   EXPECT_NEAR(c.state.pressure[c.grid.index(5, 0, 7)], 5, 1e-3);
   EXPECT_NEAR(c.state.pressure[c.grid.index(5, 0, 8)], 0, 1e-3);
-  plate.openings[0].shut = false;
+  plate.open_gates(0);
   c.flow.set_walls({plate});
   c.advance(20e-6, 5);
   for (int i = 0; i < 10; ++i) {
@@ -217,15 +217,15 @@ TEST(AirFlow, APlateHoldsTheAirUntilItsGateOpens) {
   }
 }
 
-/// A panel from wall to wall, at an angle, with a gate in its middle.
-TEST(AirFlow, APanelHoldsTheAirUntilItsGateOpens) {
+/// A wall from face to face, at an angle, with a gate in its middle.
+TEST(AirFlow, AWallAtAnAngleHoldsTheAirUntilItsGateOpens) {
   Parameters p = pressed_from_below();
   p.tolerance = 1e-12;
   const double h = 1e-3;
-  Panel panel{.name = "slope", .from = {0, 0, 4 * h}, .to = {10 * h, 0, 11 * h}};
-  panel.openings = {{.begin = 0.3 * panel.length(), .end = 0.7 * panel.length(), .shut = true}};
+  const double length = h * std::hypot(10, 7);
+  Wall slope("slope", {0, 0, 4 * h}, {10 * h, 0, 11 * h}, {{0.3 * length, 0.7 * length, true}});
   Case c({.count = {10, 2, 16}, .low = {}, .spacing = {h, h, h}}, p);
-  c.flow.set_walls({}, {panel});
+  c.flow.set_walls({slope});
   c.begin();
   c.advance(20e-6, 5);
   const auto flow_through_floor = [&] {
@@ -235,10 +235,10 @@ TEST(AirFlow, APanelHoldsTheAirUntilItsGateOpens) {
   };
   EXPECT_NEAR(flow_through_floor(), 0, 1e-9);
   for_each_cell(c.grid, [&](int i, int j, int k, std::size_t n) {
-    EXPECT_NEAR(c.state.pressure[n], panel.above(c.grid.centre(i, j, k)) < 0 ? 5 : 0, 1e-3);
+    EXPECT_NEAR(c.state.pressure[n], slope.above(c.grid.centre(i, j, k)) < 0 ? 5 : 0, 1e-3);
   });
-  panel.openings[0].shut = false;
-  c.flow.set_walls({}, {panel});
+  slope.open_gates(0);
+  c.flow.set_walls({slope});
   c.advance(20e-6, 5);
   EXPECT_GT(flow_through_floor(), 0.05);
 }

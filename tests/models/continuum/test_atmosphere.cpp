@@ -110,6 +110,34 @@ TEST(Atmosphere, SameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(a.state().air.reynolds_max, b.state().air.reynolds_max);
 }
 
+TEST(Atmosphere, AGateOpensForGrainsAndAirAtOnce) {
+  Parameters p = small_hopper_in_air();
+  p.gate.opens = GateOpens::at_time;
+  p.gate.time = 0.005;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  const Vector3 slit{0.5 * (*p.plate.slit_left + *p.plate.slit_right), 0.5 * p.box.depth, *p.plate.height};
+  const auto through_slit = [&] {
+    const Grid& grid = s.air.grid;
+    std::array<int, 3> cell;
+    for (int axis = 0; axis < 3; ++axis)
+      cell[static_cast<std::size_t>(axis)] = static_cast<int>(slit[axis] / grid.spacing[axis] + 1e-6);
+    return s.air.flow.velocity[2][grid.index(cell[0], cell[1], cell[2])];
+  };
+  const Vector3 up{0, 0, 1e-3};
+  while (s.gate_time < 0) {
+    EXPECT_TRUE(model.domain().blocks(slit - up, slit + up));
+    EXPECT_EQ(through_slit(), 0);
+    model.advance(team);
+  }
+  EXPECT_EQ(model.domain().openings(), 1);
+  EXPECT_FALSE(model.domain().blocks(slit - up, slit + up));
+  for (int n = 0; n < 20; ++n) model.advance(team);
+  EXPECT_NE(through_slit(), 0);
+  EXPECT_EQ(model.domain().openings(), 1);
+}
+
 /// All that a checkpoint holds, in the order of the list of fields.
 std::vector<std::any> kept(const State& state) {
   std::vector<std::any> values;

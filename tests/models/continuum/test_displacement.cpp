@@ -23,7 +23,8 @@ std::vector<SymmetricTensor3<>> strain_of(const Parameters& p, std::vector<Vecto
   const std::vector<Vector3> reset = places;
   for (Vector3& x : places) x.z *= 1 + stretch;
   const std::vector<double> h(places.size(), p.bed.spacing);
-  Neighbourhood around(domain_of(p));
+  const Domain domain = domain_of(p);
+  Neighbourhood around(domain);
   around.build(team, places, h, 0);
   std::vector<SymmetricTensor3<>> strain;
   measure_strain(team, around, places, reset, h, strain);
@@ -51,7 +52,8 @@ TEST(MeasureStrain, ThePlatesTwoSidesDoNotCount) {
   ASSERT_EQ(position.size(), 48u);
   const std::vector<double> h(position.size(), spacing);
   ThreadTeam team(1);
-  Neighbourhood around(domain_of(p));
+  const Domain domain = domain_of(p);
+  Neighbourhood around(domain);
   around.build(team, position, h, 0);
   // Only what is below the plate has moved, as a whole and along it.
   std::vector<Vector3> reset = position;

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -14,10 +17,14 @@ namespace {
 
 using enum FaceKind;
 
+Wall plate(const Box& box, double height, std::vector<Wall::Opening> openings = {}) {
+  return {"plate", {box.low.x, 0, height}, {box.high.x, 0, height}, std::move(openings)};
+}
+
 /// The hopper's domain in units of millimetres: a plate at 100 with a slit from 30 to 70.
 Domain hopper(bool shut = false) {
   const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, open}};
-  return {box, {{.axis = 2, .position = 100, .openings = {{{30, -1, 0}, {70, 6, 0}, shut}}}}};
+  return Domain(box, {plate(box, 100, {{30, 70, shut}})});
 }
 
 std::vector<Vector3> images_of(const Domain& domain, const Vector3& x, double reach) {
@@ -29,12 +36,12 @@ std::vector<Vector3> images_of(const Domain& domain, const Vector3& x, double re
 
 TEST(Images, OfAParticleInTheMiddleOfALargeBoxThereAreNone) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, wall}};
-  EXPECT_TRUE(images_of(Domain(box, {}), {5, 5, 5}, 2).empty());
+  EXPECT_TRUE(images_of(Domain(box), {5, 5, 5}, 2).empty());
 }
 
 TEST(Images, ACornerMakesSeven) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, symmetry, symmetry, wall, wall}};
-  const auto found = images_of(Domain(box, {}), {1, 2, 9}, 3);
+  const auto found = images_of(Domain(box), {1, 2, 9}, 3);
   EXPECT_THAT(found,
               testing::UnorderedElementsAre(Vector3{-1, 2, 9}, Vector3{1, -2, 9}, Vector3{1, 2, 11}, Vector3{-1, -2, 9},
                                             Vector3{-1, 2, 11}, Vector3{1, -2, 11}, Vector3{-1, -2, 11}));
@@ -44,26 +51,26 @@ TEST(Images, InAThinBoxAParticleMeetsAllImagesOfItselfWithinReach) {
   // Mirrors at 0 and 1: images of 0.3 are 2k - 0.3 and 2k + 0.3.
   const Box mirrors{{0, 0, 0}, {100, 1, 100}, {open, open, wall, symmetry, open, open}};
   std::multiset<double> found;
-  for (const Vector3& x : images_of(Domain(mirrors, {}), {50, 0.3, 50}, 2.5)) found.insert(x.y);
+  for (const Vector3& x : images_of(Domain(mirrors), {50, 0.3, 50}, 2.5)) found.insert(x.y);
   EXPECT_THAT(found, testing::ElementsAre(testing::DoubleEq(-2.3), testing::DoubleEq(-1.7), testing::DoubleEq(-0.3),
                                           testing::DoubleEq(1.7), testing::DoubleEq(2.3)));
   const Box periodic_box{{0, 0, 0}, {100, 1, 100}, {open, open, periodic, periodic, open, open}};
   found.clear();
-  for (const Vector3& x : images_of(Domain(periodic_box, {}), {50, 0.3, 50}, 2.5)) found.insert(x.y);
+  for (const Vector3& x : images_of(Domain(periodic_box), {50, 0.3, 50}, 2.5)) found.insert(x.y);
   EXPECT_THAT(found, testing::ElementsAre(testing::DoubleEq(-1.7), testing::DoubleEq(-0.7), testing::DoubleEq(1.3),
                                           testing::DoubleEq(2.3), testing::DoubleEq(3.3)));
 }
 
 TEST(Images, OfOneMirrorOppositeAnOpenFaceThereIsOne) {
   const Box box{{0, 0, 0}, {100, 1, 100}, {open, open, wall, open, open, open}};
-  EXPECT_THAT(images_of(Domain(box, {}), {50, 0.3, 50}, 5), testing::ElementsAre(Vector3{50, -0.3, 50}));
+  EXPECT_THAT(images_of(Domain(box), {50, 0.3, 50}, 5), testing::ElementsAre(Vector3{50, -0.3, 50}));
 }
 
 TEST(Images, ReverseTheNormalVelocityExceptAtPrintedFaces) {
   const Box box{{0, 0, 0}, {10, 3, 10}, {wall, periodic, printed, symmetry, open, open}};
-  EXPECT_THROW(Domain(box, {}), std::invalid_argument);
+  EXPECT_THROW(Domain{box}, std::invalid_argument);
   const Box valid{{0, 0, 0}, {10, 3, 10}, {wall, wall, printed, symmetry, open, open}};
-  for (const Image& image : Domain(valid, {}).images(4)) {
+  for (const Image& image : Domain(valid).images(4)) {
     const Vector3 v = image.vector({1, 1, 1});
     EXPECT_EQ(v.x, image.copy[0] == 0 ? 1 : -1);
     // Copy 1 is mirrored at the symmetry face, -1 at the printed one, 2 and -2 once at each.
@@ -81,30 +88,41 @@ TEST(Images, APlateMirrorsToBothSidesAndWithTheWalls) {
   EXPECT_THAT(found, testing::Contains(Vector3{-1, 7.5, 98}));
 }
 
+bool sees(const Domain& domain, const Vector3& from, const Vector3& to) {
+  return domain.sees(from, to, Image{});
+}
+/// The image in the plate that stands at `to`.
+bool sees_in_plate(const Domain& domain, const Vector3& from, const Vector3& to) {
+  const std::vector<Image> images = domain.images(3);
+  return domain.sees(from, to, *std::find_if(images.begin(), images.end(), [](const Image& image) {
+                       return image.is_in_walls() && image.copy == std::array<std::int8_t, 3>{};
+                     }));
+}
+
 TEST(Sees, ThroughTheSlitButNotThroughThePlate) {
   const Domain domain = hopper();
-  EXPECT_TRUE(domain.sees({50, 2, 101}, {51, 2, 99}));
-  EXPECT_FALSE(domain.sees({20, 2, 101}, {21, 2, 99}));
-  EXPECT_TRUE(domain.sees({20, 2, 101}, {21, 2, 101.5}));
+  EXPECT_TRUE(sees(domain, {50, 2, 101}, {51, 2, 99}));
+  EXPECT_FALSE(sees(domain, {20, 2, 101}, {21, 2, 99}));
+  EXPECT_TRUE(sees(domain, {20, 2, 101}, {21, 2, 101.5}));
   Domain shut = hopper(true);
-  EXPECT_FALSE(shut.sees({50, 2, 101}, {51, 2, 99}));
+  EXPECT_FALSE(sees(shut, {50, 2, 101}, {51, 2, 99}));
   EXPECT_TRUE(shut.has_gates_due(0));
   shut.open_gates(0);
   EXPECT_FALSE(shut.has_gates_due(0));
-  EXPECT_TRUE(shut.sees({50, 2, 101}, {51, 2, 99}));
+  EXPECT_TRUE(sees(shut, {50, 2, 101}, {51, 2, 99}));
   // At the edge it is where the line between the two passes the plane that counts.
-  EXPECT_TRUE(domain.sees({29.5, 2, 101}, {30.7, 2, 99}));
-  EXPECT_FALSE(domain.sees({29.5, 2, 101}, {30.4, 2, 99}));
+  EXPECT_TRUE(sees(domain, {29.5, 2, 101}, {30.7, 2, 99}));
+  EXPECT_FALSE(sees(domain, {29.5, 2, 101}, {30.4, 2, 99}));
   // Beyond a side wall the plate goes on.
-  EXPECT_FALSE(domain.sees({1, 2, 101}, {-1, 2, 99}));
+  EXPECT_FALSE(sees(domain, {1, 2, 101}, {-1, 2, 99}));
 }
 
 TEST(Sees, AnImageInThePlateWhereThePlateIs) {
   const Domain domain = hopper();
-  EXPECT_TRUE(domain.sees({20, 2, 101}, {20, 2, 99}, 0));    // its own image
-  EXPECT_FALSE(domain.sees({50, 2, 101}, {50, 2, 99}, 0));   // over the slit there is no mirror
-  EXPECT_FALSE(domain.sees({20, 2, 99}, {20, 2, 99.5}, 0));  // an image of the other side
-  EXPECT_TRUE(domain.sees({1, 2, 101}, {-1, 2, 99}, 0));     // mirrored by side wall and plate
+  EXPECT_TRUE(sees_in_plate(domain, {20, 2, 101}, {20, 2, 99}));    // its own image
+  EXPECT_FALSE(sees_in_plate(domain, {50, 2, 101}, {50, 2, 99}));   // over the slit there is no mirror
+  EXPECT_FALSE(sees_in_plate(domain, {20, 2, 99}, {20, 2, 99.5}));  // an image of the other side
+  EXPECT_TRUE(sees_in_plate(domain, {1, 2, 101}, {-1, 2, 99}));     // mirrored by side wall and plate
 }
 
 TEST(Sees, EveryNeighbourEitherItselfOrItsImageAndAlikeFromBothEnds) {
@@ -117,19 +135,76 @@ TEST(Sees, EveryNeighbourEitherItselfOrItsImageAndAlikeFromBothEnds) {
     const Vector3 a{random.uniform(20, 40), random.uniform(0, 5), random.uniform(97, 103)};
     const Vector3 b{random.uniform(20, 40), random.uniform(0, 5), random.uniform(97, 103)};
     const Vector3 image_a{a.x, a.y, 200 - a.z}, image_b{b.x, b.y, 200 - b.z};
-    EXPECT_EQ(domain.sees(a, b), domain.sees(b, a));
-    EXPECT_EQ(domain.sees(a, image_b, 0), domain.sees(b, image_a, 0));
+    EXPECT_EQ(sees(domain, a, b), sees(domain, b, a));
+    EXPECT_EQ(sees_in_plate(domain, a, image_b), sees_in_plate(domain, b, image_a));
     const bool same_side = (a.z > 100) == (b.z > 100);
     if (same_side) {
-      EXPECT_TRUE(domain.sees(a, b));
-      mirrored += domain.sees(a, image_b, 0);
+      EXPECT_TRUE(sees(domain, a, b));
+      mirrored += sees_in_plate(domain, a, image_b);
     } else {
-      EXPECT_FALSE(domain.sees(a, image_b, 0));
-      through += domain.sees(a, b);
+      EXPECT_FALSE(sees_in_plate(domain, a, image_b));
+      through += sees(domain, a, b);
     }
   }
   EXPECT_GT(through, 2000);
   EXPECT_GT(mirrored, 2000);
+}
+
+TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {
+  // Whether the way to an image is followed or read off the place where it meets the plate: the same images are seen.
+  const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, wall}};
+  const Wall slit = plate(box, 100, {{30, 70}});
+  const Domain layered(box, {slit}), followed(box, {slit}, 101);
+  ASSERT_EQ(layered.largest_reach(), 100);
+  ASSERT_NE(followed.largest_reach(), 100);
+  constexpr double reach = 8;
+  const auto seen = [&](const Domain& domain, const Vector3& own, const Vector3& source) {
+    std::vector<std::array<double, 3>> places;
+    for (const Image& image : domain.images(reach)) {
+      const Vector3 x = image.position(source);
+      if (domain.is_near(image, x, reach) && norm(x - own) < reach && domain.sees(own, x, image))
+        places.push_back({std::round(x.x * 1e6), std::round(x.y * 1e6), std::round(x.z * 1e6)});
+    }
+    if (domain.sees(own, source, Image{})) places.push_back({});
+    std::sort(places.begin(), places.end());
+    return places;
+  };
+  Random random(4);
+  std::size_t most = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const double x = n % 2 == 0 ? random.uniform(0, 8) : random.uniform(25, 35);
+    const Vector3 own{x, random.uniform(0, 5), random.uniform(94, 106)};
+    const Vector3 source{std::abs(x + random.uniform(-4, 4)), random.uniform(0, 5), random.uniform(94, 106)};
+    const auto places = seen(layered, own, source);
+    ASSERT_EQ(places, seen(followed, own, source)) << own.x << ' ' << own.z << " to " << source.x << ' ' << source.z;
+    most = std::max(most, places.size());
+    const auto end = layered.end_of_line(own, source), same = followed.end_of_line(own, source);
+    ASSERT_TRUE(end && same);
+    EXPECT_NEAR(end->x, same->x, 1e-9);
+    EXPECT_NEAR(end->z, same->z, 1e-9);
+    const auto bounce = layered.bounce(own, source), other = followed.bounce(own, source);
+    ASSERT_EQ(bounce.has_value(), other.has_value());
+    if (bounce) {
+      EXPECT_EQ(bounce->image.position(source), other->image.position(source));
+    }
+  }
+  EXPECT_GT(most, 5u);
+}
+
+TEST(Loads, OfAnImageGoToTheBoundariesThatMakeIt) {
+  const Domain domain = hopper();
+  for (const Image& image : domain.images(3)) {
+    std::vector<int> expected, found;
+    for (int axis = 0; axis < 3; ++axis)
+      if (const int side = image.side[static_cast<std::size_t>(axis)]) expected.push_back(face_number(axis, side > 0));
+    if (image.is_in_walls()) expected.push_back(wall_number(0));
+    for (const Domain::Load& load : domain.loads(image)) {
+      if (load.wall < 0) break;
+      found.push_back(load.wall);
+      EXPECT_EQ(load.part, domain.normal(load.wall));
+    }
+    EXPECT_EQ(found, expected);
+  }
 }
 
 TEST(Bounce, ReflectsAtWallsAndAtThePlateButNotInTheSlit) {
@@ -138,7 +213,7 @@ TEST(Bounce, ReflectsAtWallsAndAtThePlateButNotInTheSlit) {
   EXPECT_FALSE(domain.bounce({20, 2, 101}, {20, 2, 100.5}));
   const auto at_plate = domain.bounce({20, 2, 100.1}, {20.5, 2, 99.8});
   ASSERT_TRUE(at_plate);
-  EXPECT_EQ(at_plate->wall, wall_of_plate(0));
+  EXPECT_EQ(at_plate->wall, wall_number(0));
   EXPECT_EQ(at_plate->image.position({20.5, 2, 99.8}), (Vector3{20.5, 2, 100.2}));
   EXPECT_EQ(at_plate->image.vector({1, 2, -3}), (Vector3{1, 2, 3}));
   const auto from_below = domain.bounce({20, 2, 99.9}, {20, 2, 100});
@@ -152,7 +227,7 @@ TEST(Bounce, ReflectsAtWallsAndAtThePlateButNotInTheSlit) {
 
 TEST(Domain, FoldsIntoTheBoxAndWrapsPeriodicFaces) {
   const Box box{{0, 0, 0}, {10, 1, 10}, {wall, wall, symmetry, symmetry, periodic, periodic}};
-  const Domain domain(box, {});
+  const Domain domain(box);
   const Vector3 folded = domain.fold({-1, 3.3, 12});
   EXPECT_DOUBLE_EQ(folded.x, 1);
   EXPECT_NEAR(folded.y, 0.7, 1e-14);
@@ -163,11 +238,15 @@ TEST(Domain, FoldsIntoTheBoxAndWrapsPeriodicFaces) {
 TEST(Domain, KnowsHowFarItsImagesReach) {
   EXPECT_EQ(hopper().largest_reach(), 100);
   const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, open}};
-  const Domain two(box, {{.axis = 2, .position = 100, .openings = {}}, {.axis = 2, .position = 110, .openings = {}}});
+  const Domain two(box, {plate(box, 100), plate(box, 110)});
   EXPECT_EQ(two.largest_reach(), 10);
-  EXPECT_THROW(Domain(box, {{.axis = 2, .position = 300, .openings = {}}}), std::invalid_argument);
-  EXPECT_THROW(Domain(box, {{.axis = 2, .position = 100, .openings = {}}, {.axis = 0, .position = 50, .openings = {}}}),
-               std::invalid_argument);
+  // Walls that are no layers are followed, however near.
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Domain(box, {plate(box, 100), plate(box, 110)}, 11).largest_reach(), endless);
+  EXPECT_EQ(Domain(box, {plate(box, 300)}).largest_reach(), endless);
+  EXPECT_EQ(Domain(box, {plate(box, 100), Wall("upright", {50, 0, 0}, {50, 0, 250})}).largest_reach(), endless);
+  EXPECT_EQ(Domain(box, {Wall("short", {0, 0, 100}, {99, 0, 100})}).largest_reach(), endless);
+  EXPECT_EQ(Domain(box, {Wall("to the open top", {50, 0, 0}, {50, 0, 250})}).largest_reach(), endless);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Panels: what blocks, who sees which image, and that nothing gets through.
+/// Walls at any angle: what blocks, who sees which image, and that nothing gets through.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,22 +24,19 @@ Box box_of(double width, double height, FaceKind side = wall) {
 /// A wedge of half angle 30 degrees with an outlet of 20 at z = 50, in a box 100 wide.
 Domain wedge(bool shut = false) {
   const double top = 50 + 40 / std::tan(30 * degree);
-  return {box_of(100, 250),
-          {},
-          {{.name = "left", .from = {40, 0, 50}, .to = {0, 0, top}},
-           {.name = "right", .from = {60, 0, 50}, .to = {100, 0, top}},
-           {.name = "gate", .from = {40, 0, 50}, .to = {60, 0, 50}, .openings = {{-100, 200, shut}}}}};
+  return Domain(box_of(100, 250), {{"left", {40, 0, 50}, {0, 0, top}},
+                                   {"right", {60, 0, 50}, {100, 0, top}},
+                                   {"gate", {40, 0, 50}, {60, 0, 50}, {{-100, 200, shut}}}});
 }
 
 /// Two walls that meet at (50, 50), the one downwards, the other at that angle from it; the corner is to the right.
 Domain corner(double angle) {
-  return {box_of(100, 100, open),
-          {},
-          {{.name = "one", .from = {50, 0, 50}, .to = {50, 0, 0}},
-           {.name = "other", .from = {50, 0, 50}, .to = {50 + 45 * std::sin(angle), 0, 50 - 45 * std::cos(angle)}}}};
+  return Domain(box_of(100, 100, open),
+                {{"one", {50, 0, 50}, {50, 0, 0}},
+                 {"other", {50, 0, 50}, {50 + 45 * std::sin(angle), 0, 50 - 45 * std::cos(angle)}}});
 }
 
-TEST(Panel, BlocksWhereItIsSolidAndAlikeFromBothEnds) {
+TEST(Wall, BlocksWhereItIsSolidAndAlikeFromBothEnds) {
   const Domain domain = wedge();
   EXPECT_TRUE(domain.blocks({30, 2, 60}, {40, 2, 70}));
   EXPECT_FALSE(domain.blocks({45, 2, 60}, {50, 2, 70}));
@@ -58,11 +55,9 @@ TEST(Panel, BlocksWhereItIsSolidAndAlikeFromBothEnds) {
   EXPECT_GT(blocked, 2000);
 }
 
-TEST(Panel, OpensItsGatesAtTheirTimes) {
-  Domain domain(
-      box_of(100, 100), {},
-      {{.name = "one", .from = {0, 0, 30}, .to = {100, 0, 30}, .openings = {{40, 60, true, 0}}},
-       {.name = "two", .from = {0, 0, 60}, .to = {100, 0, 60}, .openings = {{40, 60, true, 0.2}, {70, 80, false}}}});
+TEST(Wall, OpensItsGatesAtTheirTimes) {
+  Domain domain(box_of(100, 100), {{"one", {0, 0, 30}, {100, 0, 30}, {{40, 60, true, 0}}},
+                                   {"two", {0, 0, 60}, {100, 0, 60}, {{40, 60, true, 0.2}, {70, 80, false}}}});
   EXPECT_TRUE(domain.blocks({50, 1, 29}, {50, 1, 31}));
   EXPECT_FALSE(domain.blocks({75, 1, 59}, {75, 1, 61}));
   EXPECT_TRUE(domain.has_gates_due(0.1));
@@ -77,11 +72,11 @@ TEST(Panel, OpensItsGatesAtTheirTimes) {
   EXPECT_FALSE(domain.blocks({50, 1, 59}, {50, 1, 61}));
 }
 
-TEST(Panel, MirrorsPlacesVelocitiesAndStresses) {
-  const Domain domain(box_of(100, 100, open), {}, {{.name = "slope", .from = {0, 0, 50}, .to = {50, 0, 0}}});
+TEST(Wall, MirrorsPlacesVelocitiesAndStresses) {
+  const Domain domain(box_of(100, 100, open), {{"slope", {0, 0, 50}, {50, 0, 0}}});
   const std::vector<Image> images = domain.images(1);
   const auto image =
-      std::find_if(images.begin(), images.end(), [](const Image& i) { return i.is_in_panels() && i.copy[1] == 0; });
+      std::find_if(images.begin(), images.end(), [](const Image& i) { return i.is_in_walls() && i.copy[1] == 0; });
   ASSERT_NE(image, images.end());
   const Vector3 x = image->position({30, 2, 25});  // the line is x + z = 50
   EXPECT_NEAR(x.x, 25, 1e-12);
@@ -117,13 +112,13 @@ void expect_one_image_everywhere(double angle) {
     for (const Image& image : images) {
       if (image.copy[1] != 0) continue;
       const Vector3 source = image.source(place);
-      if (!domain.sees(own, source, image)) continue;
+      if (!domain.sees(own, place, image)) continue;
       ++held;
       EXPECT_TRUE(domain.is_near(image, place, reach));
       // The other way round: the source sees this particle's image, by the mirrors in opposite order.
       const bool seen_back = std::any_of(images.begin(), images.end(), [&](const Image& other) {
         const Vector3 x = other.position(own);
-        return other.copy[1] == 0 && std::abs(norm(x - source) - far) < 1e-9 && domain.sees(source, own, other);
+        return other.copy[1] == 0 && std::abs(norm(x - source) - far) < 1e-9 && domain.sees(source, x, other);
       });
       EXPECT_TRUE(seen_back);
     }
@@ -134,12 +129,12 @@ void expect_one_image_everywhere(double angle) {
   EXPECT_GT(through_walls, 500);
 }
 
-TEST(Panels, FillEveryCornerWithImagesOnce) {
+TEST(Walls, FillEveryCornerWithImagesOnce) {
   for (const double angle : {60.5, 75.0, 90.0, 110.0, 120.0, 150.0, 175.0, 240.0})
     expect_one_image_everywhere(angle * degree);
 }
 
-TEST(Panels, MeetTheFacesOfTheBox) {
+TEST(Walls, MeetTheFacesOfTheBox) {
   // Where the wedge meets the side wall, and where a chute ends at the right wall above the floor.
   const Domain domain = wedge();
   const double top = 50 + 40 / std::tan(30 * degree);
@@ -152,29 +147,30 @@ TEST(Panels, MeetTheFacesOfTheBox) {
     if (norm(place - own) > 6) continue;
     int held = place.x > 0 && !domain.blocks(own, place);
     for (const Image& image : images)
-      if (image.copy[1] == 0) held += domain.sees(own, image.source(place), image);
+      if (image.copy[1] == 0) held += domain.sees(own, place, image);
     EXPECT_EQ(held, 1);
     ++seen;
   }
   EXPECT_GT(seen, 2000);
 }
 
-TEST(Panels, HideTheirTwoSidesFromEachOther) {
+TEST(Walls, HideTheirTwoSidesFromEachOther) {
   const Domain domain = wedge();
   const Vector3 inside{42, 2, 56}, outside{34, 2, 56};
   ASSERT_TRUE(domain.blocks(inside, outside));
   for (const Image& image : domain.images(12))
-    EXPECT_FALSE(domain.is_near(image, image.position(outside), 12) && domain.sees(inside, outside, image));
+    EXPECT_FALSE(domain.is_near(image, image.position(outside), 12) &&
+                 domain.sees(inside, image.position(outside), image));
   EXPECT_FALSE(domain.sees(inside, outside, Image{}));
 }
 
-TEST(Panels, TurnBackWhatWouldPassButNotInTheOutlet) {
+TEST(Walls, TurnBackWhatWouldPassButNotInTheOutlet) {
   const Domain domain = wedge();
   EXPECT_FALSE(domain.bounce({50, 2, 51}, {50, 2, 49}));
   const Vector3 from{42, 2, 55}, to{36, 2, 54};
   const auto bounce = domain.bounce(from, to);
   ASSERT_TRUE(bounce);
-  EXPECT_EQ(bounce->wall, wall_of_plate(0));
+  EXPECT_EQ(bounce->wall, wall_number(0));
   EXPECT_FALSE(domain.blocks(from, bounce->image.position(to)));
   // Momentum is taken along the normal alone.
   const Vector3 v{-1, 0.3, -2}, lost = v - bounce->image.vector(v);
@@ -182,11 +178,24 @@ TEST(Panels, TurnBackWhatWouldPassButNotInTheOutlet) {
   EXPECT_NEAR(norm(bounce->image.vector(v)), norm(v), 1e-14);
 }
 
-TEST(Panels, DoNotGoWithPlatesNorWithoutLength) {
-  EXPECT_THROW(Domain(box_of(1, 1), {}, {{.name = "", .from = {1, 0, 1}, .to = {1, 3, 1}}}), std::invalid_argument);
-  EXPECT_THROW(
-      Domain(box_of(1, 1), {{.axis = 2, .position = 0.5, .openings = {}}}, {{.name = "", .from = {}, .to = {1, 0, 1}}}),
-      std::invalid_argument);
+TEST(Wall, HasALengthAndItsOwnSidesWhereverItPoints) {
+  EXPECT_THROW(Wall("", {1, 0, 1}, {1, 3, 1}), std::invalid_argument);
+  for (const double turn : {0.0, 90.0, 180.0, 270.0, 30.0, 200.0}) {
+    const Vector3 along{std::round(std::cos(turn * degree) * 1e12) / 1e12, 0,
+                        std::round(std::sin(turn * degree) * 1e12) / 1e12};
+    const Wall wall("", {3, 0, 4}, Vector3{3, 0, 4} + 5 * along, {{1, 2}});
+    EXPECT_NEAR(wall.length(), 5, 1e-11);
+    EXPECT_EQ(wall.axis(), turn == 0 || turn == 180 ? 2 : turn == 90 || turn == 270 ? 0 : -1);
+    const auto at = [&](double s, double n) { return wall.from() + s * wall.direction() + n * wall.normal(); };
+    EXPECT_NEAR(wall.above(at(2, 0.5)), 0.5, 1e-14);
+    EXPECT_TRUE(wall.is_above(at(2, 0.5)) && !wall.is_above(at(2, -0.5)));
+    EXPECT_NEAR(wall.distance(at(2, -0.5)), 0.5, 1e-14);
+    EXPECT_NEAR(wall.distance(at(8, 4)), 5, 1e-11) << "beyond its end";
+    EXPECT_TRUE(wall.is_solid(at(0.9, 0)) && !wall.is_solid(at(1.1, 1)) && !wall.is_solid(at(5.1, 0)));
+    ASSERT_TRUE(wall.meets(at(3, 1), at(3, -3)));
+    EXPECT_NEAR(*wall.meets(at(3, 1), at(3, -3)), 0.25, 1e-14);
+    EXPECT_FALSE(wall.meets(at(1.5, 1), at(1.5, -3)));
+  }
 }
 
 }  // namespace

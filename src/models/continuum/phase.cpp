@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/phase.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+/// Whether a particle in a free surface is as loose as the kernel, half empty there, says it is. Eq. 16 keeps what
+/// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
+/// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
+/// tension would pull its own skin in; its surfaces stay surfaces.
+bool is_loose_where_free(const Parameters& p, const Material& material) {
+  return p.sph.continuity == Continuity::printed && !material.bears_tension();
+}
+
+/// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
+void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  const double time = s.time - s.gate_time;
+  if (!w.domain.has_gates_due(time)) return;
+  evaluate(team, p, s, w);
+  const std::vector<double> before = w.rates.kernel_density;
+  w.domain.open_gates(time);
+  if (!is_loose_where_free(p, w.material)) return;
+  evaluate(team, p, s, w);
+  for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += w.rates.kernel_density[i] - before[i]; });
+}
+
+}  // namespace
+
+void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  if (!is_loose_where_free(p, w.material)) return;
+  evaluate(team, p, s, w);
+  const double bed = p.bed.packing * p.grains.density;
+  for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });
+  measure(team, s, w);
+  find_neighbours(team, p, s, w);
+}
+
+void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  const double limit = p.settle.speed * p.settle.speed;
+  const auto moving = reduce(
+      team, s.velocity.size(), std::size_t{0},
+      [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
+      [](std::size_t a, std::size_t b) { return a + b; });
+  const bool quiet = s.time >= w.loading_time && 100 * moving <= s.velocity.size();
+  if (!quiet) s.quiet_time = -1;
+  if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
+  if (s.gate_time >= 0) return open_gates(team, p, s, w);
+  const bool settled = quiet && s.time - s.quiet_time >= p.settle.duration;
+  if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
+    s.gate_time = s.time;
+    open_gates(team, p, s, w);
+  } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
+    throw NumericalError(
+        {.what = "the bed has not settled",
+         .term = fmt::format("{} of {} particles are faster than settle.speed", moving, s.velocity.size()),
+         .place = "the bed",
+         .step = s.step,
+         .time = s.time,
+         .advice = "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
+                   "inclined walls, walls.friction_from = \"start\""});
+  }
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/possible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+/// A particle of no or of hardly any density reaches past plates and faces; one that jumps over its neighbours in a
+/// step was thrown by stresses that cannot be.
+struct Possible {
+  double least_density;  // kg/m^3
+  double most_speed;     // m/s
+
+  Possible(const Parameters& p, const Domain& domain, const State& s, double dt)
+      : least_density(p.sph.smoothing == Smoothing::fixed
+                          ? 0
+                          : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing), -3)),
+        most_speed(p.bed.spacing / dt) {}
+
+  bool density(double value) const { return value > least_density && std::isfinite(value); }
+  bool velocity(const Vector3& v) const { return norm(v) <= most_speed; }
+};
+
+[[noreturn]] void give_up(const Parameters& p, const State& s, const Possible& possible, std::size_t i) {
+  const Vector3& x = s.position[i];
+  const bool density = !possible.density(s.density[i]);
+  const double speed = norm(s.velocity[i]);
+  throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
+                                : std::isfinite(speed)
+                                    ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
+                                    : "the velocity is not finite",
+                        .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+                        .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z),
+                        .step = s.step,
+                        .time = s.time,
+                        .advice = fmt::format("a smaller {}, a larger sph.viscosity_alpha",
+                                              p.integration.step ? "integration.step" : "integration.courant")});
+}
+
+}  // namespace
+
+void check_possible(ThreadTeam& team, const Parameters& p, const Domain& domain, const State& s, double dt) {
+  const Possible possible(p, domain, s, dt);
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  const std::size_t worst = reduce(
+      team, s.position.size(), none,
+      [&](std::size_t i) { return possible.velocity(s.velocity[i]) && possible.density(s.density[i]) ? none : i; },
+      [](std::size_t a, std::size_t b) { return std::min(a, b); });
+  if (worst != none) give_up(p, s, possible, worst);
+}
+
+}  // namespace talus::continuum

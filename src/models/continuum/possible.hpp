@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Whether the state after a step can be.
+#pragma once
+
+#include "base/parallel.hpp"
+#include "models/continuum/parameters.hpp"
+#include "models/continuum/state.hpp"
+#include "numerics/geometry/domain.hpp"
+
+namespace talus::continuum {
+
+/// \param dt length of the step that led here, s
+/// \throws NumericalError for a density or velocity that is not finite, or that no step of this length can have made
+void check_possible(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const State& state,
+                    double dt);
+
+}  // namespace talus::continuum

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/workspace.hpp"
+
+#include <cmath>
+
+#include "models/continuum/loading.hpp"
+#include "models/continuum/sort.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr std::uint64_t builds_between_sorts = 16;
+
+}  // namespace
+
+Workspace::Workspace(const Parameters& parameters, const State& state)
+    : domain(domain_of(parameters)),
+      material(parameters),
+      sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
+      loading_time(continuum::loading_time(parameters, sound_speed)),
+      sweep(parameters, domain, state.mass, sound_speed),
+      air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain) : nullptr),
+      position(state.position.size()),
+      velocity(state.position.size()),
+      density(state.position.size()),
+      columns(state.material),
+      smoothing_length(state.position.size()) {}
+
+void measure(ThreadTeam& team, const State& s, Workspace& w) {
+  for_each(team, s.position.size(),
+           [&](std::size_t i) { w.smoothing_length[i] = w.sweep.smoothing_length(s.density[i]); });
+}
+
+void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  if (s.list_builds % builds_between_sorts == 0) {
+    sort_for_locality(s, sph::support * p.bed.spacing);
+    measure(team, s, w);
+  }
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const Vector3 wrapped = w.domain.wrap(s.position[i]);
+    if (!s.reset_position.empty()) s.reset_position[i] += wrapped - s.position[i];
+    s.position[i] = wrapped;
+  }
+  s.list_position = s.position;
+  s.list_smoothing_length = w.smoothing_length;
+  ++s.list_builds;
+  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
+}
+
+void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  const bool all = p.integration.method == Method::runge_kutta;
+  w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? Wanted::all : Wanted::forces, w.rates);
+  s.packing.resize(s.position.size());
+  s.strain.resize(s.position.size());
+  for_each(team, s.position.size(), [&](std::size_t i) {
+    s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
+    s.strain[i] = w.material.strain(s.material, i);
+  });
+}
+
+void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {
+  s.shear_rate.resize(s.position.size());
+  for_each(team, s.position.size(), [&](std::size_t i) {
+    const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
+    s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
+  });
+}
+
+}  // namespace talus::continuum
