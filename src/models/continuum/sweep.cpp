@@ -33,7 +33,7 @@ void Rates::resize(std::size_t count) {
   density_rate.resize(count);
   velocity_gradient.resize(count);
   kernel_density.resize(count);
-  wall_push.resize(count);
+  wall_acceleration.resize(count);
 }
 
 Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
@@ -171,7 +171,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted w
     }
     if (wanted == Wanted::gradients) return;
     Vector3 all;
-    std::array<double, most_walls> push{};
+    std::array<double, most_walls> by_wall{};
     for (std::size_t g = 0; g < acceleration.size(); ++g) {
       all += Vector3{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
       const std::int32_t image = groups_[first_group_[i] + g].image;
@@ -179,12 +179,12 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted w
       const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
       for (const Domain::Load& load : loads_[static_cast<std::size_t>(image)]) {
         if (load.wall < 0) break;
-        push[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
+        by_wall[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
       }
     }
     rates.acceleration[i] = all;
     rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
-    rates.wall_push[i] = push;
+    rates.wall_acceleration[i] = by_wall;
   });
 }
 

@@ -26,7 +26,7 @@ struct Rates {
   std::vector<double> kernel_density;        ///< sum of m W over particles and images, kg/m^3
   /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's normal, m/s^2. What
   /// images do along a wall cancels in the sum over all particles.
-  std::vector<std::array<double, most_walls>> wall_push;
+  std::vector<std::array<double, most_walls>> wall_acceleration;
 
   void resize(std::size_t count);
 };

@@ -19,12 +19,13 @@ Impulses sum(Impulses a, const Impulses& b) {
 
 /// The velocity of a particle after a boundary has rubbed it.
 Vector3 rubbed(const Parameters& p, const Domain& domain, int wall, const State& state, std::size_t i,
-               const Vector3& position, double push, double duration) {
+               const Vector3& position, double normal_acceleration, double duration) {
   const Vector3 n = domain.normal(wall), velocity = state.velocity[i];
   const Vector3 through = dot(velocity, n) * n;
   const Vector3 along = velocity - through;
   if (p.walls.friction == Friction::coulomb)
-    return through + sph::coulomb_friction(along, domain.side(wall, position) * push * duration, p.walls.coefficient);
+    return through + sph::coulomb_friction(along, domain.side(wall, position) * normal_acceleration * duration,
+                                           p.walls.coefficient);
   if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass, state.density[i]) ||
       !domain.is_beside(wall, position))
     return velocity;
@@ -46,15 +47,15 @@ void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, con
                 std::span<const Vector3> position, double duration, State& state) {
   const bool rough = is_rough(p, state);
   const auto meet = [&](std::size_t i, Impulses& received) {
-    const std::array<double, most_walls>& push = rates.wall_push[i];
+    const std::array<double, most_walls>& normal_acceleration = rates.wall_acceleration[i];
     for (int wall = 0; wall < domain.wall_count(); ++wall)
-      if (const auto w = static_cast<std::size_t>(wall); push[w] != 0)
-        received[w] -= (state.mass * duration * push[w]) * domain.normal(wall);
+      if (const auto w = static_cast<std::size_t>(wall); normal_acceleration[w] != 0)
+        received[w] -= (state.mass * duration * normal_acceleration[w]) * domain.normal(wall);
     if (!rough) return;
     for (int wall = 0; wall < domain.wall_count(); ++wall) {
       const auto w = static_cast<std::size_t>(wall);
-      if ((p.walls.friction == Friction::coulomb && push[w] == 0) || !domain.is_solid(wall)) continue;
-      const Vector3 after = rubbed(p, domain, wall, state, i, position[i], push[w], duration);
+      if ((p.walls.friction == Friction::coulomb && normal_acceleration[w] == 0) || !domain.is_solid(wall)) continue;
+      const Vector3 after = rubbed(p, domain, wall, state, i, position[i], normal_acceleration[w], duration);
       received[w] += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
     }

@@ -16,7 +16,7 @@ namespace talus::continuum {
 bool is_rough(const Parameters& parameters, const State& state);
 
 /// After velocities have changed by rates over `duration`: counts the load of the walls in state.wall_impulse, and rubs
-/// the particles that the walls push.
+/// friction to the particles that press against them.
 /// \param position where the rates were evaluated, m
 void meet_walls(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const Rates& rates,
                 std::span<const Vector3> position, double duration, State& state);

@@ -16,7 +16,7 @@ inline namespace TALUS_INSTRUCTION_SET {
 
 using Number = SimdVector<double>;
 
-struct LaneVector {
+struct SimdVector3 {
   Number x, y, z;
 };
 
@@ -36,7 +36,7 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
   std::uint32_t begin = 0;
   for (int group = 0; group < neighbours.groups; ++group) {
     const std::uint32_t end = neighbours.group_end[group];
-    LaneVector push{zero, zero, zero};
+    SimdVector3 sum{zero, zero, zero};
     for (std::uint32_t first = begin; first < end; first += Number::lanes) {
       Number other[16];
       load_columns(
@@ -45,10 +45,10 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
             return records[n < end ? neighbours.record[n] : neighbours.nobody].position;
           },
           other);
-      const LaneVector d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
-                         other[2] - Number(own.position[2])};
-      const LaneVector du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
-                          other[5] - Number(own.velocity[2])};
+      const SimdVector3 d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
+                          other[2] - Number(own.position[2])};
+      const SimdVector3 du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
+                           other[5] - Number(own.velocity[2])};
       const Number h = 0.5 * (Number(own.smoothing_length) + other[6]);
       const Number square = d.x * d.x + d.y * d.y + d.z * d.z;
       const Number inverse_h = 1.0 / h;
@@ -68,13 +68,13 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
         const SymmetricTensor3<Number> stress{other[8] + Number(s[0]),  other[9] + Number(s[1]),
                                               other[10] + Number(s[2]), other[11] + Number(s[3]),
                                               other[12] + Number(s[4]), other[13] + Number(s[5])};
-        const LaneVector a = sph::acceleration(constants.mass, slope, d, stress, viscosity);
-        push = {push.x + a.x, push.y + a.y, push.z + a.z};
+        const SimdVector3 a = sph::acceleration(constants.mass, slope, d, stress, viscosity);
+        sum = {sum.x + a.x, sum.y + a.y, sum.z + a.z};
       }
     }
     if constexpr (forces)
-      acceleration[group][0] = total(push.x), acceleration[group][1] = total(push.y),
-      acceleration[group][2] = total(push.z);
+      acceleration[group][0] = total(sum.x), acceleration[group][1] = total(sum.y),
+      acceleration[group][2] = total(sum.z);
     begin = end;
   }
   if constexpr (gradients) {
