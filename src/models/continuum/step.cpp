@@ -70,7 +70,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     step.density();
     step.stress();
   }
-  turn_back(team, w.material, w.domain, w.position, s);
+  reflect_at_walls(team, w.material, w.domain, w.position, s);
   step.damping();
   step.clock();
   check_possible(team, p, w.domain, s, dt);
@@ -179,7 +179,7 @@ void Step::stress() const {
 
 /// Friction, and the load of the walls.
 void Step::walls(double duration) const {
-  meet_walls(team, p, w.domain, w.rates, w.position, duration, s);
+  apply_wall_friction(team, p, w.domain, w.rates, w.position, duration, s);
 }
 
 void Step::damping() const {
