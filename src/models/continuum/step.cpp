@@ -29,7 +29,7 @@ struct Step {
   void air() const;
   void half() const;
   void gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
-                Wanted wanted) const;
+                SweepTerms terms) const;
   void momentum(double duration, double time) const;
   void drift(double duration, std::span<const Vector3> velocity) const;
   void density() const;
@@ -51,7 +51,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (p.integration.method == Method::runge_kutta) {
     // The explicit midpoint rule.
     step.half();
-    step.gradient(w.velocity, w.density, w.columns, Wanted::all);
+    step.gradient(w.velocity, w.density, w.columns, SweepTerms::all);
     step.drift(dt, w.velocity);
     step.momentum(dt, s.time + 0.5 * dt);
     step.density();
@@ -65,7 +65,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     w.position = s.position;
     step.walls(kick);
     for_each(team, s.position.size(), [&](std::size_t i) { w.position[i] += (0.5 * dt) * s.velocity[i]; });
-    step.gradient(s.velocity, s.density, s.material, Wanted::gradients);
+    step.gradient(s.velocity, s.density, s.material, SweepTerms::gradients);
     step.drift(dt, s.velocity);
     step.density();
     step.stress();
@@ -134,10 +134,10 @@ void Step::half() const {
                     false);
 }
 
-/// Velocity gradient and rate of the density in the middle of the step, and the acceleration there if it is wanted.
+/// Velocity gradient and rate of the density in the middle of the step, and the acceleration there if it is terms.
 void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
-                    Wanted wanted) const {
-  w.sweep(team, {w.position, velocity, density, material}, wanted, w.rates);
+                    SweepTerms terms) const {
+  w.sweep(team, {w.position, velocity, density, material}, terms, w.rates);
 }
 
 /// Eq. 17. \param duration of the force of stress and gravity, that of the air's is dt, s; \param time of gravity, s

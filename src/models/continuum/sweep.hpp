@@ -50,10 +50,10 @@ class Sweep {
 
   /// Builds the neighbour lists.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
-  const Neighbourhood& neighbourhood() const { return around_; }
+  const Neighbourhood& neighbourhood() const { return neighbourhood_; }
 
-  /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
-  void operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates);
+  /// Packs the records, then computes the rates that are terms. The density's follow both from gradients.
+  void operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates);
 
  private:
   struct Group {
@@ -72,10 +72,10 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;  // by what is wanted
-  Neighbourhood around_;
+  std::array<SumNeighbours, 3> sum_;  // by what is terms
+  Neighbourhood neighbourhood_;
   std::vector<std::array<Domain::Load, 3>> loads_;  // by image
-  std::vector<ParticleRecord> records_;             // particles, images, nobody
+  std::vector<ParticleRecord> records_;             // particles, images, padding
   std::vector<Group> groups_;                       // of every particle's neighbours, one particle after the other
   std::vector<std::uint32_t> first_group_;          // of a particle; one more than particles
 };

@@ -43,11 +43,11 @@ struct Evaluation {
   void velocity(Field&& field) {
     for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
   }
-  void evaluate(Wanted wanted = Wanted::all) {
+  void evaluate(SweepTerms terms = SweepTerms::all) {
     std::vector<double> h;
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
-    sweep(team, {state.position, state.velocity, state.density, state.material}, wanted, rates);
+    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
   }
 };
 
@@ -229,7 +229,7 @@ TEST(Sweep, TheDensityFollowsTheKernelsSum) {
   const auto start = e.state.position;
   const auto at = [&](double time) {
     for (std::size_t i = 0; i < start.size(); ++i) e.state.position[i] = start[i] + time * e.state.velocity[i];
-    e.evaluate(Wanted::forces);
+    e.evaluate(SweepTerms::forces);
     return e.rates.kernel_density;
   };
   const auto later = at(dt), earlier = at(-dt);

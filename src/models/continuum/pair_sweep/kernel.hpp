@@ -31,7 +31,7 @@ struct Neighbours {
   const std::uint32_t* record;
   const std::uint32_t* group_end;  ///< one per group: where it ends in `record`
   int groups;
-  std::uint32_t nobody;  ///< a record far away from all others, which fills up registers
+  std::uint32_t padding;  ///< a record far away from all others, which fills up registers
 };
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
@@ -42,14 +42,14 @@ struct PairSums {
   double kernel_density;  ///< sum of m W without the particle itself, kg/m^3
 };
 
-enum class Wanted { all, gradients, forces };
+enum class SweepTerms { all, gradients, forces };
 
 /// \param acceleration one per group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
-/// wanted
+/// terms
 using SumNeighbours = void (*)(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
 
-using ChooseSumNeighbours = SumNeighbours(Wanted wanted);
+using ChooseSumNeighbours = SumNeighbours(SweepTerms terms);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

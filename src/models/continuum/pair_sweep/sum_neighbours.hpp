@@ -42,7 +42,7 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
       load_columns(
           [&](int lane) {
             const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
-            return records[n < end ? neighbours.record[n] : neighbours.nobody].position;
+            return records[n < end ? neighbours.record[n] : neighbours.padding].position;
           },
           other);
       const SimdVector3 d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
@@ -89,10 +89,10 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
   if constexpr (forces) sums.kernel_density = total(kernel_density);
 }
 
-TALUS_INLINE SumNeighbours choose(Wanted wanted) {
-  return wanted == Wanted::all         ? sum_neighbours<true, true>
-         : wanted == Wanted::gradients ? sum_neighbours<true, false>
-                                       : sum_neighbours<false, true>;
+TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
+  return terms == SweepTerms::all         ? sum_neighbours<true, true>
+         : terms == SweepTerms::gradients ? sum_neighbours<true, false>
+                                          : sum_neighbours<false, true>;
 }
 
 }  // namespace TALUS_INSTRUCTION_SET

@@ -4,8 +4,8 @@
 
 namespace talus::continuum {
 
-SumNeighbours sum_neighbours_avx512(Wanted wanted) {
-  return choose(wanted);
+SumNeighbours sum_neighbours_avx512(SweepTerms terms) {
+  return choose(terms);
 }
 
 }  // namespace talus::continuum

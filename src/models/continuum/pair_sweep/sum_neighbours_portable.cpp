@@ -4,8 +4,8 @@
 
 namespace talus::continuum {
 
-SumNeighbours sum_neighbours_portable(Wanted wanted) {
-  return choose(wanted);
+SumNeighbours sum_neighbours_portable(SweepTerms terms) {
+  return choose(terms);
 }
 
 }  // namespace talus::continuum
