@@ -28,18 +28,18 @@ class Deposition {
   Deposition(const Grid& grid, const Domain& domain);
 
   /// Finds the weights. \param smoothing_length of each particle, m; the kernel reaches twice as far
-  void weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
+  void find_weights(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
 
   /// \param solid_volume of each particle, without pores, m^3; the same for all
   /// \param fraction out: solid volume over volume of every cell
   /// \param flux out: by component, that times the solid's velocity, m/s
-  void gather(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
-              FaceField& flux) const;
+  void deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
+               FaceField& flux) const;
 
   /// received[j] = solid_volume * sum over cells of weight * (per solid volume). Summed over particles this is the
-  /// cells' volume times `gather`'s fraction times `per_solid_volume`.
-  void hand_out(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
-                std::span<Vector3> received) const;
+  /// cells' volume times `deposit`'s fraction times `per_solid_volume`.
+  void distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
+                  std::span<Vector3> received) const;
 
  private:
   static constexpr std::size_t block_size = 64;
@@ -49,7 +49,7 @@ class Deposition {
     std::vector<double> weight;
   };
   struct Scratch;
-  void weigh(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
+  void find_weights(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
   void find_seen(const Vector3& position, Scratch& scratch) const;
   template <class Body>
   void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
