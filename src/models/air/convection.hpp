@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/parallel.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 
 namespace talus::air {
 
@@ -15,7 +15,7 @@ struct Stream {
 
 class Convection {
  public:
-  explicit Convection(const Passages& passages);
+  explicit Convection(const FaceApertures& apertures);
 
   /// Fills the ghosts: periodic copies; beyond an open face the velocity within where the air leaves, none where it
   /// enters.
@@ -28,7 +28,7 @@ class Convection {
  private:
   void find_fluxes(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind);
 
-  const Passages& passages_;
+  const FaceApertures& apertures_;
   CellField flux_;
 };
 

@@ -23,7 +23,7 @@
 #include "models/air/parameters.hpp"
 #include "models/air/state.hpp"
 #include "models/air/viscosity.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 #include "numerics/grid/poisson.hpp"
 
 namespace talus::air {
@@ -65,7 +65,7 @@ class AirFlow {
   /// Of the last step: iterations of both pressure solutions; whether viscosity was implicit.
   int iterations() const { return iterations_; }
   bool is_viscosity_implicit() const { return implicit_; }
-  const Passages& passages() const { return passages_; }
+  const FaceApertures& apertures() const { return apertures_; }
 
  private:
   struct Rates;
@@ -82,7 +82,7 @@ class AirFlow {
   double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
 
   Parameters parameters_;
-  Passages passages_;
+  FaceApertures apertures_;
   Convection convection_;
   Viscosity viscosity_;
   PoissonSolver solver_;

@@ -110,7 +110,7 @@ void AirModel::begin(ThreadTeam& team) {
   flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas);
   if (parameters_.start.flow == InitialFlow::taylor_green)
     for (int axis = 0; axis < 3; ++axis)
-      for_each_place(flow_->passages().faces(axis), grid_, [&](std::size_t face, int i, int j, int k) {
+      for_each_place(flow_->apertures().faces(axis), grid_, [&](std::size_t face, int i, int j, int k) {
         state_.flow.velocity[static_cast<std::size_t>(axis)][face] =
             taylor_green(parameters_, face_centre(grid_, axis, i, j, k), 0)[axis];
       });

@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 #include "physics/air/gas.hpp"
 #include "physics/coupling/drag.hpp"
 

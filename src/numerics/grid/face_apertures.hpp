@@ -35,7 +35,7 @@ struct FlowBoundaries {
   }
 };
 
-struct Passages {
+struct FaceApertures {
   Grid grid;
   FlowBoundaries boundaries;
 
@@ -49,7 +49,7 @@ struct Passages {
   CellField inner;  ///< 1: a cell without a face open to outside the grid
 
   /// \throws std::invalid_argument for a periodic face without its opposite
-  Passages(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls);
+  FaceApertures(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls);
 
   /// Faces of an axis along a second one: one more than cells along the axis itself, unless it is periodic.
   int faces(int axis, int along) const {
