@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sweep over pairs: what each particle feels from its neighbours and from their images behind the boundaries.
+/// The sums over pairs: the rates of each particle from its neighbours and their images behind the boundaries.
 /// Particles are packed into records, one per particle; images exist only as records, made from those of their sources.
-/// The loops themselves stand in pair_sweep/, compiled once for each instruction set.
+/// The loops themselves are in pair_sweep/, compiled once for each instruction set.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ struct Rates {
   std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
   std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
   std::vector<double> kernel_density;        ///< sum of m W over particles and images, kg/m^3
-  /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's normal, m/s^2. What
-  /// images do along a wall cancels in the sum over all particles.
+  /// Acceleration by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel in the sum over
+  /// all particles.
   std::vector<std::array<double, most_walls>> wall_acceleration;
 
   void resize(std::size_t count);
 };
 
-/// What an evaluation reads.
+/// Input of an evaluation.
 struct ParticleView {
   std::span<const Vector3> position;
   std::span<const Vector3> velocity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where a fluid passes on a grid: the boundaries of the box, the walls within it, and which neighbouring
-/// velocities see each other.
+/// Where a fluid can pass on a grid: the boundaries of the box, the walls within it, and which neighbouring velocities
+/// see each other.
 ///
 /// Velocities stand on faces (Harlow & Welch 1965). The neighbour of a face along another axis is hidden where a wall
 /// or the box comes between; a rough wall then holds the velocity at the wall's, half a cell away. At a wall's rim,
