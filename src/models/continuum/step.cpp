@@ -133,7 +133,7 @@ void Step::half() const {
                     false);
 }
 
-/// Velocity gradient and rate of the density in the middle of the step, and the acceleration there if it is terms.
+/// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
 void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
                     SweepTerms terms) const {
   w.sweep(team, {w.position, velocity, density, material}, terms, w.rates);

@@ -52,7 +52,7 @@ class Sweep {
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
 
-  /// Packs the records, then computes the rates that are terms. The density's follow both from gradients.
+  /// Packs the records, then computes the requested rates.
   void operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates);
 
  private:
@@ -72,7 +72,7 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;  // by what is terms
+  std::array<SumNeighbours, 3> sum_;  // by SweepTerms
   Neighbourhood neighbourhood_;
   std::vector<std::array<Domain::Load, 3>> loads_;  // by image
   std::vector<ParticleRecord> records_;             // particles, images, padding

@@ -17,7 +17,7 @@ Impulses sum(Impulses a, const Impulses& b) {
   return a;
 }
 
-/// The velocity of a particle after a boundary has velocity_after_friction it.
+/// The velocity of a particle after friction at a wall.
 Vector3 velocity_after_friction(const Parameters& p, const Domain& domain, int wall, const State& state, std::size_t i,
                                 const Vector3& position, double normal_acceleration, double duration) {
   const Vector3 n = domain.normal(wall), velocity = state.velocity[i];

@@ -29,7 +29,7 @@ TALUS_CLONES void weigh_row(std::size_t count, const double* square, double besi
 
 }  // namespace
 
-/// The cells within reach of a particle, and what they find_weights.
+/// The cells within reach of a particle, and their weights.
 struct Deposition::Scratch {
   struct Along {
     int from = 0;                   // the first one along an axis

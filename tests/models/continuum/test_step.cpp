@@ -267,7 +267,7 @@ TEST(Advance, MomentumIsWhatGravityAndTheWallsGave) {
     for (const Vector3& x : s.position) below += x.z < *p.plate.height;
     EXPECT_GT(below, 10u);                        // through the slit
     EXPECT_LT(below, s.position.size() - 40);     // and not through the plate
-    EXPECT_GT(std::abs(s.wall_impulse[6].x), 0);  // the plate velocity_after_friction
+    EXPECT_GT(std::abs(s.wall_impulse[6].x), 0);  // friction at the plate
     for (const Vector3& x : s.position) {
       EXPECT_GE(x.z, 0);
       EXPECT_TRUE(x.x >= 0 && x.x <= p.box.width);

@@ -44,8 +44,8 @@ struct PairSums {
 
 enum class SweepTerms { all, gradients, forces };
 
-/// \param acceleration one per group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
-/// terms
+/// \param acceleration one per group, of three components: Eq. 17 without gravity, m/s^2; unchanged if no
+/// forces are requested
 using SumNeighbours = void (*)(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
 
