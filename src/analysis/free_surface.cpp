@@ -86,6 +86,20 @@ double surface_angle(const FreeSurface& surface, double middle) {
   return std::atan(0.5 * (std::abs(left ? *left : *right) + std::abs(right ? *right : *left)));
 }
 
+double height_beside(const FreeSurface& surface, double middle, double from, double to) {
+  std::vector<double> heights;
+  for (std::size_t n = 0; n < surface.x.size(); ++n)
+    if (const double away = std::abs(surface.x[n] - middle); away >= from && away <= to && std::isfinite(surface.z[n]))
+      heights.push_back(surface.z[n]);
+  return mean(heights);
+}
+
+double outward_angle(const FreeSurface& surface, double middle, double from, double to) {
+  const auto left = slope(surface, middle - to, middle - from), right = slope(surface, middle + from, middle + to);
+  if (!left && !right) return none;
+  return std::atan(0.5 * ((left ? *left : -*right) - (right ? *right : -*left)));
+}
+
 double surface_swelling(const FreeSurface& surface, double middle, double beside, double width) {
   const auto around = [&](double x) { return surface.mean_height(x - 0.5 * width, x + 0.5 * width); };
   return around(middle) - 0.5 * (around(middle - beside) + around(middle + beside));

@@ -123,6 +123,17 @@ double narrowing(const HopperRun& run, const Place& place, const Window& window)
   return width("below_from", "below_to") / width("above_from", "above_to");
 }
 
+double foot_speed(const HopperRun& run, const Place& place, const Window& window) {
+  const Curve reach = part(run.curve(foot_reach, place), window.from, window.to);
+  Curve between;
+  for (std::size_t n = 0; n < reach.time.size(); ++n)
+    if (reach.value[n] >= length_of(place, "from") && reach.value[n] <= length_of(place, "to")) {
+      between.time.push_back(reach.time[n]);
+      between.value.push_back(reach.value[n]);
+    }
+  return between.time.size() < 3 ? none : fit_line(between.time, between.value).slope;
+}
+
 LargestMean largest_discharge(const HopperRun& run, const Window& window) {
   const Curve means = mean_rates(passed_mass(run), largest_mean, largest_every, window.from, end_of(window, run));
   if (means.time.empty()) return {};

@@ -11,7 +11,7 @@ using Number = HopperRun::Numbers::Number;
 // Lengths of means, estimator.discharge_rate, s: of the largest rate, of a trend.
 inline constexpr double largest_mean = 20e-3, trend_mean = 10e-3;
 
-inline const std::vector<std::string_view> across{"height", "left", "right"};
+inline const std::vector<std::string_view> across{"height", "left", "right"}, beside{"from", "to"};
 
 /// From when a tenth of what passes the outlet in all has passed it until when half of it has; the time in the middle.
 /// Where nothing passes: half of the run.
@@ -38,6 +38,9 @@ double vortex_product(const HopperRun& run, const Place& place, const Window& wi
 double vortex_reversal(const HopperRun& run, const Place& place, const Window& window);
 /// Width of the stream below over that above, means over the window.
 double narrowing(const HopperRun& run, const Place& place, const Window& window);
+
+/// Slope of the line through foot_reach() against time while it is between `from` and `to`; nan of fewer than three.
+double foot_speed(const HopperRun& run, const Place& place, const Window& window);
 
 struct LargestMean {
   double value = HopperRun::none, time = HopperRun::none;

@@ -111,6 +111,24 @@ const std::vector<Row> list = {
         at(surface_angle_in<Where::bin>), {{bin}}),
     Row("surface_angle_hopper", "deg", "the same of the hopper's surface, mean over the window",
         mean_of(surface_angle_in<Where::hopper>), {{outlet, while_it_flows}}),
+    Row("surface_height_bin", "m",
+        "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
+        "middle, "
+        "left and right together",
+        at(surface_height_in<Where::bin>), {}, beside),
+    Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
+        beside),
+    Row("surface_outward_angle_bin", "deg",
+        "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
+        "of "
+        "the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        at(surface_outward_angle_in<Where::bin>), {}, beside),
+    Row("foot_speed", "m/s",
+        "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
+        "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
+        "`height` "
+        "of the bin passes 0.15",
+        {foot_speed}, {}, {"height", "from", "to"}),
     Row("surface_swelling", "m",
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
         mean_of(surface_swelling), {}, {"beside", "width"}),

@@ -22,6 +22,15 @@ template <Where where>
 double surface_angle_in(const HopperSnapshot& s, const Place&) {
   return surface_angle(surface_in(s, where), s.shape().middle()) / (std::numbers::pi / 180);
 }
+template <Where where>
+double surface_height_in(const HopperSnapshot& s, const Place& place) {  ///< from, to: away from the middle
+  return height_beside(surface_in(s, where), s.shape().middle(), length_of(place, "from"), length_of(place, "to"));
+}
+template <Where where>
+double surface_outward_angle_in(const HopperSnapshot& s, const Place& place) {  ///< from, to: away from the middle
+  return outward_angle(surface_in(s, where), s.shape().middle(), length_of(place, "from"), length_of(place, "to")) /
+         (std::numbers::pi / 180);
+}
 template <Where where, double ReposeAngle::*angle>
 double repose_angle_in(const HopperSnapshot& s, const Place&) {
   return repose_in(s, where).*angle / (std::numbers::pi / 180);
@@ -50,6 +59,9 @@ double left_right_imbalance(const HopperSnapshot& s, const Place& place);
 double stream_width(const HopperSnapshot& s, const Place& place);
 double stream_packing(const HopperSnapshot& s, const Place& place);
 double stream_stripes(const HopperSnapshot& s, const Place& place);
+/// How far the layer on the bin's floor reaches from the middle, mean of left and right: to where the mean packing of
+/// the lowest `height` passes 0.15; nan where one side has none.
+double foot_reach(const HopperSnapshot& s, const Place& place);
 
 /// Means over x from `left` to `right` at z = `height`.
 double hopper_velocity(const HopperSnapshot& s, const Place& place);

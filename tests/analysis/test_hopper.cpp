@@ -68,6 +68,12 @@ TEST(Hopper, FrameOfTwoHeaps) {
   EXPECT_NEAR(is(hopper::repose_angle_in<hopper::Where::hopper, &ReposeAngle::mean>), 30, 1);
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::hopper>), 30, 1);
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::bin>), 25, 1);
+  EXPECT_NEAR(is(hopper::surface_height_in<hopper::Where::bin>, {{"from", 0.02}, {"to", 0.03}}),
+              0.03 + 0.025 * std::tan(25 * pi / 180), 0.3e-3);
+  EXPECT_NEAR(is(hopper::surface_height_in<hopper::Where::hopper>, {{"from", 0.035}, {"to", 0.045}}),
+              plate + 0.02 * std::tan(pi / 6), 0.5e-3);
+  EXPECT_NEAR(is(hopper::surface_outward_angle_in<hopper::Where::bin>, {{"from", 0.01}, {"to", 0.045}}), 25, 1);
+  EXPECT_NEAR(is(hopper::foot_reach, {{"height", 5e-3}}), 0.05, 1e-12) << "to the walls";
   EXPECT_NEAR(is(hopper::quiescent_speed), 1e-4, 1e-12);
   EXPECT_NEAR(is(hopper::stress_ratio), 2.0 / 3, 1e-12);
   EXPECT_EQ(is(hopper::inertial_share), 1);
@@ -121,6 +127,22 @@ TEST(Hopper, FrameOfAStream) {
   EXPECT_EQ(is(hopper::inertial_share), 0) << "without stress nothing is quasi-static";
 }
 
+/// A layer on the floor that has come farther on the right than on the left, and falling grains above the floor at the
+/// wall; then with nothing on the left.
+TEST(Hopper, FrameOfAFoot) {
+  const auto layer = [](double left, double right) {
+    auto points =
+        test::lattice(width, depth, 0, 6 * h, h, [=](double x, double) { return x > 0.05 - left && x < 0.05 + right; });
+    const auto drops = test::lattice(width, depth, 12 * h, 18 * h, h, [](double x, double) { return x > 0.09; });
+    points.insert(points.end(), drops.begin(), drops.end());
+    return test::GrainColumns(points, bulk_density, grain_density, gate + 0.16);
+  };
+  const HopperSetting paper = setting();
+  const test::GrainColumns both = layer(12 * h, 18 * h), right = layer(0, 18 * h);
+  EXPECT_NEAR(hopper::foot_reach(HopperSnapshot(paper, both.view(), gate), {{"height", 5e-3}}), 15 * h, 0.4 * h);
+  EXPECT_TRUE(std::isnan(hopper::foot_reach(HopperSnapshot(paper, right.view(), gate), {{"height", 5e-3}})));
+}
+
 /// Numbers of 21 snapshots, one every 50 ms.
 double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number, const Place& place) {
   const auto n = static_cast<int>(snapshot);
@@ -136,6 +158,9 @@ double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number, c
                              : n == 5                                          ? 0.02
                                                                                : 0.03},
       {hopper::stress_ratio, n == 0 ? 0.6 : 0.7},
+      {hopper::foot_reach, n < 4   ? HopperRun::none
+                           : n < 6 ? 0.02
+                                   : std::min(0.05, 0.02 + 4e-3 * (n - 6))},
       {hopper::mass, setting().mass()}};
   const auto found = numbers.find(number);
   return found == numbers.end() ? HopperRun::none : found->second;
@@ -225,6 +250,9 @@ TEST(Hopper, QuantitiesOfARun) {
               0.025 / 0.04, 1e-12);
   EXPECT_EQ(is("stress_ratio_settled", {}), 0.6);
   EXPECT_EQ(is("stress_ratio_flow", {.at = 0.2}), 0.7);
+  const Place floor{{"height", 5e-3}, {"from", 0.0239}, {"to", 0.0451}};
+  EXPECT_NEAR(measure("foot_speed", run, {}, floor), 4e-3 / 0.05, 1e-12);
+  EXPECT_TRUE(std::isnan(measure("foot_speed", run, {.at = {}, .from = 0, .to = 0.41}, floor))) << "two points";
   EXPECT_NEAR(is("mass_error", {}), 0, 1e-12);
   EXPECT_TRUE(std::isnan(is("stress_ratio_flow", {.at = 1.5}))) << "after the end";
   EXPECT_TRUE(std::isnan(is("discharged_fraction", {.at = 1.5})));
