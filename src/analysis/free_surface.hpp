@@ -49,4 +49,8 @@ double outward_angle(const FreeSurface& surface, double middle, double from, dou
 /// How much higher the middle is than the places `beside` to its left and right: means over `width` each. m
 double surface_swelling(const FreeSurface& surface, double middle, double beside, double width);
 
+/// How much higher the middle is, mean over `width`, than where the lines through the flanks, which lie between two
+/// distances from it, prolonged, have it; their mean. m; nan unless each flank has three heights
+double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width);
+
 }  // namespace talus

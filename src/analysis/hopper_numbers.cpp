@@ -90,6 +90,20 @@ double surface_swelling(const HopperSnapshot& s, const Place& place) {
                                  length_of(place, "width"));
 }
 
+double swelling_above_flanks(const HopperSnapshot& s, const Place& place) {
+  if (!has_hopper(s)) return none;
+  return talus::swelling_above_flanks(s.surfaces().hopper, s.shape().middle(), length_of(place, "from"),
+                                      length_of(place, "to"), length_of(place, "width"));
+}
+
+double surface_inward_angle_hopper(const HopperSnapshot& s, const Place& place) {
+  return -surface_outward_angle_in<Where::hopper>(s, place);
+}
+
+double corner_packing_over_middle_bin(const HopperSnapshot& s, const Place& place) {
+  return corner_packing_over_middle(s.packing_section(), s.shape().bin(), s.shape(), length_of(place, "size"));
+}
+
 double quiescent_speed(const HopperSnapshot& s, const Place&) {
   const Snapshot* before = s.before ? s.before() : nullptr;
   if (!before) return none;
@@ -115,6 +129,14 @@ double stress_ratio(const HopperSnapshot& s, const Place&) {
   return talus::stress_ratio(s.now, s.inertial());
 }
 
+double stress_ratio_where_dense(const HopperSnapshot& s, const Place&) {
+  return talus::stress_ratio_where_dense(s.now);
+}
+
+double inertial_share_of_bearing(const HopperSnapshot& s, const Place&) {
+  return talus::inertial_share_of_bearing(s.inertial(), outside_outlet(s.now.positions(), s.shape()));
+}
+
 double inertial_share(const HopperSnapshot& s, const Place&) {
   return talus::inertial_share(s.now.positions(), s.inertial(), has_hopper(s) ? s.shape().plate->height : 0);
 }
@@ -134,6 +156,13 @@ double stream_width(const HopperSnapshot& s, const Place& place) {
 double stream_packing(const HopperSnapshot& s, const Place& place) {
   if (!stream_is_free(s, place)) return none;
   return mean_between(s.now.positions(), s.now.scalars("packing"), length_of(place, "from"), length_of(place, "to"));
+}
+
+double stream_stress_share(const HopperSnapshot& s, const Place& place) {
+  if (!stream_is_free(s, place)) return none;
+  const auto stress = s.now.scalars("stress_zz");
+  return mean_between(s.now.positions(), stress, length_of(place, "from"), length_of(place, "to")) /
+         mean_between(s.now.positions(), stress, s.shape().plate->height, s.shape().height);
 }
 
 double stream_stripes(const HopperSnapshot& s, const Place& place) {

@@ -108,6 +108,7 @@ TEST(Hopper, FrameOfAStream) {
   test::GrainColumns now(points, bulk_density, grain_density, gate + 0.2);
   for (std::size_t i = bed; i < points.size(); ++i) now.packing[i] = 0.4;
   for (std::size_t i = 0; i < points.size(); ++i) now.velocity[i].z = i < bed ? -0.2 : -1;
+  for (std::size_t i = 0; i < points.size(); ++i) now.stress_zz[i] = i < bed ? 500 : 50;
   now.packing[bed - 1] = 0.9;  // one particle is no percentile
   const HopperSetting paper = setting();
   const HopperSnapshot snapshot(paper, now.view(), gate);
@@ -117,6 +118,7 @@ TEST(Hopper, FrameOfAStream) {
                   is(hopper::stream_width, {{"from", 0.09}, {"to", 0.1}, {"free", 0.04}}),
               0.5, 0.1);
   EXPECT_NEAR(is(hopper::stream_packing, {{"from", 0.04}, {"to", 0.09}, {"free", 0.04}}), 0.4, 1e-12);
+  EXPECT_NEAR(is(hopper::stream_stress_share, {{"from", 0.04}, {"to", 0.09}, {"free", 0.04}}), 0.1, 1e-12);
   EXPECT_LT(is(hopper::stream_stripes, {{"from", 0.04}, {"to", 0.095}, {"free", 0.04}}), 0.02);
   EXPECT_NEAR(is(hopper::hopper_velocity, across), -0.2, 1e-9);
   EXPECT_NEAR(is(hopper::hopper_packing, across), 0.6, 0.012);
@@ -124,7 +126,7 @@ TEST(Hopper, FrameOfAStream) {
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::hopper>), 0, 0.01);
   EXPECT_TRUE(std::isnan(is(hopper::repose_angle_in<hopper::Where::hopper, &ReposeAngle::mean>)));
   EXPECT_NEAR(is(hopper::surface_swelling, {{"beside", 0.02}, {"width", 0.004}}), 0, 1e-9);
-  EXPECT_EQ(is(hopper::inertial_share), 0) << "without stress nothing is quasi-static";
+  EXPECT_EQ(is(hopper::inertial_share), 1) << "nothing shears";
 }
 
 /// A layer on the floor that has come farther on the right than on the left, and falling grains above the floor at the
@@ -227,6 +229,11 @@ TEST(Hopper, QuantitiesOfARun) {
   EXPECT_NEAR(is("discharge_rate_max", {.at = {}, .from = 0.03, .to = 0.4}), 0.2 + 0.05 * 3e-3 * std::sqrt(pi) / 0.02,
               0.004);
   EXPECT_NEAR(is("discharge_rate_max_time", {.at = {}, .from = 0.03, .to = 0.4}), 0.04, 6e-3);
+  EXPECT_NEAR(is("discharge_rate_share_of_largest", {.at = {}, .from = 0.1, .to = 0.12}),
+              0.2 / is("discharge_rate_max", {.at = {}, .from = 0, .to = 0.4}), 4e-3);
+  EXPECT_NEAR(is("crossing_period_discharge", {.at = {}, .from = 0.08, .to = 0.25}), 6e-3, 5e-5);
+  EXPECT_NEAR(is("crossing_period_density", {.at = {}, .from = 0.05, .to = 0.3}), 6.6e-3, 5e-5);
+  EXPECT_TRUE(std::isnan(is("crossing_period_strain", {.at = {}, .from = 0.05, .to = 0.3})));
   EXPECT_NEAR(is("discharged_fraction", {.at = 0.4}), 0.2 * 0.28 / run.setting.mass(), 0.01);
   EXPECT_NEAR(is("residual_fraction", {}), 1 - 0.2 * 0.28 / run.setting.mass(), 0.01);
   EXPECT_NEAR(measure("floor_arrival_first_time", run, {}, {{"height", 1e-3}}), std::sqrt(0.099 / 4.9), 1e-5);
