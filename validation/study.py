@@ -123,16 +123,16 @@ def failed_runs(study):
     return lines
 
 
-def write_page(study, album, path, gaps=None, notes=None):
+def write_page(study, album, path, script, gaps=None, notes=None):
     """The page of a study: what was run, the rows, what is not met and why (`gaps`, written by hand), the figures.
-    \\param notes text by the caller, shown after the table"""
+    \\param script that draws the figures \\param notes text by the caller, shown after the table"""
     path = Path(path)
     manifest = study.ensembles[0].runs[0].manifest
     counts = [f"{sum(r['verdict'] == v for r in study.rows)} {v}" for v in ("met", "not met", "reported", "not evaluated")]
     paragraphs = [f"# {study.title}", study.source, _wrapped(
         f"Computed with Talus {manifest['version']} ({manifest['revision']}) on {manifest['machine']['processor']}; "
-        f"figures and page by `validation/{study.name.replace('-', '/')}/figures.py`. Rows, estimators and criteria were "
-        "written down before the first comparison; values stand in the order of the variants."),
+        f"figures and page by `{Path(script).resolve().relative_to(PROJECT).as_posix()}`. Rows, estimators and criteria "
+        "were written down before the first comparison; values stand in the order of the variants."),
         table_of_runs(study), f"**{', '.join(counts)}**", table_of_rows(study.rows)]
     if notes:
         paragraphs.append(notes)
@@ -159,7 +159,7 @@ def main(draw, script):
         page = options.page or options.folder / f"{study.name}.md"
         with talus.draw.style():
             draw(study, album)
-        write_page(study, album, page, gaps=Path(script).resolve().parent / "gaps.md")
+        write_page(study, album, page, script, gaps=Path(script).resolve().parent / "gaps.md")
     except talus.RunError as error:
         sys.exit(f"figures: {error}")
     print(f"Page: {page}\nFigures: {len(album.pages)} in {album.folder}")

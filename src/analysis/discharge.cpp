@@ -65,15 +65,20 @@ double first_maximum_time(const Curve& values, double reach) {
   return none;
 }
 
-double fluctuation(const Curve& curve, double length, double from, double to) {
+Curve about_running_mean(const Curve& curve, double length, double from, double to) {
   const Curve sums = integral(curve);
-  std::vector<double> differences;
+  Curve left;
   for (std::size_t n = 0; n < curve.time.size(); ++n) {
     const double t = curve.time[n];
     if (t <= from || t > to || !covers(sums, t - 0.5 * length, t + 0.5 * length)) continue;
-    differences.push_back(curve.value[n] - mean_rate(sums, t - 0.5 * length, t + 0.5 * length));
+    left.time.push_back(t);
+    left.value.push_back(curve.value[n] - mean_rate(sums, t - 0.5 * length, t + 0.5 * length));
   }
-  return standard_deviation(differences);
+  return left;
+}
+
+double fluctuation(const Curve& curve, double length, double from, double to) {
+  return standard_deviation(about_running_mean(curve, length, from, to).value);
 }
 
 }  // namespace talus

@@ -32,8 +32,11 @@ double drift(const Curve& cumulative, double length, double from, double to);
 /// does that begins from nothing. The first value of a curve is no maximum.
 double first_maximum_time(const Curve& values, double reach);
 
-/// Standard deviation of a curve about its own centred mean over `length`, of the data within from..to whose mean the
-/// curve covers.
+/// What is left of a curve when its own centred mean over `length` is taken off, of the data within from..to whose mean
+/// the curve covers.
+Curve about_running_mean(const Curve& curve, double length, double from, double to);
+
+/// Standard deviation of that.
 double fluctuation(const Curve& curve, double length, double from, double to);
 
 }  // namespace talus

@@ -33,8 +33,8 @@ double height_of_column(const Section& packing, std::size_t column, std::size_t 
   return none;
 }
 
-/// Slope of the line through the heights on one side; nothing for fewer than three.
-std::optional<double> slope(const FreeSurface& surface, double from, double to) {
+/// The line through the heights of a stretch; nothing for fewer than three.
+std::optional<Line> line(const FreeSurface& surface, double from, double to) {
   std::vector<double> x, z;
   for (std::size_t n = 0; n < surface.x.size(); ++n)
     if (surface.x[n] >= from && surface.x[n] <= to && std::isfinite(surface.z[n])) {
@@ -42,7 +42,7 @@ std::optional<double> slope(const FreeSurface& surface, double from, double to) 
       z.push_back(surface.z[n]);
     }
   if (x.size() < 3) return std::nullopt;
-  return fit_line(x, z).slope;
+  return fit_line(x, z);
 }
 
 }  // namespace
@@ -81,9 +81,30 @@ FreeSurface free_surface(const Section& packing, const Vessel& vessel, double le
 
 double surface_angle(const FreeSurface& surface, double middle) {
   constexpr double far = std::numeric_limits<double>::infinity();
-  const auto left = slope(surface, -far, middle), right = slope(surface, middle, far);
+  const auto left = line(surface, -far, middle), right = line(surface, middle, far);
   if (!left && !right) return none;
-  return std::atan(0.5 * (std::abs(left ? *left : *right) + std::abs(right ? *right : *left)));
+  return std::atan(0.5 * (std::abs((left ? left : right)->slope) + std::abs((right ? right : left)->slope)));
+}
+
+double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width) {
+  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
+  if (!left || !right) return none;
+  const double prolonged = 0.5 * (left->intercept + right->intercept + (left->slope + right->slope) * middle);
+  return surface.mean_height(middle - 0.5 * width, middle + 0.5 * width) - prolonged;
+}
+
+double height_beside(const FreeSurface& surface, double middle, double from, double to) {
+  std::vector<double> heights;
+  for (std::size_t n = 0; n < surface.x.size(); ++n)
+    if (const double away = std::abs(surface.x[n] - middle); away >= from && away <= to && std::isfinite(surface.z[n]))
+      heights.push_back(surface.z[n]);
+  return mean(heights);
+}
+
+double outward_angle(const FreeSurface& surface, double middle, double from, double to) {
+  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
+  if (!left && !right) return none;
+  return std::atan(0.5 * ((left ? left->slope : -right->slope) - (right ? right->slope : -left->slope)));
 }
 
 double surface_swelling(const FreeSurface& surface, double middle, double beside, double width) {

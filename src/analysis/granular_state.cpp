@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analysis/statistics.hpp"
 
@@ -40,6 +41,28 @@ double inertial_share(std::span<const Vector3> position, std::span<const double>
   return all > 0 ? slow / all : none;
 }
 
+double inertial_share_of_bearing(std::span<const double> inertial, const std::vector<bool>& taken) {
+  double bearing = 0, slow = 0;
+  for (std::size_t i = 0; i < inertial.size(); ++i) {
+    if (!taken[i] || !std::isfinite(inertial[i])) continue;
+    ++bearing;
+    slow += inertial[i] < quasistatic;
+  }
+  return bearing > 0 ? slow / bearing : none;
+}
+
+double stress_ratio_where_dense(const Snapshot& snapshot) {
+  const auto xx = snapshot.scalars("stress_xx"), zz = snapshot.scalars("stress_zz");
+  const auto packing = snapshot.scalars("packing");
+  double horizontal = 0, vertical = 0;
+  for (std::size_t i = 0; i < xx.size(); ++i) {
+    if (!(packing[i] > dense)) continue;
+    horizontal += xx[i];
+    vertical += zz[i];
+  }
+  return vertical > 0 ? horizontal / vertical : none;
+}
+
 double stress_ratio(const Snapshot& snapshot, std::span<const double> inertial, const QuasistaticRule& rule) {
   const auto xx = snapshot.scalars("stress_xx"), zz = snapshot.scalars("stress_zz");
   const auto packing = snapshot.scalars("packing");
@@ -67,6 +90,32 @@ GradientSizes velocity_gradient_sizes(const ParticleField& field, std::span<cons
     shear.push_back(largest({l.xy, l.xz, l.yx, l.yz, l.zx, l.zy}));
     normal.push_back(largest({l.xx, l.yy, l.zz}));
   }
+  return {quantile(shear, 1), quantile(normal, 1), quantile(shear, nearly_all), quantile(normal, nearly_all)};
+}
+
+GradientSizes cell_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity, double cell,
+                                  double width, double depth, double bottom, double top, double diameter,
+                                  double gravity) {
+  const auto columns = static_cast<std::size_t>(width / cell + 0.5);
+  const auto rows = static_cast<std::size_t>((top - bottom) / cell + 0.5);
+  std::vector<std::optional<Vector3>> mean(columns * rows);
+  for (std::size_t k = 0; k < rows; ++k)
+    for (std::size_t i = 0; i < columns; ++i) {
+      const Vector3 x{(static_cast<double>(i) + 0.5) * cell, 0.5 * depth,
+                      bottom + (static_cast<double>(k) + 0.5) * cell};
+      if (field.packing(x) > dense) mean[k * columns + i] = field.value(x, velocity);
+    }
+  std::vector<double> shear, normal;
+  const double unit = std::sqrt(diameter / gravity) / (2 * cell);
+  for (std::size_t k = 1; k + 1 < rows; ++k)
+    for (std::size_t i = 1; i + 1 < columns; ++i) {
+      const std::size_t c = k * columns + i;
+      const auto &west = mean[c - 1], &east = mean[c + 1], &below = mean[c - columns], &above = mean[c + columns];
+      if (!mean[c] || !west || !east || !below || !above) continue;
+      const Vector3 dx = *east - *west, dz = *above - *below;
+      shear.push_back(unit * std::max(std::abs(dx.z), std::abs(dz.x)));
+      normal.push_back(unit * std::max(std::abs(dx.x), std::abs(dz.z)));
+    }
   return {quantile(shear, 1), quantile(normal, 1), quantile(shear, nearly_all), quantile(normal, nearly_all)};
 }
 

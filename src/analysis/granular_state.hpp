@@ -24,6 +24,13 @@ std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, 
 /// Share of the particles at or above a height whose inertial number is below 1e-2; nan if there are none.
 double inertial_share(std::span<const Vector3> position, std::span<const double> inertial, double height);
 
+/// The same share of the particles taken that bear a pressure: those that touch nothing are in no regime.
+double inertial_share_of_bearing(std::span<const double> inertial, const std::vector<bool>& taken);
+
+/// Horizontal over vertical stress, sum of stress_xx over sum of stress_zz of the particles with packing above 0.5,
+/// below which no stress acts. nan if there are none.
+double stress_ratio_where_dense(const Snapshot& snapshot);
+
 /// Which particles count as quasi-static grains.
 struct QuasistaticRule {
   double packing = 0.55;          ///< above
@@ -42,6 +49,13 @@ struct GradientSizes {
 /// \param packing of each particle; nan if no particle is that dense
 GradientSizes velocity_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity,
                                       std::span<const double> packing, double diameter, double gravity);
+
+/// The same sizes, of a field of velocities that are means over cubic cells: central differences of the velocities at
+/// the cells' centres, x and z, over the cells of the plane y = `depth`/2 between two heights whose packing and whose
+/// neighbours' is above 0.5; the percentiles over those cells. \param cell edge, m \param width, depth of the box, m
+GradientSizes cell_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity, double cell,
+                                  double width, double depth, double bottom, double top, double diameter,
+                                  double gravity);
 
 /// Mean over the particles taken of |density/(packing rho_p) - 1|: how far the density by continuity is from the
 /// kernel's.

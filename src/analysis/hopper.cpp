@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/discharge.hpp"
+#include "analysis/hopper_numbers.hpp"
 
 namespace talus {
 
@@ -53,6 +54,16 @@ const GradientSizes& HopperSnapshot::gradient_sizes() const {
     if (now.size() == 0) return GradientSizes{none, none, none, none};
     return velocity_gradient_sizes(field(), now.vectors("velocity"), now.scalars("packing"), setting.grain_diameter,
                                    setting.gravity);
+  });
+}
+
+const GradientSizes& HopperSnapshot::cell_gradient_sizes() const {
+  return made_once(cell_gradient_sizes_, [&] {
+    constexpr double none = HopperRun::none;
+    if (now.size() == 0) return GradientSizes{none, none, none, none};
+    const double bottom = shape().plate ? shape().plate->height : 0;
+    return talus::cell_gradient_sizes(field(), now.vectors("velocity"), hopper::cell, shape().width, shape().depth,
+                                      bottom, shape().height, setting.grain_diameter, setting.gravity);
   });
 }
 

@@ -57,6 +57,8 @@ class HopperSnapshot {
   const std::vector<bool>& deep() const;        ///< deep_particles()
   const std::vector<double>& inertial() const;  ///< inertial_numbers()
   const GradientSizes& gradient_sizes() const;
+  /// Of velocities averaged over cells of 1.25 mm, above the outlet, or wherever there are grains if there is none.
+  const GradientSizes& cell_gradient_sizes() const;
   const ParticleField& field() const;
 
  private:
@@ -67,7 +69,7 @@ class HopperSnapshot {
   mutable std::optional<HopperSurfaces> surfaces_;
   mutable std::optional<std::vector<bool>> deep_;
   mutable std::optional<std::vector<double>> inertial_;
-  mutable std::optional<GradientSizes> gradient_sizes_;
+  mutable std::optional<GradientSizes> gradient_sizes_, cell_gradient_sizes_;
   mutable std::optional<ParticleField> field_;
 };
 

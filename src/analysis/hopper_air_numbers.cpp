@@ -45,6 +45,26 @@ Plug plug_of(const GridSnapshot& air, int k) {
   return plug;
 }
 
+/// The largest |dP/dz| in the column at x.
+struct SteepestPressure {
+  double height = none, gradient = none;  ///< z, m; dP/dz, Pa/m
+};
+SteepestPressure steepest_pressure(const HopperSnapshot& s, const Place& place) {
+  const GridSnapshot* air = air_of(s);
+  SteepestPressure steepest;
+  if (!air) return steepest;
+  const auto& pressure = air->scalars("pressure");
+  const int i = air->cell_at(0, length_of(place, "x")), j = middle_layer(*air);
+  for (int k = 1; k + 1 < air->count[2]; ++k) {
+    const double z = air->centre(i, j, k).z;
+    if (z <= length_of(place, "from") || z >= length_of(place, "to")) continue;
+    const double gradient =
+        (pressure[air->index(i, j, k + 1)] - pressure[air->index(i, j, k - 1)]) / (2 * air->spacing.z);
+    if (std::isnan(steepest.gradient) || std::abs(gradient) > std::abs(steepest.gradient)) steepest = {z, gradient};
+  }
+  return steepest;
+}
+
 }  // namespace
 
 /// Sum of the drag over that of the weight, upwards positive.
@@ -66,20 +86,12 @@ double drag_to_weight(const HopperSnapshot& s, const Place& place) {
   return weight > 0 ? upward / weight : none;
 }
 
-/// Height of the largest |dP/dz| in the column at x.
 double air_pressure_drop_height(const HopperSnapshot& s, const Place& place) {
-  const GridSnapshot* air = air_of(s);
-  if (!air) return none;
-  const auto& pressure = air->scalars("pressure");
-  const int i = air->cell_at(0, length_of(place, "x")), j = middle_layer(*air);
-  double steepest = -1, height = none;
-  for (int k = 1; k + 1 < air->count[2]; ++k) {
-    const double z = air->centre(i, j, k).z;
-    if (z <= length_of(place, "from") || z >= length_of(place, "to")) continue;
-    const double step = std::abs(pressure[air->index(i, j, k + 1)] - pressure[air->index(i, j, k - 1)]);
-    if (step > steepest) steepest = step, height = z;
-  }
-  return height;
+  return steepest_pressure(s, place).height;
+}
+
+double air_pressure_gradient_at_drop(const HopperSnapshot& s, const Place& place) {
+  return steepest_pressure(s, place).gradient;
 }
 
 /// Mean pressure beside the stream less that within it.
@@ -127,16 +139,16 @@ double air_velocity_beside_plug(const HopperSnapshot& s, const Place& place) {
   return beside;
 }
 
-double circulation_in(const HopperSnapshot& s, Where where, Half half) {
+double circulation_in(const HopperSnapshot& s, Where where, Half half, Cells cells) {
   const GridSnapshot* air = air_of(s);
   if (!air) return none;
   const double middle = s.shape().middle();
   const Vessel vessel = where == Where::bin ? s.shape().bin() : s.shape().hopper();
   return circulation(*air, half == Half::left ? 0 : middle, half == Half::left ? middle : s.shape().width,
-                     vessel.bottom, vessel.top);
+                     vessel.bottom, vessel.top, cells);
 }
 
-double circulation(const GridSnapshot& air, double left, double right, double bottom, double top) {
+double circulation(const GridSnapshot& air, double left, double right, double bottom, double top, Cells cells) {
   const auto& u = air.vectors("velocity");
   const auto& fraction = air.scalars("solid_fraction");
   const int j = middle_layer(air);
@@ -147,7 +159,8 @@ double circulation(const GridSnapshot& air, double left, double right, double bo
   double sum = 0;
   for (int k = k_from; k < k_to; ++k)
     for (int i = i_from; i < i_to; ++i) {
-      if (!(fraction[air.index(i, j, k)] < hardly_any)) continue;
+      const double grains = fraction[air.index(i, j, k)];
+      if (!(cells == Cells::open ? grains < hardly_any : grains > in_stream)) continue;
       const int west = std::max(i - 1, i_from), east = std::min(i + 1, i_to - 1);
       const int below = std::max(k - 1, k_from), above = std::min(k + 1, k_to - 1);
       if (east == west || above == below) continue;

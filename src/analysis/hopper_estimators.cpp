@@ -47,11 +47,11 @@ Curve while_there_are_grains(Curve curve, double from) {
   return curve;
 }
 
-double period(const Curve& whole, const Window& window) {
+/// 5000 data a second over the window, or as much of it as there are grains at the place; none if that is not half.
+Curve swinging_part(const Curve& whole, const Window& window) {
   const Curve curve = while_there_are_grains(whole, window.from);
-  if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return none;
-  const double to = std::min(window.to, curve.time.back());
-  return dominant_period(at_equal_times(curve, period_rate, window.from, to), shortest_period, longest_period);
+  if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return {};
+  return at_equal_times(curve, period_rate, window.from, std::min(window.to, curve.time.back()));
 }
 
 double first_time_at_or_above(const Curve& curve, double level) {
@@ -103,15 +103,17 @@ Estimator<HopperRun> mean_of(Number number) {
 }
 
 Estimator<HopperRun> period_of(std::string_view column) {
-  return {[=](const HopperRun& run, const Place&, const Window& window) { return period(run.curve(column), window); }};
+  return {[=](const HopperRun& run, const Place&, const Window& window) {
+    const Curve part = swinging_part(run.curve(column), window);
+    return part.time.empty() ? none : dominant_period(part, shortest_period, longest_period);
+  }};
 }
 
-double vortex_reversal(const HopperRun& run, const Place& place, const Window& window) {
-  const auto at = [&](double time) {
-    return value_at_window(air_circulation<Where::hopper, Half::left>, run, place, {.at = time});
-  };
-  const double product = at(window.from) * at(window.to);
-  return product / std::abs(product);
+Estimator<HopperRun> crossing_period_of(std::string_view column) {
+  return {[=](const HopperRun& run, const Place&, const Window& window) {
+    const Curve part = swinging_part(run.curve(column), window);
+    return crossing_period(about_running_mean(part, largest_mean, window.from, window.to));
+  }};
 }
 
 double narrowing(const HopperRun& run, const Place& place, const Window& window) {
@@ -123,11 +125,28 @@ double narrowing(const HopperRun& run, const Place& place, const Window& window)
   return width("below_from", "below_to") / width("above_from", "above_to");
 }
 
+double foot_speed(const HopperRun& run, const Place& place, const Window& window) {
+  const Curve reach = part(run.curve(foot_reach, place), window.from, window.to);
+  Curve between;
+  for (std::size_t n = 0; n < reach.time.size(); ++n)
+    if (reach.value[n] >= length_of(place, "from") && reach.value[n] <= length_of(place, "to")) {
+      between.time.push_back(reach.time[n]);
+      between.value.push_back(reach.value[n]);
+    }
+  return between.time.size() < 3 ? none : fit_line(between.time, between.value).slope;
+}
+
 LargestMean largest_discharge(const HopperRun& run, const Window& window) {
   const Curve means = mean_rates(passed_mass(run), largest_mean, largest_every, window.from, end_of(window, run));
   if (means.time.empty()) return {};
   const Extremes found = extremes(means);
   return {found.largest, found.largest_time};
+}
+
+double discharge_share_of_largest(const HopperRun& run, const Place&, const Window& window) {
+  const Curve passed = passed_mass(run),
+              means = mean_rates(passed, window.to - window.from, largest_every, 0, run.end());
+  return means.time.empty() ? none : mean_rate(passed, window.from, window.to) / extremes(means).largest;
 }
 
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window) {
@@ -171,8 +190,7 @@ double balance_error(const HopperRun& run, const Place&, const Window& window) {
   return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - load_time, to);
 }
 
-double largest_fall_of_surface(const HopperRun& run, const Place&, const Window&) {
-  const Curve angle = run.curve(surface_angle_in<Where::hopper>);
+double largest_fall(const Curve& angle) {
   std::size_t first = 0;
   while (first < angle.value.size() && angle.value[first] <= begins_to_incline) ++first;
   if (first == angle.value.size()) return none;

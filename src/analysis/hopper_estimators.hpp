@@ -11,7 +11,7 @@ using Number = HopperRun::Numbers::Number;
 // Lengths of means, estimator.discharge_rate, s: of the largest rate, of a trend.
 inline constexpr double largest_mean = 20e-3, trend_mean = 10e-3;
 
-inline const std::vector<std::string_view> across{"height", "left", "right"};
+inline const std::vector<std::string_view> across{"height", "left", "right"}, beside{"from", "to"};
 
 /// From when a tenth of what passes the outlet in all has passed it until when half of it has; the time in the middle.
 /// Where nothing passes: half of the run.
@@ -26,24 +26,38 @@ Estimator<HopperRun> largest_of(Number number);  ///< over the snapshots in the 
 Estimator<HopperRun> mean_of(Number number);     ///< the same
 /// Of a column, over the window or as much of it as there are grains at the place, at least half.
 Estimator<HopperRun> period_of(std::string_view column);
+/// The mean time between the up-crossings of its centred 20 ms mean, of the same.
+Estimator<HopperRun> crossing_period_of(std::string_view column);
 /// Product of the circulations left and right over the sum of their squares: below 0 for a pair that turns against each
 /// other.
-template <Where where>
+template <Where where, Cells cells = Cells::open>
 double vortex_product(const HopperRun& run, const Place& place, const Window& window) {
-  const double a = value_at_window(air_circulation<where, Half::left>, run, place, window);
-  const double b = value_at_window(air_circulation<where, Half::right>, run, place, window);
+  const double a = value_at_window(air_circulation<where, Half::left, cells>, run, place, window);
+  const double b = value_at_window(air_circulation<where, Half::right, cells>, run, place, window);
   return a * b / (a * a + b * b);
 }
-/// Sign of the product of the left half of the hopper's circulation at the window's ends: below 0 where it has turned.
-double vortex_reversal(const HopperRun& run, const Place& place, const Window& window);
+/// Sign of the product of two circulations of the hopper's left half: in its open cells at the window's end, and in
+/// those cells at the window's beginning. Below 0 where the vortex has turned.
+template <Cells cells = Cells::open>
+double vortex_reversal(const HopperRun& run, const Place& place, const Window& window) {
+  const double before =
+      value_at_window(air_circulation<Where::hopper, Half::left, cells>, run, place, {.at = window.from});
+  const double after = value_at_window(air_circulation<Where::hopper, Half::left>, run, place, {.at = window.to});
+  return before * after / std::abs(before * after);
+}
 /// Width of the stream below over that above, means over the window.
 double narrowing(const HopperRun& run, const Place& place, const Window& window);
+
+/// Slope of the line through foot_reach() against time while it is between `from` and `to`; nan of fewer than three.
+double foot_speed(const HopperRun& run, const Place& place, const Window& window);
 
 struct LargestMean {
   double value = HopperRun::none, time = HopperRun::none;
 };
 /// The largest of the 20 ms means of the discharge, and its time.
 LargestMean largest_discharge(const HopperRun& run, const Window& window);
+/// Mean discharge over the window, over the largest mean over as long a time.
+double discharge_share_of_largest(const HopperRun& run, const Place& place, const Window& window);
 /// First maximum of the 6 ms means of what the curve is the integral of.
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window);
 double discharge_fall(const HopperRun& run, const Place& place, const Window& window);
@@ -54,9 +68,23 @@ double settled_force(const HopperRun& run);
 /// Of the last snapshot before the gate opened, or at its opening.
 double settled_stress_ratio(const HopperRun& run, const Place& place, const Window& window);
 double balance_error(const HopperRun& run, const Place& place, const Window& window);
-double largest_fall_of_surface(const HopperRun& run, const Place& place, const Window& window);
+/// Largest by which an angle lies below an earlier value of itself, 10 ms means, once it has passed 1 degree.
+double largest_fall(const Curve& angle);
+template <double (*angle_of)(const HopperSnapshot&, const Place&)>
+double largest_fall_of(const HopperRun& run, const Place& place, const Window&) {
+  return largest_fall(run.curve(angle_of, place));
+}
+/// An angle less that of the heaps that stay in the hopper.
+template <double (*angle_of)(const HopperSnapshot&, const Place&)>
+double above_repose(const HopperRun& run, const Place& place, const Window& window) {
+  return value_at_window(angle_of, run, place, window) -
+         value_at_window(repose_angle_in<Where::hopper, &ReposeAngle::mean>, run, place, window);
+}
 /// Of the angles of repose of bin and hopper, the one nearer to 30 degrees, or the other.
 double repose(const HopperRun& run, const Window& window, bool nearer);
+
+/// Those measures of hopper_measures() that need the air.
+std::vector<Measure<HopperRun>> hopper_air_measures();
 
 // Two runs, one of each variant.
 using Pair = std::span<const std::vector<HopperRun>>;

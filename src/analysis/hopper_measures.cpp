@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The list of measures of grains in a vessel. A row: name, unit, what it means, how it is made; the lengths that it
-/// takes from a place; where a summary lists it.
+/// The list of measures of grains in a vessel; those of the air stand in hopper_air_measures.cpp. A row: name, unit,
+/// what it means, how it is made; the lengths that it takes from a place; where a summary lists it.
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
 #include "analysis/statistics.hpp"
@@ -30,11 +30,8 @@ bool bin(const Run& run) {
 bool outlet_and_bin(const Run& run) {
   return outlet(run) && bin(run);
 }
-bool air(const Run& run) {
-  return run.setting.air;
-}
 
-const std::vector<Row> list = {
+const std::vector<Row> of_grains = {
     Row("floor_stress_settled", "Pa",
         "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate "
         "opens; "
@@ -53,6 +50,8 @@ const std::vector<Row> list = {
         "in the last snapshot before the gate opens",
         {settled_stress_ratio}, {{always}}),
     Row("stress_ratio_flow", "1", "the same while it flows", at(stress_ratio), {{always, while_it_flows}}),
+    Row("stress_ratio_where_dense", "1",
+        "Σ τ_xx over Σ τ_zz of the particles with packing above 0.5, where stresses act", at(stress_ratio_where_dense)),
     Row("discharge_rate_plateau", "kg/s", "mean of Q over the window",
         {[](const Run& r, const Place&, const Window& w) { return mean_rate(passed_mass(r), w.from, w.to); }},
         {{outlet, while_it_flows}}),
@@ -68,6 +67,8 @@ const std::vector<Row> list = {
         {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).value; }}, {{outlet}}),
     Row("discharge_rate_max_time", "s", "its centre",
         {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).time; }}, {{outlet}}),
+    Row("discharge_rate_share_of_largest", "1", "mean of Q over the window, over the largest mean over as long a time",
+        {discharge_share_of_largest}),
     Row("slit_velocity_extreme_time", "s", "as discharge_rate_extreme_time, of −u_z in the middle of the outlet",
         {[](const Run& r, const Place&, const Window& w) {
           return extreme_time(integral(scaled(r.curve("slit_velocity"), -1)), r, w);
@@ -111,17 +112,63 @@ const std::vector<Row> list = {
         at(surface_angle_in<Where::bin>), {{bin}}),
     Row("surface_angle_hopper", "deg", "the same of the hopper's surface, mean over the window",
         mean_of(surface_angle_in<Where::hopper>), {{outlet, while_it_flows}}),
+    Row("surface_height_bin", "m",
+        "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
+        "middle, left and right together",
+        at(surface_height_in<Where::bin>), {}, beside),
+    Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
+        beside),
+    Row("surface_outward_angle_bin", "deg",
+        "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
+        "of the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        at(surface_outward_angle_in<Where::bin>), {}, beside),
+    Row("surface_inward_angle_hopper", "deg",
+        "the same of the hopper's surface, towards the middle; negative where it falls towards the walls",
+        at(surface_inward_angle_hopper), {}, beside),
+    Row("surface_inward_angle_largest_fall", "deg", "as surface_angle_largest_fall, of surface_inward_angle_hopper",
+        {largest_fall_of<surface_inward_angle_hopper>}, {}, beside),
+    Row("surface_inward_angle_end_difference", "deg", "surface_inward_angle_hopper less repose_angle_hopper",
+        {above_repose<surface_inward_angle_hopper>}, {}, beside),
+    Row("swelling_above_flanks", "m",
+        "height of the hopper's surface in the middle, mean over `width`, less where the lines through it between "
+        "distances `from` and `to` from the middle, prolonged, have it, mean over the window",
+        mean_of(swelling_above_flanks), {}, {"from", "to", "width"}),
+    Row("foot_speed", "m/s",
+        "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
+        "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
+        "`height` of the bin passes 0.15",
+        {foot_speed}, {}, {"height", "from", "to"}),
     Row("surface_swelling", "m",
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
         mean_of(surface_swelling), {}, {"beside", "width"}),
     Row("surface_angle_largest_fall", "deg",
         "largest by which surface_angle_hopper lies below an earlier value, 10 ms means, once it has passed 1 degree",
-        {largest_fall_of_surface}),
+        {largest_fall_of<surface_angle_in<Where::hopper>>}),
     Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
-        {[](const Run& r, const Place& p, const Window& w) {
-          return value_at_window(surface_angle_in<Where::hopper>, r, p, w) -
-                 value_at_window(repose_angle_in<Where::hopper, &ReposeAngle::mean>, r, p, w);
-        }}),
+        {above_repose<surface_angle_in<Where::hopper>>}),
+    Row("surface_height_bin", "m",
+        "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
+        "middle, left and right together",
+        at(surface_height_in<Where::bin>), {}, beside),
+    Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
+        beside),
+    Row("surface_outward_angle_bin", "deg",
+        "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
+        "of the mean of the slopes of two lines, left and right; negative where it rises towards them",
+        at(surface_outward_angle_in<Where::bin>), {}, beside),
+    Row("foot_speed", "m/s",
+        "slope of the line through the foot's reach, one each snapshot, against time, while it is between `from` and "
+        "`to`; reach: distance from the middle, mean of left and right, at which the mean packing of the lowest "
+        "`height` of the bin passes 0.15",
+        {foot_speed}, {}, {"height", "from", "to"}),
+    Row("surface_swelling", "m",
+        "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
+        mean_of(surface_swelling), {}, {"beside", "width"}),
+    Row("surface_angle_largest_fall", "deg",
+        "largest by which surface_angle_hopper lies below an earlier value, 10 ms means, once it has passed 1 degree",
+        {largest_fall_of<surface_angle_in<Where::hopper>>}),
+    Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
+        {above_repose<surface_angle_in<Where::hopper>>}),
     Row("weight_balance_error", "1", "upward force of all walls, from their impulses over 20 ms, over M g, less 1",
         {balance_error}, {{always}}),
     Row("quiescent_speed", "m/s",
@@ -145,6 +192,19 @@ const std::vector<Row> list = {
     Row("period_velocity", "s", "the same of u_z there", period_of("probe_velocity")),
     Row("period_stress", "s", "the same of τ_zz there", period_of("probe_stress")),
     Row("period_strain", "s", "the same of the strain that the law remembers there", period_of("probe_strain")),
+    Row("crossing_period_discharge", "s",
+        "Q less its centred 20 ms mean, 5000 values a second: mean time between its passages upwards through 0",
+        crossing_period_of("discharge_rate"), {{outlet, while_it_flows}}),
+    Row("crossing_period_density", "s", "the same of ρ_b 5 mm above the middle of the outlet",
+        crossing_period_of("probe_density")),
+    Row("crossing_period_velocity", "s", "the same of u_z there", crossing_period_of("probe_velocity")),
+    Row("crossing_period_stress", "s", "the same of τ_zz there", crossing_period_of("probe_stress")),
+    Row("crossing_period_strain", "s", "the same of the strain that the law remembers there",
+        crossing_period_of("probe_strain")),
+    Row("inertial_share_of_bearing", "1",
+        "share with I below 10⁻² of the particles that bear a pressure and are not below the outlet, mean over the "
+        "window",
+        mean_of(inertial_share_of_bearing)),
     Row("inertial_share", "1",
         "share of the particles above the outlet with I = γ̇ D √(ρ_p/p) below 10⁻²; without pressure I is infinite",
         at(inertial_share), {{always, while_it_flows}}),
@@ -157,6 +217,16 @@ const std::vector<Row> list = {
         largest_of(gradient<&GradientSizes::shear_percentile>)),
     Row("velocity_gradient_normal_percentile", "1", "the same with i = j",
         largest_of(gradient<&GradientSizes::normal_percentile>)),
+    Row("cell_gradient_shear_max", "1",
+        "(D/g)^½ times the largest |∂u_x/∂z| or |∂u_z/∂x| above the outlet, central differences of velocities averaged "
+        "over cells of 1.25 mm with packing above 0.5, largest over the snapshots",
+        largest_of(cell_gradient<&GradientSizes::shear_max>)),
+    Row("cell_gradient_normal_max", "1", "the same of |∂u_x/∂x| or |∂u_z/∂z|",
+        largest_of(cell_gradient<&GradientSizes::normal_max>)),
+    Row("cell_gradient_shear_percentile", "1", "the 99.9th percentile over the cells in place of the largest",
+        largest_of(cell_gradient<&GradientSizes::shear_percentile>)),
+    Row("cell_gradient_normal_percentile", "1", "the same of |∂u_x/∂x| or |∂u_z/∂z|",
+        largest_of(cell_gradient<&GradientSizes::normal_percentile>)),
     Row("hopper_velocity", "m/s", "mean of u_z from `left` to `right` at `height`", at(hopper_velocity), {}, across),
     Row("hopper_packing", "1", "mean packing from `left` to `right` at `height`", at(hopper_packing), {}, across),
     Row("stream_narrowing", "1",
@@ -165,6 +235,11 @@ const std::vector<Row> list = {
         {narrowing}, {}, {"above_from", "above_to", "below_from", "below_to"}),
     Row("stream_packing", "1", "mean packing of the stream's particles from `from` to `to`, while the heap is lower",
         at(stream_packing), {}, {"from", "to"}),
+    Row("stream_stress_share", "1",
+        "mean τ_zz of the stream's particles from `from` to `to`, while the heap is lower, over that of the grains "
+        "above "
+        "the outlet",
+        at(stream_stress_share), {}, {"from", "to"}),
     Row("stream_stripes", "1",
         "standard deviation of the packing along the middle of the stream from `from` to `to`, over its mean",
         at(stream_stripes), {}, {"from", "to"}),
@@ -173,38 +248,11 @@ const std::vector<Row> list = {
         "h, without the outermost h/2",
         at(corner_packing_ratio_in<Where::hopper>), {}, {"size"}),
     Row("corner_packing_ratio_bin", "1", "the same in the bin", at(corner_packing_ratio_in<Where::bin>), {}, {"size"}),
-    Row("drag_to_weight", "1",
-        "upward drag of the air on the grains (Eq. 20, without the pressure's part) over their weight, of the cells of "
-        "the air's grid from `left` to `right` at `height`",
-        at(drag_to_weight), {}, across),
-    Row("air_pressure_drop_height", "m",
-        "z of the largest size of dP/dz (central differences) at `x`, from `from` to `to`",
-        at(air_pressure_drop_height), {}, {"x", "from", "to"}),
-    Row("air_pressure_outside_inside", "Pa",
-        "at `height` the mean pressure where packing < 0.01, less the mean where packing > 0.1",
-        at(air_pressure_outside_inside), {}, {"height"}),
-    Row("air_velocity_within_plug", "m/s",
-        "mean u_z of the air at `height` where the grains' −u_z is above half its largest value there",
-        at(air_velocity_within_plug), {}, {"height"}),
-    Row("air_velocity_beside_plug", "m/s", "its largest mean over five cells beside them", at(air_velocity_beside_plug),
-        {}, {"height"}),
-    Row("air_velocity_slowness", "1", "speed of the air within the moving grains over that of the grains",
-        at(air_velocity_slowness), {}, {"height"}),
-    Row("air_vortex_product_bin", "1",
-        "circulation of the left half of the bin times that of the right one over the sum of their squares; "
-        "circulation: integral of ∂u_x/∂z − ∂u_z/∂x over the cells with packing below 0.01",
-        {vortex_product<Where::bin>}),
-    Row("air_vortex_product_hopper", "1", "the same in the hopper", {vortex_product<Where::hopper>}),
-    Row("air_vortex_reversal_hopper", "1",
-        "circulation of the hopper's left half at the beginning of the window times that at its end, over its size",
-        {vortex_reversal}),
-    Row("particle_reynolds_max", "1",
-        "largest D |u − u_p| ρ/μ of a grain at any step of the air since the start; the slip of a particle is the mean "
-        "of the cells that it overlaps",
-        {[](const Run& r, const Place&, const Window& w) {
-          return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1);
-        }},
-        {{air}}),
+    Row("corner_packing_over_middle_bin", "1",
+        "mean packing of the squares of `size` in the bin's two bottom corners over that of the middle third of the "
+        "layer "
+        "of that height, without the outermost h/2",
+        at(corner_packing_over_middle_bin), {}, {"size"}),
     Row("momentum_error", "1",
         "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
         "gravity's impulse; settling included",
@@ -231,6 +279,12 @@ const GroupMeasure<Run> of_two[] = {
 }  // namespace
 
 std::span<const Measure<Run>> hopper_measures() {
+  static const std::vector<Row> list = [] {
+    std::vector<Row> all = of_grains;
+    const std::vector<Row> of_air = hopper_air_measures();
+    all.insert(all.end(), of_air.begin(), of_air.end());
+    return all;
+  }();
   return list;
 }
 

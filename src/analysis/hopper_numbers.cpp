@@ -14,6 +14,7 @@ namespace {
 constexpr double none = HopperRun::none;
 constexpr double nearly_all = 0.999, most = 0.95;
 constexpr double least_slope_in_spacings = 10;
+constexpr double foot_packing = 0.15;
 
 /// The numbers of the hopper need an outlet below it.
 bool has_hopper(const HopperSnapshot& s) {
@@ -34,6 +35,22 @@ bool stream_is_free(const HopperSnapshot& s, const Place& place) {
 std::vector<bool> without_nan(std::vector<bool> taken, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) taken[i] = taken[i] && !std::isnan(values[i]);
   return taken;
+}
+
+/// The largest distance from the middle, on the side of `sign`, at which the packing of the columns passes the foot's;
+/// the wall's where it does not.
+double reach_to(const Section& section, const std::vector<double>& packing, double middle, int sign) {
+  double reach = none;
+  for (std::size_t c = 0; c < packing.size(); ++c) {
+    const double away = sign * (section.x(c) - middle);
+    if (packing[c] < foot_packing || away <= 0) continue;
+    const bool is_outermost = c == (sign < 0 ? 0 : packing.size() - 1);
+    const double next = is_outermost ? 0 : packing[sign < 0 ? c - 1 : c + 1];
+    if (is_outermost) reach = std::fmax(reach, away + 0.5 * section.width);
+    if (!is_outermost && next < foot_packing)
+      reach = std::fmax(reach, away + section.width * (packing[c] - foot_packing) / (packing[c] - next));
+  }
+  return reach;
 }
 
 /// Mean of what `value` makes of the centres of the cells from left to right at a height.
@@ -73,6 +90,20 @@ double surface_swelling(const HopperSnapshot& s, const Place& place) {
                                  length_of(place, "width"));
 }
 
+double swelling_above_flanks(const HopperSnapshot& s, const Place& place) {
+  if (!has_hopper(s)) return none;
+  return talus::swelling_above_flanks(s.surfaces().hopper, s.shape().middle(), length_of(place, "from"),
+                                      length_of(place, "to"), length_of(place, "width"));
+}
+
+double surface_inward_angle_hopper(const HopperSnapshot& s, const Place& place) {
+  return -surface_outward_angle_in<Where::hopper>(s, place);
+}
+
+double corner_packing_over_middle_bin(const HopperSnapshot& s, const Place& place) {
+  return corner_packing_over_middle(s.packing_section(), s.shape().bin(), s.shape(), length_of(place, "size"));
+}
+
 double quiescent_speed(const HopperSnapshot& s, const Place&) {
   const Snapshot* before = s.before ? s.before() : nullptr;
   if (!before) return none;
@@ -98,6 +129,14 @@ double stress_ratio(const HopperSnapshot& s, const Place&) {
   return talus::stress_ratio(s.now, s.inertial());
 }
 
+double stress_ratio_where_dense(const HopperSnapshot& s, const Place&) {
+  return talus::stress_ratio_where_dense(s.now);
+}
+
+double inertial_share_of_bearing(const HopperSnapshot& s, const Place&) {
+  return talus::inertial_share_of_bearing(s.inertial(), outside_outlet(s.now.positions(), s.shape()));
+}
+
 double inertial_share(const HopperSnapshot& s, const Place&) {
   return talus::inertial_share(s.now.positions(), s.inertial(), has_hopper(s) ? s.shape().plate->height : 0);
 }
@@ -119,12 +158,33 @@ double stream_packing(const HopperSnapshot& s, const Place& place) {
   return mean_between(s.now.positions(), s.now.scalars("packing"), length_of(place, "from"), length_of(place, "to"));
 }
 
+double stream_stress_share(const HopperSnapshot& s, const Place& place) {
+  if (!stream_is_free(s, place)) return none;
+  const auto stress = s.now.scalars("stress_zz");
+  return mean_between(s.now.positions(), stress, length_of(place, "from"), length_of(place, "to")) /
+         mean_between(s.now.positions(), stress, s.shape().plate->height, s.shape().height);
+}
+
 double stream_stripes(const HopperSnapshot& s, const Place& place) {
   if (!stream_is_free(s, place)) return none;
   std::vector<double> along;
   for (double z = length_of(place, "from"); z < length_of(place, "to"); z += cell)
     along.push_back(s.field().packing(cell_centre({s.shape().middle(), 0.5 * s.shape().depth, z}, cell)));
   return mean(along) > 0 ? standard_deviation(along) / mean(along) : none;
+}
+
+double foot_reach(const HopperSnapshot& s, const Place& place) {
+  if (s.now.size() == 0) return none;
+  const Section& section = s.packing_section();
+  std::vector<double> packing;
+  for (std::size_t column = 0; column < section.columns; ++column) {
+    std::vector<double> layer;
+    for (std::size_t row = 0; row < section.rows && section.z(row) < length_of(place, "height"); ++row)
+      layer.push_back(section.at(column, row));
+    packing.push_back(mean(layer));
+  }
+  const double middle = s.shape().middle();
+  return 0.5 * (reach_to(section, packing, middle, -1) + reach_to(section, packing, middle, 1));
 }
 
 double hopper_velocity(const HopperSnapshot& s, const Place& place) {

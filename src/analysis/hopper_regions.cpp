@@ -77,6 +77,29 @@ double mean_between(std::span<const Vector3> position, std::span<const double> v
   return mean(chosen);
 }
 
+std::vector<bool> outside_outlet(std::span<const Vector3> position, const HopperShape& shape) {
+  std::vector<bool> outside;
+  for (const Vector3& x : position)
+    outside.push_back(!shape.plate || x.z > shape.plate->height || x.x < shape.plate->slit_left ||
+                      x.x > shape.plate->slit_right);
+  return outside;
+}
+
+double corner_packing_over_middle(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size) {
+  const double margin = 0.5 * shape.spacing;
+  std::vector<double> corners, middle;
+  for (std::size_t row = 0; row < packing.rows; ++row) {
+    const double above_bottom = packing.z(row) - vessel.bottom;
+    if (above_bottom < margin || above_bottom > size) continue;
+    for (std::size_t column = 0; column < packing.columns; ++column) {
+      const double from_wall = std::min(packing.x(column), shape.width - packing.x(column));
+      if (from_wall >= margin && from_wall <= size) corners.push_back(packing.at(column, row));
+      if (from_wall >= shape.width / 3) middle.push_back(packing.at(column, row));
+    }
+  }
+  return mean(corners) / mean(middle);
+}
+
 double corner_packing_ratio(const Section& packing, const FreeSurface& surface, const Vessel& vessel,
                             const HopperShape& shape, double size) {
   const double margin = 0.5 * shape.spacing, depth = depth_in_spacings * shape.spacing;

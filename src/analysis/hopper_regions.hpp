@@ -50,6 +50,13 @@ double stream_width(std::span<const Vector3> position, double from, double to);
 /// Mean of a column over the particles with from < z < to; nan if there are none.
 double mean_between(std::span<const Vector3> position, std::span<const double> values, double from, double to);
 
+/// The particles that are neither below the outlet nor in it: beside its slit, or above the plate.
+std::vector<bool> outside_outlet(std::span<const Vector3> position, const HopperShape& shape);
+
+/// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the middle
+/// third of the layer of that height, both without the outermost h/2 at walls and bottom. nan if either is empty.
+double corner_packing_over_middle(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size);
+
 /// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the layer of
 /// that height deeper than 3 h below the surface, both without the outermost h/2 at walls and bottom. From the cells of
 /// a section, so that the arrangement of particles at the wall does not matter. nan if either is empty.

@@ -64,4 +64,15 @@ double dominant_period(const Curve& curve, double shortest, double longest) {
   return period;
 }
 
+double crossing_period(const Curve& curve) {
+  double begin = 0, end = 0, crossings = 0;
+  for (std::size_t n = 1; n < curve.time.size(); ++n) {
+    const double before = curve.value[n - 1], now = curve.value[n];
+    if (!(before < 0 && now >= 0)) continue;
+    end = std::lerp(curve.time[n - 1], curve.time[n], before / (before - now));
+    if (crossings++ == 0) begin = end;
+  }
+  return crossings > 1 ? (end - begin) / (crossings - 1) : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace talus

@@ -22,4 +22,9 @@ Curve power_spectrum(const Curve& curve, double least, double most);
 /// \param shortest > 0; nan for a curve of fewer than four data
 double dominant_period(const Curve& curve, double shortest, double longest);
 
+/// Mean time between the up-crossings of zero, linear between the data; nan for fewer than two crossings. Of a broad
+/// spectrum, whose highest peak says little, it is Rice's mean period.
+/// Source: S. O. Rice, Bell Syst. Tech. J. 23, 282 (1944), section 3.3.
+double crossing_period(const Curve& curve);
+
 }  // namespace talus

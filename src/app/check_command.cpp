@@ -5,12 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
+#include "app/runs/check_folder.hpp"
 #include "base/memory.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_writer.hpp"
@@ -54,15 +56,23 @@ void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) 
   const double each = prepared.measure_evaluation(team);
   say("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", threads,
       threads == 1 ? "" : "s");
-  double seconds = 0;
+  double seconds = 0, most_seconds = 0;
   for (const Forecast::Phase& phase : f.phases) {
-    seconds += phase.evaluations * each;
+    const double least = phase.evaluations * each, most = least * phase.most;
+    seconds += least, most_seconds += most;
+    if (phase.most > 1) {
+      say("  {:{}}  {} to {} steps of {:.3g} ms: {} to {}\n", phase.name, key, count_text(phase.steps),
+          count_text(phase.most * phase.steps), 1e3 * each, run::format_seconds(least), run::format_seconds(most));
+      say("  {:{}}  (without settle.damping_time, when a bed comes to rest is not known)\n", "", key);
+      continue;
+    }
     const std::string evaluations =
         phase.evaluations == phase.steps ? "" : fmt::format(", {} evaluations", count_text(phase.evaluations));
     say("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, key, count_text(phase.steps), evaluations,
-        1e3 * each, run::format_seconds(phase.evaluations * each));
+        1e3 * each, run::format_seconds(least));
   }
-  say("  {:{}}  {}\n", "time", key, run::format_seconds(seconds));
+  say("  {:{}}  {}{}\n", "time", key, run::format_seconds(seconds),
+      most_seconds > seconds ? " to " + run::format_seconds(most_seconds) : "");
   const std::optional<double> available = available_memory();
   say("  {:{}}  {:.0f} MB{}\n", "memory", key, f.memory_bytes / 1e6,
       available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
@@ -71,6 +81,7 @@ void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) 
 }
 
 ExitStatus check(const CaseOptions& options, int threads) {
+  if (std::filesystem::is_directory(options.path)) return check_folder(options.path);
   const CaseFile file = options.read();
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
@@ -97,10 +108,13 @@ void add_check_command(CLI::App& app, Action& action) {
     int threads = 1;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("check", "check a case: all problems at once, or the resolved case and a forecast");
+  CLI::App* command = app.add_subcommand(
+      "check", "check a case: all problems at once, or the resolved case and a forecast; or the files of a run");
   options->case_options.add_to(*command);
   add_threads_option(*command, options->threads);
+  command->footer(
+      "In place of CASE the folder of a run, or one that holds runs: compares their series and snapshots with the\n"
+      "checksums that were written with them; exit status 4 if one has changed.");
   command->callback(
       [options, &action] { action = [options] { return check(options->case_options, options->threads); }; });
 }

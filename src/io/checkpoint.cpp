@@ -2,13 +2,13 @@
 #include "io/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <charconv>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checksum.hpp"
 
 namespace talus {
 
@@ -17,11 +17,8 @@ namespace {
 constexpr int format = 1;
 constexpr std::size_t user_block = 512;  // HDF5 looks for its signature at 0, 512, 1024, ...
 
-std::string checksum(std::string_view head, std::string_view content) {
-  const auto add = [](uLong sum, std::string_view bytes) {
-    return crc32_z(sum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-  };
-  return fmt::format("{:08x}", add(add(crc32_z(0, nullptr, 0), head), content));
+std::string checksum_line(std::string_view head, std::string_view content) {
+  return fmt::format("crc32 {:08x}\n", checksum(content, checksum(head)));
 }
 
 /// The lines before the checksum.
@@ -58,7 +55,7 @@ std::optional<std::uint64_t> verify(std::string_view content, std::string& damag
   if (!found_format || !sequence || !bytes) return damaged("its first lines are damaged");
   if (content.size() != user_block + *bytes)
     return damaged(fmt::format("is {} bytes long in place of {}", content.size(), user_block + *bytes));
-  const std::string expected = "crc32 " + checksum(head_of(*sequence, *bytes), content.substr(user_block)) + '\n';
+  const std::string expected = checksum_line(head_of(*sequence, *bytes), content.substr(user_block));
   if (!rest.starts_with(expected)) return damaged("does not have the checksum that was written with it");
   return sequence;
 }
@@ -154,7 +151,7 @@ void CheckpointFiles::save(const CheckpointWriter& checkpoint) {
   std::string content = checkpoint.file_.image(user_block);
   const std::string_view image = std::string_view(content).substr(user_block);
   std::string head = head_of(sequence, image.size());
-  head += "crc32 " + checksum(head, image) + '\n';
+  head += checksum_line(head, image);
   std::copy(head.begin(), head.end(), content.begin());
   write_atomically(folder_ / names[target], content);
   sequences_[target] = sequence;

@@ -3,13 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checksum.hpp"
 #include "io/descriptor.hpp"
 
 namespace talus {
@@ -22,8 +22,7 @@ constexpr std::string_view title = "Talus wrote these files, and removes or repl
 constexpr int most_levels = 4;  // members of an ensemble: FOLDER/GROUP/pictures/NAME
 
 std::string line_of(std::string_view name) {
-  const auto sum = crc32_z(0, reinterpret_cast<const Bytef*>(name.data()), name.size());
-  return fmt::format("{:08x} {}\n", sum, name);
+  return fmt::format("{:08x} {}\n", checksum(name), name);
 }
 
 /// Whether a name is a path below a folder.

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/checksum.hpp"
 #include "io/file_list.hpp"
 
 namespace talus {
@@ -27,6 +28,20 @@ std::string header_of(const std::vector<SeriesColumn>& columns) {
   return header + '\n';
 }
 
+/// Where the header and the first `rows` rows end. \throws FileError if there are fewer
+std::size_t end_of_rows(const std::filesystem::path& path, std::string_view content, std::uint64_t rows) {
+  std::size_t end = 0;
+  for (std::uint64_t line = 0; line <= rows; ++line) {
+    const std::size_t line_end = content.find('\n', end);
+    if (line_end == std::string::npos)
+      throw FileError(path.string(), fmt::format("cannot be resumed: it has {} whole rows, the checkpoint was made "
+                                                 "after {}",
+                                                 line == 0 ? 0 : line - 1, rows));
+    end = line_end + 1;
+  }
+  return end;
+}
+
 }  // namespace
 
 SeriesWriter::SeriesWriter(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns)
@@ -36,6 +51,7 @@ SeriesWriter::SeriesWriter(const std::filesystem::path& path, const std::vector<
   const std::string header = header_of(columns);
   file_.write(header);
   bytes_ = header.size();
+  sum_ = checksum(header);
 }
 
 SeriesWriter SeriesWriter::resume(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
@@ -51,17 +67,10 @@ SeriesWriter SeriesWriter::resume(const std::filesystem::path& path, const std::
                     fmt::format("cannot be resumed: its columns are not those of this run; found: {}; "
                                 "expected: {}",
                                 content.substr(0, content.find('\n')), header.substr(0, header.size() - 1)));
-  std::size_t end = header.size();
-  for (; writer.rows_ < rows; ++writer.rows_) {
-    const std::size_t line_end = content.find('\n', end);
-    if (line_end == std::string::npos)
-      throw FileError(path.string(), fmt::format("cannot be resumed: it has {} whole rows, the checkpoint was made "
-                                                 "after {}",
-                                                 writer.rows_, rows));
-    end = line_end + 1;
-  }
-  writer.bytes_ = end;
-  writer.file_.truncate(end);
+  writer.rows_ = rows;
+  writer.bytes_ = end_of_rows(path, content, rows);
+  writer.sum_ = checksum(std::string_view(content).substr(0, writer.bytes_));
+  writer.file_.truncate(writer.bytes_);
   return writer;
 }
 
@@ -93,6 +102,12 @@ void SeriesWriter::append(std::span<const double> values) {
   }
   bytes_ += line_.size();
   ++rows_;
+  sum_ = checksum(line_, sum_);
+}
+
+std::uint32_t checksum_of_series(const std::filesystem::path& path, std::uint64_t rows) {
+  const std::string content = read_whole_file(path);
+  return checksum(std::string_view(content).substr(0, end_of_rows(path, content, rows)));
 }
 
 namespace {

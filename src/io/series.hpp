@@ -39,6 +39,9 @@ class SeriesWriter {
   /// Rows in the file: what a checkpoint remembers and `resume` is given.
   std::uint64_t position() const { return rows_; }
 
+  /// Of the header and these rows (checksum.hpp).
+  std::uint32_t sum() const { return sum_; }
+
   /// Takes all rows to the disk. To be called before a checkpoint that remembers `position()` is saved.
   void sync() { file_.sync(); }
 
@@ -50,7 +53,11 @@ class SeriesWriter {
   std::size_t columns_ = 0;
   std::size_t bytes_ = 0;
   std::uint64_t rows_ = 0;
+  std::uint32_t sum_ = 0;
 };
+
+/// The checksum of a series' header and its first `rows` rows. \throws FileError if it has fewer
+std::uint32_t checksum_of_series(const std::filesystem::path& path, std::uint64_t rows);
 
 /// Writes a table of such rows, whole or not at all. \param rows of as many values as there are columns
 /// \throws FileError, std::invalid_argument

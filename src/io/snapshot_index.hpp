@@ -13,9 +13,13 @@
 
 namespace talus {
 
-/// Lists the snapshots 0 to `latest` that are there. To be called after each snapshot, `latest`, is written: the times
-/// of those before are taken from the index as it was, and from the snapshots where it has none.
+/// From where the times of the snapshots before the latest are known: from the index as it was, and from the snapshots
+/// where it has none; or from the snapshots alone, which takes opening them all.
+enum class KnownTimes { of_index, of_snapshots };
+
+/// Lists the snapshots 0 to `latest` that are there. To be called after each snapshot, `latest`, is written.
 /// \throws FileError if the index cannot be written or a snapshot not be read
-void index_snapshots(const RunFolder& folder, int latest, std::string_view kind = "particles");
+void index_snapshots(const RunFolder& folder, int latest, std::string_view kind = "particles",
+                     KnownTimes known = KnownTimes::of_index);
 
 }  // namespace talus

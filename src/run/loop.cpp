@@ -13,11 +13,9 @@
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
-#include "io/snapshot_index.hpp"
-#include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
+#include "run/snapshot_writer.hpp"
 #include "run/step_guard.hpp"
 
 namespace talus::run {
@@ -144,28 +142,8 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   Clock clock;
   CheckpointFiles checkpoints(folder);
   StepGuard guard;
-  std::uint64_t snapshots = 0;      // taken
-  std::uint64_t snapshot_step = 0;  // of the last one
-  double next_snapshot_time = 0;
+  SnapshotWriter snapshots(folder, options.snapshot_interval);
   double next_row_time = 0;
-
-  auto write_snapshot = [&](std::uint64_t number) {
-    const auto n = static_cast<int>(number);
-    if (const Snapshot particles = model.snapshot(); !particles.columns.empty()) {
-      write_points(RunFolder(folder).snapshot(n), particles);
-      index_snapshots(RunFolder(folder), n);
-    }
-    if (const std::optional<GridSnapshot> air = model.grid()) {
-      write_grid(RunFolder(folder).snapshot(n, "air"), *air);
-      index_snapshots(RunFolder(folder), n, "air");
-    }
-  };
-  auto take_snapshot = [&] {
-    write_snapshot(snapshots);
-    ++snapshots;
-    snapshot_step = model.step();
-    next_snapshot_time = options.snapshot_interval * (std::floor(model.time() / options.snapshot_interval) + 1);
-  };
 
   std::vector<NamedValue> row;  // the last
   auto add_row = [&](SeriesWriter& series) {
@@ -188,9 +166,6 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     std::uint64_t rows = 0;
     double wall = 0, cpu = 0;
     checkpoint->get("run/rows", rows);
-    checkpoint->get("run/snapshots", snapshots);
-    checkpoint->get("run/snapshot_step", snapshot_step);
-    checkpoint->get("run/next_snapshot_time", next_snapshot_time);
     checkpoint->get("run/next_row_time", next_row_time);
     checkpoint->get("run/wall_seconds", wall);
     checkpoint->get("run/cpu_seconds", cpu);
@@ -198,14 +173,12 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     guard.resume(*checkpoint);
     row = row_of(model, observers);
     series = SeriesWriter::resume(folder / "series.csv", columns_of(row), rows);
-    const auto taken = static_cast<int>(snapshots);
-    for (const char* kind : {"particles", "air"})
-      if (RunFolder(folder).remove_snapshots(taken, kind)) index_snapshots(RunFolder(folder), taken - 1, kind);
+    snapshots.resume(*checkpoint);
   } else {
     model.begin(team);
     series.emplace(folder / "series.csv", columns_of(row_of(model, observers)));
     add_row(*series);
-    take_snapshot();
+    snapshots.take(model);
   }
 
   auto save = [&] {
@@ -213,9 +186,8 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     CheckpointWriter writer(options.fingerprint);
     model.save(writer);
     writer.put("run/rows", series->position());
-    writer.put("run/snapshots", snapshots);
-    writer.put("run/snapshot_step", snapshot_step);
-    writer.put("run/next_snapshot_time", next_snapshot_time, "s");
+    writer.put("run/sum_of_series", std::uint64_t{series->sum()});
+    snapshots.save(writer);
     writer.put("run/next_row_time", next_row_time, "s");
     writer.put("run/wall_seconds", clock.wall());
     writer.put("run/cpu_seconds", clock.cpu());
@@ -241,7 +213,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     model.advance(team);
     check_step(guard, model, time_before, begun);
     if (model.time() >= next_row_time) add_row(*series);
-    if (model.time() >= next_snapshot_time) take_snapshot();
+    if (snapshots.is_due(model.time())) snapshots.take(model);
     if (clock.wall() - last_checkpoint > options.checkpoint_interval) {
       save();
       last_checkpoint = clock.wall();
@@ -249,10 +221,8 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     line.update(row);
   }
   line.finish();
+  if (!result.interrupted) snapshots.take_last(model);
   save();
-  // Where the end falls between two snapshots its state is written all the same, but not counted: a later end takes the
-  // number.
-  if (!result.interrupted && snapshot_step != model.step()) write_snapshot(snapshots);
   result.wall_seconds = clock.wall();
   result.cpu_seconds = clock.cpu();
   result.steps = model.step();

@@ -138,5 +138,18 @@ TEST(HeapSlopes, EndAtGaps) {
   EXPECT_NEAR(surface_angle(surface, 30) / degree, 45, 1e-9);
 }
 
+TEST(FreeSurface, FlanksLeaveOutWhatFallsOnTheMiddle) {
+  const double slope = std::tan(20 * degree);
+  FreeSurface surface;
+  for (int n = 0; n < 100; ++n) {
+    const double x = n + 0.5, from_middle = std::abs(x - 50);
+    surface.x.push_back(x);
+    surface.z.push_back(x < 5 || x > 95 ? 99 : from_middle < 20 ? 60 : 50 - slope * from_middle);
+  }
+  EXPECT_NEAR(outward_angle(surface, 50, 22, 45) / degree, 20, 1e-9);
+  EXPECT_NEAR(swelling_above_flanks(surface, 50, 22, 45, 10), 10, 1e-9);
+  EXPECT_TRUE(std::isnan(swelling_above_flanks(surface, 50, 44, 45, 10))) << "two heights are no line";
+}
+
 }  // namespace
 }  // namespace talus

@@ -84,5 +84,35 @@ TEST(MeanSpeeds, FollowGrainsByTheirIdentity) {
   EXPECT_THROW(mean_speeds(now.view(), before.view()), std::invalid_argument);
 }
 
+TEST(InertialShare, OfThoseThatBearCountsNoGrainsWithoutStress) {
+  const test::GrainColumns c = four();
+  const auto inertial = inertial_numbers(c.view(), 200e-6, 2500);
+  EXPECT_DOUBLE_EQ(inertial_share_of_bearing(inertial, {true, true, true, true}), 2.0 / 3);
+  EXPECT_DOUBLE_EQ(inertial_share_of_bearing(inertial, {true, false, true, true}), 0.5);
+  EXPECT_TRUE(std::isnan(inertial_share_of_bearing(inertial, {false, false, false, true})));
+}
+
+TEST(StressRatio, WhereDenseLeavesOutLooseGrainsAlone) {
+  test::GrainColumns c = four();
+  EXPECT_DOUBLE_EQ(stress_ratio_where_dense(c.view()), 1200.0 / 1300);
+  c.packing[2] = 0.5;
+  EXPECT_DOUBLE_EQ(stress_ratio_where_dense(c.view()), 200.0 / 300);
+}
+
+TEST(CellGradientSizes, OfALinearFieldWithOneParticleAstray) {
+  constexpr double h = 1e-2;
+  const auto points = test::lattice(0.2, 0.05, 0, 0.2, h);
+  std::vector<Vector3> velocity;
+  for (const Vector3& x : points) velocity.push_back({0, 0, 7 * x.x - x.z});
+  const ParticleField field(test::particles(points, h), test::box(0.2, 0.05, 0.3));
+  const auto sizes = [&] { return cell_gradient_sizes(field, velocity, 0.5 * h, 0.2, 0.05, 0.05, 0.3, 200e-6, 9.8); };
+  const double unit = std::sqrt(200e-6 / 9.8);
+  // The kernel's mean is not exact for a linear field near the surface and off the lattice.
+  EXPECT_NEAR(sizes().shear_max, 7 * unit, 0.1 * 7 * unit);
+  EXPECT_NEAR(sizes().normal_max, 1 * unit, 0.1 * unit);
+  velocity[points.size() / 2].z += 1;
+  EXPECT_LT(sizes().shear_max, unit * 1 / h) << "a cell's mean is calmer than a particle";
+}
+
 }  // namespace
 }  // namespace talus

@@ -68,6 +68,12 @@ TEST(Hopper, FrameOfTwoHeaps) {
   EXPECT_NEAR(is(hopper::repose_angle_in<hopper::Where::hopper, &ReposeAngle::mean>), 30, 1);
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::hopper>), 30, 1);
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::bin>), 25, 1);
+  EXPECT_NEAR(is(hopper::surface_height_in<hopper::Where::bin>, {{"from", 0.02}, {"to", 0.03}}),
+              0.03 + 0.025 * std::tan(25 * pi / 180), 0.3e-3);
+  EXPECT_NEAR(is(hopper::surface_height_in<hopper::Where::hopper>, {{"from", 0.035}, {"to", 0.045}}),
+              plate + 0.02 * std::tan(pi / 6), 0.5e-3);
+  EXPECT_NEAR(is(hopper::surface_outward_angle_in<hopper::Where::bin>, {{"from", 0.01}, {"to", 0.045}}), 25, 1);
+  EXPECT_NEAR(is(hopper::foot_reach, {{"height", 5e-3}}), 0.05, 1e-12) << "to the walls";
   EXPECT_NEAR(is(hopper::quiescent_speed), 1e-4, 1e-12);
   EXPECT_NEAR(is(hopper::stress_ratio), 2.0 / 3, 1e-12);
   EXPECT_EQ(is(hopper::inertial_share), 1);
@@ -102,6 +108,7 @@ TEST(Hopper, FrameOfAStream) {
   test::GrainColumns now(points, bulk_density, grain_density, gate + 0.2);
   for (std::size_t i = bed; i < points.size(); ++i) now.packing[i] = 0.4;
   for (std::size_t i = 0; i < points.size(); ++i) now.velocity[i].z = i < bed ? -0.2 : -1;
+  for (std::size_t i = 0; i < points.size(); ++i) now.stress_zz[i] = i < bed ? 500 : 50;
   now.packing[bed - 1] = 0.9;  // one particle is no percentile
   const HopperSetting paper = setting();
   const HopperSnapshot snapshot(paper, now.view(), gate);
@@ -111,6 +118,7 @@ TEST(Hopper, FrameOfAStream) {
                   is(hopper::stream_width, {{"from", 0.09}, {"to", 0.1}, {"free", 0.04}}),
               0.5, 0.1);
   EXPECT_NEAR(is(hopper::stream_packing, {{"from", 0.04}, {"to", 0.09}, {"free", 0.04}}), 0.4, 1e-12);
+  EXPECT_NEAR(is(hopper::stream_stress_share, {{"from", 0.04}, {"to", 0.09}, {"free", 0.04}}), 0.1, 1e-12);
   EXPECT_LT(is(hopper::stream_stripes, {{"from", 0.04}, {"to", 0.095}, {"free", 0.04}}), 0.02);
   EXPECT_NEAR(is(hopper::hopper_velocity, across), -0.2, 1e-9);
   EXPECT_NEAR(is(hopper::hopper_packing, across), 0.6, 0.012);
@@ -118,7 +126,23 @@ TEST(Hopper, FrameOfAStream) {
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::hopper>), 0, 0.01);
   EXPECT_TRUE(std::isnan(is(hopper::repose_angle_in<hopper::Where::hopper, &ReposeAngle::mean>)));
   EXPECT_NEAR(is(hopper::surface_swelling, {{"beside", 0.02}, {"width", 0.004}}), 0, 1e-9);
-  EXPECT_EQ(is(hopper::inertial_share), 0) << "without stress nothing is quasi-static";
+  EXPECT_EQ(is(hopper::inertial_share), 1) << "nothing shears";
+}
+
+/// A layer on the floor that has come farther on the right than on the left, and falling grains above the floor at the
+/// wall; then with nothing on the left.
+TEST(Hopper, FrameOfAFoot) {
+  const auto layer = [](double left, double right) {
+    auto points =
+        test::lattice(width, depth, 0, 6 * h, h, [=](double x, double) { return x > 0.05 - left && x < 0.05 + right; });
+    const auto drops = test::lattice(width, depth, 12 * h, 18 * h, h, [](double x, double) { return x > 0.09; });
+    points.insert(points.end(), drops.begin(), drops.end());
+    return test::GrainColumns(points, bulk_density, grain_density, gate + 0.16);
+  };
+  const HopperSetting paper = setting();
+  const test::GrainColumns both = layer(12 * h, 18 * h), right = layer(0, 18 * h);
+  EXPECT_NEAR(hopper::foot_reach(HopperSnapshot(paper, both.view(), gate), {{"height", 5e-3}}), 15 * h, 0.4 * h);
+  EXPECT_TRUE(std::isnan(hopper::foot_reach(HopperSnapshot(paper, right.view(), gate), {{"height", 5e-3}})));
 }
 
 /// Numbers of 21 snapshots, one every 50 ms.
@@ -136,6 +160,9 @@ double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number, c
                              : n == 5                                          ? 0.02
                                                                                : 0.03},
       {hopper::stress_ratio, n == 0 ? 0.6 : 0.7},
+      {hopper::foot_reach, n < 4   ? HopperRun::none
+                           : n < 6 ? 0.02
+                                   : std::min(0.05, 0.02 + 4e-3 * (n - 6))},
       {hopper::mass, setting().mass()}};
   const auto found = numbers.find(number);
   return found == numbers.end() ? HopperRun::none : found->second;
@@ -202,6 +229,11 @@ TEST(Hopper, QuantitiesOfARun) {
   EXPECT_NEAR(is("discharge_rate_max", {.at = {}, .from = 0.03, .to = 0.4}), 0.2 + 0.05 * 3e-3 * std::sqrt(pi) / 0.02,
               0.004);
   EXPECT_NEAR(is("discharge_rate_max_time", {.at = {}, .from = 0.03, .to = 0.4}), 0.04, 6e-3);
+  EXPECT_NEAR(is("discharge_rate_share_of_largest", {.at = {}, .from = 0.1, .to = 0.12}),
+              0.2 / is("discharge_rate_max", {.at = {}, .from = 0, .to = 0.4}), 4e-3);
+  EXPECT_NEAR(is("crossing_period_discharge", {.at = {}, .from = 0.08, .to = 0.25}), 6e-3, 5e-5);
+  EXPECT_NEAR(is("crossing_period_density", {.at = {}, .from = 0.05, .to = 0.3}), 6.6e-3, 5e-5);
+  EXPECT_TRUE(std::isnan(is("crossing_period_strain", {.at = {}, .from = 0.05, .to = 0.3})));
   EXPECT_NEAR(is("discharged_fraction", {.at = 0.4}), 0.2 * 0.28 / run.setting.mass(), 0.01);
   EXPECT_NEAR(is("residual_fraction", {}), 1 - 0.2 * 0.28 / run.setting.mass(), 0.01);
   EXPECT_NEAR(measure("floor_arrival_first_time", run, {}, {{"height", 1e-3}}), std::sqrt(0.099 / 4.9), 1e-5);
@@ -225,6 +257,9 @@ TEST(Hopper, QuantitiesOfARun) {
               0.025 / 0.04, 1e-12);
   EXPECT_EQ(is("stress_ratio_settled", {}), 0.6);
   EXPECT_EQ(is("stress_ratio_flow", {.at = 0.2}), 0.7);
+  const Place floor{{"height", 5e-3}, {"from", 0.0239}, {"to", 0.0451}};
+  EXPECT_NEAR(measure("foot_speed", run, {}, floor), 4e-3 / 0.05, 1e-12);
+  EXPECT_TRUE(std::isnan(measure("foot_speed", run, {.at = {}, .from = 0, .to = 0.41}, floor))) << "two points";
   EXPECT_NEAR(is("mass_error", {}), 0, 1e-12);
   EXPECT_TRUE(std::isnan(is("stress_ratio_flow", {.at = 1.5}))) << "after the end";
   EXPECT_TRUE(std::isnan(is("discharged_fraction", {.at = 1.5})));

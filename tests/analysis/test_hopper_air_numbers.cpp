@@ -80,6 +80,8 @@ TEST(AirNumbers, FindsWhereThePressureDropsAndWhereItIsHigher) {
   });
   EXPECT_NEAR(number(hopper::air_pressure_drop_height, air, {{"x", 0.031}, {"from", 0.02}, {"to", 0.19}}), 103e-3,
               1.25e-3);
+  EXPECT_NEAR(number(hopper::air_pressure_gradient_at_drop, air, {{"x", 0.031}, {"from", 0.02}, {"to", 0.19}}),
+              -10 / 5e-3, 0.03 * 10 / 5e-3);
   EXPECT_NEAR(number(hopper::air_pressure_outside_inside, air, {{"height", 0.05}}), 3, 1e-12);
 }
 
@@ -108,8 +110,11 @@ TEST(Circulation, OfAVortexIsTheLineIntegralAroundIt) {
   const double exact = -u * pi * (1 / height + height / (width * width)) * 4 * width * height / (pi * pi);
   EXPECT_NEAR(hopper::circulation(air.snapshot(), 0, width, 0, height), exact, 0.01 * std::abs(exact));
   EXPECT_NEAR(hopper::circulation(air.snapshot(), width, 2 * width, 0, height), -exact, 0.01 * std::abs(exact));
+  EXPECT_EQ(hopper::circulation(air.snapshot(), 0, width, 0, height, hopper::Cells::filled), 0);
   std::fill(air.fraction.begin(), air.fraction.end(), 0.5);
   EXPECT_EQ(hopper::circulation(air.snapshot(), 0, width, 0, height), 0);
+  EXPECT_NEAR(hopper::circulation(air.snapshot(), 0, width, 0, height, hopper::Cells::filled), exact,
+              0.01 * std::abs(exact));
 }
 
 }  // namespace

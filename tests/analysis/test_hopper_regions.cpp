@@ -39,6 +39,14 @@ TEST(DeepParticles, LieBelowTheSurfaceOfTheirVessel) {
               ElementsAre(true, true, true, true, true, true, true, false));
 }
 
+TEST(OutsideOutlet, IsBesideTheSlitOrAboveThePlate) {
+  const std::vector<Vector3> points = {{0.05, 0, 0.05}, {0.02, 0, 0.05}, {0.05, 0, 0.11}, {0.02, 0, 0.11}};
+  EXPECT_THAT(outside_outlet(points, shape), ElementsAre(false, true, true, true));
+  HopperShape box = shape;
+  box.plate.reset();
+  EXPECT_THAT(outside_outlet(points, box), ElementsAre(true, true, true, true));
+}
+
 TEST(OutsideImpact, IsFarFromTheBinsSurfaceBelowTheSlit) {
   const std::vector<Vector3> points = {{0.05, 0, 0.035}, {0.05, 0, 0.041}, {0.085, 0, 0.02}, {0.091, 0, 0.02}};
   EXPECT_THAT(outside_impact(points, level(0.02), shape, 0.02), ElementsAre(false, true, false, true));
@@ -78,6 +86,7 @@ TEST(Corners, DenserThanTheRestOfTheLayer) {
   }
   const double mean = (9 * 18 * 0.66 + 9 * 80 * 0.6) / (9 * 98);
   EXPECT_NEAR(corner_packing_ratio(packing, surface, shape.bin(), shape, 0.01), 0.66 / mean, 1e-12);
+  EXPECT_NEAR(corner_packing_over_middle(packing, shape.bin(), shape, 0.01), 1.1, 1e-12);
 }
 
 }  // namespace

@@ -61,5 +61,11 @@ TEST(Spectrum, EqualTimesAreInterpolated) {
   EXPECT_TRUE(at_equal_times(curve, 10, 0.2, 1.2).time.empty());
 }
 
+TEST(Spectrum, CrossingsCountTheSwingsOfASinusoid) {
+  const Curve curve = sampled(5000, 0.25, [](double t) { return std::sin(2 * pi * t / 0.0066 + 0.7); });
+  EXPECT_NEAR(crossing_period(curve), 0.0066, 1e-6);
+  EXPECT_TRUE(std::isnan(crossing_period(sampled(5000, 0.25, [](double t) { return t - 0.1; })))) << "one crossing";
+}
+
 }  // namespace
 }  // namespace talus

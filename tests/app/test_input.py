@@ -24,7 +24,8 @@ enabled = true
 snapshots = "0.1 ms"
 """
 
-POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
+POINTS = CASE.replace("seed = 3\n", "").replace(
+    'shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
 class BadCase(InputTest):
@@ -109,13 +110,13 @@ class BadCase(InputTest):
         (self.folder / "case.toml").write_text(POINTS)
         self.assertIn("points.csv: cannot open", self.talus("run", "case.toml", status=4).stderr)
         for text, message in (("x [mm],y [mm]\n1,2\n3,four\n", r"^points\.csv:3: y: "),
-                              ("x [m],y [m]\n0,0\n1e9,0\n", r"^case\.toml:6: particles\.file: .*more than a million"),
-                              ("x [m],y [m],z [m]\n0,0,0\n1,0,1\n", r"^case\.toml:6: particles\.file: .*plane of mot"),
-                              ("x [m],radius [m]\n0,-1\n", r"^case\.toml:6: particles\.file: 1 radii"),
+                              ("x [m],y [m]\n0,0\n1e9,0\n", r"^case\.toml:5: particles\.file: .*more than a million"),
+                              ("x [m],y [m],z [m]\n0,0,0\n1,0,1\n", r"^case\.toml:5: particles\.file: .*plane of mot"),
+                              ("x [m],radius [m]\n0,-1\n", r"^case\.toml:5: particles\.file: 1 radii"),
                               ("x [m],y [m]\n0.1,0\n0.3,0.25\n0.3,0.25\n",
-                               r"^case\.toml:6: particles\.file: 1 pair overlap too much; points 2 and 3 by 2 radii"),
+                               r"^case\.toml:5: particles\.file: 1 pair overlap too much; points 2 and 3 by 2 radii"),
                               ("x [mm],y [mm]\n0,0\n4,0\n6,0\n",
-                               r"^case\.toml:6: particles\.file: 3 pairs overlap too much; points 2 and 3 by 1\.6 ")):
+                               r"^case\.toml:5: particles\.file: 3 pairs overlap too much; points 2 and 3 by 1\.6 ")):
             (self.folder / "points.csv").write_text(text)
             self.assertRegex(self.problems("run", "case.toml")[0], message)
         self.assertEqual(sorted(tree(self.folder)), ["case.toml", "points.csv"])
@@ -162,6 +163,33 @@ class BadCase(InputTest):
             lines = self.talus("check", case).stdout.splitlines()
             self.assertLessEqual(max(map(len, lines)), 100)
             self.assertRegex("\n".join(lines), r"\n  settling +about|\n  run +about")
+
+    def test_when_an_undamped_bed_rests_is_not_known(self):
+        (self.folder / "case.toml").write_text(HOPPER)  # without settle.damping_time, under its whole weight at once
+        said = self.talus("check", "case.toml", "--set", "settle.loading_time=0 s").stdout
+        self.assertRegex(said, r"\n  settling +\S+ to \S+ steps of .*: .* to .*\n +\(without settle.damping_time, when a "
+                               r"bed comes to rest is not known\)")
+        self.assertRegex(said, r"\n  time +.* to .*\n")
+        damped = self.talus("check", "case.toml", "--set", "settle.damping_time=5 ms").stdout
+        self.assertRegex(damped, r"\n  settling +about \S+ steps")
+
+    def test_air_alone_is_told_where_it_leaves_its_range(self):
+        said = self.talus("check", PROJECT / "cases/cavity.toml", "--set",
+                          'air.top_velocity=["150 m/s", "0 m/s", "0 m/s"]').stdout
+        self.assertIn("! Mach number of the case = 0.437", said)
+        self.assertIn("! Reynolds number of a cell", said)
+
+    def test_a_seed_without_anything_random_is_an_error(self):
+        (self.folder / "points.csv").write_text("x [m],y [m],z [m]\n0,0,0\n0.1,0,0\n")
+        (self.folder / "case.toml").write_text(POINTS.replace("motion", "seed = 3\nmotion"))
+        said = self.talus("check", "case.toml", status=2).stderr
+        self.assertIn('case.toml:2: seed: ', said)
+        self.assertIn("particles.shape", said)
+        (self.folder / "case.toml").write_text(POINTS)
+        self.assertNotIn("seed", self.talus("check", "case.toml").stdout)
+        # There is one member of an ensemble in which nothing is random.
+        self.talus("ensemble", "case.toml", "--out", "e", "--members", 3, "--set", "run.end=0.1 ms")
+        self.assertEqual(len(list((self.folder / "e").rglob("series.csv"))), 1)
 
     def test_control_characters_are_not_passed_on(self):
         hostile = "\\u001b[31m\\u009b\\u202e"

@@ -4,7 +4,8 @@ import unittest
 
 from program import CASE, ProgramTest, tree
 
-POINTS = CASE.replace('shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
+POINTS = CASE.replace("seed = 3\n", "").replace(
+    'shape = "circle"\ncount = 60\nsize = "60 mm"', 'shape = "file"\nfile = "points.csv"')
 
 
 class Points(ProgramTest):

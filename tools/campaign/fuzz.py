@@ -33,7 +33,7 @@ class Fuzzing(Attack):
         target = self.left.pop()
         corpus = [PROJECT / "tests/fuzz/corpus" / target] + ([PROJECT / TARGETS[target]] if TARGETS[target] else [])
         (folder / "found").mkdir()
-        done = subprocess.run([PROJECT / f"build-fuzz/fuzz_{target}", f"-runs={self.share}", "-timeout=20",
+        done = subprocess.run([PROJECT / f"build-fuzz/fuzz_{target}", f"-runs={self.share}", "-timeout=60",
                                "-max_len=4096", f"-seed={random.randrange(1, 2**31)}", f"-artifact_prefix={folder}/",
                                folder / "found", *corpus], capture_output=True, text=True, errors="replace", check=False)
         if done.returncode != 0:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cases that take a few tenths of a second and write every kind of file."""
+"""Cases that take a tenth of a second and write every kind of file."""
 
 CLOUD = """model = "cloud"
 seed = 3
@@ -15,14 +15,14 @@ angle = "45 deg"
 [integration]
 largest_step = 0.003
 [run]
-end = "1 ms"
+end = "0.6 ms"
 [output]
 snapshots = "0.1 ms"
 pictures = false
-checkpoint_interval = "5 ms"
+checkpoint_interval = "15 ms"
 """
 
-# Some hundred steps of settling, then the gate; eighty particles of 5 mm.
+# Some steps of settling, then the gate, some hundred in all; forty particles of 5 mm.
 HOPPER = """model = "continuum"
 [box]
 width = "50 mm"
@@ -47,10 +47,11 @@ continuity = "air-alone"
 formulation = "model-b"
 cell = "5 mm"
 [settle]
-longest = "30 ms"
-duration = "1 ms"
-speed = "50 mm/s"
-damping_time = "1 ms"
+longest = "10 ms"
+duration = "0.2 ms"
+speed = "200 mm/s"
+damping_time = "0.3 ms"
+loading_time = "0 s"
 [integration]
 method = "leapfrog"
 courant = 0.6
@@ -60,7 +61,7 @@ end = "4 ms"
 snapshots = "0.5 ms"
 series = "0.1 ms"
 pictures = false
-checkpoint_interval = "5 ms"
+checkpoint_interval = "15 ms"
 """
 
 # A study under a name that `talus reproduce` knows: two variants of the cloud, one row that is met.

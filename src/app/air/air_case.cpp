@@ -13,6 +13,7 @@
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "models/air/model.hpp"
+#include "models/air/regime.hpp"
 
 namespace talus::app {
 
@@ -23,13 +24,6 @@ using air::ModelParameters;
 
 constexpr double bytes_a_cell = 900, most_cells_measured = 1e5;
 
-/// Speed of the walls, or of the vortices at the start, m/s.
-double speed_of(const ModelParameters& p) {
-  double wall_speed = 0;
-  for (const auto& v : p.gas.wall_velocity) wall_speed = std::max(wall_speed, std::hypot(v[0], v[1], v[2]));
-  return p.start.flow == air::InitialFlow::rest ? wall_speed : p.start.speed;
-}
-
 double cells_of(const ModelParameters& p) {
   return static_cast<double>(air::grid_of(p).cells());
 }
@@ -38,13 +32,13 @@ std::vector<NamedValue> groups(const ModelParameters& p) {
   const double rho = p.gas.density();
   return {{"cells", "1", cells_of(p)},
           {"density", "kg/m3", rho},
-          {"reynolds_number_of_the_box", "1", rho * speed_of(p) * p.box.width / p.gas.viscosity}};
+          {"reynolds_number_of_the_box", "1", rho * air::given_speed(p) * p.box.width / p.gas.viscosity}};
 }
 
 Forecast forecast(const ModelParameters& p, const run::RunParameters& run) {
   const Grid grid = air::grid_of(p);
   // Vortices of speed u along x move as fast along z; walls drag along one axis.
-  const double crossing = speed_of(p) * (1 / grid.spacing[0] + 1 / grid.spacing[2]);
+  const double crossing = air::given_speed(p) * (1 / grid.spacing[0] + 1 / grid.spacing[2]);
   const double step = crossing > 0 ? std::min(p.gas.longest_step, p.gas.courant / crossing) : p.gas.longest_step;
   const double steps = std::ceil(run.end / step), cells = cells_of(p);
   Forecast f;
@@ -89,6 +83,7 @@ PreparedCase prepare_air(const CaseFile& file) {
   PreparedCase prepared = prepared_case("air", read);
   prepared.instruction_set = choice_name(resolve(InstructionSet::automatic));
   prepared.groups = groups(p);
+  prepared.regime = air::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(AirModel(p)); };
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };

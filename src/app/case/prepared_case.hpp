@@ -25,6 +25,7 @@ struct Forecast {
     std::string name;
     double steps = 0;
     double evaluations = 0;  ///< of the costliest stage
+    double most = 1;         ///< how many times as many at most, where a phase's end is not known beforehand
   };
   std::vector<Phase> phases;
   double memory_bytes = 0;

@@ -49,9 +49,11 @@ std::vector<NamedValue> groups(const Parameters& p) {
 Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   const continuum::Forecast f = continuum::forecast(p, run.end);
   Forecast forecast{.phases = {}, .memory_bytes = continuum::memory_of(f), .disk_bytes = 0};
-  if (f.settling_steps > 0) forecast.phases.push_back({"settling", f.settling_steps, f.settling_steps});
+  if (f.settling_steps > 0)
+    forecast.phases.push_back(
+        {"settling", f.settling_steps, f.settling_steps, f.most_settling_steps / f.settling_steps});
   forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
-  const double rows = run.series > 0 ? run.end / run.series : f.settling_steps + f.flow_steps;
+  const double rows = run.series > 0 ? run.end / run.series : f.most_settling_steps + f.flow_steps;
   forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
                         2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
   return forecast;

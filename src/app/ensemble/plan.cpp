@@ -54,8 +54,9 @@ std::string folder_name(const std::string& text) {
 }
 
 bool has_seed(const PreparedCase& prepared) {
-  return std::any_of(prepared.parameters.begin(), prepared.parameters.end(),
-                     [](const DescribedParameter& item) { return item.parameter.key == "seed"; });
+  return std::any_of(prepared.parameters.begin(), prepared.parameters.end(), [](const DescribedParameter& item) {
+    return item.parameter.key == "seed" && item.parameter.condition.holds;
+  });
 }
 
 void add_members(const EnsembleRequest& request, EnsembleGroup& group) {

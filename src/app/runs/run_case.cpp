@@ -8,6 +8,7 @@
 #include <array>
 
 #include "app/models/models.hpp"
+#include "app/runs/check_folder.hpp"
 #include "app/runs/run_log.hpp"
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
@@ -201,7 +202,10 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   run::catch_signals();
   const RunFolder folder = RunFolder::create(request.folder, request.existing);
   const Manifest manifest = manifest_of(prepared, request.threads);
-  if (request.existing == Existing::resume) check_resumable(prepared, folder, manifest);
+  if (request.existing == Existing::resume) {
+    check_resumable(prepared, folder, manifest);
+    check_resumable_files(folder);
+  }
   write_manifest(folder.manifest(), manifest);  // before any other file: it marks the folder as a run's
   RunLog log(folder.log(), request.existing == Existing::resume);
   log.write("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",

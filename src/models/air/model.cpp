@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/air/regime.hpp"
+
 namespace talus::air {
 
 namespace {
@@ -197,11 +199,10 @@ std::vector<RegimeLine> AirModel::regime(const RunRecord&) const {
   });
   const double rho = parameters_.gas.density();
   const double mach = speed / std::sqrt(1.4 * parameters_.gas.pressure / rho);
-  const double reynolds = rho * speed * grid_.spacing.x / parameters_.gas.viscosity;
-  return {
-      {"Mach number", fmt::format("{:.3g}", mach), "the air is taken for incompressible, up to about 0.3", mach > 0.3},
-      {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
-       "speed times cell over kinematic viscosity; central convection (air.upwind = 0) oscillates far above 2", false}};
+  std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  lines.push_back({"Mach number", fmt::format("{:.3g}", mach),
+                   "of the last state; the air is taken for incompressible, up to about 0.3", mach > 0.3});
+  return lines;
 }
 
 }  // namespace talus::air

@@ -68,8 +68,6 @@ struct Parameters {
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
-  visit(Parameter{"seed", dimension::none, between(0, 9e15), "seed of the radii and positions"}, p.seed);
-
   visit(Parameter{"particles.shape",
                   {},
                   {},
@@ -79,6 +77,7 @@ void for_each_parameter(Visit&& visit, P& p) {
                   true},
         p.particles.shape);
   auto packed = only_if(unless("particles.shape", p.particles.shape, Shape::file), visit);
+  packed(Parameter{"seed", dimension::none, between(0, 9e15), "seed of the radii and positions"}, p.seed);
   packed(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains"}, p.particles.count);
   visit(
       Parameter{"particles.size", dimension::length, above(0),

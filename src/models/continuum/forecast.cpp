@@ -32,32 +32,40 @@ double step_of(const Parameters& p) {
   return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
 }
 
+struct SettlingTime {
+  double least = 0, most = 0;  ///< s; of an undamped bed far apart
+};
+
 /// A bed whose weight comes on at once swings about its rest with its slowest wave, omega = pi c/(2 H) for the height
 /// H, whose speed is at most 4/pi g/omega; one whose weight comes on as half a cosine over n periods of it has 1/(4
 /// n^2) of that left. Damping of time tau makes it die out with the slower root of s^2 - s/tau + omega^2, until hardly
-/// a particle is faster than settle.speed.
-double settling_time(const Parameters& p) {
-  if (p.gate.opens == GateOpens::from_the_start) return 0;
-  if (p.gate.opens == GateOpens::at_time) return p.gate.time;
+/// a particle is faster than settle.speed. Without damping it dies out by friction and by the scheme's own viscosity,
+/// in a time that no closed form gives: settle.longest bounds it.
+SettlingTime settling_time(const Parameters& p) {
+  const auto known = [&](double time) { return SettlingTime{time, time}; };
+  if (p.gate.opens == GateOpens::from_the_start) return known(0);
+  if (p.gate.opens == GateOpens::at_time) return known(p.gate.time);
   constexpr double pi = std::numbers::pi;
   const double frequency = 0.5 * pi * wave_speed(p) / p.bed.height, loading = loading_time(p, wave_speed(p));
   const double periods = loading * frequency / (2 * pi);
   const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
   const double excess = std::log(std::max(1.0, speed / p.settle.speed)), least = loading + p.settle.duration;
-  if (!(excess > 0)) return std::min(p.settle.longest, least);
-  if (!p.settle.damping_time) return std::min(p.settle.longest, least + p.settle.longest / 10);
+  if (!(excess > 0)) return known(std::min(p.settle.longest, least));
+  if (!p.settle.damping_time) return {std::min(p.settle.longest, least), p.settle.longest};
   const double half_rate = 0.5 / *p.settle.damping_time;
   const double rate = half_rate - std::sqrt(std::max(0.0, half_rate * half_rate - frequency * frequency));
-  return std::min(p.settle.longest, least + excess / rate);
+  return known(std::min(p.settle.longest, least + excess / rate));
 }
 
 }  // namespace
 
 Forecast forecast(const Parameters& p, double end) {
   const double step = step_of(p);
+  const SettlingTime settling = settling_time(p);
   return {.particles = bed_count(p),
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
-          .settling_steps = std::ceil(settling_time(p) / step),
+          .settling_steps = std::ceil(settling.least / step),
+          .most_settling_steps = std::ceil(settling.most / step),
           .flow_steps = std::ceil(end / step)};
 }
 
@@ -79,7 +87,7 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
                         .allowed = "a step above 0 s"});
     return problems;
   }
-  const double settling = settling_time(p);
+  const double settling = settling_time(p).least;
   const char* const key = p.integration.step                                      ? "integration.step"
                           : settling <= end                                       ? "run.end"
                           : p.gate.time > 0                                       ? "gate.time"

@@ -12,8 +12,10 @@ namespace talus::continuum {
 struct Forecast {
   double particles = 0;
   double cells = 0;           ///< of the air
-  double settling_steps = 0;  ///< until the gate opens
-  double flow_steps = 0;      ///< from then on
+  double settling_steps = 0;  ///< until the gate opens; at least so many
+  double most_settling_steps =
+      0;                  ///< the same, unless the bed settles without damping: when it rests is not known then
+  double flow_steps = 0;  ///< from then on
 };
 
 /// \param end s, from the opening of the gate; \pre the case is valid: check()

@@ -90,6 +90,10 @@ double solid_volume(const Parameters& p, const State& s) {
 
 std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
   const AirAround& air = s.air;
+  const RegimeLine reynolds{"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
+                            "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000};
+  // Frozen air has neither a pressure of its own nor a continuity that could lack anything.
+  if (p.air.gas.motion == air::Motion::frozen) return {reynolds};
   const double swing = air.swing_max / p.air.gas.pressure;
   const bool incompressible = p.air.gas.compressibility == air::Compressibility::none;
   const double imbalance = air_imbalance(air);
@@ -104,8 +108,7 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
                        "the grid's error, more is air.continuity = \"air-alone\" where grains change places with air",
                        imbalance / solid_volume(p, s)),
            imbalance > 0.1 * solid_volume(p, s)},
-          {"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
-           "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000}};
+          reynolds};
 }
 
 }  // namespace

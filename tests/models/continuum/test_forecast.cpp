@@ -69,6 +69,21 @@ TEST(ContinuumForecast, OfASofterBedByTheOtherMethod) {
   expect_forecast("softer", p, 2e-3);
 }
 
+TEST(ContinuumForecast, OfAnUndampedBedIsARange) {
+  Parameters p = section(10e-3, 30e-3);
+  EXPECT_EQ(forecast(p, 1).most_settling_steps, forecast(p, 1).settling_steps);
+  p.settle.damping_time = std::nullopt;
+  p.settle.loading_time = 0;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  while (model.state().gate_time < 0) model.advance(team);
+  const auto taken = static_cast<double>(model.state().step);
+  const Forecast f = forecast(p, 1);
+  EXPECT_LE(f.settling_steps, taken);
+  EXPECT_GE(f.most_settling_steps, taken);
+  EXPECT_GT(f.most_settling_steps, 5 * f.settling_steps);  // no number between them would be honest
+}
+
 TEST(ContinuumForecast, OfAGateThatOpensAtATime) {
   Parameters p = section(10e-3, 20e-3);
   p.gate = {.opens = GateOpens::at_time, .time = 3e-3};

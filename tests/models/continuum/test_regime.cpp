@@ -91,5 +91,22 @@ TEST(RegimeOfCase, StandsOnTheCardOfTheRun) {
   EXPECT_TRUE(of_case[0].warning);
 }
 
+TEST(RegimeOfRun, FrozenAirHasNoPressureAndLacksNothing) {
+  const auto lines_of_air = [](air::Motion motion) {
+    Parameters p = small_hopper();
+    p.air.enabled = true;
+    p.air.cell = spacing;
+    p.air.gas.motion = motion;
+    ThreadTeam team(1);
+    std::vector<std::string> names;
+    for (const RegimeLine& line : started(p, team).regime(RunRecord{}))
+      if (line.quantity.starts_with("air's") || line.quantity.starts_with("Reynolds")) names.push_back(line.quantity);
+    return names;
+  };
+  EXPECT_EQ(lines_of_air(air::Motion::frozen), (std::vector<std::string>{"Reynolds number of a grain"}));
+  EXPECT_EQ(lines_of_air(air::Motion::flowing),
+            (std::vector<std::string>{"air's pressure swing", "air's imbalance", "Reynolds number of a grain"}));
+}
+
 }  // namespace
 }  // namespace talus::continuum

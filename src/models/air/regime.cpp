@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/air/regime.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/air/gas.hpp"
+
+namespace talus::air {
+
+namespace {
+
+/// The narrowest distance between two walls that face each other, m; infinite where there are none.
+double narrowest_passage(const ModelParameters& p) {
+  const std::array<double, 3> extent{p.box.width, p.box.depth, p.box.height};
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& kind = p.gas.boundaries.kind;
+    if (kind[2 * axis] == FlowBoundary::no_slip && kind[2 * axis + 1] == FlowBoundary::no_slip)
+      narrowest = std::min(narrowest, extent[axis]);
+  }
+  return narrowest;
+}
+
+}  // namespace
+
+double given_speed(const ModelParameters& p) {
+  if (p.start.flow == InitialFlow::taylor_green) return p.start.speed;
+  double speed = 0;
+  for (const auto& v : p.gas.wall_velocity) speed = std::max(speed, std::hypot(v[0], v[1], v[2]));
+  return speed;
+}
+
+std::vector<RegimeLine> regime_of_case(const ModelParameters& p) {
+  const double rho = p.gas.density(), speed = given_speed(p);
+  const double mach = speed / std::sqrt(1.4 * p.gas.pressure / rho);
+  const double reynolds = rho * speed * grid_of(p).spacing.x / p.gas.viscosity;
+  std::vector<RegimeLine> lines = {
+      {"Mach number of the case", fmt::format("{:.3g}", mach),
+       "speed of the walls or of the start over that of sound; the air is taken for incompressible, up to about 0.3",
+       mach > 0.3},
+      {"Reynolds number of a cell", fmt::format("{:.3g}", reynolds),
+       "speed of the walls or of the start times cell over kinematic viscosity; central convection (air.upwind = 0) "
+       "may "
+       "oscillate above 2, most where layers are thin (Patankar 1980)",
+       p.gas.upwind == 0 && reynolds > 2}};
+  if (const double passage = narrowest_passage(p); std::isfinite(passage)) {
+    const double knudsen = mean_free_path(p.gas.viscosity, p.gas.pressure, p.gas.temperature) / passage;
+    lines.push_back({"Knudsen number", fmt::format("{:.3g}", knudsen),
+                     "mean free path of the molecules over the distance of two walls; above about 0.01 the air slips "
+                     "along walls, which the model leaves out",
+                     knudsen > 0.01});
+  }
+  return lines;
+}
+
+}  // namespace talus::air

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/air/regime.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace talus::air {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// A cavity of 1 m whose lid moves at 1 m/s, in air of 0.01 m^2/s.
+ModelParameters cavity() {
+  ModelParameters p;
+  p.box = {.width = 1, .depth = 0.1, .height = 1};
+  p.cell = 0.1;
+  p.gas.viscosity = 0.01 * p.gas.density();
+  p.gas.boundaries.kind[5] = FlowBoundary::no_slip;
+  p.gas.wall_velocity[5] = {1, 0, 0};
+  return p;
+}
+
+std::vector<std::string> warnings(const ModelParameters& p) {
+  std::vector<std::string> names;
+  for (const RegimeLine& line : regime_of_case(p))
+    if (line.warning) names.push_back(line.quantity);
+  return names;
+}
+
+TEST(RegimeOfAir, OfASlowFlowHasNoWarnings) {
+  EXPECT_THAT(warnings(cavity()), IsEmpty());
+}
+
+TEST(RegimeOfAir, WarnsOfALidThatIsNearlyAsFastAsSound) {
+  ModelParameters p = cavity();
+  p.gas.wall_velocity[5] = {102, 0, 0};  // sound: 343 m/s
+  EXPECT_THAT(warnings(p), IsEmpty());
+  p.gas.wall_velocity[5] = {104, 0, 0};
+  EXPECT_THAT(warnings(p), ElementsAre("Mach number of the case"));
+  p.gas.wall_velocity[5] = {};
+  p.start = {.flow = InitialFlow::taylor_green, .speed = 104};
+  EXPECT_THAT(warnings(p), ElementsAre("Mach number of the case"));
+}
+
+TEST(RegimeOfAir, WarnsOfCentralConvectionInCoarseCells) {
+  ModelParameters p = cavity();  // a cell has a Reynolds number of 10
+  p.gas.upwind = 0;
+  EXPECT_THAT(warnings(p), ElementsAre("Reynolds number of a cell"));
+  p.cell = 1.0 / 51;
+  EXPECT_THAT(warnings(p), IsEmpty());
+}
+
+/// The mean free path of air at 20 degrees C is 0.067 mm x 1 kPa/P.
+TEST(RegimeOfAir, WarnsOfAirTooThinForItsBox) {
+  ModelParameters p = cavity();
+  p.gas.viscosity = 1.82e-5;
+  p.gas.upwind = 1;
+  p.gas.pressure = 0.7;
+  EXPECT_THAT(warnings(p), IsEmpty());
+  p.gas.pressure = 0.6;
+  EXPECT_THAT(warnings(p), ElementsAre("Knudsen number"));
+  for (const std::size_t face : {0, 1, 4, 5}) p.gas.boundaries.kind[face] = FlowBoundary::periodic;
+  p.gas.wall_velocity[5] = {};
+  EXPECT_THAT(warnings(p), IsEmpty());  // no two walls face each other
+}
+
+}  // namespace
+}  // namespace talus::air

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What validation/dem-hopper/coarse_grain.py makes of beads at known places with known velocities and forces.
+
+Usage: test_dem_hopper.py TALUS
+"""
+import csv
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.argv.pop()
+SCRIPTS = Path(__file__).resolve().parents[2] / "validation" / "dem-hopper"
+sys.path.insert(0, str(SCRIPTS))
+
+import coarse_grain as cg  # noqa: E402
+import numpy as np  # noqa: E402
+
+RADIUS, APART, DEPTH = 0.5e-3, 1e-3, 4e-3
+PACKING = np.pi / 6  # of a simple cubic lattice of touching beads
+
+
+def lattice(heights, bottom=0.0, time=0.0):
+    """Beads of a simple cubic lattice between `bottom` and heights(x), at rest, without contacts."""
+    x, z = np.meshgrid(np.arange(0.5, 100) * APART, np.arange(0.5, 210) * APART, indexing="ij")
+    there = (z > bottom) & (z < heights(x))
+    x, z = (np.repeat(values[there], 4) for values in (x, z))  # four layers deep
+    return cg.Frame(time, np.full(len(x), RADIUS), x, z, np.zeros((len(x), 3)), np.zeros((len(x), 4)))
+
+
+def write(folder, frames, walls={}):
+    """A run's folder as hopper.in leaves it, a frame every 100 steps."""
+    (folder / "frames").mkdir(parents=True)
+    parameters = {"diameter": 2 * RADIUS, "depth": DEPTH, "seed": 1, "rolling": 0.0, "stiffness": 1.0}
+    (folder / "parameters.json").write_text(json.dumps(parameters))
+    for n, f in enumerate(frames):
+        head = (f"ITEM: TIMESTEP\n{100 * n}\nITEM: NUMBER OF ATOMS\n{len(f.x)}\nITEM: BOX BOUNDS ff pp ff\n0 0.1\n0 0.004\n"
+                "-0.002 0.26\nITEM: ATOMS radius x z vx vy vz c_stress[1] c_stress[2] c_stress[3] c_stress[5]\n")
+        with open(folder / "frames" / f"{100 * n}.txt", "w") as file:
+            file.write(head)
+            np.savetxt(file, np.column_stack([f.radius, f.x, f.z, f.velocity, -f.stress]), "%.9g")
+    for begun, rows in walls.items():
+        np.savetxt(folder / f"walls.{begun}.txt", rows, "%.9g", header="of fix ave/time")
+
+
+class Surfaces(unittest.TestCase):
+    def test_a_level_bed_has_its_packing_and_its_surface(self):
+        section = cg.Section(lattice(lambda x: 0.05 + 0 * x), DEPTH)
+        self.assertAlmostEqual(section.packing[100, 40:60].mean(), PACKING, delta=1e-3)
+        self.assertAlmostEqual(section.packing[:2, 40:60].mean(), PACKING, delta=0.01)  # at the wall too
+        _, bin_ = cg.surfaces(section)
+        # The packing passes 0.3 of 0.524 a little below its half.
+        self.assertLess(abs(bin_ - 0.05).max(), 0.7e-3)
+
+    def test_slopes_are_found_with_their_angles(self):
+        slope = np.tan(np.radians(25))
+        section = cg.Section(lattice(lambda x: 0.06 - slope * abs(x - 0.05)), DEPTH)
+        _, bin_ = cg.surfaces(section)
+        self.assertAlmostEqual(cg.repose_angle(section, bin_), 25, delta=0.7)
+        self.assertAlmostEqual(cg.outward_angle(section.x, bin_, 0.01, 0.045), 25, delta=0.7)
+        self.assertAlmostEqual(cg.band(section.x, bin_, 0.02, 0.03), 0.06 - 0.025 * slope, delta=0.7e-3)
+        rising = cg.Section(lattice(lambda x: 0.03 + slope * abs(x - 0.05)), DEPTH)
+        self.assertAlmostEqual(cg.outward_angle(rising.x, cg.surfaces(rising)[1], 0.01, 0.045), -25, delta=0.7)
+
+    def test_hopper_and_bin_have_their_own_surface_and_a_stream_hides_the_bins(self):
+        hopper, bin_ = lattice(lambda x: 0.16 + 0 * x, bottom=0.1), lattice(lambda x: np.where(abs(x - 0.05) < 0.01, 0.1, 0.02))
+        both = cg.Frame(0, *(np.concatenate([getattr(hopper, n), getattr(bin_, n)])
+                             for n in ("radius", "x", "z", "velocity", "stress")))
+        above, below = cg.surfaces(cg.Section(both, DEPTH))
+        self.assertLess(abs(above - 0.16).max(), 0.7e-3)
+        self.assertTrue(np.isnan(below[95:105]).all())
+        self.assertLess(abs(below[:60] - 0.02).max(), 0.7e-3)
+        nothing = cg.surfaces(cg.Section(lattice(lambda x: 0 * x), DEPTH))
+        self.assertTrue(np.isnan(nothing).all())
+
+    def test_a_short_slope_is_none(self):
+        x = np.arange(60) * 1.0
+        self.assertEqual(cg.heap_slopes(x, np.tile([0.0, 1.0, 0.5, 1.5], 15), 10), [])
+        (start, stop, angle), = cg.heap_slopes(x, np.where(x < 20, np.nan, 2 * x), 10)
+        self.assertEqual((start, stop), (20, 59))
+        self.assertAlmostEqual(angle, np.degrees(np.arctan(2)))
+
+
+class Foot(unittest.TestCase):
+    def test_its_speed_is_that_of_the_layer(self):
+        times = 0.15 + 2e-3 * np.arange(20)
+        reach = np.array([cg.foot_reach(cg.Section(lattice(
+            lambda x: np.where((x > 0.05 - (0.02 + 0.8 * (t - 0.15))) & (x < 0.05 + (0.02 + 1.2 * (t - 0.15))), 0.006, 0)),
+            DEPTH)) for t in times])
+        self.assertAlmostEqual(cg.foot_speed(times, reach[:, 0]), 0.8, delta=0.03)
+        self.assertAlmostEqual(cg.foot_speed(times, reach[:, 1]), 1.2, delta=0.05)
+        self.assertTrue(np.isnan(cg.foot_speed(times[:2], reach[:2, 0])))
+
+    def test_a_full_floor_reaches_the_walls_and_an_empty_one_nowhere(self):
+        self.assertEqual(cg.foot_reach(cg.Section(lattice(lambda x: 0.01 + 0 * x), DEPTH)), [0.05, 0.05])
+        self.assertTrue(np.isnan(cg.foot_reach(cg.Section(lattice(lambda x: 0.2 + 0 * x, bottom=0.1), DEPTH))).all())
+
+
+class Stress(unittest.TestCase):
+    def test_contact_stress_is_force_times_branch_over_volume(self):
+        # Columns of beads in a bed 20 mm high, each bearing F: szz = F / area of a column, wherever the box.
+        frame = lattice(lambda x: 0.02 + 0 * x)
+        force, area = 3e-4, APART**2
+        frame.stress[:, 2] = force * 2 * RADIUS
+        _, contact, kinetic = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
+        np.testing.assert_allclose(contact, [0, 0, force / area, 0], atol=1e-12)
+        np.testing.assert_allclose(kinetic, 0, atol=1e-12)
+
+    def test_kinetic_stress_is_of_the_fluctuation_alone(self):
+        frame = lattice(lambda x: 0.08 + 0 * x)
+        random = np.random.default_rng(1).normal(0, [0.1, 0.2, 0.3], (len(frame.x), 3))
+        frame.velocity[:] = [0, 0, -1]
+        frame.velocity += random
+        packing, _, kinetic = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.01, 0.07))
+        self.assertAlmostEqual(packing, PACKING, delta=1e-9)
+        expected = cg.DENSITY * PACKING * np.array([0.01, 0.04, 0.09])
+        np.testing.assert_allclose(kinetic[:3], expected, rtol=0.06)
+
+    def test_shear_stress_of_the_mirror_image_adds(self):
+        frame = lattice(lambda x: 0.02 + 0 * x)
+        frame.stress[:, 3] = np.where(frame.x < 0.05, 2e-7, -2e-7)
+        _, contact, _ = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
+        self.assertAlmostEqual(contact[3], 2e-7 / APART**3, delta=1e-9)
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="talus-referee-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def falling(self, count):
+        """A bed on the plate whose lowest layers are, one a frame, moved to the floor, and which sinks at 0.5 m/s."""
+        frames = []
+        for n in range(count):
+            frame = lattice(lambda x: 0.18 + 0 * x, bottom=0.1)
+            frame.z[frame.z < 0.1 + n * APART] -= 0.1
+            frame.velocity[:, 2] = -0.5
+            frames.append(frame)
+        return frames
+
+    def test_discharge_and_profiles(self):
+        write(self.folder / "run", self.falling(12))
+        run = cg.Run(self.folder / "run")
+        layer = 100 * 4 * cg.DENSITY * 4 / 3 * np.pi * RADIUS**3 * cg.DEPTH / DEPTH  # kg, in 5 mm
+        mass = cg.discharge(run)
+        np.testing.assert_allclose(mass[:, 1], layer * np.arange(12), rtol=1e-6)
+        self.assertAlmostEqual(cg.rate(mass, 0.004, 0.02), layer / cg.FRAME, delta=1e-6)
+        self.assertTrue(np.isnan(cg.rate(mass, 0.0, 0.04)))
+        x, velocity, packing = cg.profile(run, 0.01, 0.16)
+        np.testing.assert_allclose(velocity, -0.5)
+        np.testing.assert_allclose(packing, PACKING, rtol=1e-6)
+
+    def test_wall_loads_are_means_of_20_ms_and_a_resumed_run_counts(self):
+        rows = [[100 * n, *np.full(8, 1.0 * n)] for n in range(1, 21)]
+        write(self.folder / "run", self.falling(3), {0: rows[:12], 1100: [[1200, *np.full(8, 99.0)]] + rows[12:]})
+        loads = cg.wall_loads(cg.Run(self.folder / "run"))
+        np.testing.assert_allclose(loads[:, 0], [0.01, 0.03])
+        np.testing.assert_allclose(loads[0, 1:], 5.5 * cg.DEPTH / DEPTH)
+        np.testing.assert_allclose(loads[1, 1:], (15.5 + 8.7) * cg.DEPTH / DEPTH)
+
+    def test_a_frame_that_is_being_written_is_left_out_and_others_must_be_whole(self):
+        write(self.folder / "run", self.falling(4))
+        last = self.folder / "run" / "frames" / "300.txt"
+        last.write_text(last.read_text()[:5000])
+        run = cg.Run(self.folder / "run")
+        self.assertAlmostEqual(run.end, 2 * cg.FRAME)
+        with self.assertRaises(ValueError):
+            cg.read_frame(last, 0.006)
+
+    def test_the_tables_have_their_units_and_every_run(self):
+        for name in ("one", "two"):
+            write(self.folder / name, self.falling(11))
+        subprocess.run([sys.executable, SCRIPTS / "coarse_grain.py", self.folder / "one", self.folder / "two", "--out",
+                        self.folder / "data"], check=True)
+        with open(self.folder / "data" / "surfaces.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["run"] for row in rows}, {"one", "two"})
+        first = [float(row["hopper_mm"]) for row in rows if row["run"] == "one" and float(row["time_s"]) == 0]
+        self.assertEqual(len(first), 50)
+        self.assertLess(max(abs(height - 180) for height in first), 0.7)
+        wrong = subprocess.run([sys.executable, SCRIPTS / "coarse_grain.py", self.folder / "three"], capture_output=True,
+                               text=True)
+        self.assertNotEqual(wrong.returncode, 0)
+        self.assertIn("three", wrong.stderr)
+
+
+unittest.main()
