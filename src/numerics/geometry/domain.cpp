@@ -152,12 +152,19 @@ std::vector<Image> Domain::images(double reach) const {
           images.push_back(image);
         }
   if (layered_) return images;
-  for (const Image& image : images_in_walls(reach))
+  // Where a wall meets a face at a right angle, the turns at wall, face and wall again are the one at the face.
+  const std::vector<Image> in_faces = images;
+  const double length = std::max(box_.extent(0), box_.extent(2));
+  for (const Image& image : images_in_walls(reach)) {
+    if (std::any_of(in_faces.begin(), in_faces.end(),
+                    [&](const Image& i) { return i.copy[1] == 0 && same_map(i, image, length); }))
+      continue;
     for (const AxisImage& y : along_y) {
       Image both = image;
       set_axis(both, box_, 1, y);
       images.push_back(both);
     }
+  }
   return images;
 }
 

@@ -19,14 +19,6 @@ void reflect(const Vector3& n, double& xx, double& xz, double& zx, double& zz) {
   xz -= z * n.x, zz -= z * n.z;
 }
 
-bool same_map(const Image& a, const Image& b, double length) {
-  const auto close = [](double x, double y, double slack) { return std::abs(x - y) <= slack; };
-  constexpr double rounding = 1e-9;
-  return close(a.sign.x, b.sign.x, rounding) && close(a.sign.z, b.sign.z, rounding) &&
-         close(a.turn.xz, b.turn.xz, rounding) && close(a.turn.zx, b.turn.zx, rounding) &&
-         close(a.offset.x, b.offset.x, rounding * length) && close(a.offset.z, b.offset.z, rounding * length);
-}
-
 /// Least distance of two mirrors that do not cross: one of the ends is nearest.
 double distance(const Mirror& a, const Mirror& b) {
   return std::min({distance_to_segment(b.from, a.from, a.to), distance_to_segment(b.to, a.from, a.to),
@@ -34,6 +26,14 @@ double distance(const Mirror& a, const Mirror& b) {
 }
 
 }  // namespace
+
+bool same_map(const Image& a, const Image& b, double length) {
+  const auto close = [](double x, double y, double slack) { return std::abs(x - y) <= slack; };
+  constexpr double rounding = 1e-9;
+  return close(a.sign.x, b.sign.x, rounding) && close(a.sign.z, b.sign.z, rounding) &&
+         close(a.turn.xz, b.turn.xz, rounding) && close(a.turn.zx, b.turn.zx, rounding) &&
+         close(a.offset.x, b.offset.x, rounding * length) && close(a.offset.z, b.offset.z, rounding * length);
+}
 
 Image mirrored(Image image, const Mirror& mirror) {
   if (mirror.wall < 0) {  // seen through a periodic face: from the other side
