@@ -26,7 +26,7 @@ constexpr double least_step_over_largest = 1e-6;
 void sort_at_intervals(ThreadTeam& team, const Parameters& p, State& state, Workspace& work);
 double stiffest_rate(const Parameters& p, const State& state, double largest_overlap);
 bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
-               double overlap_before);
+                   double overlap_before);
 void accept(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, const Trial& trial, double step);
 double largest_step(const Parameters& p, const Workspace& work);
 
@@ -135,7 +135,7 @@ double share_of_tolerance(const Parameters& p, const Trial& trial) {
 /// A step that is as short as the shortest stands, whatever its error.
 /// \throws NumericalError for one that cannot, though it is as short
 bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
-               double overlap_before) {
+                   double overlap_before) {
   const double a = p.particles.radius;
   const bool at_least = step < least_step_over_largest * largest_step(p, work);
   const bool overlapped = trial.overlap > p.integration.largest_overlap * a;

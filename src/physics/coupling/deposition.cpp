@@ -161,7 +161,7 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
 }
 
 /// For each cell within reach, that which has its share: where the line to its centre ends, turned at walls and faces.
-/// Behind a wall that lies on faces of the cells this is the cell's mirror image; where it is no cell's centre, nobody
+/// Behind a wall that lies on faces of the cells this is the cell's mirror image; where it is no cell's centre, nothing
 /// has it.
 void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
   const auto& [along_x, along_y, along_z] = scratch.along;
