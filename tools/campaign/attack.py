@@ -1,20 +1,46 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the attacks share: starting the program, what a fault is, and the bits of a folder without what tells the time."""
 import json
+import os
 import re
 import subprocess
+import time
 import zlib
 from pathlib import Path
 
 import h5py
 
-LIMIT = 120  # seconds, after which a program counts as hanging; the machine may be busy
+LIMIT = 60  # seconds of its own processor time, after which a program counts as hanging
+WAIT = 1200  # seconds, after which one that waits does; on a busy machine a program may get little of a processor
 TIMES = {"wall_seconds", "cpu_seconds", "peak_memory", "threads"}
 CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 
 
 class Fault(Exception):
     """A promise that was broken."""
+
+
+def processor_seconds(process):
+    """What a process has used so far; 0 if it is gone."""
+    try:
+        fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+    except OSError:
+        return 0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def wait_for(process, limit=LIMIT, wait=WAIT):
+    """What a process says until it ends. Raises Fault where it hangs; it is killed then."""
+    start = time.monotonic()
+    while True:
+        try:
+            return process.communicate(timeout=1)[0]
+        except subprocess.TimeoutExpired:
+            used, waited = processor_seconds(process), time.monotonic() - start
+        if used > limit or waited > wait:
+            process.kill()
+            process.communicate()
+            raise Fault(f"hangs: {used:.0f} s of processor time in {waited:.0f} s")
 
 
 class Attack:
@@ -42,11 +68,9 @@ class Attack:
         """Runs the program to its end; returns its exit status and what it said."""
         process = self.start(arguments, folder, **options)
         try:
-            said = process.communicate(timeout=limit)[0].decode(errors="replace")
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.communicate()
-            raise Fault(f"talus {' '.join(map(str, arguments))}: hangs") from None
+            said = wait_for(process, limit).decode(errors="replace")
+        except Fault as fault:
+            raise Fault(f"talus {' '.join(map(str, arguments))}: {fault}") from None
         status = process.returncode
         if status not in statuses:
             raise Fault(f"talus {' '.join(map(str, arguments))}: exit status {status}: {said[-600:]}")

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from attack import LIMIT, Attack, Fault, bits, require, require_list, require_same
+from attack import WAIT, Attack, Fault, bits, require, require_list, require_same
 from small_cases import CLOUD, FIGURES, HOPPER, REFERENCE
 
 LONGEST_CHAIN = 12  # kills; then it may end
@@ -37,7 +37,7 @@ class Kills(Attack):
             # The command alone, or all that it started.
             (os.killpg if random.random() < 0.7 else os.kill)(process.pid, signal.SIGKILL)
             try:
-                process.communicate(timeout=LIMIT)
+                process.communicate(timeout=WAIT)
             except subprocess.TimeoutExpired:
                 raise Fault("what it started goes on without it") from None
             return True

@@ -26,6 +26,7 @@ namespace talus::continuum {
 enum class GateOpens { when_settled, at_time, from_the_start };
 enum class Smoothing { local, fixed };
 enum class Continuity { printed, corrected };
+enum class ViscositySpeed { largest, local };
 enum class Friction { coulomb, printed, none };
 enum class FrictionFrom { gate, start };
 enum class Method { runge_kutta, leapfrog };
@@ -82,6 +83,9 @@ struct Parameters {
     sph::StressForm stress_form = sph::StressForm::balanced;
     double viscosity_alpha = 0.05;
     double viscosity_beta = 0;
+    ViscositySpeed viscosity_speed = ViscositySpeed::largest;
+    double density_diffusion = 0;
+    double hourglass_damping = 0;
   } sph;
   struct Walls {
     Friction friction = Friction::coulomb;
@@ -224,6 +228,20 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
+  visit(Parameter{"sph.viscosity_speed",
+                  {},
+                  {},
+                  "speed of sound in the linear part of that viscosity: the law's largest, or the local one, which is "
+                  "none where grains bear no pressure"},
+        p.sph.viscosity_speed);
+  visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
+                  "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
+                  "particle to particle; 0.1 in delta-SPH; 0: none"},
+        p.sph.density_diffusion);
+  visit(Parameter{"sph.hourglass_damping", dimension::none, between(0, 1),
+                  "coefficient of a viscosity against what of a pair's approach the velocity gradients do not explain, "
+                  "between grains that bear pressure; 0: none"},
+        p.sph.hourglass_damping);
 
   visit(Parameter{"walls.friction", {}, {}, "friction of walls and plate: Coulomb's, the printed rule, or none"},
         p.walls.friction);
@@ -296,6 +314,8 @@ template <>
 inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
 template <>
 inline constexpr auto choices<continuum::Continuity> = std::to_array<std::string_view>({"printed", "corrected"});
+template <>
+inline constexpr auto choices<continuum::ViscositySpeed> = std::to_array<std::string_view>({"largest", "local"});
 template <>
 inline constexpr auto choices<continuum::Friction> = std::to_array<std::string_view>({"coulomb", "printed", "none"});
 template <>

@@ -13,16 +13,16 @@ namespace talus::continuum {
 
 namespace {
 
-SumNeighbours choose(InstructionSet set, SweepTerms terms) {
+SumNeighbours choose(InstructionSet set, SweepTerms terms, Stabilisers stabilisers) {
   switch (set) {
 #if defined(__x86_64__)
     case InstructionSet::avx512:
-      return sum_neighbours_avx512(terms);
+      return sum_neighbours_avx512(terms, stabilisers);
     case InstructionSet::avx2:
-      return sum_neighbours_avx2(terms);
+      return sum_neighbours_avx2(terms, stabilisers);
 #endif
     default:
-      return sum_neighbours_portable(terms);
+      return sum_neighbours_portable(terms, stabilisers);
   }
 }
 
@@ -44,11 +44,19 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
       skin_(p.integration.skin * p.bed.spacing),
       stress_form_(p.sph.stress_form),
       corrected_continuity_(p.sph.continuity == Continuity::corrected),
-      constants_{mass, sound_speed, p.sph.viscosity_alpha, p.sph.viscosity_beta},
+      constants_{.mass = mass,
+                 .sound_speed = sound_speed,
+                 .viscosity_alpha = p.sph.viscosity_alpha,
+                 .viscosity_beta = p.sph.viscosity_beta,
+                 .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
+                 .hourglass_damping = p.sph.hourglass_damping * sound_speed},
+      local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
       neighbourhood_(domain) {
   const InstructionSet set = resolve(p.integration.instruction_set);
+  const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
-    sum_[static_cast<std::size_t>(terms)] = choose(set, terms);
+    sum_[static_cast<std::size_t>(terms)] = choose(set, terms, stabilised ? Stabilisers::acting : Stabilisers::none);
+  if (stabilised) prepare_sum_ = choose(set, SweepTerms::gradients, Stabilisers::prepared);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -153,6 +161,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   const std::size_t count = particles.position.size();
   rates.resize(count);
   pack(team, particles);
+  if (prepare_sum_) prepare_stabilisers(team, particles);
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   for_each(team, count, [&](std::size_t i) {
     thread_local std::vector<std::uint32_t> record, end;

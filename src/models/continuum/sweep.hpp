@@ -62,6 +62,8 @@ class Sweep {
   };
 
   void pack(ThreadTeam& team, const ParticleView& particles);
+  /// Computes the gradients that the stabilisers need from the packed records, and packs them (stabilise.cpp).
+  void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
 
@@ -72,7 +74,10 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;  // by SweepTerms
+  std::array<SumNeighbours, 3> sum_;     // by SweepTerms
+  SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
+  bool local_sound_speed_;
+  std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood neighbourhood_;
   std::vector<std::array<Domain::Load, 3>> loads_;  // by image
   std::vector<ParticleRecord> records_;             // particles, images, padding

@@ -17,9 +17,9 @@ struct ArtificialViscosity {
 /// else 0. \param approach (u_j-u_i).(x_j-x_i), m^2/s; \param distance_squared r^2, m^2; \param h mean smoothing
 /// length, m \param sound_speed mean of the two, m/s; \param density mean of the two, kg/m^3; \returns m^5/(kg s^2), >=
 /// 0
-template <class Number>
+template <class Number, class Speed>
 TALUS_INLINE constexpr Number viscosity(const ArtificialViscosity& law, const Number& approach,
-                                        const Number& distance_squared, const Number& h, double sound_speed,
+                                        const Number& distance_squared, const Number& h, const Speed& sound_speed,
                                         const Number& density) {
   const Number softened = distance_squared + 0.01 * h * h;
   const Number mu_over_density = h * approach / (softened * density);

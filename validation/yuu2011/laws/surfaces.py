@@ -9,7 +9,8 @@ the bottom of the first cell, from below, whose packing is under 0.3. Here the s
 particles, each spread evenly over a square of its own area. Prints a Markdown table, a line a run: the mean distance
 of the surfaces beside the stream (x < 28 mm, x > 72 mm) at 0.2, 0.3 and 0.4 s, hopper and bin; the bin's surface at the
 walls and in the middle, and the flank's slope; the discharge; and, at the end of the run, its own summary's heaps and
-speed at rest. With --profiles the surfaces themselves."""
+speed at rest; and how much the pressure alternates from particle to particle at 0.2 s. With --profiles the surfaces
+themselves."""
 import argparse
 import csv
 import math
@@ -43,7 +44,7 @@ class Surfaces:
     """The free surfaces of a run on cells of a given width."""
 
     def __init__(self, run, cell):
-        self.run, self.cell = run, cell
+        self.run, self.cell, self.gate = run, cell, run.gate_time or 0.0
         case = run.case
         self.depth = float(case["box"]["depth"])
         bed, grains = case["bed"], case["grains"]
@@ -68,26 +69,59 @@ class Surfaces:
         count = np.histogram2d(x.ravel(), z.ravel(), [np.arange(0, WIDTH + 1e-9, self.cell), edges])[0]
         return count * self.solid / PARTS**2 / (self.cell**2 * self.depth)
 
-    def at(self, time):
-        """(hopper, bin) in mm, one value a cell; nan where there is none. The snapshot nearest to the time."""
-        snapshot = min(self.run.snapshots, key=lambda one: abs(one.time - time))
-        if abs(snapshot.time - time) > 2e-3:
+    def around(self, time):
+        """The last snapshot up to a time from the opening of the gate, the next one, and the share of the latter."""
+        times = np.array([one.time for one in self.run.snapshots]) - self.gate
+        if not times[0] <= time <= times[-1]:
             return None
-        packing = self.packing(snapshot)
-        return tuple(self._first_empty(packing, start) for start in (round(PLATE / self.cell), 0))
+        k = min(np.searchsorted(times, time, "right") - 1, len(times) - 2)
+        return self.run.snapshots[k], self.run.snapshots[k + 1], (time - times[k]) / (times[k + 1] - times[k])
+
+    def at(self, time):
+        """(hopper, bin) in mm, one value a cell, that of the ground where there is nothing, in proportion between two
+        snapshots."""
+        around = self.around(time)
+        if around is None:
+            return None
+        earlier, later, share = around
+        return tuple((1 - share) * self._first_empty(self.packing(earlier), start) +
+                     share * self._first_empty(self.packing(later), start) for start in (round(PLATE / self.cell), 0))
 
     def discharge(self, start, end):
         """Mass that passes the plate's height in a unit of time, of a hopper 5 mm deep, kg/s."""
-        first, last = (min(self.run.snapshots, key=lambda one, t=t: abs(one.time - t)) for t in (start, end))
-        if last.time - first.time < 0.9 * (end - start):
+        if self.around(end) is None:
             return math.nan
-        passed = sum(np.sum(np.asarray(one.positions)[:, 2] < PLATE) * sign for one, sign in ((last, 1), (first, -1)))
-        return passed * self.solid * self.grain_density * 5e-3 / self.depth / (last.time - first.time)
+        passed = 0
+        for time, sign in ((end, 1), (start, -1)):
+            earlier, later, share = self.around(time)
+            passed += sign * sum(part * np.sum(np.asarray(one.positions)[:, 2] < PLATE)
+                                 for one, part in ((earlier, 1 - share), (later, share)))
+        return passed * self.solid * self.grain_density * 5e-3 / self.depth / (end - start)
+
+    def roughness(self, time):
+        """How much the pressure alternates from particle to particle in the hopper: mean distance of a particle's from
+        the mean of those within 1.5 spacings, over that mean, where it exceeds 100 Pa."""
+        around = self.around(time)
+        if around is None:
+            return math.nan
+        snapshot = around[0]
+        places = np.asarray(snapshot.positions)[:, [0, 2]]
+        pressure = sum(np.asarray(snapshot[f"stress_{axis}"]) for axis in ("xx", "yy", "zz")) / 3
+        spacing = float(self.run.case["bed"]["spacing"])
+        above = places[:, 1] > PLATE
+        places, pressure = places[above], pressure[above]
+        ratios = []
+        for place, own in zip(places, pressure):
+            near = ((places - place) ** 2).sum(axis=1) < (1.5 * spacing) ** 2
+            mean = pressure[near].mean()
+            if mean > 100:
+                ratios.append(abs(own - mean) / mean)
+        return np.mean(ratios) if ratios else math.nan
 
     def _first_empty(self, packing, start):
         empty = packing[:, start:] < EMPTY
         first = np.where(empty.any(axis=1), empty.argmax(axis=1), empty.shape[1])
-        return np.where(first > 0, (first + start) * self.cell * 1e3, np.nan)
+        return (first + start) * self.cell * 1e3
 
 
 def beside(x):
@@ -95,9 +129,9 @@ def beside(x):
 
 
 def distance(x, a, b):
-    """Mean distance beside the stream, mm, where both are; nan where one is missing on more than half of the way."""
+    """Mean distance beside the stream, mm, where the beads have a surface."""
     there = beside(x) & np.isfinite(a) & np.isfinite(b)
-    return np.abs(a - b)[there].mean() if there.sum() > 0.5 * beside(x).sum() else math.nan
+    return np.abs(a - b)[there].mean() if there.any() else math.nan
 
 
 def flank(x, height):
@@ -143,10 +177,10 @@ def main():
     print("Hopper and bin: mean distance from the beads' surface, mm; walls, middle: height of the bin's surface, mm; flank:"
           " its slope, degrees; all at 0.2 / 0.3 / 0.4 s. Discharge through the slit of 5 mm, kg/s, 0.1 to 0.2 s.\n")
     print("| run | hopper | bin | walls | middle | flank | discharge | heap in the bin, hopper | rest, mm/s |"
-          " largest packing |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+          " largest packing | roughness |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
     hopper, bins = ({t: reference[t, vessel][1] for t in TIMES} for vessel in ("hopper", "bin"))
-    print(describe("beads", hopper, bins, x, None, "", ["", "", ""]))
+    print(describe("beads", hopper, bins, x, None, "", ["", "", "", ""]))
     for folder in options.runs:
         run = Run(folder)
         surfaces = Surfaces(run, cell)
@@ -158,9 +192,9 @@ def main():
         def quantity(name):
             return float(summary[name]) if name in summary else math.nan
 
-        end = run.snapshots[-1].time > 0.9
+        end = run.snapshots[-1].time - surfaces.gate > 0.9
         ends = [f"{shown(quantity('repose_angle_bin'))}, {shown(quantity('repose_angle_hopper'))}" if end else "-",
-                shown(1e3 * quantity("quiescent_speed"), ".2f") if end else "-", shown(quantity("packing_max"), ".3f")]
+                shown(1e3 * quantity("quiescent_speed"), ".2f") if end else "-", shown(quantity("packing_max"), ".3f"), shown(surfaces.roughness(0.2), ".2f")]
         print(describe(folder.name, hopper, bins, x, reference, shown(rate, ".3f"), ends))
         if options.profiles:
             for t in TIMES:

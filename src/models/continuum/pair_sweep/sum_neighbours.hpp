@@ -10,6 +10,7 @@
 #include "numerics/sph/velocity_gradient.hpp"
 #include "physics/sph/artificial_viscosity.hpp"
 #include "physics/sph/pair_terms.hpp"
+#include "physics/sph/stabilisers.hpp"
 
 namespace talus::continuum {
 inline namespace TALUS_INSTRUCTION_SET {
@@ -24,7 +25,7 @@ TALUS_INLINE double total(const Number& x) {
   return sum_lanes(x, 0);
 }
 
-template <bool gradients, bool forces>
+template <bool gradients, bool forces, Stabilisers stabilisers>
 void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, PairSums& sums, double (*acceleration)[3]) {
   const ParticleRecord& own = records[self];
@@ -33,6 +34,7 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
   sph::GradientSums<Number> gradient{{zero, zero, zero, zero, zero, zero},
                                      {zero, zero, zero, zero, zero, zero, zero, zero, zero}};
   Number density_rate = zero, kernel_density = zero;
+  SimdVector3 density_gradient{zero, zero, zero};
   std::uint32_t begin = 0;
   for (int group = 0; group < neighbours.groups; ++group) {
     const std::uint32_t end = neighbours.group_end[group];
@@ -59,11 +61,45 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
         gradient.add(other[7], slope, d, du);
         density_rate = density_rate + sph::density_rate(constants.mass, slope, d, du);
       }
+      if constexpr (stabilisers == Stabilisers::prepared) {
+        const Number weight = -1.0 * other[7] * slope * (other[14] - Number(own.density));
+        density_gradient = {density_gradient.x + weight * d.x, density_gradient.y + weight * d.y,
+                            density_gradient.z + weight * d.z};
+      }
+      Number its[16];
+      if constexpr (stabilisers == Stabilisers::acting)
+        load_columns(
+            [&](int lane) {
+              const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
+              return constants.stabilisers[n < end ? neighbours.record[n] : neighbours.padding].density_gradient;
+            },
+            its);
+      if constexpr (gradients && stabilisers == Stabilisers::acting) {
+        const double* g = constants.stabilisers[self].density_gradient;
+        const SimdVector3 both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
+        density_rate = density_rate + constants.stabilisers[self].dense * its[14] *
+                                          sph::density_diffusion(constants.density_diffusion, h, other[7], slope, d,
+                                                                 other[14] - Number(own.density), both);
+      }
       if constexpr (forces) {
         kernel_density = kernel_density + constants.mass * sph::cubic_spline_of(q, inverse_h);
         const Number approach = du.x * d.x + du.y * d.y + du.z * d.z;
-        const Number viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed,
-                                                0.5 * (Number(own.density) + other[14]));
+        const Number mean_density = 0.5 * (Number(own.density) + other[14]);
+        Number viscosity;
+        if constexpr (stabilisers == Stabilisers::acting) {
+          const StabiliserRecord& mine = constants.stabilisers[self];
+          const double* l = mine.velocity_gradient;
+          const Tensor3<Number> both{its[3] + Number(l[0]), its[4] + Number(l[1]),  its[5] + Number(l[2]),
+                                     its[6] + Number(l[3]), its[7] + Number(l[4]),  its[8] + Number(l[5]),
+                                     its[9] + Number(l[6]), its[10] + Number(l[7]), its[11] + Number(l[8])};
+          viscosity =
+              sph::viscosity(viscous, approach, square, h, 0.5 * (Number(mine.sound_speed) + its[12]), mean_density) +
+              mine.loaded * its[13] *
+                  sph::hourglass_damping(constants.hourglass_damping, sph::unexplained_approach(approach, d, both),
+                                         square, h, mean_density);
+        } else {
+          viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed, mean_density);
+        }
         const double* s = own.specific_stress;
         const SymmetricTensor3<Number> stress{other[8] + Number(s[0]),  other[9] + Number(s[1]),
                                               other[10] + Number(s[2]), other[11] + Number(s[3]),
@@ -86,13 +122,24 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
     for (int c = 0; c < 9; ++c) sums.velocity[c] = total(*velocities[c]);
     sums.density_rate = total(density_rate);
   }
+  if constexpr (stabilisers == Stabilisers::prepared) {
+    const Number* components[3] = {&density_gradient.x, &density_gradient.y, &density_gradient.z};
+    for (int c = 0; c < 3; ++c) sums.density_gradient[c] = total(*components[c]);
+  }
   if constexpr (forces) sums.kernel_density = total(kernel_density);
 }
 
+template <Stabilisers stabilisers>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
-  return terms == SweepTerms::all         ? sum_neighbours<true, true>
-         : terms == SweepTerms::gradients ? sum_neighbours<true, false>
-                                          : sum_neighbours<false, true>;
+  return terms == SweepTerms::all         ? sum_neighbours<true, true, stabilisers>
+         : terms == SweepTerms::gradients ? sum_neighbours<true, false, stabilisers>
+                                          : sum_neighbours<false, true, stabilisers>;
+}
+
+TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers) {
+  return stabilisers == Stabilisers::none     ? choose<Stabilisers::none>(terms)
+         : stabilisers == Stabilisers::acting ? choose<Stabilisers::acting>(terms)
+                                              : sum_neighbours<true, false, Stabilisers::prepared>;
 }
 
 }  // namespace TALUS_INSTRUCTION_SET
