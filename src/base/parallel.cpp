@@ -23,9 +23,9 @@ void relax() {
 }  // namespace
 
 struct ThreadTeam::Shared {
-  std::atomic<unsigned> generation{0};
+  std::atomic<unsigned> generation{0};  // of loops that threads were woken for
   std::atomic<std::size_t> next{0};
-  std::atomic<int> working{0};
+  std::atomic<int> inside{0};  // twice the threads at work in the loop, plus 1 while more may enter
   std::atomic<bool> stop{false};
   std::size_t tasks = 0;
   Call call = nullptr;
@@ -46,6 +46,17 @@ struct ThreadTeam::Shared {
     }
   }
 
+  bool enter() {
+    for (int now = inside.load(std::memory_order_relaxed); now & open;)
+      if (inside.compare_exchange_weak(now, now + one, std::memory_order_acquire, std::memory_order_relaxed))
+        return true;
+    return false;
+  }
+
+  void leave() {
+    if (inside.fetch_sub(one, std::memory_order_acq_rel) == one) inside.notify_one();
+  }
+
   void serve() {
     unsigned seen = 0;
     while (true) {
@@ -54,11 +65,13 @@ struct ThreadTeam::Shared {
       generation.wait(seen, std::memory_order_acquire);
       seen = generation.load(std::memory_order_acquire);
       if (stop.load(std::memory_order_relaxed)) return;
+      if (!enter()) continue;
       work();
-      working.fetch_sub(1, std::memory_order_acq_rel);
-      working.notify_one();
+      leave();
     }
   }
+
+  static constexpr int open = 1, one = 2;  // of `inside`
 };
 
 ThreadTeam::ThreadTeam(int threads) : shared_(std::make_unique<Shared>()) {
@@ -84,14 +97,16 @@ void ThreadTeam::run_tasks(std::size_t tasks, Call call, void* context) {
   shared.next.store(0, std::memory_order_relaxed);
   shared.error = nullptr;
   if (tasks > 1 && !shared.threads.empty()) {
-    shared.working.store(static_cast<int>(shared.threads.size()), std::memory_order_relaxed);
+    shared.inside.store(Shared::open, std::memory_order_release);
     shared.generation.fetch_add(1, std::memory_order_release);
     shared.generation.notify_all();
   }
   shared.work();
-  for (int look = 0; look < looks_before_sleep && shared.working.load(std::memory_order_acquire) > 0; ++look) relax();
-  for (int working; (working = shared.working.load(std::memory_order_acquire)) > 0;)
-    shared.working.wait(working, std::memory_order_acquire);
+  // Who has not come by now finds the loop closed and is not waited for: on a busy machine it may not run for long.
+  shared.inside.fetch_and(~Shared::open, std::memory_order_acq_rel);
+  for (int look = 0; look < looks_before_sleep && shared.inside.load(std::memory_order_acquire) > 0; ++look) relax();
+  for (int inside; (inside = shared.inside.load(std::memory_order_acquire)) > 0;)
+    shared.inside.wait(inside, std::memory_order_acquire);
   if (shared.error) std::rethrow_exception(shared.error);
 }
 

@@ -36,6 +36,19 @@ TEST(Reduce, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+/// Loops so short that most threads come too late for them, and find the next one open or none.
+TEST(ForEach, ShortLoopsOneAfterTheOther) {
+  ThreadTeam team(8);
+  std::vector<long> sums(4 * chunk_size, 0);
+  long expected = 0;
+  for (int loop = 0; loop < 2000; ++loop) {
+    const std::size_t count = (1 + static_cast<std::size_t>(loop) % 4) * chunk_size;
+    for_each(team, count, [&](std::size_t i) { sums[i] += loop; });
+    expected += loop * static_cast<long>(count);
+  }
+  EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), 0l), expected);
+}
+
 TEST(ForEach, PassesOnTheExceptionOfTheLowestTask) {
   ThreadTeam team(2);
   try {

@@ -18,6 +18,7 @@ sys.path.insert(0, str(SCRIPTS))
 
 import coarse_grain as cg  # noqa: E402
 import numpy as np  # noqa: E402
+import trend  # noqa: E402
 
 RADIUS, APART, DEPTH = 0.5e-3, 1e-3, 4e-3
 PACKING = np.pi / 6  # of a simple cubic lattice of touching beads
@@ -124,6 +125,21 @@ class Stress(unittest.TestCase):
         frame.stress[:, 3] = np.where(frame.x < 0.05, 2e-7, -2e-7)
         _, contact, _ = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
         self.assertAlmostEqual(contact[3], 2e-7 / APART**3, delta=1e-9)
+
+
+class Trend(unittest.TestCase):
+    def test_a_line_in_the_diameter_is_followed_to_fine_grains(self):
+        value, off = trend.line_at([1.0, 1.5, 2.0], [9.0, 8.5, 8.0])
+        self.assertAlmostEqual(value, 9.8)
+        self.assertAlmostEqual(off, 0)
+        self.assertTrue(np.isnan(trend.line_at([1.0], [9.0])).all())
+        self.assertAlmostEqual(trend.line_at([1.0, 2.0, 3.0], [1.0, 2.0, 4.0])[1], 1 / 3)
+
+    def test_beverloos_own_discharge_has_its_k(self):
+        diameter = np.array([1.0, 1.6, 2.8])
+        k, rate = trend.beverloo(diameter, 2e-3 * (40 - 1.4 * diameter)**1.5)
+        self.assertAlmostEqual(k, 1.4)
+        self.assertAlmostEqual(rate, 2e-3 * (40 - 1.4 * 0.2)**1.5)
 
 
 class Folder(unittest.TestCase):

@@ -37,12 +37,13 @@ TIMES = 0.1, 0.15, 0.2, 0.25, 0.3          # s, of profiles
 PICTURES = 0.1, 0.16, 0.2, 0.3, 0.4        # s
 PICTURE_CELL = 2e-3
 HALF_WINDOW = 10e-3                        # s, about them
+BANDS = (0, 0.01), (0.01, 0.03), (0.03, 0.05), (0.022, 0.036), (0.036, 0.05)  # m from the middle, of surfaces
 FOOT_HEIGHT, FOOT_PACKING = 5e-3, 0.15
 #: Boxes for packing and stress: x from and to (and their mirror images), z from and to, m; times, s.
 BOXES = {"bed before": ((0.01, 0.05), (0.105, 0.15), (0.0,)),
          "hopper, corners": ((0.004, 0.024), (0.104, 0.12), (0.1, 0.2, 0.3)),
          "hopper, core": ((0.04, 0.05), (0.11, 0.13), (0.1, 0.2)),
-         "stream": ((0.04, 0.05), (0.05, 0.09), (0.15, 0.2)),
+         "stream": ((0.04, 0.05), (0.05, 0.09), (0.16, 0.2)),
          "bin, beside": ((0.006, 0.026), (0.004, 0.016), (0.2, 0.3, 0.4)),
          "bin, below": ((0.04, 0.05), (0.004, 0.016), (0.2, 0.3, 0.4))}
 
@@ -355,11 +356,16 @@ def add_run(tables, run):
                    rate(mass, max(time - 0.01, 0), time + 0.01))
     for start, stop in ((0.05, 0.1), (0.1, 0.15), (0.15, 0.2), (0.1, 0.2)):
         number("discharge_rate_plateau", "", f"{start:g}-{stop:g}", "kg/s", rate(mass, start, stop))
+    for time in (0.1, 0.2, 0.3, 0.4):
+        if run.reaches(time):
+            number("discharged_fraction", "", f"{time:g}", "1", np.interp(time, *mass.T) / MASS)
 
     reach = []
     for frame in run.frames(0.14, 0.24):
         reach.append((frame.time, *foot_reach(Section(frame, run.depth))))
         tables.add("foot", run.name, *(value * scale for value, scale in zip(reach[-1], (1, 1e3, 1e3))))
+        if min(reach[-1][1:]) == WIDTH / 2:
+            break
     reach = np.array(reach)
     if len(reach):
         number("foot_speed", "25-45 mm from the middle", "", "m/s",
@@ -373,9 +379,9 @@ def add_run(tables, run):
             x = section.x[at - 1:at + 1].mean()
             tables.add("surfaces", run.name, frame.time, x * 1e3, hopper[at - 1:at + 1].mean() * 1e3,
                        bin_[at - 1:at + 1].mean() * 1e3)
-        if frame.time in (0.1, 0.2, 0.3) or round(frame.time, 6) in (0.1, 0.2, 0.3, 0.4):
+        if round(frame.time, 6) in (0.1, 0.2, 0.3, 0.4):
             for vessel, heights in (("hopper", hopper), ("bin", bin_)):
-                for a, b in ((0, 0.005), (0.01, 0.02), (0.022, 0.031), (0.031, 0.04), (0.04, 0.05)):
+                for a, b in BANDS:
                     number(f"surface_height_{vessel}", f"{a * 1e3:g}-{b * 1e3:g} mm from the middle", f"{frame.time:g}",
                            "mm", band(section.x, heights, a, b) * 1e3)
             number("surface_outward_angle_bin", "22-50 mm from the middle", f"{frame.time:g}", "deg",
@@ -400,9 +406,9 @@ def add_run(tables, run):
             x, velocity, packing = profile(run, time, height)
             for row in zip(x * 1e3, velocity, packing):
                 tables.add("profiles", run.name, time, height * 1e3, *row)
-            middle = abs(x - WIDTH / 2) <= 0.02
-            number("hopper_velocity", f"z = {height * 1e3:g} mm, x = 30-70 mm", f"{time:g}", "m/s",
-                   np.nanmean(velocity[middle]))
+            middle = velocity[abs(x - WIDTH / 2) <= 0.02]
+            if np.isfinite(middle).all():
+                number("hopper_velocity", f"z = {height * 1e3:g} mm, x = 30-70 mm", f"{time:g}", "m/s", middle.mean())
     for row in wall_loads(run):
         tables.add("walls", run.name, *row)
 

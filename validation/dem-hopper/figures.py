@@ -21,6 +21,7 @@ from hopper import Hopper  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
 MM = 1e-3
+DEPTH = 5e-3  # m, for which discharges are given
 CELL = 2.0    # mm, of the referee's pictures
 FASTEST = 1.5  # m/s, of the colours
 SHADES, DASHES = ("#1b1b1b", "#6b7280", "#a3a9b3"), ("-", "--", ":")
@@ -105,7 +106,9 @@ def discharge(hoppers, album):
     for (run,), points in by(rows, "run").items():
         ax.plot(column(points, "time_s"), column(points, "rate_kg_per_s"), **styles[run])
     for hopper in hoppers:
-        ax.plot(*hopper.means("discharge_rate", 20e-3), color=hopper.colour, label=f"Talus, {hopper.variant}")
+        time, rate = hopper.means("discharge_rate", 20e-3)
+        ax.plot(time, rate * DEPTH / float(hopper.run.case["box"]["depth"]), color=hopper.colour,
+                label=f"Talus, {hopper.variant}")
     ax.set(xlabel="$t$ (s)", ylabel="discharge $Q$ (kg/s)", xlim=(0, 0.6), ylim=(0, None))
     ax.legend()
     album.add("discharge.png", figure, "Discharge", "20 ms means, of 5 mm of depth. Larger beads pass more slowly (Beverloo).")
@@ -129,13 +132,14 @@ def velocity(hoppers, album):
                     label=f"Talus, {hopper.variant}")
         ax.set(title=f"$z$ = {height} mm", xlabel="$x$ (mm)", xlim=(0, 100))
     axes[0].set_ylabel(f"$-u_z$ at {PROFILE} s (m/s)")
-    axes[0].legend(fontsize=5)
+    axes[-1].legend(fontsize=6, loc="upper center")
     album.add("velocity.png", figure, f"Velocity in the hopper at {PROFILE} s",
               "Means over cells of 4 mm by 6 mm; of the beads also over 20 ms.")
 
 
 def draw(study, album):
-    hoppers = [Hopper(ensemble, number) for number, ensemble in enumerate(study.of_case("hopper"))]
+    hoppers = [Hopper(ensemble, number) for number, ensemble in enumerate(study.of_case("hopper") +
+                                                                          study.of_case("section"))]
     for hopper in hoppers:
         pictures(hopper, album)
     discharge(hoppers, album)

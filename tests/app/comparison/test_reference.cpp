@@ -32,7 +32,7 @@ TEST(Reference, ThoseOfTheStudiesCanBeRead) {
 }
 
 TEST(Reference, EveryRunOfTheStudiesIsAValidCase) {
-  for (const std::string study : {"niiya2020", "yuu2011", "yuu2011/laws"})
+  for (const std::string study : {"niiya2020", "yuu2011", "yuu2011/laws", "dem-hopper"})
     for (const ReferenceCase& c : read_reference(TALUS_SOURCE_DIR "/validation/" + study + "/reference.toml").cases)
       for (const ReferenceCase::Variant& variant : c.variants) {
         CaseFile file = CaseFile::read(TALUS_SOURCE_DIR "/cases/" + c.file);
