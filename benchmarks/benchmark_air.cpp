@@ -38,8 +38,8 @@ struct Hopper {
         }
   }
   void deposit() {
-    deposition.weigh(team, position, smoothing_length);
-    deposition.gather(team, solid_volume, velocity, solids.fraction, solids.flux);
+    deposition.find_weights(team, position, smoothing_length);
+    deposition.deposit(team, solid_volume, velocity, solids.fraction, solids.flux);
   }
 };
 

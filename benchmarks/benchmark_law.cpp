@@ -43,7 +43,7 @@ void isotropic(benchmark::State& state) {
   update_bed<double>(state, {});
 }
 void isotropic_in_lanes(benchmark::State& state) {
-  update_bed<Lanes<double>>(state, {});
+  update_bed<SimdVector<double>>(state, {});
 }
 void printed(benchmark::State& state) {
   update_bed<double>(state, YuuUmekagePrinted::Parameters{});

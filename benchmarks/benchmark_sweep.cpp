@@ -55,10 +55,10 @@ struct Bed {
       for (double& component : stress) component = random.uniform(0, 1000);
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
-    evaluate(Wanted::all);
+    evaluate(SweepTerms::all);
   }
-  void evaluate(Wanted wanted) {
-    sweep(team, {state.position, state.velocity, state.density, state.material}, wanted, rates);
+  void evaluate(SweepTerms terms) {
+    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
   }
 };
 
@@ -69,19 +69,19 @@ std::size_t pairs_of(const Bed& bed) {
   return pairs;
 }
 
-void sweep(benchmark::State& run, Wanted wanted) {
+void sweep(benchmark::State& run, SweepTerms terms) {
   Bed bed(run);
-  for (auto _ : run) bed.evaluate(wanted);
+  for (auto _ : run) bed.evaluate(terms);
   run.SetItemsProcessed(static_cast<std::int64_t>(pairs_of(bed)) * run.iterations());
 }
 void sweep_gradients(benchmark::State& run) {
-  sweep(run, Wanted::gradients);
+  sweep(run, SweepTerms::gradients);
 }
 void sweep_forces(benchmark::State& run) {
-  sweep(run, Wanted::forces);
+  sweep(run, SweepTerms::forces);
 }
 void sweep_all(benchmark::State& run) {
-  sweep(run, Wanted::all);
+  sweep(run, SweepTerms::all);
 }
 
 void neighbours(benchmark::State& run) {

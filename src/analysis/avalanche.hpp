@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A run of a cloud of grains: an avalanche as Niiya, Awazu & Nishimori (2020) look at it, its front's speed and, in
+/// A run of a cloud of grains: an avalanche as evaluated by Niiya, Awazu & Nishimori (2020), its front's speed and, in
 /// each snapshot, the heads from above or head, tail and frontal angle from the side; or a cloud that falls in free
 /// space. Estimators: validation/niiya2020/reference.toml.
 #pragma once

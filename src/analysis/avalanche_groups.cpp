@@ -41,7 +41,7 @@ std::optional<double> frontal_angle_spread_ratio(Groups groups, const Window&) {
   for (std::size_t n = 1; n < data; ++n) {
     std::vector<double> angle;
     for (const Run& member : members) angle.push_back(member.snapshots.value(n, avalanche::frontal_angle, {}));
-    deviation.push_back(standard_deviation(those_that_are(std::move(angle))));
+    deviation.push_back(standard_deviation(finite_values(std::move(angle))));
   }
   const std::size_t quarter = deviation.size() / 4;
   return mean(std::span(deviation).last(quarter)) / mean(std::span(deviation).first(quarter));

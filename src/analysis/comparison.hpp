@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A row of a comparison with what a source prints: which quantity, where and when, and the criterion that a value
-/// meets or not. Knows names only; which numbers a name stands for the lists of measures say (measure.hpp). The files
-/// are validation/*/reference.toml.
+/// meets or not. It uses names only; the lists of measures (measure.hpp) define them. The files are
+/// validation/*/reference.toml.
 #pragma once
 
 #include <functional>
@@ -36,8 +36,8 @@ enum class Verdict { met, not_met, reported, not_evaluated };
 /// met)
 Verdict judge(const Criterion& criterion, std::optional<double> value);
 
-/// A row that is to hold in several variants is judged in those that are there: not met if it is not met in one, met if
-/// it is met in all of them, not evaluated if there are none.
+/// A row for several variants is judged in those that are present: not met if it is not met in one, met if it is met in
+/// all of them, not evaluated if there are none.
 Verdict judge(const Criterion& criterion, std::span<const std::optional<double>> values);
 
 /// "30 to 70", "17.2 ± 2", "> 0.9", "positive", "reported".
@@ -45,7 +45,7 @@ std::string to_string(const Criterion& criterion);
 /// "met", "not met", "reported", "not evaluated".
 std::string to_string(Verdict verdict);
 
-/// Times that a quantity looks at, in the time unit of the reference (a/v_s).
+/// The time window of a quantity, in the time unit of the reference (a/v_s).
 struct Window {
   static constexpr double end_of_run = std::numeric_limits<double>::infinity();
 
@@ -76,7 +76,7 @@ enum class Statistic {
   difference  ///< the first less the second
 };
 
-/// The statistic of numbers, one a member; nan as those of statistics.hpp. Ratio and difference take two, one a
+/// The statistic of numbers, one per member; nan as those of statistics.hpp. Ratio and difference take two, one per
 /// variant.
 double evaluate(Statistic statistic, std::span<const double> numbers);
 

@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// Values at increasing times, one a time. The unit of time is the caller's: s, or a/v_s for a curve of an ensemble.
+/// Values at increasing times, one per time. The unit of time is the caller's: s, or a/v_s for a curve of an ensemble.
 struct Curve {
   std::vector<double> time;
   std::vector<double> value;

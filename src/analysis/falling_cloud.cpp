@@ -60,8 +60,4 @@ FallingCloud measure_falling_cloud(std::span<const Vector3> position, std::span<
   return result;
 }
 
-double fall_speed_of_sphere(double count, double radius) {
-  return 1 + (count - 1) * (6 / (5 * radius) - 6 / (radius * radius * radius));
-}
-
 }  // namespace talus

@@ -19,15 +19,9 @@ struct FallingCloud {
   double flatness = 0;  ///< root mean square lateral distance, over sqrt(2) times that along gravity: 1 for a sphere
 };
 
-/// \param position, velocity m, m/s, one a grain, at least one \param gravity unit vector
+/// \param position, velocity m, m/s, one per grain, at least one \param gravity unit vector
 /// \param initial_radius of the cloud, m
 FallingCloud measure_falling_cloud(std::span<const Vector3> position, std::span<const Vector3> velocity,
                                    const Vector3& gravity, double initial_radius);
-
-/// Mean speed of equal spheres at random places in a sphere, over the Stokes speed of one: 1 + (N - 1) 6/(5 R), the
-/// mean of the Oseen tensor over all pairs of places. The tensor's term in a^2 has no mean over directions; that no two
-/// centres are closer than 2 a takes another (N - 1) 6/R^3 away.
-/// \param count N, >= 1; \param radius R of the cloud over the spheres', > 2
-double fall_speed_of_sphere(double count, double radius);
 
 }  // namespace talus

@@ -43,13 +43,13 @@ GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, con
       foremost = i;
   }
 
-  GrainSet way = {foremost};
+  GrainSet path = {foremost};
   closed[foremost] = true;
-  while (const auto next = next_grain(position, links, closed, way.back())) {
+  while (const auto next = next_grain(position, links, closed, path.back())) {
     closed[*next] = true;
-    way.push_back(*next);
+    path.push_back(*next);
   }
-  return way;
+  return path;
 }
 
 std::optional<double> angle_of_line(std::span<const Vector3> position, const GrainSet& grains) {

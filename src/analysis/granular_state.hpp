@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The mechanical state of grains as a continuum: inertial number, ratio of stresses, gradients of velocity, shares of
-/// packing. One entry a particle in every column; stresses in Pa, compression positive.
+/// packing. One entry per particle in every column; stresses in Pa, compression positive.
 #pragma once
 
 #include <span>

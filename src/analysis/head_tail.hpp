@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// An avalanche seen from the side: how much thicker its front is than its rear, and which of its parts outrun the
 /// front (Niiya, Awazu & Nishimori 2020, section 3.3, Figure 7a). x points down the slope, z away from it. How front,
-/// rear and upper head are told apart the paper does not say: all of it is choice, fixed in
+/// rear and upper head are distinguished is not stated in the paper: all of it is a choice, fixed in
 /// validation/niiya2020/reference.toml.
 #pragma once
 

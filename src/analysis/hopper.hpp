@@ -29,7 +29,7 @@ struct HopperSetting {
   std::optional<double> smoothing_length = {};  ///< of all particles; left out: of each from its density
   bool air = false;
   bool has_floor = true;     ///< what falls out of the outlet stays in the bin
-  bool level_ground = true;  ///< the bed stands on the floor, or on a level plate from wall to wall
+  bool level_ground = true;  ///< the bed rests on the floor, or on a horizontal plate from wall to wall
   double stress_share = 1;   ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }

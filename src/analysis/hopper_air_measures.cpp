@@ -57,7 +57,7 @@ std::vector<Row> hopper_air_measures() {
       Row("particle_reynolds_max", "1",
           "largest D |u − u_p| ρ/μ of a grain at any step of the air since the start; the slip of a particle is the "
           "mean "
-          "of the cells it is spread over",
+          "of the cells that it overlaps",
           {[](const Run& r, const Place&, const Window& w) {
             return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1);
           }},

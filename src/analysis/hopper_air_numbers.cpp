@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The air between the grains and around them, as Yuu & Umekage (2011) look at it: sections 5.1 and 5.2.
+/// The air between the grains and around them, as evaluated by Yuu & Umekage (2011), sections 5.1 and 5.2.
 #include <algorithm>
 #include <cmath>
 

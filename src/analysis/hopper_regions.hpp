@@ -59,7 +59,7 @@ double corner_packing_over_middle(const Section& packing, const Vessel& vessel, 
 
 /// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the layer of
 /// that height deeper than 3 h below the surface, both without the outermost h/2 at walls and bottom. From the cells of
-/// a section, so that it does not matter how particles stand at the wall. nan if either is empty.
+/// a section, so that the arrangement of particles at the wall does not matter. nan if either is empty.
 double corner_packing_ratio(const Section& packing, const FreeSurface& surface, const Vessel& vessel,
                             const HopperShape& shape, double size);
 

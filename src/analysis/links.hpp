@@ -28,7 +28,7 @@ class Links {
   }
 
   /// The connected sets of those grains that take part, each by index, in the order of their first grains.
-  /// \param takes_part one entry a grain
+  /// \param takes_part one entry per grain
   std::vector<GrainSet> connected_sets(const std::vector<bool>& takes_part) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace talus {
 
-std::vector<double> those_that_are(std::vector<double> numbers) {
+std::vector<double> finite_values(std::vector<double> numbers) {
   const std::size_t members = numbers.size();
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (2 * numbers.size() < members) numbers.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A measure: a name, a unit, what it means, and the function that makes the number from a run, a place and a window of
-/// time. Each stands in one row of one list, hopper_measures() or avalanche_measures(); the summary of a run, its table
-/// of snapshots, the rows of a reference and docs/quantities.md follow from the lists.
+/// time. Each is one row of one list, hopper_measures() or avalanche_measures(); the summary of a run, its table of
+/// snapshots, the rows of a reference and docs/quantities.md follow from the lists.
 #pragma once
 
 #include <cstddef>
@@ -95,14 +95,15 @@ struct InSummary {
 template <class Run>
 struct Measure {
   Measure(std::string_view its_name, std::string_view its_unit, std::string_view its_text, Estimator<Run> its_estimator,
-          std::optional<InSummary<Run>> listed = {}, std::vector<std::string_view> lengths = {}, bool lacks = false)
+          std::optional<InSummary<Run>> listed = {}, std::vector<std::string_view> lengths = {},
+          bool can_be_missing = false)
       : name(its_name),
         unit(its_unit),
         text(its_text),
         estimator(std::move(its_estimator)),
         in_summary(listed),
         place(std::move(lengths)),
-        may_lack(lacks) {}
+        may_be_missing(can_be_missing) {}
 
   std::string_view name;
   std::string_view unit;  ///< SI; "deg" for angles, "1" for numbers
@@ -110,7 +111,7 @@ struct Measure {
   Estimator<Run> estimator;
   std::optional<InSummary<Run>> in_summary;
   std::vector<std::string_view> place;  ///< names of the lengths that a row has to bring
-  bool may_lack;  ///< members of an ensemble that have no such number are left out while they are the fewer
+  bool may_be_missing;  ///< members of an ensemble that have no such number are left out while they are the fewer
 };
 
 /// A measure of several runs against each other or together.

@@ -16,7 +16,7 @@
 
 namespace talus {
 
-/// Particles of equal mass, one entry a particle.
+/// Particles of equal mass, one entry per particle.
 struct Particles {
   std::span<const Vector3> position;     ///< m
   std::vector<double> smoothing_length;  ///< h, m
@@ -34,7 +34,7 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
 
 class ParticleField {
  public:
-  /// \param domain with its gates as they are at that time
+  /// \param domain with its gates in their state at that time
   /// \throws std::invalid_argument if a position is not finite or a smoothing length not above 0
   ParticleField(Particles particles, Domain domain);
 
@@ -45,11 +45,11 @@ class ParticleField {
   double packing(const Vector3& x) const;
 
   /// Mean of a column over the particles around x, weighted by volume times W; nan where there is none. Exact for a
-  /// constant field. Vectors of images are turned as mirrors turn them. \param column one entry a particle
+  /// constant field. Vectors of images are turned as mirrors turn them. \param column one entry per particle
   double value(const Vector3& x, std::span<const double> column) const;
   Vector3 value(const Vector3& x, std::span<const Vector3> column) const;
 
-  /// du_i/dx_j at a particle, corrected so that it is exact for linear fields. \param velocity one entry a particle,
+  /// du_i/dx_j at a particle, corrected so that it is exact for linear fields. \param velocity one entry per particle,
   /// m/s
   Tensor3<> velocity_gradient(std::size_t particle, std::span<const Vector3> velocity) const;
 

@@ -16,7 +16,7 @@
 namespace talus {
 
 /// Numbers of the members of an ensemble without those that are nan, as long as these are the fewer; else none at all.
-std::vector<double> those_that_are(std::vector<double> numbers);
+std::vector<double> finite_values(std::vector<double> numbers);
 
 /// The measures of one model.
 template <class Run>
@@ -80,7 +80,7 @@ class RowValues {
     if (row_.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
     std::vector<double> numbers;
     for (const Run& member : members) numbers.push_back(of_run(member));
-    if (measure_->may_lack) numbers = those_that_are(std::move(numbers));
+    if (measure_->may_be_missing) numbers = finite_values(std::move(numbers));
     return numbers.empty() ? std::nan("") : evaluate(row_.statistic, numbers);
   }
 

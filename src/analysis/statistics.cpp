@@ -105,15 +105,15 @@ Histogram histogram(std::span<const double> sample, double least, double most, s
 double spearman_correlation(std::span<const double> x, std::span<const double> y) {
   require_pairs(x, y);
   const std::vector<double> x_rank = ranks(x), y_rank = ranks(y);
-  const double spread = cross_sum(x_rank, x_rank) * cross_sum(y_rank, y_rank);
-  return spread > 0 ? cross_sum(x_rank, y_rank) / std::sqrt(spread) : nan;
+  const double scatter = cross_sum(x_rank, x_rank) * cross_sum(y_rank, y_rank);
+  return scatter > 0 ? cross_sum(x_rank, y_rank) / std::sqrt(scatter) : nan;
 }
 
 Line fit_line(std::span<const double> x, std::span<const double> y) {
   require_pairs(x, y);
-  const double spread = cross_sum(x, x);
-  if (!(spread > 0)) return {nan, nan, nan};
-  const double slope = cross_sum(x, y) / spread;
+  const double scatter = cross_sum(x, x);
+  if (!(scatter > 0)) return {nan, nan, nan};
+  const double slope = cross_sum(x, y) / scatter;
   const double intercept = mean(y) - slope * mean(x);
   return {intercept, slope, r_squared(x, y, intercept, slope)};
 }

@@ -87,7 +87,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
   const ModelEntry& model = model_of(resolved);
   const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path());
-  model.draw(resolved, folder.path());
+  if (model.draw) model.draw(resolved, folder.path());
   std::erase_if(summary.quantities, [&](const NamedValue& old) {
     return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == old.name; });
   });

@@ -7,7 +7,7 @@
 
 #include "io/case_file.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
 }
 

@@ -24,7 +24,7 @@ namespace talus::app {
 namespace {
 
 constexpr double month = 30 * 86400.0;
-constexpr std::size_t widest_value = 16;  // longer ones stand out of their column
+constexpr std::size_t widest_value = 16;  // longer ones exceed their column
 
 /// To two digits: "3800".
 std::string count_text(double count) {

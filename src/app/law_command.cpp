@@ -83,9 +83,8 @@ ExitStatus follow(const LawOptions& options) {
   write_path_table(path, folder / "path.csv");
   draw_path(path, folder / "path.png");
   const auto fits = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
-    std::optional<granular::Fits> fits;
-    if constexpr (requires { own.fits; }) fits = own.fits;
-    return fits;
+    if constexpr (requires { own.fits; }) return std::optional<granular::Fits>(own.fits);
+    return std::optional<granular::Fits>();
   });
   if (fits) draw_functions(*fits, folder / "functions.png");
 

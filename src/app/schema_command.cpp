@@ -20,15 +20,15 @@ namespace {
 std::string page_head(const std::string& model) {
   constexpr std::size_t width = 100;
   const std::string text = fmt::format(
-      "Every key of a case of the model `{0}`. This page is the output of `talus schema {0} --markdown`; the texts "
-      "stand beside the parameters in `src/models/{0}/parameters.hpp`. Quantities are strings with a unit (`\"5 "
-      "mm\"`), "
-      "of any unit of their dimension; the unit below is that of the default and of the output of `talus check`.",
+      "Every key of a case of the model `{0}`. This page is the output of `talus schema {0} --markdown`; the texts are "
+      "defined with the parameters in `src/models/{0}/parameters.hpp`. Quantities are strings with a unit (`\"5 "
+      "mm\"`), of any unit of their dimension; the unit below is that of the default and of the output of `talus "
+      "check`.",
       model);
   return fmt::format("# Case reference: {}\n\n{}\n", model, wrapped(text, width, 0, 0));
 }
 
-/// One row a measure, those that a summary lists first.
+/// One row per measure, those that a summary lists first.
 std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) {
   std::string table = "| name | unit | definition | place |\n|---|---|---|---|\n";
   for (const MeasureText& m : measures) {
@@ -42,28 +42,26 @@ std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) 
 
 std::string page_of_quantities() {
   std::string page =
-      "# Quantities\n"
-      "\n"
-      "The numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in the\n"
-      "rows of `validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A\n"
-      "summary lists those that are defined by the case's own outlet, vessel and bed and apply to it. The\n"
-      "others, and the lengths that they need (*place*), stand in the rows of a reference, as does the\n"
-      "window of time; in a summary the window is the whole run, its end, or what the definition says.\n"
-      "This page is the output of `talus schema --quantities`; the texts stand in the lists\n"
-      "`src/analysis/hopper_measures.cpp` and `src/analysis/avalanche_measures.cpp`.\n";
+      "# Quantities\n\nThe numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in "
+      "the\nrows of `validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A\nsummary "
+      "lists those that are defined by the case's own outlet, vessel and bed and apply to it. The\nothers, and the "
+      "lengths that they need (*place*), are in the rows of a reference, as is the time\nwindow; in a summary the "
+      "window is the whole run, its end, or what the definition says.\nThis page is the output of `talus schema "
+      "--quantities`; the texts are in the lists\n`src/analysis/hopper_measures.cpp` and "
+      "`src/analysis/avalanche_measures.cpp`.\n";
   const auto add = [&page](const char* title, const char* symbols, const std::vector<MeasureText>& measures) {
     page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}\n### In comparisons\n\n{3}", title, symbols,
                         table_of(measures, true), table_of(measures, false));
   };
   add("Grains in a vessel: continuum",
-      "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass\n"
-      "of all particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The\n"
-      "*hopper* is what is above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is\n"
-      "below it; without an outlet the box is a bin. Q is the mass that passes the outlet's plane per\n"
-      "time, of particles spread along z by the kernel. *While it flows*: from when a tenth of what passes\n"
-      "the outlet in all has passed until half of it has, or half-way between the two; where nothing\n"
-      "passes, half of the run. Packing is what the kernel deposits, images behind the walls counted; a\n"
-      "value at a place is interpolated by the kernel to the centre of the 1.25 mm cell that holds it.",
+      "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass\nof all "
+      "particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The\n*hopper* is what "
+      "is above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is\nbelow it; without an outlet the "
+      "box is a bin. Q is the mass that passes the outlet's plane per\ntime, of particles smoothed along z by the "
+      "kernel. *While it flows*: from when a tenth of the mass\nthat passes the outlet in total has passed until half "
+      "of it has, or half-way between the two; where\nnothing passes, half of the run. Packing is the kernel sum, "
+      "including images behind the walls; a\nvalue at a place is interpolated by the kernel to the centre of the 1.25 "
+      "mm cell that contains it.",
       texts_of_hopper_measures());
   add("Avalanches and falling clouds: cloud",
       "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Decimal numbers of any length, so that "200 um" becomes the double nearest to 0.0002 and not 200 times a rounded
-/// 1e-6: units scale the digits that the user wrote, and one rounding at the end makes the double.
+/// Decimal numbers of arbitrary length, so that "200 um" becomes the double nearest to 0.0002 and not 200 times a
+/// rounded 1e-6: units scale the digits as written, and the result is rounded once.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Decimal {
 /// if it does not begin with one.
 std::optional<Decimal> take_decimal(std::string_view& text);
 
-/// The number itself, to 40 digits (exact for nearly all that people write).
+/// The number itself, to 40 digits (exact for nearly all practical input).
 Decimal to_decimal(double value);
 
 /// The shortest decimal that rounds to this double.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The three ways in which a run can fail, each with what the user needs to mend it. `app` turns them into exit
-/// statuses. The grammar of a message: what is wrong, why or what is allowed, what to try.
+/// The three kinds of failure of a run, each with the information that the user needs to fix it. `app` turns them into
+/// exit statuses. The grammar of a message: what is wrong, why or what is allowed, what to try.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// The computation left the possible: a non-finite value, an overlap that no contact can reach, a solver that does not
-/// converge. Exit status 3; the last good checkpoint is kept.
+/// Numerical failure: a non-finite value, an impossible overlap, a solver that does not converge. Exit status 3; the
+/// last good checkpoint is kept.
 class NumericalError : public std::runtime_error {
  public:
   struct Report {
@@ -56,7 +56,7 @@ class NumericalError : public std::runtime_error {
   Report report_;
 };
 
-/// A file cannot be read or written. Exit status 4; files written before stay whole.
+/// A file cannot be read or written. Exit status 4; files written before remain intact.
 class FileError : public std::runtime_error {
  public:
   /// \param path file or folder; \param what what was attempted and why it failed ("write failed: No space left")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The instruction sets for which the hot loops are compiled, and the choice among them while the program runs. The
-/// same case gives the same bits with the same set, and nearly the same numbers with another.
+/// The instruction sets for which the innermost loops are compiled, and the choice among them at run time. The same
+/// case gives the same bits with the same set, and nearly the same numbers with another.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ inline constexpr auto choices<InstructionSet> = std::to_array<std::string_view>(
 /// Whether the running processor (and operating system) can execute it.
 bool is_available(InstructionSet set);
 
-/// The set that is used for a wish: itself, or the best available one for `automatic`; never `automatic`.
+/// The set that is used for a choice: the choice itself, or the best available set for `automatic`.
 /// \throws InputError if the processor does not have it
 InstructionSet resolve(InstructionSet wanted);
 

@@ -34,7 +34,7 @@ std::size_t edit_distance(std::string_view first, std::string_view second) {
   return row[b.size()];
 }
 
-std::optional<std::size_t> slips(std::string_view word, std::string_view candidate) {
+std::optional<std::size_t> typos(std::string_view word, std::string_view candidate) {
   const std::size_t most = 1 + word.size() / 4;
   const bool far_shorter = candidate.size() + most < word.size();  // which would cost their product to find out
   if (far_shorter) return std::nullopt;
@@ -48,7 +48,7 @@ std::string_view nearest(std::string_view word, std::span<const std::string_view
   std::string_view best;
   std::optional<std::size_t> least;
   for (const std::string_view candidate : candidates)
-    if (const auto count = slips(word, candidate); count && (!least || *count < *least))
+    if (const auto count = typos(word, candidate); count && (!least || *count < *least))
       best = candidate, least = count;
   return best;
 }

@@ -15,9 +15,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The edit distance, if `word` may be a slip of `candidate`; nothing if they are too far apart. Near is a quarter of
 /// the letters and one more; the beginning of the candidate (three letters at least) counts as one slip.
-std::optional<std::size_t> slips(std::string_view word, std::string_view candidate);
+std::optional<std::size_t> typos(std::string_view word, std::string_view candidate);
 
-/// The candidate with the fewest slips; of equals, the first; empty if none is near.
+/// The candidate with the fewest typos; of equals, the first; empty if none is near.
 std::string_view nearest(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace talus

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The parallel loop: the only place that knows the threads. Each index writes only what is its own, so the result does
+/// The parallel loop: the only code that deals with threads. Each index writes only its own data, so the result does
 /// not depend on the number of threads; a reduction sums chunks of fixed size in a fixed order, for the same reason.
-/// Why not OpenMP or oneTBB: docs/decisions/0001-parallel-loop.md.
+/// Why not OpenMP or oneTBB: docs/decisions/0001-own-team-of-threads.md.
 #pragma once
 
 #include <cstddef>
@@ -52,7 +52,7 @@ void for_each(ThreadTeam& team, std::size_t count, Body&& body) {
   });
 }
 
-/// Gathers all i into one T: add(i, T&) within chunks of `chunk_size` in order, then the chunks combined in order.
+/// Reduces all i to one T: add(i, T&) within chunks of `chunk_size` in order, then the chunks combined in order.
 /// \param combine (T, T) -> T, e.g. sum
 template <class T, class Add, class Combine>
 T accumulate(ThreadTeam& team, std::size_t count, T initial, Add&& add, Combine&& combine) {

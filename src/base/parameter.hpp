@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How a parameter is described, once. A model lists its parameters in a function template
+/// The description of a parameter. A model lists its parameters once, in a function template
 ///
 ///     template <class Visit> void for_each_parameter(Visit&& visit, Parameters& p) {
 ///       visit(Parameter{"particles.radius", dimension::length, above(0), "mean radius"}, p.radius);
 ///       ...
 ///     }
 ///
-/// and parsing, defaults, ranges, the JSON schema, the reference page and `check` follow from that one list.
-/// The type of the member says what is read: double (a quantity with a unit, or a plain number if the dimension is
-/// none), std::int64_t, bool, std::string, std::array<double, 3>, std::vector<double> (any number of values), an
-/// enumeration with `choices`, or std::optional of one of these (may be left out). The member's initial value is the
-/// default, except where `required` is set.
+/// from which parsing, defaults, ranges, the JSON schema, the reference page and `check` follow. The type of the member
+/// says what is read: double (a quantity with a unit, or a plain number if the dimension is none), std::int64_t, bool,
+/// std::string, std::array<double, 3>, std::vector<double> (any number of values), an enumeration with `choices`, or
+/// std::optional of one of these (may be left out). The member's initial value is the default, except where `required`
+/// is set.
 ///
-/// A choice owns its keys: those that mean something under one choice alone are visited under a condition, those of one
-/// of many alike in a table of its own,
+/// A choice owns its keys: keys that are meaningful for one choice only are visited under a condition, the keys of one
+/// alternative in a table of its own,
 ///
 ///     auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
 ///     timed(Parameter{"gate.time", ...}, p.gate.time);
@@ -21,7 +21,7 @@
 ///     auto own = in_table("law.drucker-prager", visit);
 ///     own(Parameter{"friction", ...}, law.friction);
 ///
-/// and a case that gives such a key where the condition fails is at fault.
+/// and a case that gives such a key where the condition fails is an error.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct Range {
   double most = std::numeric_limits<double>::infinity();
   bool least_excluded = false;
   bool most_excluded = false;
-  std::string (*hint)(double value) = nullptr;  ///< what a value beyond the bounds was probably meant for; may be empty
+  std::string (*hint)(double value) = nullptr;  ///< the probable intention of a value beyond the bounds; may be empty
 
   constexpr bool contains(double value) const {
     return (least_excluded ? value > least : value >= least) && (most_excluded ? value < most : value <= most);
@@ -65,11 +65,11 @@ constexpr Range between(double least, double most) {
 /// A coefficient of friction, the tangent of an angle: one beyond 2 (63 degrees) was probably meant for the angle.
 Range friction_coefficient();
 
-/// What has to hold for a key to mean something.
+/// The condition under which a key is meaningful.
 struct Condition {
-  std::string key = {};     ///< of the choice: "gate.opens"; empty: the key always means something
-  std::string found = {};   ///< what the case has: `is "when-settled"`
-  std::string needed = {};  ///< what it would take: `= "at-time"`
+  std::string key = {};     ///< of the choice: "gate.opens"; empty: no condition
+  std::string found = {};   ///< in the case: `is "when-settled"`
+  std::string needed = {};  ///< required: `= "at-time"`
   bool holds = true;
 };
 
@@ -82,7 +82,7 @@ struct Parameter {
   Condition condition = {};
 };
 
-/// A key that was: where a case has it, the fault says what stands in its place.
+/// A former key: if a case has it, the error gives the new one.
 struct RenamedKey {
   std::string_view old;
   std::string_view now;  ///< a key, or in words what to write
@@ -99,7 +99,7 @@ constexpr std::string_view choice_name(Enumeration value) {
   return choices<Enumeration>[static_cast<std::size_t>(value)];
 }
 
-/// A choice's value as a case file has it.
+/// The value of a choice as it is written in a case file.
 template <class T>
 std::string value_text(const T& value) {
   if constexpr (std::is_same_v<T, bool>)
@@ -108,25 +108,19 @@ std::string value_text(const T& value) {
     return "\"" + std::string(choice_name(value)) + "\"";
 }
 
-/// That a choice has one value.
+/// The condition that a choice has a given value.
 template <class T>
 Condition where(std::string key, const T& value, const std::type_identity_t<T>& wanted) {
   return {std::move(key), "is " + value_text(value), "= " + value_text(wanted), value == wanted};
 }
 
-/// That a choice has another value than one.
+/// The condition that a choice does not have a given value.
 template <class T>
 Condition unless(std::string key, const T& value, const std::type_identity_t<T>& unwanted) {
   return {std::move(key), "is " + value_text(value), "other than " + value_text(unwanted), value != unwanted};
 }
 
-/// That an optional key is not given.
-template <class T>
-Condition without(std::string key, const std::optional<T>& value) {
-  return {std::move(key), "is given", "left out", !value.has_value()};
-}
-
-/// Visits keys that mean nothing unless a condition holds. Of several, the outermost that fails is told.
+/// Visits keys that are meaningful only if a condition holds. Of nested ones, the outermost that fails is reported.
 template <class Visit>
 auto only_if(Condition condition, Visit& visit) {
   return [condition = std::move(condition), &visit](Parameter parameter, auto& member) {

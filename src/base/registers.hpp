@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Vector registers of the instruction set that the including file is compiled for: the compiler's vector types, and
-/// the operations that those do not know. What lanes.hpp is made of; nothing else includes it.
+/// the operations that these lack. Included by simd.hpp only.
 #pragma once
 
 #include <cmath>
@@ -100,7 +100,7 @@ TALUS_INLINE void transpose(Register (&r)[sizeof(Register) / 8]) requires(sizeof
   }
 }
 
-// The few operations that the compiler's vector arithmetic does not know: a b + c and c - a b, rounded once where the
+// The few operations that the vector arithmetic of the compiler lacks: a b + c and c - a b, rounded once where the
 // instruction set can; an estimate of the reciprocal square root, good to `estimate_bits` bits; a > b; a choice lane by
 // lane; whether a mask holds in every lane.
 #if defined(__AVX512F__)

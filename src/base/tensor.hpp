@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Second-order tensors in three dimensions, over any number type (double, float, vector lanes). Plain numbers, no
+/// Second-order tensors in three dimensions, over any number type (double, float, SIMD vectors). Plain numbers, no
 /// invariants; usable on host and device.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus {
 

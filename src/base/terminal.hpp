@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Text for a terminal. What users write (titles, keys, names of files and columns) reaches it through these functions
-/// alone, so that no control character in it can move the cursor, change colours or hide what was said.
+/// Text for a terminal. User input (titles, keys, names of files and columns) is printed only by these functions, so
+/// that no control character in it can move the cursor, change colours or hide earlier output.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 namespace talus {
 
-/// Which control characters of a text are left as they are.
+/// The control characters of a text that are not escaped.
 enum class Controls { none, line_ends };
 
 /// The text with its control characters (C0, DEL, C1), marks that turn the direction of writing, and bytes that are no
@@ -36,7 +36,7 @@ void complain(fmt::format_string<Arguments...> format, Arguments&&... arguments)
 std::size_t terminal_width();
 
 /// A text in lines of at most `width` columns, broken at blanks, each but the first behind `indent` blanks. A word
-/// longer than a line stands alone on one.
+/// longer than a line is placed on a line of its own.
 /// \param used columns of the first line that are taken already
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent, std::size_t used);
 

@@ -57,7 +57,7 @@ struct Prefix {
 constexpr auto prefixes =
     std::to_array<Prefix>({{'p', -12}, {'n', -9}, {'u', -6}, {'m', -3}, {'c', -2}, {'k', 3}, {'M', 6}, {'G', 9}});
 
-/// Writings outside ASCII, and what they stand for.
+/// Non-ASCII spellings and their ASCII equivalents.
 constexpr auto synonyms = std::to_array<std::pair<std::string_view, std::string_view>>({{"\u00b5", "u"},
                                                                                         {"\u03bc", "u"},
                                                                                         {"\u00b0", "deg"},

@@ -20,7 +20,7 @@ std::string system_reason(int error_number) {
 
 namespace {
 
-/// \throws FileError about `path`, whose content stands under the name `temporary` until the end
+/// \throws FileError about `path`, whose content is in the file `temporary` until the end
 void write_and_rename(const std::string& path, const std::string& temporary, std::string_view content, Flush flush) {
   Descriptor file(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW, path);
   file.write(content);
@@ -36,7 +36,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
   const std::string temporary = path.string() + std::string(temporary_suffix);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   claim_file(path);
-  // Opened first, so that a folder that cannot be flushed is told before anything has changed.
+  // Opened first, so that a folder that cannot be flushed is reported before any change.
   Descriptor folder_file(folder.string(), O_RDONLY | O_DIRECTORY, path.string());
   try {
     write_and_rename(path.string(), temporary, content, flush);

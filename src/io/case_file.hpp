@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// A table; its keys are entries of their own.
+/// A table; its keys are separate entries.
 struct CaseTable {};
 
 /// A date or time, which no parameter takes.
@@ -27,8 +27,8 @@ struct CaseValue {
 };
 
 struct CaseEntry {
-  /// Dotted: "particles.radius"; parts that are no bare keys stand in quotes; an array of tables has its numbers from
-  /// 1: "plates.1.from"
+  /// Dotted: "particles.radius"; parts that are not bare keys are quoted; an array of tables has its numbers from 1:
+  /// "plates.1.from"
   std::string key;
   CaseValue value;
   std::string where;       ///< file name, or the option
@@ -42,7 +42,7 @@ class CaseFile {
   /// Throws FileError if the file cannot be read, InputError (one problem, with line and column) if it is not TOML.
   static CaseFile read(const std::string& path);
 
-  /// \param name stands for the file's name in messages
+  /// \param name the name of the file in messages
   static CaseFile from_text(std::string_view text, std::string name);
 
   /// Overrides or adds a value: "particles.count=500", "particles.radius=2 mm". The value is read as TOML if it is
@@ -56,7 +56,7 @@ class CaseFile {
 
   const std::string& name() const { return name_; }
 
-  /// In the order of the lines, a table before its keys; options last. No key stands twice.
+  /// In the order of the lines, a table before its keys; options last. No key occurs twice.
   const std::vector<CaseEntry>& entries() const { return entries_; }
 
   /// Null if the key is not there.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Checkpoints: all that a run needs to go on with the same bits.
+/// Checkpoints: all that a run needs to continue with the same bits.
 ///
 /// Two files alternate, checkpoint_a.h5 and checkpoint_b.h5. A new one is written whole under a temporary name and then
 /// renamed over the older of the two, so that at any moment, also on a full disk, the newest whole one is there; room
 /// for three is needed. A file is HDF5 behind a user block of 512 bytes of text:
 ///
-///     Talus checkpoint / format 1 / sequence 12 / bytes 345678 / crc32 89abcdef      (one a line)
+///     Talus checkpoint / format 1 / sequence 12 / bytes 345678 / crc32 89abcdef      (one per line)
 ///
-/// The sequence number tells the newer of the two. The checksum covers the lines before it and all bytes of the HDF5
-/// file, and is verified before the library sees them: a torn file and a turned bit are both noticed.
-/// Within: /state/NAME, the model's kept fields; anything else by its own path; the attribute "units" on each.
+/// The sequence number identifies the newer of the two. The checksum covers the lines before it and all bytes of the
+/// HDF5 file, and is verified before the library sees them: a torn file and a turned bit are both noticed. Within:
+/// /state/NAME, the model's kept fields; anything else by its own path; the attribute "units" on each.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ class CheckpointWriter {
 
   /// for_each_field(writer, state)
   template <class T>
-  void operator()(const Field& field, const T& member) {
+  void operator()(const FieldInfo& field, const T& member) {
     if (field.role == FieldRole::kept) put("state/" + std::string(field.name), member, field.unit);
   }
 
@@ -58,7 +58,7 @@ class CheckpointReader {
  public:
   /// for_each_field(reader, state): fills the kept fields
   template <class T>
-  void operator()(const Field& field, T& member) const {
+  void operator()(const FieldInfo& field, T& member) const {
     if (field.role == FieldRole::kept) get("state/" + std::string(field.name), member);
   }
 

@@ -44,7 +44,7 @@ std::string si_unit(Dimension dimension) {
   return dimension == dimension::none ? "1" : dimension == dimension::angle ? "rad" : unit_name(dimension);
 }
 
-/// "mm, m": what a column of a dimension may stand in.
+/// "mm, m": the units allowed for a column of a dimension.
 std::string units_of(Dimension dimension) {
   const std::string usual = example_unit(dimension), si = unit_name(dimension);
   return usual == si ? si : usual + ", " + si;

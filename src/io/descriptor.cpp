@@ -12,8 +12,8 @@
 
 namespace talus {
 
-Descriptor::Descriptor(const std::string& path, int flags, std::string reported)
-    : reported_(reported.empty() ? path : std::move(reported)) {
+Descriptor::Descriptor(const std::string& path, int flags, const std::string& reported)
+    : reported_(reported.empty() ? path : reported) {
   do {
     number_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
   } while (number_ < 0 && errno == EINTR);

@@ -15,7 +15,7 @@ class Descriptor {
   Descriptor() = default;
   /// \param flags of open(2); new files get the permissions that the umask leaves
   /// \param reported path that errors name; empty: `path`
-  Descriptor(const std::string& path, int flags, std::string reported = {});
+  Descriptor(const std::string& path, int flags, const std::string& reported = {});
   ~Descriptor();
   Descriptor(Descriptor&& other) noexcept
       : number_(std::exchange(other.number_, -1)), reported_(std::move(other.reported_)) {}
@@ -28,7 +28,7 @@ class Descriptor {
   int number() const { return number_; }
   void write(std::string_view bytes);
   std::string read();               ///< from here to the end
-  void truncate(std::size_t size);  ///< cuts there and goes on there
+  void truncate(std::size_t size);  ///< truncates and continues there
   void sync();                      ///< to the disk; a file system that cannot flush a folder is let be
   void close();
 

@@ -21,7 +21,7 @@ namespace talus {
 /// What to do with a folder that is there and not empty.
 enum class Existing {
   refuse,
-  resume,    ///< go on with what is in it
+  resume,    ///< continue the run in it
   overwrite  ///< remove the files that its list says were written, and no others
 };
 
@@ -41,7 +41,7 @@ class FileList {
   void add(const std::string& name);
 
   /// Removes the files with these names and what was left of writing them; regular files alone, none behind a link. The
-  /// one that `last` names goes last. An empty list stands in place of this one then. \throws FileError
+  /// one that `last` names goes last. This list is then empty. \throws FileError
   void remove_files(std::string_view last);
 
  private:

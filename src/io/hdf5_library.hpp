@@ -16,7 +16,7 @@ void silence();
 /// \throws FileError with the library's own account of what failed, from the call in which it began
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what);
 
-/// Files that are opened with it live in memory alone. They are told apart by their names: see `unique_name`.
+/// Files that are opened with it are in memory only. They are distinguished by their names: see `unique_name`.
 Handle file_access_in_memory();
 std::string unique_name();
 

@@ -32,7 +32,7 @@ bool read_string(hid_t file_type, Read&& read, std::string& text) {
 
 Reader::Reader(std::filesystem::path path) : path_(std::move(path)) {
   silence();
-  Descriptor(path_.string(), 0);  // the system's reason is clearer than the library's
+  const Descriptor opened(path_.string(), 0);  // the system's reason is clearer than the library's
   file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file_.id() < 0) fail(path_, "is not a whole HDF5 file");
 }

@@ -18,7 +18,7 @@ inline void write_json(const std::filesystem::path& path, const Json& json, Flus
 }
 
 /// \param what_it_is for messages: "a summary"; \param read Json -> result
-/// \throws FileError if the file cannot be read, is no JSON or lacks what `read` asks for
+/// \throws FileError if the file cannot be read, is not JSON or lacks a required value
 template <class Read>
 auto read_json(const std::filesystem::path& path, const char* what_it_is, Read&& read) {
   const std::string text = read_whole_file(path);

@@ -34,11 +34,11 @@ std::string_view nearest_key(std::string_view word, const std::vector<std::strin
   std::string_view best;
   std::size_t least = std::string_view::npos;
   for (const std::string& key : keys) {
-    const auto key_slips = slips(last, last_part(key));
-    if (!key_slips) continue;
-    const auto table_slips = slips(table, table_of(key));
-    if (!table_slips && *key_slips > last.size() / 4) continue;
-    const std::size_t score = *key_slips + table_slips.value_or(other_table);
+    const auto key_typos = typos(last, last_part(key));
+    if (!key_typos) continue;
+    const auto table_typos = typos(table, table_of(key));
+    if (!table_typos && *key_typos > last.size() / 4) continue;
+    const std::size_t score = *key_typos + table_typos.value_or(other_table);
     if (score < least) best = key, least = score;
   }
   return best;

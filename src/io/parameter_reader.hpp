@@ -25,7 +25,7 @@ namespace talus {
 
 class ParameterReader {
  public:
-  /// \param file outlives the reader; \param renamed keys that were, to tell what stands in their place
+  /// \param file outlives the reader; \param renamed former keys, to report the new ones
   explicit ParameterReader(const CaseFile& file, std::span<const RenamedKey> renamed = {});
 
   /// Reads one parameter. The member keeps its initial value if the key is missing or faulty, or where its condition
@@ -67,13 +67,5 @@ class ParameterReader {
   std::vector<Found> found_;
   std::set<std::string, std::less<>> meant_;  // keys that unknown ones were meant to be
 };
-
-/// One parameter before the others: `read_parameter(file, {"model", {}, {}, "the model", true}, model)`.
-template <class T>
-void read_parameter(const CaseFile& file, const Parameter& parameter, T& member) {
-  ParameterReader reader(file);
-  reader(parameter, member);
-  reader.raise();
-}
 
 }  // namespace talus

@@ -88,7 +88,7 @@ Json object() {
   return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
 }
 
-/// Whether it stands for the tables of an array: "plates.1".
+/// Whether it represents the tables of an array: "plates.1".
 bool is_of_array(std::string_view table) {
   return !table_of(table).empty() && last_part(table) == "1";
 }

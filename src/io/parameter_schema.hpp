@@ -11,7 +11,7 @@
 namespace talus {
 
 /// JSON Schema, draft 2020-12. Tables are objects that allow no other keys; quantities are strings with a pattern (that
-/// a number and a unit stand there; the dimension is told in the description, and checked when the case is read).
+/// a number and a unit; the dimension is in the description, and checked when the case is read).
 std::string json_schema(const ParameterList& defaults, std::string_view title);
 
 /// Markdown: a heading and a table for each table of the case; columns key, type, unit, allowed, default, meaning.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The types that a parameter may have, said once: reader, writer, schema and reference page see a parameter as a
-/// `ValueType` and a `ParameterValue`, and this file alone knows the members they come from.
+/// `ValueType` and a `ParameterValue`, and only this file depends on their members.
 #pragma once
 
 #include <array>
@@ -130,7 +130,7 @@ std::string allowed_text(const Parameter& parameter, const ValueType& type);
 /// A valid value, as TOML: "\"5 mm\"".
 std::string example_text(const Parameter& parameter, const ValueType& type);
 
-/// A value as TOML in SI; it reads back to the same bits. Quantities stand in quotes with their unit.
+/// A value as TOML in SI; it reads back to the same bits. Quantities are quoted, with their unit.
 std::string toml_text(const Parameter& parameter, const ParameterValue& value);
 
 /// Text as a TOML (and JSON) string with its quotes.

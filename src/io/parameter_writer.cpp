@@ -42,7 +42,7 @@ bool is_excluded(std::string_view key, std::span<const std::string_view> exclude
 std::string resolved_case(const ParameterList& all) {
   const ParameterList list = all.that_hold();
   std::string text;
-  for (const std::string_view table : list.tables()) {  // the keys at the top first: TOML asks for it
+  for (const std::string_view table : list.tables()) {  // the top-level keys first, as TOML requires
     if (!table.empty()) text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
     for (const DescribedParameter& item : list) {
       if (table_of(item.parameter.key) != table) continue;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/points_csv.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.hpp"
 #include "io/csv_table.hpp"
 
 namespace talus {
@@ -50,35 +46,6 @@ PointSet read_points_csv(const std::filesystem::path& path, std::span<const std:
   all.insert(all.end(), required.begin(), required.end());
   return points_of(
       read_csv_table(path, {.known = lengths, .required = all, .header = "x [mm], y [mm], z [mm], radius [mm], ..."}));
-}
-
-void write_points_csv(const std::filesystem::path& path, const Snapshot& snapshot) {
-  std::string text = "x [m],y [m],z [m]";
-  const auto add = [&]<class... T>(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<T>(values)...);
-  };
-  for (const ColumnView& column : snapshot.columns) {
-    if (column.name == "position") continue;
-    const char* const letters = std::holds_alternative<std::span<const Vector3>>(column.values) ? "xyz" : nullptr;
-    if (letters == nullptr) add(",{} [{}]", column.name, column.unit);
-    for (const char* letter = letters; letter && *letter; ++letter)
-      add(",{}_{} [{}]", column.name, *letter, column.unit);
-  }
-  const std::span<const Vector3> position = snapshot.positions();
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    add("\n{},{},{}", position[i].x, position[i].y, position[i].z);
-    for (const ColumnView& column : snapshot.columns) {
-      if (column.name == "position") continue;
-      if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values))
-        add(",{},{},{}", (*vectors)[i].x, (*vectors)[i].y, (*vectors)[i].z);
-      else if (const auto* scalars = std::get_if<std::span<const double>>(&column.values))
-        add(",{}", (*scalars)[i]);
-      else
-        add(",{}", std::get<std::span<const std::int64_t>>(column.values)[i]);
-    }
-  }
-  text += '\n';
-  write_atomically(path, text);
 }
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Particles as a table of comma-separated values: a header line that names the columns, then one line a particle.
+/// Particles as a table of comma-separated values: a header line that names the columns, then one line per particle.
 ///
 ///     x [mm],y [mm],z [mm],radius [um],velocity_x [m/s],velocity_y [m/s],velocity_z [m/s],mass [g]
 ///     1.5,0,2,200,0,0,-0.1,3.2e-5
@@ -24,10 +24,5 @@ namespace talus {
 /// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
 ///         finite or too large, and columns that are missing, doubled or in an unknown unit
 PointSet read_points_csv(const std::filesystem::path& path, std::span<const std::string_view> required = {});
-
-/// Writes all columns of a snapshot, whole or not at all, numbers in the shortest form that reads back to the same bits
-/// (integers come back as reals).
-/// \throws FileError with the system's reason
-void write_points_csv(const std::filesystem::path& path, const Snapshot& snapshot);
 
 }  // namespace talus

@@ -44,7 +44,7 @@ std::size_t end_of_rows(const std::filesystem::path& path, std::string_view cont
 
 }  // namespace
 
-SeriesWriter::SeriesWriter(std::filesystem::path path, const std::vector<SeriesColumn>& columns)
+SeriesWriter::SeriesWriter(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns)
     : columns_(columns.size()) {
   claim_file(path);
   file_ = Descriptor(path.string(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW);
@@ -54,7 +54,7 @@ SeriesWriter::SeriesWriter(std::filesystem::path path, const std::vector<SeriesC
   sum_ = checksum(header);
 }
 
-SeriesWriter SeriesWriter::resume(std::filesystem::path path, const std::vector<SeriesColumn>& columns,
+SeriesWriter SeriesWriter::resume(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
                                   std::uint64_t rows) {
   SeriesWriter writer;
   claim_file(path);

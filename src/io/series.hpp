@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// series.csv: one header line with units, "time [s],step_size [s],...", then one row a step, each handed to the system
-/// as it is made. Numbers stand in the shortest form that reads back to the same bits.
+/// series.csv: one header line with units, "time [s],step_size [s],...", then one row per step, each handed to the
+/// system as it is made. Numbers stand in the shortest form that reads back to the same bits.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,14 @@ struct SeriesColumn {
 class SeriesWriter {
  public:
   /// Starts a new file; one that is there is replaced. No link is followed.
-  SeriesWriter(std::filesystem::path path, const std::vector<SeriesColumn>& columns);
+  SeriesWriter(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns);
 
   /// Goes on after the first `rows` rows of a file; what stands behind them, a half-written line too, is cut off.
   /// \throws FileError also if the file has other columns, or fewer whole rows
-  static SeriesWriter resume(std::filesystem::path path, const std::vector<SeriesColumn>& columns, std::uint64_t rows);
+  static SeriesWriter resume(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
+                             std::uint64_t rows);
 
-  /// \param values one a column, in the columns' order; not finite ones are written as nan and inf
+  /// \param values one per column, in the columns' order; not finite ones are written as nan and inf
   /// \throws std::invalid_argument for another number of values
   void append(std::span<const double> values);
 

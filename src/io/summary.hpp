@@ -29,7 +29,7 @@ struct Summary {
   const NamedValue* find(std::string_view name) const;
 };
 
-/// \throws FileError with the system's reason; \throws std::invalid_argument if a name stands twice
+/// \throws FileError with the system's reason; \throws std::invalid_argument if a name occurs twice
 void write_summary(const std::filesystem::path& path, const Summary& summary);
 
 /// What was written, not finite values too. \throws FileError

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Particles as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read. ParaView finds the reader by
+/// Particles as VTKHDF 1.0, one file per frame: what ParaView 5.11, VTK 9.1 and h5py read. ParaView finds the reader by
 /// snapshot_index.hpp.
 ///
 ///     /VTKHDF               Type "UnstructuredGrid", Version [1, 0]; every particle is a point and a vertex cell

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Values in the cells of a regular grid as VTKHDF 1.0, one file a frame: what ParaView 5.11, VTK 9.1 and h5py read.
+/// Values in the cells of a regular grid as VTKHDF 1.0, one file per frame: what ParaView 5.11, VTK 9.1 and h5py read.
 ///
 ///     /VTKHDF                Type "ImageData", Version [1, 0]; WholeExtent, Origin, Spacing, Direction; time (s),
 ///     step;
@@ -21,7 +21,7 @@ namespace talus {
 
 /// Writes a grid, whole or not at all. The same grid gives the same bytes.
 /// \throws FileError with the system's reason
-/// \throws std::invalid_argument if a column does not have an entry a cell (a fault of the model)
+/// \throws std::invalid_argument if a column does not have an entry per cell (a fault of the model)
 void write_grid(const std::filesystem::path& path, const GridSnapshot& snapshot);
 
 /// Reads what write_grid() wrote. \throws FileError if the file cannot be read or holds something else

@@ -13,7 +13,7 @@
 namespace talus {
 
 /// \tparam M a type with the members below. A for_each_field(visit, state) and a for_each_parameter(visit, parameters)
-///           stand in the namespace of its State and Parameters.
+///           are in the namespace of its State and Parameters.
 template <class M>
 concept Model = requires(M model, const M constant, ThreadTeam& team, const RunRecord& record) {
   typename M::Parameters;
@@ -23,8 +23,8 @@ concept Model = requires(M model, const M constant, ThreadTeam& team, const RunR
   model.begin(team);    // completes the initial state
   model.resume(team);   // completes a state whose kept fields were read into mutable_state()
   model.advance(team);  // one step; throws NumericalError
-  { constant.time_origin() } -> std::same_as<double>;    // from which run.end counts; infinite while it has not come
-  { constant.latest_origin() } -> std::same_as<double>;  // when it has come at the latest
+  { constant.time_origin() } -> std::same_as<double>;    // from which run.end counts; infinite until it is known
+  { constant.latest_origin() } -> std::same_as<double>;  // its latest possible value
   { constant.step_limit() } -> std::same_as<NumericalError::Report>;     // what holds the last step, where, what to try
   { constant.totals() } -> std::same_as<std::vector<NamedValue>>;        // the same names every time
   { constant.regime(record) } -> std::same_as<std::vector<RegimeLine>>;  // at the end of a run

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Points sorted into the cells of a uniform grid. Only occupied cells are stored, so one point far away costs nothing:
-/// memory and time are O(N log N) whatever the extent.
+/// Points sorted into the cells of a uniform grid. Only occupied cells are stored: memory and time are O(N log N),
+/// independent of the extent.
 #pragma once
 
 #include <algorithm>

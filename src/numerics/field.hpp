@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How a column of the state is described, once. A model lists its columns and counters in a function template
+/// The description of a field of the state. A model lists its fields and counters once, in a function template
 ///
 ///     template <class Visit> void for_each_field(Visit&& visit, State& s) {
-///       visit(Field{"position", "m", FieldRole::kept}, s.position);
+///       visit(FieldInfo{"position", "m", FieldRole::kept}, s.position);
 ///       ...
 ///     }
 ///
-/// and snapshots and checkpoints follow from that one list. A member is a column (std::vector of double, Vector3 or
-/// std::int64_t, one entry a particle unless said) or a number of the whole state (double or std::uint64_t).
+/// from which snapshots and checkpoints follow. A member is a column (std::vector of double, Vector3 or std::int64_t,
+/// one entry per particle unless noted) or a number of the whole state (double or std::uint64_t).
 #pragma once
 
 #include <string_view>
@@ -19,12 +19,12 @@ enum class FieldRole {
   derived  ///< follows from kept fields: written to snapshots only
 };
 
-struct Field {
+struct FieldInfo {
   std::string_view name;
   std::string_view unit;  ///< SI; "1" for numbers
   FieldRole role = FieldRole::kept;
   bool in_snapshots = true;
-  bool of_particles = true;  ///< a column: one entry a particle, in their order
+  bool of_particles = true;  ///< a column: one entry per particle, in their order
 };
 
 }  // namespace talus

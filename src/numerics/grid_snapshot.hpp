@@ -17,7 +17,7 @@ struct GridSnapshot {
   struct Column {
     std::string name;
     std::string unit;
-    std::variant<std::vector<double>, std::vector<Vector3>> values;  ///< one a cell, x fastest
+    std::variant<std::vector<double>, std::vector<Vector3>> values;  ///< one per cell, x fastest
   };
   double time = 0;  ///< s
   std::uint64_t step = 0;

@@ -16,8 +16,8 @@ namespace talus {
 
 class NeighbourList {
  public:
-  /// Builds a full list (each pair stands twice).
-  /// \param position, radius in m, one entry a particle; \param skin >= 0, in m
+  /// Builds a full list (each pair appears twice).
+  /// \param position, radius in m, one entry per particle; \param skin >= 0, in m
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
     build(team, position, radius, skin, position.size(), nullptr);
   }

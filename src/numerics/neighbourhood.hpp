@@ -29,7 +29,7 @@ class Neighbourhood {
   const Domain& domain() const { return domain_; }
 
   /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + a_j + skin.
-  /// \param position inside the domain, m; \param radius m; one entry a particle; \param skin >= 0, m
+  /// \param position inside the domain, m; \param radius m; one entry per particle; \param skin >= 0, m
   /// \throws std::invalid_argument if the largest reach, 2 a + skin, passes the domain's, or a position is not finite
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Numbers of a whole system over time: one column a quantity, one row a step.
+/// Numbers of a whole system over time: one column per quantity, one row per step.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace talus {
 
 struct Series {
   std::vector<std::string> names;            ///< unique
-  std::vector<std::string> units;            ///< SI, one a column; "1" for numbers
+  std::vector<std::string> units;            ///< SI, one per column; "1" for numbers
   std::vector<std::vector<double>> columns;  ///< all of the same length
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }

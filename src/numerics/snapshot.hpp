@@ -15,7 +15,7 @@ namespace talus {
 
 class Domain;
 
-/// One column: one entry a particle.
+/// One column: one entry per particle.
 struct ColumnView {
   std::string_view name;
   std::string_view unit;

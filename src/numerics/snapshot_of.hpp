@@ -16,7 +16,7 @@ namespace talus {
 template <class State>
 Snapshot snapshot_of(const State& state) {
   Snapshot snapshot;
-  const auto collect = [&](const Field& field, const auto& member) {
+  const auto collect = [&](const FieldInfo& field, const auto& member) {
     using Member = std::decay_t<decltype(member)>;
     if constexpr (std::is_same_v<Member, double>) {
       if (field.name == "time") snapshot.time = member;

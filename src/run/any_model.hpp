@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The one place where a model's type is forgotten: `run` drives any model through these few virtual calls a step.
+/// Type erasure of models: `run` drives any model through these few virtual calls per step.
 #pragma once
 
 #include <memory>
@@ -23,9 +23,9 @@ class AnyModel {
   virtual ~AnyModel() = default;
   virtual double time() const = 0;
   virtual std::uint64_t step() const = 0;
-  virtual double time_origin() const = 0;    ///< from which run.end counts, s; infinite while it has not come
-  virtual double latest_origin() const = 0;  ///< when it has come at the latest, s
-  /// What holds the last step as short as it is, where, and what to try; the rest of the report is empty.
+  virtual double time_origin() const = 0;    ///< from which run.end counts, s; infinite until it is known
+  virtual double latest_origin() const = 0;  ///< its latest possible value, s
+  /// The condition that limits the last step, where, and what to try; the rest of the report is empty.
   virtual NumericalError::Report step_limit() const = 0;
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;

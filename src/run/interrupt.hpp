@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The ways in which a run is asked to leave early: SIGINT, SIGTERM, a file `stop` in its folder, the wall-time limit.
-/// All end alike: a checkpoint is written and the exit status is 130.
+/// The ways in which a run can be interrupted: SIGINT, SIGTERM, a file `stop` in its folder, the wall-time limit. All
+/// end alike: a checkpoint is written and the exit status is 130.
 #pragma once
 
 #include <chrono>
@@ -10,10 +10,10 @@
 
 namespace talus::run {
 
-/// Makes SIGINT and SIGTERM ask instead of kill; a second one kills. For the whole process; call once.
+/// Makes SIGINT and SIGTERM request a stop; a second one kills the process. Call once.
 void catch_signals();
 
-/// True once SIGINT or SIGTERM has come.
+/// True after SIGINT or SIGTERM.
 bool signal_has_come();
 
 class Interrupt {
@@ -21,7 +21,7 @@ class Interrupt {
   /// \param stop_file looked for ten times a second; \param walltime from now, none: no limit
   Interrupt(std::filesystem::path stop_file, std::optional<std::chrono::duration<double>> walltime);
 
-  /// Why the run should leave now; nothing if it may go on. Cheap enough for every step.
+  /// Why the run should stop now; nothing if it may continue. Cheap enough for every step.
   std::optional<std::string> reason();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Independent runs as processes of their own: one that crashes takes none of the others with it, and what each leaves
-/// is an ordinary run's folder.
+/// Independent runs as separate processes: a crash of one does not affect the others, and the folder of each is that of
+/// an ordinary run.
 #pragma once
 
 #include <filesystem>

@@ -153,7 +153,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
       next_row_time = options.series_interval * (std::floor(model.time() / options.series_interval) + 1);
   };
 
-  // Where a run stands: begun now, or as the newest whole checkpoint left it.
+  // The position of a run: at its start, or at the newest intact checkpoint.
   std::optional<CheckpointReader> checkpoint;
   if (options.resume) checkpoint = checkpoints.load();
   std::optional<SeriesWriter> series;

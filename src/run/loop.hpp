@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The loop over time of any model: steps, series, snapshots, checkpoints, and leaving early when asked.
+/// The time loop of any model: steps, series, snapshots, checkpoints, and interruption.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@
 
 namespace talus::run {
 
-/// Looks at the particles after every step; its numbers become columns of series.csv. The same names every time.
+/// Evaluates the particles after every step; its values become columns of series.csv. The names never change.
 using Observer = std::function<std::vector<NamedValue>(const Snapshot&)>;
 
-/// The one number of a row that the line of progress shows.
+/// The value shown in the progress line.
 struct Headline {
   std::string column = {};  ///< of series.csv; empty: none
   std::string name = {};    ///< "discharge"
@@ -28,14 +28,14 @@ struct Headline {
 
 struct LoopOptions {
   double end = 0;  ///< simulated time after the model's origin, s: the first step that reaches it is the last
-  double series_interval = 0;           ///< simulated time between rows of series.csv, s; 0: a row a step
+  double series_interval = 0;           ///< simulated time between rows of series.csv, s; 0: a row per step
   double snapshot_interval = 0;         ///< simulated time between snapshots, s, > 0
   double checkpoint_interval = 30;      ///< wall time between checkpoints, s
   std::optional<double> walltime = {};  ///< wall time after which the run leaves with a checkpoint, s
   std::string fingerprint = {};         ///< of the case: a checkpoint of another case is refused
   bool resume = false;
   Headline headline = {};
-  std::function<void(const std::string& line)> log = {};  ///< is given the line of each tenth of the way
+  std::function<void(const std::string& line)> log = {};  ///< receives a line for each tenth of the run
 };
 
 struct LoopResult {
@@ -49,9 +49,10 @@ struct LoopResult {
 /// Runs a model to the end, or until it is interrupted. Each snapshot is taken at the end of the first step that
 /// reaches its time (no step is cut to an output time, so outputs do not change the bits); the last step's state is the
 /// last snapshot. A checkpoint is written at the start, now and then, on interruption and at the end. With `resume` it
-/// goes on from the newest whole checkpoint, or begins where there is none; rows and snapshots written after that
-/// checkpoint are replaced. \param folder of the run, with a folder `snapshots` \throws NumericalError, FileError;
-/// checkpoints written before stay whole; NumericalError also if the step has fallen by more than StepGuard allows
+/// continues from the newest intact checkpoint, or starts from the beginning if there is none; rows and snapshots
+/// written after that checkpoint are replaced. \param folder of the run, with a folder `snapshots` \throws
+/// NumericalError, FileError; earlier checkpoints remain intact; NumericalError also if the step has fallen by more
+/// than StepGuard allows
 /// \throws InputError if the checkpoint belongs to another case
 LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
                     const std::vector<Observer>& observers);

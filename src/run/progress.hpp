@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How far a run is, and when it will end. On a terminal one line that lives, rewritten in place and cut to its width;
-/// elsewhere, and in a log, a line a tenth of the way.
+/// Progress of a run and the time left. On a terminal one line, rewritten in place and cut to its width; elsewhere, and
+/// in a log, one line per tenth of the run.
 ///
-/// The forecast knows phases (a bed settles, then the run): each has a speed of its own, measured over its latest
-/// quarter, since steps grow dearer or cheaper as a run goes on.
+/// The forecast distinguishes phases (settling, then flow): the speed of each is measured over its latest quarter,
+/// since the cost of a step changes during a run.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ class Progress {
  public:
   using Log = std::function<void(const std::string& line)>;
 
-  /// \param stream where lines go, usually stderr; \param log is given the line of each tenth
+  /// \param stream where lines go, usually stderr; \param log receives the line of each tenth
   explicit Progress(std::FILE* stream, Log log = {});
   ~Progress();
   Progress(const Progress&) = delete;
@@ -34,7 +34,7 @@ class Progress {
   };
   void begin(const Phase& phase);
 
-  /// Shows the line if one is due. \param text what stands before the share done and the time left
+  /// Shows the line if one is due. \param text the text before the fraction done and the time left
   template <class Text>
   void update(double now, Text&& text) {
     const Clock::time_point clock = Clock::now();
@@ -42,7 +42,7 @@ class Progress {
     if (is_due(clock, now)) show(clock, now, text());
   }
 
-  /// Ends the living line, so that other text can follow.
+  /// Ends the progress line, so that other text can follow.
   void finish();
 
  private:

@@ -29,11 +29,10 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "simulated time between snapshots: each is taken at the end of the first step past its time; 0: a "
                   "twentieth of run.end"},
         p.snapshots);
-  visit(
-      Parameter{
-          "output.series", dimension::time, at_least(0),
-          "simulated time between rows of series.csv: each belongs to the first step past its time; 0: a row a step"},
-      p.series);
+  visit(Parameter{"output.series", dimension::time, at_least(0),
+                  "simulated time between rows of series.csv: each belongs to the first step past its time; 0: one row "
+                  "per step"},
+        p.series);
   visit(Parameter{"output.pictures", {}, {}, "whether pictures are drawn at the end"}, p.pictures);
   visit(Parameter{"output.checkpoint_interval", dimension::time, above(0), "wall time between checkpoints"},
         p.checkpoint_interval);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Notices a run whose steps have become so short that it would never end.
+/// Detects a run whose steps have become so short that it would never end.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ class StepGuard {
   static constexpr double most_fall = 100;        ///< longest step of the phase over one that is too short
   static constexpr std::uint64_t patience = 100;  ///< steps in a row: an impact may ask for some
 
-  /// To be told of every step, of length `step`, s. \param begun whether the run's time origin had come
-  /// when it began; steps before and after it are compared with their own
-  /// \returns what is wrong, nothing if the run may go on
+  /// To be called for every step, of length `step`, s. \param begun whether the run's time origin had come when it
+  /// began; steps before and after it are compared with their own
+  /// \returns what is wrong, nothing if the run may continue
   std::optional<std::string> take(double step, bool begun);
 
   void save(CheckpointWriter& checkpoint) const;

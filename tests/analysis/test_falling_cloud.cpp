@@ -58,10 +58,5 @@ TEST(FallingCloud, GrainsFarBehindHaveLeaked) {
   EXPECT_NEAR(cloud.fall_speed, 2, 1e-12);
 }
 
-TEST(FallSpeedOfSphere, IsThatOfOneGrainAlone) {
-  EXPECT_EQ(fall_speed_of_sphere(1, 40), 1);
-  EXPECT_NEAR(fall_speed_of_sphere(1000, 40), 1 + 999 * (0.03 - 6 / 64000.0), 1e-12);
-}
-
 }  // namespace
 }  // namespace talus

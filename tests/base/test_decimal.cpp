@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/decimal.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -44,7 +45,7 @@ TEST(Decimal, IsWrittenPositionallyWhereThatIsShort) {
 
 TEST(Decimal, MultipliesExactly) {
   const Decimal nines{std::string(40, '9')};
-  EXPECT_EQ((nines * nines).digits, std::string(39, '9') + "8" + std::string(39, '0') + "1");
+  EXPECT_EQ((nines * nines).digits, fmt::format("{:9<39}8{:0<39}1", "", ""));
   EXPECT_EQ(to_string(Decimal{"25", -1, true} * Decimal{"4", 3}), "-10000");
 }
 

@@ -38,7 +38,7 @@ TEST(Nearest, FindsTheSlipAndNothingFarOff) {
 // The edit distance of long words costs the product of their lengths: over a hundred keys, minutes.
 TEST(Slips, OfAVeryLongWordAreNotCounted) {
   const std::string word(30'000'000, 'a');
-  for (int n = 0; n < 100; ++n) EXPECT_FALSE(slips(word, "particles.radius"));
+  for (int n = 0; n < 100; ++n) EXPECT_FALSE(typos(word, "particles.radius"));
 }
 
 }  // namespace

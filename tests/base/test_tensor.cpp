@@ -47,8 +47,8 @@ TEST(Tensor, QuarterTurnAboutYExchangesXAndZ) {
   EXPECT_EQ(turned, (SymmetricTensor3<>{4, 2, 1, -3, -0.5, -0.25}));
 }
 
-TEST(Lanes, HelpersOfLawsAgreeWithNumbersAlone) {
-  using Many = Lanes<double>;
+TEST(SimdVector, HelpersOfLawsAgreeWithNumbersAlone) {
+  using Many = SimdVector<double>;
   double first[Many::lanes], second[Many::lanes];
   for (int k = 0; k < Many::lanes; ++k) first[k] = 0.3 + k, second[k] = 1.7 - 0.5 * k;
   Many a, b;

@@ -26,13 +26,13 @@ struct State {
 
 template <class Visit, class S>
 void for_each_field(Visit&& visit, S& s) {
-  visit(Field{"time", "s"}, s.time);
-  visit(Field{"step", "1"}, s.step);
-  visit(Field{"position", "m"}, s.position);
-  visit(Field{"radius", "m"}, s.radius);
-  visit(Field{"speed", "m/s", FieldRole::derived}, s.speed);
-  visit(Field{"order", "1", FieldRole::kept, false}, s.order);
-  visit(Field{"mode", "1", FieldRole::kept, false}, s.mode);
+  visit(FieldInfo{"time", "s"}, s.time);
+  visit(FieldInfo{"step", "1"}, s.step);
+  visit(FieldInfo{"position", "m"}, s.position);
+  visit(FieldInfo{"radius", "m"}, s.radius);
+  visit(FieldInfo{"speed", "m/s", FieldRole::derived}, s.speed);
+  visit(FieldInfo{"order", "1", FieldRole::kept, false}, s.order);
+  visit(FieldInfo{"mode", "1", FieldRole::kept, false}, s.mode);
 }
 
 }  // namespace pebbles

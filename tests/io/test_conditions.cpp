@@ -20,8 +20,6 @@ struct Parameters {
     double water = 0.1;
     double friction = 0.6;
   } sand;
-  std::optional<double> step;
-  double courant = 0.3;
 };
 
 template <class Visit, class P>
@@ -35,9 +33,6 @@ void for_each_parameter(Visit&& visit, P& p) {
   auto wet = only_if(where("wet", p.sand.wet, true), sand);
   wet(Parameter{"water", dimension::none, between(0, 1), "how wet"}, p.sand.water);
   sand(Parameter{"friction", dimension::none, friction_coefficient(), "its friction"}, p.sand.friction);
-  visit(Parameter{"step", dimension::time, above(0), "step"}, p.step);
-  auto free = only_if(without("step", p.step), visit);
-  free(Parameter{"courant", dimension::none, above(0), "Courant number"}, p.courant);
 }
 
 constexpr RenamedKey renamed[] = {{"depth", "cover.depth"}, {"cover.form", "cover.name = \"sand\""}};
@@ -84,8 +79,6 @@ TEST(Conditions, AKeyOfAChoiceThatIsNotTakenIsAFault) {
   EXPECT_THAT(read("cover.depth = \"1 m\"").problems,
               ElementsAre("c:1: cover.depth: given, but cover.name is \"none\"; allowed: cover.name other than "
                           "\"none\""));
-  EXPECT_THAT(read("courant = 0.1\nstep = \"1 s\"").problems,
-              ElementsAre("c:1: courant: given, but step is given; allowed: step left out"));
 }
 
 TEST(Conditions, ATakenChoiceHasItsKeysWhateverTheirOrder) {

@@ -68,7 +68,9 @@ TEST(FileList, ATornOrTurnedLineCountsForNothing) {
     EXPECT_FALSE(list->holds("three"));
     FileList::read(folder)->add("four");
     EXPECT_TRUE(FileList::read(folder)->holds("four"));
-    if (list->holds("one")) EXPECT_TRUE(FileList::read(folder)->holds("one"));
+    if (list->holds("one")) {
+      EXPECT_TRUE(FileList::read(folder)->holds("one"));
+    }
   }
   for (std::size_t at = whole.find("one") - 9; at < whole.size(); ++at) {
     std::string turned = whole;

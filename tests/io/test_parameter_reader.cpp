@@ -324,25 +324,5 @@ TEST(ParameterReader, LongTextIsCutBetweenLetters) {
   EXPECT_THAT(problem_of("numerics.scheme = \"" + letters + "y\""), HasSubstr("\"" + letters + "y\" is not one of"));
 }
 
-TEST(ParameterReader, OneParameterBeforeTheOthers) {
-  const Parameter parameter{"shape", {}, {}, "chooses the rest", true};
-  example::Shape shape = example::Shape::circle;
-  read_parameter(CaseFile::from_text("other = 1\nshape = \"triangle\"", "c"), parameter, shape);
-  EXPECT_EQ(shape, example::Shape::triangle);
-  const auto message = [&](const char* text) -> std::string {
-    try {
-      read_parameter(CaseFile::from_text(text, "c"), parameter, shape);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
-  EXPECT_EQ(message("other = 1"), "c: shape: missing; allowed: circle, rectangle, triangle");
-  EXPECT_EQ(message("\nshape = 1"), "c:2: shape: 1 is not one of the choices; allowed: circle, rectangle, triangle");
-  EXPECT_EQ(message("shape = \"tringle\""),
-            "c:1: shape: \"tringle\" is not one of the choices; allowed: circle, rectangle, triangle; did you mean "
-            "'triangle'?");
-}
-
 }  // namespace
 }  // namespace talus

@@ -94,24 +94,5 @@ TEST_F(PointsCsv, ReportsWhatIsWrongWithTheHeader) {
               HasSubstr("none.csv: cannot open: No such file or directory"));
 }
 
-TEST_F(PointsCsv, WhatIsWrittenReadsBackToTheSameBits) {
-  const PointSet written{.columns = {{"radius", "m", std::vector{1.0 / 3, 0x1.0p-1074}},
-                                     {"position", "m", std::vector<Vector3>{{0.1, -0.0, 1e300}, {2, 3, 4}}},
-                                     {"velocity", "m/s", std::vector<Vector3>{{5, 6, 7}, {8, 9, 0.7}}},
-                                     {"number", "1", std::vector<std::int64_t>{-3, 4}}}};
-  write_points_csv(folder_ / "w.csv", written.view());
-  EXPECT_THAT(content_of(folder_ / "w.csv"),
-              HasSubstr("x [m],y [m],z [m],radius [m],velocity_x [m/s],velocity_y [m/s],velocity_z [m/s],number [1]\n"
-                        "0.1,-0,1e+300,0.3333333333333333,5,6,7,-3\n"));
-  const PointSet read = read_points_csv(folder_ / "w.csv");
-  ASSERT_THAT(read.columns, SizeIs(4));
-  EXPECT_EQ(read.view().vectors("position")[0], (Vector3{0.1, -0.0, 1e300}));
-  EXPECT_TRUE(std::signbit(read.view().vectors("position")[0].y));
-  EXPECT_THAT(read.view().scalars("radius"), ElementsAre(1.0 / 3, 0x1.0p-1074));
-  EXPECT_THAT(read.view().vectors("velocity"), ElementsAre(Vector3{5, 6, 7}, Vector3{8, 9, 0.7}));
-  EXPECT_EQ(read.columns[2].unit, "m/s");
-  EXPECT_THAT(read.view().scalars("number"), ElementsAre(-3, 4));
-}
-
 }  // namespace
 }  // namespace talus

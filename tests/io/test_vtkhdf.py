@@ -26,7 +26,7 @@ def expected(frame):
         "position": (np.stack([i / 7.0, -i / 3.0, frame + i / 9.0], axis=1), "m"),
         "velocity": (np.stack([1.0 / (i + 1), np.zeros(COUNT), -2.0 * i], axis=1), "m/s"),
         "radius": (0.005 * (i + 1), "m"),
-        "packing_order": (2**53 + 1 - i, "1"),
+        "spatial_order": (2**53 + 1 - i, "1"),
     }
 
 

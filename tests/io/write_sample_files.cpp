@@ -21,7 +21,7 @@ int main(int, char** arguments) {
                                  .columns = {{"position", "m", position},
                                              {"velocity", "m/s", velocity},
                                              {"radius", "m", radius},
-                                             {"packing_order", "1", order}}};
+                                             {"spatial_order", "1", order}}};
     talus::write_points(std::string(arguments[1]) + "/particles_000" + std::to_string(frame) + ".vtkhdf",
                         points.view());
     talus::GridSnapshot grid{.time = 0.25 * frame,
@@ -39,8 +39,8 @@ int main(int, char** arguments) {
     grid.count = {6, 1, 4};
     talus::write_grid(std::string(arguments[1]) + "/section_000" + std::to_string(frame) + ".vtkhdf", grid);
     talus::CheckpointWriter checkpoint("f00d");
-    checkpoint(talus::Field{"position", "m"}, position);
-    checkpoint(talus::Field{"step", "1"}, points.step);
+    checkpoint(talus::FieldInfo{"position", "m"}, position);
+    checkpoint(talus::FieldInfo{"step", "1"}, points.step);
     talus::CheckpointFiles(arguments[1]).save(checkpoint);
   }
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The checks of tools/ find what is planted."""
 
+import json
 import pathlib
 import subprocess
 import sys
@@ -30,6 +31,39 @@ class Tree(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
         return path
+
+
+class Lint(Tree):
+    """clang-tidy on a tree of one file, built by ninja as CMake would have it."""
+
+    def lint(self):
+        build = self.root / "build"
+        self.write(".clang-tidy", (ROOT / ".clang-tidy").read_text(encoding="utf-8"))
+        self.write("build/build.ninja", "rule cxx\n  command = c++ -MMD -MF $out.d -I../src -c $in -o $out\n"
+                   "  depfile = $out.d\n  deps = gcc\nbuild a.o: cxx ../src/base/a.cpp\n")
+        command = f"c++ -I{self.root}/src -o a.o -c {self.root}/src/base/a.cpp"
+        self.write("build/compile_commands.json", json.dumps(
+            [{"directory": str(build), "command": command, "file": f"{self.root}/src/base/a.cpp"}]))
+        subprocess.run(["ninja", "-C", str(build)], check=True, capture_output=True)
+        return subprocess.run([str(ROOT / "tools/check_lint.py"), "--root", str(self.root)],
+                              capture_output=True, text=True)
+
+    def test_a_finding_fails_and_a_clean_file_is_looked_at_once(self):
+        self.write("src/base/a.cpp", '#include "base/a.hpp"\nint Halve(int x) { return x / 2; }\n')
+        done = self.lint()
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn("readability-identifier-naming", done.stdout)
+        self.write("src/base/a.cpp", '#include "base/a.hpp"\nint halve(int x) { return x / 2; }\n')
+        self.assertIn("1 files, 1 looked at, 0 with findings", self.lint().stdout)
+        self.assertIn("1 files, 0 looked at, 0 with findings", self.lint().stdout)
+
+    def test_a_change_of_a_header_is_looked_at(self):
+        self.write("src/base/a.cpp", '#include "base/a.hpp"\nint one() { return 1; }\n')
+        self.assertEqual(self.lint().returncode, 0)
+        self.write("src/base/a.hpp", "#pragma once\nstruct number {};\n")
+        done = self.lint()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("a.hpp", done.stdout)
 
 
 class Layers(Tree):

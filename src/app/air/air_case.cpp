@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "base/instruction_set.hpp"
-#include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -67,15 +67,6 @@ Problem too_large(const ModelParameters& p, double available) {
 
 }  // namespace
 
-ParameterList air_parameters() {
-  ParameterList list;
-  const run::RunParameters run;
-  const ModelParameters parameters;
-  run::for_each_parameter(list, run);
-  air::for_each_parameter(list, parameters);
-  return list;
-}
-
 std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std::filesystem::path& folder) {
   const Series series = read_series(RunFolder(folder).series());
   std::vector<NamedValue> quantities;
@@ -85,31 +76,16 @@ std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std:
   return quantities;
 }
 
-std::vector<std::filesystem::path> draw_air_run(const CaseFile&, const std::filesystem::path&) {
-  return {};
-}
-
 PreparedCase prepare_air(const CaseFile& file) {
-  ModelParameters p;
-  run::RunParameters run;
   ParameterReader reader(file);
-  run::for_each_parameter(reader, run);
-  air::for_each_parameter(reader, p);
-  reader.check(air::check(p));
-  reader.finish();
-  if (run.snapshots == 0) run.snapshots = run.end / 20;
-
-  PreparedCase prepared;
-  prepared.model = "air";
-  prepared.run = run;
-  prepared.defaults = air_parameters();
-  run::for_each_parameter(prepared.parameters, run);
-  air::for_each_parameter(prepared.parameters, p);
+  const auto read = read_case<ModelParameters>(reader);
+  const ModelParameters& p = read.model;
+  PreparedCase prepared = prepared_case("air", read);
   prepared.instruction_set = choice_name(resolve(InstructionSet::automatic));
   prepared.groups = groups(p);
   prepared.regime = air::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(AirModel(p)); };
-  prepared.forecast = forecast(p, run);
+  prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   return prepared;

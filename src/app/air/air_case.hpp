@@ -13,11 +13,7 @@ namespace talus::app {
 /// Reads a case of air alone. \throws InputError with every problem
 PreparedCase prepare_air(const CaseFile& file);
 
-/// All parameters of such a case, with their defaults.
-ParameterList air_parameters();
-
-/// As ModelEntry (models.hpp) has them: the last row of the series; no pictures.
+/// As ModelEntry (models.hpp) has it: the last row of the series.
 std::vector<NamedValue> analyse_air_run(const CaseFile& resolved, const std::filesystem::path& folder);
-std::vector<std::filesystem::path> draw_air_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 }  // namespace talus::app

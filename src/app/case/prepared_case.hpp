@@ -37,8 +37,7 @@ struct PreparedCase {
   std::int64_t seed = 0;
   run::RunParameters run;
   ParameterList parameters;     ///< of the model and of the run, with the values they have
-  ParameterList defaults;       ///< the same with the values they have where nothing is given
-  std::string instruction_set;  ///< that the wish resolves to here
+  std::string instruction_set;  ///< that the choice resolves to on this machine
   std::string inputs;           ///< digest of what the files hold that the case names; empty if it names none
 
   /// The initial state, ready for begin() or resume().

@@ -24,10 +24,10 @@ std::size_t snapshots_in_memory(const std::vector<std::filesystem::path>& paths)
 std::vector<std::size_t> chosen_snapshots(const std::vector<double>& time, std::size_t count);
 
 using talus::write_table;
-/// A row a point of the curve. \throws FileError
+/// A row per point of the curve. \throws FileError
 void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns, const Curve& curve);
 
-/// A row a snapshot, a column a measure that is a number of a snapshot and needs no place; without the columns that
+/// A row per snapshot, a column per measure that is a number of a snapshot and needs no place; without the columns that
 /// have no number in any snapshot. \throws FileError
 template <class Run>
 void write_snapshots(const std::filesystem::path& path, const Run& run, std::span<const Measure<Run>> measures,

@@ -31,7 +31,7 @@ struct CloudFrame {
 /// cut short. \throws FileError
 AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame);
 
-/// Writes analysis/front_speed.csv, analysis/snapshots.csv (a column a measure) and, seen from above,
+/// Writes analysis/front_speed.csv, analysis/snapshots.csv (a column per measure) and, seen from above,
 /// analysis/head_widths.csv (every head of the last snapshot); returns the summary's quantities. \throws FileError
 std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame);
 

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "analysis/fronts.hpp"
+#include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/cloud/cloud_analysis.hpp"
 #include "app/cloud/cloud_pictures.hpp"
-#include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
 #include "models/cloud/forecast.hpp"
@@ -120,12 +120,8 @@ CloudFrame frame_of(const Parameters& p) {
 }  // namespace
 
 CloudStudy study_of(const CaseFile& file) {
-  Parameters p;
-  run::RunParameters run;
   ParameterReader reader(file);
-  run::for_each_parameter(reader, run);
-  cloud::for_each_parameter(reader, p);
-  reader.finish();
+  const auto [run, p] = read_case<Parameters>(reader);
   return {run.title, frame_of(p), cloud::scales(p).contact_ratio};
 }
 
@@ -138,25 +134,11 @@ std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, cons
   return draw_cloud(folder, study.frame, study.title);
 }
 
-ParameterList cloud_parameters() {
-  ParameterList list;
-  const run::RunParameters run;
-  const Parameters parameters;
-  for_each_parameter(list, run);
-  for_each_parameter(list, parameters);
-  return list;
-}
-
 PreparedCase prepare_cloud(const CaseFile& file) {
-  Parameters p;
-  run::RunParameters run;
   ParameterReader reader(file);
-  run::for_each_parameter(reader, run);
-  cloud::for_each_parameter(reader, p);
-  reader.check(cloud::check(p));
-  reader.finish();
-  if (run.snapshots == 0) run.snapshots = run.end / 20;
-  if (auto problem = cloud::check_steps(p, run.end)) {
+  auto read = read_case<Parameters>(reader);
+  Parameters& p = read.model;
+  if (auto problem = cloud::check_steps(p, read.run.end)) {
     reader.check({std::move(*problem)});
     reader.raise();
   }
@@ -173,14 +155,9 @@ PreparedCase prepare_cloud(const CaseFile& file) {
     p.particles.count = static_cast<std::int64_t>(given->radius.size());
   }
 
-  PreparedCase prepared;
+  PreparedCase prepared = prepared_case("cloud", read);
   if (given) prepared.inputs = digest_of(*given);
-  prepared.model = "cloud";
   prepared.seed = p.seed;
-  prepared.run = run;
-  prepared.defaults = cloud_parameters();
-  run::for_each_parameter(prepared.parameters, run);
-  cloud::for_each_parameter(prepared.parameters, p);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
   prepared.regime = cloud::regime_of_case(p);
@@ -188,7 +165,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
-  prepared.forecast = forecast(p, run);
+  prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = {.column = "front_x", .name = p.slope.enabled ? "front" : "foremost grain", .is_rate = true};

@@ -28,7 +28,4 @@ struct CloudStudy {
 /// \param file a resolved case, as manifests hold it; \throws InputError
 CloudStudy study_of(const CaseFile& file);
 
-/// All parameters of a case of this model, with their defaults.
-ParameterList cloud_parameters();
-
 }  // namespace talus::app

@@ -13,7 +13,7 @@ namespace talus::app {
 
 struct EvaluatedRow {
   const ComparisonRow* row = nullptr;
-  std::vector<std::optional<double>> values;  ///< one a variant of the row; one alone for From::variants
+  std::vector<std::optional<double>> values;  ///< one per variant of the row; one alone for From::variants
   Verdict verdict = Verdict::not_evaluated;
 };
 

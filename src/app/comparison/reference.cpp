@@ -79,7 +79,7 @@ ReferenceCase read_case(Reader& reader, const std::string& name, const toml::tab
   const toml::array* told_by = table["told_by"].as_array();
   const auto tells = [&](std::string_view key) {
     return !told_by || std::any_of(told_by->begin(), told_by->end(),
-                                   [&](const toml::node& name) { return name.value<std::string_view>() == key; });
+                                   [&](const toml::node& one) { return one.value<std::string_view>() == key; });
   };
   if (const toml::table* variants = table[table.contains("variant") ? "variant" : "radius"].as_table())
     for (const auto& [label, settings] : *variants) {

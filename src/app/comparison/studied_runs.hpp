@@ -16,7 +16,7 @@
 
 namespace talus::app {
 
-/// A row's numbers: one a variant of the row, or one alone if it is made from several; nothing where the runs that it
+/// A row's numbers: one per variant of the row, or one alone if it is made from several; nothing where the runs that it
 /// needs are not there. \throws std::logic_error if the row asks for what no such runs have
 using StudiedRuns = std::function<std::vector<std::optional<double>>(const ComparisonRow& row)>;
 
@@ -37,10 +37,10 @@ StudiedRuns studied(const std::vector<FoundEnsemble>& found, MeasuresOfModel<Run
   return [ensembles, measures](const ComparisonRow& row) {
     std::vector<const std::vector<Run>*> groups;
     for (const std::string& variant : row.variants) {
-      const auto found = std::find_if(ensembles->begin(), ensembles->end(), [&](const StudiedEnsemble<Run>& e) {
+      const auto ensemble = std::find_if(ensembles->begin(), ensembles->end(), [&](const StudiedEnsemble<Run>& e) {
         return e.case_name == row.case_name && e.variant == variant;
       });
-      groups.push_back(found == ensembles->end() ? nullptr : &found->runs);
+      groups.push_back(ensemble == ensembles->end() ? nullptr : &ensemble->runs);
     }
     return RowValues<Run>(row, std::move(groups), measures).values();
   };

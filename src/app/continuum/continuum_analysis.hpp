@@ -18,7 +18,7 @@ HopperSetting hopper_setting(const continuum::Parameters& parameters);
 /// Reads series.csv; a snapshot when a measure asks for it. \throws FileError
 HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting);
 
-/// Writes analysis/snapshots.csv (a column a measure), analysis/surfaces.csv (both free surfaces at the end)
+/// Writes analysis/snapshots.csv (a column per measure), analysis/surfaces.csv (both free surfaces at the end)
 /// and, with a plate, analysis/discharge.csv (20 ms means, one every 5 ms); returns the summary's quantities.
 /// \throws FileError
 std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting);

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hopper_observers.hpp"
 #include "base/instruction_set.hpp"
-#include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
 #include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
@@ -59,7 +59,7 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   return forecast;
 }
 
-/// Of a step of all particles. A bed of some thousand is measured as it is, a larger one by a sample.
+/// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample.
 double measure_step(const Parameters& p, ThreadTeam& team) {
   constexpr double most = 8000;
   const double count = continuum::bed_count(p);
@@ -81,20 +81,12 @@ Problem too_large(const Parameters& p, double available) {
       .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
 }
 
-struct Case {
-  run::RunParameters run;
-  Parameters model;
-};
-
 /// \throws InputError with every problem
-Case read_case(const CaseFile& file) {
-  Case read;
-  read.model.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
+ModelCase<Parameters> read_continuum(const CaseFile& file) {
+  Parameters defaults;
+  defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   ParameterReader reader(file, continuum::renamed_keys);
-  run::for_each_parameter(reader, read.run);
-  continuum::for_each_parameter(reader, read.model);
-  reader.check(continuum::check(read.model));
-  reader.finish();
+  ModelCase<Parameters> read = read_case(reader, std::move(defaults));
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.raise();
   return read;
@@ -103,33 +95,21 @@ Case read_case(const CaseFile& file) {
 }  // namespace
 
 ParameterList continuum_parameters() {
-  ParameterList list;
-  const run::RunParameters run;
-  Parameters parameters;
-  parameters.plates.resize(1);  // whose keys stand for those of all
-  for_each_parameter(list, run);
-  for_each_parameter(list, parameters);
-  return list;
+  ModelCase<Parameters> defaults;
+  defaults.model.plates.resize(1);  // whose keys stand for those of all
+  return defaults.list();
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
-  const Case read = read_case(file);
+  const ModelCase<Parameters> read = read_continuum(file);
   const Parameters& p = read.model;
-  run::RunParameters run = read.run;
-  if (run.snapshots == 0) run.snapshots = run.end / 20;
-
-  PreparedCase prepared;
-  prepared.model = "continuum";
-  prepared.run = run;
-  prepared.defaults = continuum_parameters();
-  run::for_each_parameter(prepared.parameters, run);
-  continuum::for_each_parameter(prepared.parameters, p);
+  PreparedCase prepared = prepared_case("continuum", read);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
-  prepared.forecast = forecast(p, run);
+  prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   if (p.plate.height || continuum::outlet_of(p)) prepared.headline = {.column = "discharge_rate", .name = "discharge"};
@@ -137,7 +117,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
 }
 
 HopperSetting hopper_setting_of(const CaseFile& resolved) {
-  return hopper_setting(read_case(resolved).model);
+  return hopper_setting(read_continuum(resolved).model);
 }
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
@@ -145,7 +125,7 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 }
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  const Case read = read_case(resolved);
+  const auto read = read_continuum(resolved);
   return draw_continuum(folder, hopper_setting(read.model), read.run.title);
 }
 

@@ -49,7 +49,7 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
   if (outlet) {
     const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
-    // What is near both places is enough: the fields there know no other particles.
+    // Particles near both places are enough: others do not contribute there.
     const auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
     const auto pick = [&near](const auto& column) {
       std::vector<std::decay_t<decltype(column[0])>> picked;

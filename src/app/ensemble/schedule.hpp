@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Runs the members of ensembles over the cores. What is done stands in the members' own folders, so a scheduler that
-/// was killed goes on where it was.
+/// Runs the members of ensembles over the cores. The results are in the folders of the members, so a scheduler that was
+/// killed continues where it was.
 #pragma once
 
 #include <filesystem>

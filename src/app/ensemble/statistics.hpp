@@ -21,8 +21,8 @@ struct QuantitySpread {
   double mean = 0, deviation = 0;
 };
 
-/// Quantities of a group's members that are done, in the order of the first member's summary; those that tell about the
-/// machine (times, memory, threads) are left out.
+/// Quantities of a group's members that are done, in the order of the first member's summary; those about the machine
+/// (times, memory, threads) are left out.
 std::vector<QuantitySpread> quantity_spreads(const EnsembleGroup& group);
 
 /// Mean and standard deviation, row by row, of one table of the members that are done: columns "time", then NAME_mean

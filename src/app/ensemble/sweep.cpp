@@ -63,7 +63,7 @@ bool has_deviations(const std::vector<SweptGroup>& groups) {
   });
 }
 
-/// Characters on a terminal: those of UTF-8 that do not go on with one.
+/// Characters on a terminal: bytes of UTF-8 other than continuation bytes.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
       text.begin(), text.end(), [](const char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

@@ -19,10 +19,10 @@ struct SweptGroup {
 /// "1.234", or "1.234 ± 0.05" of two members and more; "-" of none.
 std::string mean_and_deviation(const QuantitySpread& spread);
 
-/// A line a quantity, a column a group, in blocks that a terminal holds.
+/// A line per quantity, a column per group, in blocks that a terminal holds.
 std::string sweep_text(const std::vector<SweptGroup>& groups);
 
-/// Writes sweep.csv (a row a group: the varied keys in SI and degrees, number of members, mean of each quantity and,
+/// Writes sweep.csv (a row per group: the varied keys in SI and degrees, number of members, mean of each quantity and,
 /// where groups have two members and more, its standard deviation) and sweep.json (the same, the values also as they
 /// were given). \throws FileError
 void write_sweep(const std::vector<SweptGroup>& groups, const std::filesystem::path& folder);

@@ -60,11 +60,11 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
 /// \throws InputError with every problem
 LawCase read_law_case(const CaseFile& file);
 
-/// Reads a path: a line a stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity
+/// Reads a path: a line per stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity
 /// gradient, of which those left out are zero. \throws FileError, InputError with every bad line
 std::vector<granular::PathStretch> read_path(const std::filesystem::path& path);
 
-/// How the case asks for a path of so many stretches to be followed.
+/// Options of the case for a path of so many stretches.
 granular::PathOptions path_options(const LawCase& parameters, std::size_t stretches);
 
 }  // namespace talus::app

@@ -133,10 +133,10 @@ void draw_functions(const granular::Fits& fits, const std::filesystem::path& fil
   const Curves chosen = curves_of(fits.functions(), strain, fits.scale);
   const auto chart = [&](std::string title, Axis x, Axis y, const std::vector<double>& one,
                          const std::vector<double>& other) {
-    Chart chart{.title = std::move(title), .x = std::move(x), .y = std::move(y), .series = {}};
-    chart.series.push_back(Line{.x = strain, .y = one, .label = "printed", .colour = vermillion, .width = 1});
-    if (repaired) chart.series.push_back(Line{.x = strain, .y = other, .label = "repaired", .colour = blue});
-    return chart;
+    Chart drawn{.title = std::move(title), .x = std::move(x), .y = std::move(y), .series = {}};
+    drawn.series.push_back(Line{.x = strain, .y = one, .label = "printed", .colour = vermillion, .width = 1});
+    if (repaired) drawn.series.push_back(Line{.x = strain, .y = other, .label = "repaired", .colour = blue});
+    return drawn;
   };
   const auto axis = [&](std::string label) {
     return Axis{.label = std::move(label), .low = strain.front(), .high = strain.back(), .logarithmic = true};

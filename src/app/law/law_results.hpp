@@ -24,7 +24,7 @@ struct FollowedPath {
 /// Largest and last values of the path, for the screen.
 std::vector<NamedValue> quantities_of(const FollowedPath& path);
 
-/// A row a point: time, stretch, packing, pressure, shear stress (|tau_dev|/2^(1/2)), friction (their ratio), strain
+/// A row per point: time, stretch, packing, pressure, shear stress (|tau_dev|/2^(1/2)), friction (their ratio), strain
 /// and stress, the stress by collisions unless there are none, and what the law remembers. Strain since the start.
 /// \throws FileError
 void write_path_table(const FollowedPath& path, const std::filesystem::path& file);

@@ -8,13 +8,15 @@
 #include <utility>
 
 #include "app/air/air_case.hpp"
+#include "app/case/model_case.hpp"
 #include "app/cloud/cloud_case.hpp"
 #include "app/cloud/cloud_studies.hpp"
 #include "app/continuum/continuum_case.hpp"
 #include "app/continuum/continuum_studies.hpp"
 #include "base/memory.hpp"
 #include "base/nearest.hpp"
-#include "io/parameter_reader.hpp"
+#include "models/air/model.hpp"
+#include "models/cloud/parameters.hpp"
 
 namespace talus::app {
 
@@ -25,7 +27,7 @@ constexpr ModelEntry entries[] = {
      .prepare = prepare_cloud,
      .analyse = analyse_cloud_run,
      .draw = draw_cloud_run,
-     .parameters = cloud_parameters,
+     .parameters = [] { return ModelCase<cloud::Parameters>().list(); },
      .studies = study_avalanches},
     {.name = "continuum",
      .prepare = prepare_continuum,
@@ -36,8 +38,8 @@ constexpr ModelEntry entries[] = {
     {.name = "air",
      .prepare = prepare_air,
      .analyse = analyse_air_run,
-     .draw = draw_air_run,
-     .parameters = air_parameters,
+     .draw = nullptr,
+     .parameters = [] { return ModelCase<air::ModelParameters>().list(); },
      .studies = nullptr},
 };
 

@@ -22,7 +22,7 @@ struct ModelEntry {
   /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
   /// \param resolved the manifest's case; \throws FileError, InputError
   std::vector<NamedValue> (*analyse)(const CaseFile& resolved, const std::filesystem::path& folder);
-  /// Draws a run's pictures and returns their paths, the one to look at first first.
+  /// Draws the pictures of a run and returns their paths, the most important one first. Null: none.
   std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
   ParameterList (*parameters)();

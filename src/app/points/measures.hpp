@@ -44,7 +44,7 @@ std::vector<double> numbers_of(const PointsToMeasure& set, const std::string& na
 
 struct Measured {
   std::vector<NamedValue> quantities;
-  std::vector<SeriesColumn> columns;  ///< of a table that follows, one row a head or a bin; empty: none
+  std::vector<SeriesColumn> columns;  ///< of a table that follows, one row per head or bin; empty: none
   std::vector<std::vector<double>> rows;
 };
 

@@ -40,7 +40,7 @@ bool is_one_of(const std::vector<std::string>& labels, const std::string& label)
   return std::find(labels.begin(), labels.end(), label) != labels.end();
 }
 
-/// Which of a reference's variants a request asks for.
+/// The variants of a reference that a request selects.
 bool is_wanted(const Reference& reference, const StudyRequest& request, const std::string& variant) {
   if (!request.variants.empty()) return is_one_of(request.variants, variant);
   return !request.quick || is_one_of(reference.quick.variants, variant);

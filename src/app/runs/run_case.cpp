@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/runs/run_case.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/sinks/base_sink.h>
-#include <spdlog/sinks/null_sink.h>
-#include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 
 #include "app/models/models.hpp"
 #include "app/runs/check_folder.hpp"
+#include "app/runs/run_log.hpp"
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
-#include "io/descriptor.hpp"
-#include "io/file_list.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/series.hpp"
@@ -31,7 +25,7 @@ namespace talus::app {
 
 namespace {
 
-// The wish for an instruction set does not count, but what it resolves to: case_fingerprint.
+// Not the choice of an instruction set counts but the set it resolves to: case_fingerprint.
 constexpr std::array<std::string_view, 5> not_in_fingerprint{
     "run.end", "title", "output.pictures", "output.checkpoint_interval", "integration.instruction_set"};
 
@@ -41,45 +35,13 @@ double peak_memory_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-/// A file that no link leads elsewhere.
-class LogFile final : public spdlog::sinks::base_sink<std::mutex> {
- public:
-  LogFile(const std::filesystem::path& path, bool append) {
-    claim_file(path);
-    file_ = Descriptor(path.string(), O_WRONLY | O_CREAT | O_NOFOLLOW | (append ? O_APPEND : O_TRUNC));
-  }
-
- private:
-  void sink_it_(const spdlog::details::log_msg& message) override {
-    spdlog::memory_buf_t line;
-    formatter_->format(message, line);
-    file_.write({line.data(), line.size()});
-  }
-  void flush_() override {}
-
-  Descriptor file_;
-};
-
-/// log.txt. A log that cannot be written must not end a run: the numbers' own files say so if the disk is full.
-std::shared_ptr<spdlog::logger> open_log(const RunFolder& folder, bool append) {
-  std::shared_ptr<spdlog::sinks::sink> sink = std::make_shared<spdlog::sinks::null_sink_mt>();
-  try {
-    sink = std::make_shared<LogFile>(folder.log(), append);
-  } catch (const FileError&) {
-  }
-  auto log = std::make_shared<spdlog::logger>("run", sink);
-  log->set_pattern("%Y-%m-%d %H:%M:%S  %v");
-  log->set_error_handler([](const std::string&) {});
-  return log;
-}
-
-void print_regime(const std::vector<RegimeLine>& regime, spdlog::logger& log) {
+void print_regime(const std::vector<RegimeLine>& regime, RunLog& log) {
   say("Regime at the end:\n");
   for (const RegimeLine& line : regime) {
     const std::string text =
         fmt::format("{} {} = {}: {}", line.warning ? "!" : " ", line.quantity, line.value, line.meaning);
     say("  {}\n", text);
-    log.info("regime {}", text);
+    log.write("regime {}", text);
   }
 }
 
@@ -100,7 +62,8 @@ Manifest manifest_of(const PreparedCase& prepared, int threads) {
   return manifest;
 }
 
-/// Whether the run in a folder may go on as this case; reads only. \throws InputError with every key that differs
+/// Checks that the run in a folder can be continued with this case; reads only. \throws InputError with every key that
+/// differs
 void check_resumable(const PreparedCase& prepared, const RunFolder& folder, const Manifest& now) {
   if (!std::filesystem::exists(folder.manifest())) return;  // killed before it began
   const Manifest then = read_manifest(folder.manifest());
@@ -131,14 +94,14 @@ void check_resumable(const PreparedCase& prepared, const RunFolder& folder, cons
 }
 
 ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request, const RunFolder& folder,
-                         const Manifest& manifest, spdlog::logger& log) {
+                         const Manifest& manifest, RunLog& log) {
   const bool resume = request.existing == Existing::resume;
   write_summary(
       folder.summary(),
       {.status = "running", .instruction_set = manifest.instruction_set, .warnings = texts_of(prepared.regime)});
   const CheckpointFiles checkpoints(folder.path());
   for (const std::string& damage : checkpoints.damages()) {
-    log.warn("passed over: {}", damage);
+    log.write("passed over: {}", damage);
     complain("talus: passed over: {}\n", damage);
   }
 
@@ -153,7 +116,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                                               .fingerprint = manifest.fingerprint,
                                               .resume = resume,
                                               .headline = prepared.headline,
-                                              .log = [&log](const std::string& line) { log.info("{}", line); }},
+                                              .log = [&log](const std::string& line) { log.write("{}", line); }},
                                              prepared.observers);
 
   Summary summary{.status = loop.interrupted ? "interrupted" : "done",
@@ -162,8 +125,9 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   std::vector<std::filesystem::path> pictures;
   if (!loop.interrupted) {
     const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
-    summary.quantities = model_of(resolved).analyse(resolved, folder.path());
-    if (prepared.run.pictures) pictures = model_of(resolved).draw(resolved, folder.path());
+    const ModelEntry& entry = model_of(resolved);
+    summary.quantities = entry.analyse(resolved, folder.path());
+    if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path());
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
   summary.warnings = texts_of(regime);
@@ -176,13 +140,13 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   write_summary(folder.summary(), summary);
 
   if (loop.interrupted) {
-    log.info("interrupted by {} at t = {:.6g} s, step {}", loop.reason, model->time(), loop.steps);
+    log.write("interrupted by {} at t = {:.6g} s, step {}", loop.reason, model->time(), loop.steps);
     say("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
         folder.path().string());
     return ExitStatus::interrupted;
   }
-  log.info("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
-           loop.wall_seconds, loop.cpu_seconds);
+  log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
+            loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
   say("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
       folder.path().string());
@@ -190,7 +154,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   return ExitStatus::done;
 }
 
-/// Where even this cannot be written, the trouble that led here is the one to tell.
+/// If even this cannot be written, the original error is the one to report.
 void summarize_failure(const PreparedCase& prepared, const RunFolder& folder, const Manifest& manifest) {
   try {
     write_summary(
@@ -243,17 +207,17 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     check_resumable_files(folder);
   }
   write_manifest(folder.manifest(), manifest);  // before any other file: it marks the folder as a run's
-  const auto log = open_log(folder, request.existing == Existing::resume);
-  log->info("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",
+  RunLog log(folder.log(), request.existing == Existing::resume);
+  log.write("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",
             request.threads, prepared.instruction_set);
   try {
-    return run_in_folder(prepared, request, folder, manifest, *log);
+    return run_in_folder(prepared, request, folder, manifest, log);
   } catch (const NumericalError& error) {
-    log->error("numerical failure: {}", error.what());
+    log.write("numerical failure: {}", error.what());
     summarize_failure(prepared, folder, manifest);
     throw;
   } catch (const FileError& error) {
-    log->error("file trouble: {}", error.what());
+    log.write("file trouble: {}", error.what());
     summarize_failure(prepared, folder, manifest);
     throw;
   }

@@ -22,7 +22,7 @@ struct RunRequest {
 };
 
 /// What makes a case the same case: all keys but those that do not change a run's bits, what the files hold that it
-/// names, and the instruction set that its wish resolves to. A run may be resumed with a later end.
+/// names, and the instruction set that its choice resolves to. A run may be resumed with a later end.
 std::string case_fingerprint(const PreparedCase& prepared);
 
 /// A case that leaves output.snapshots to its default, a share of run.end, keeps the interval of the run in the folder

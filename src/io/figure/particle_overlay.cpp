@@ -13,7 +13,7 @@ namespace talus::figure {
 namespace {
 
 constexpr Colour earth = rgb(0xeceef1), grid_line = rgb(0x9aa3ad), shadow = rgb(0xb4bac2);
-constexpr double slope_width = 1.4, wedge = 34;  // units
+constexpr double slope_width = 1.4;  // units
 
 /// The slope is a line: through the projected origin, along the projected x or y axis.
 void draw_line(cairo_t* context, const Projection& p) {
@@ -32,19 +32,6 @@ void draw_line(cairo_t* context, const Projection& p) {
   cairo_fill(context);
   set_pen(context, ink, slope_width);
   stroke_line(context, foot_x - far * dx, foot_y - far * dy, foot_x + far * dx, foot_y + far * dy);
-  if (p.view.tilt == 0) return;
-
-  // The angle, in the ground near the lower end of what is seen of the line.
-  const double to_right = dx > 0 ? (p.plot.right() - foot_x) / dx : far, to_bottom = (p.plot.bottom() - foot_y) / dy;
-  const double reach = std::min(to_right, dy > 0 ? to_bottom : far) - 12;
-  const double x = foot_x + reach * dx, y = foot_y + reach * dy;
-  set_pen(context, ink, 0.8);
-  stroke_line(context, x, y, x - 1.5 * wedge, y);
-  cairo_arc(context, x, y, wedge, std::numbers::pi, std::numbers::pi + p.view.tilt);
-  cairo_stroke(context);
-  const double half = 0.5 * p.view.tilt;
-  draw_text(context, fmt::format("{:.3g}°", p.view.tilt * 180 / std::numbers::pi), x - (wedge + 4) * std::cos(half),
-            y - (wedge + 4) * std::sin(half) + 0.36 * tick_style.size, tick_style, Align::right);
 }
 
 /// The slope is a plane.

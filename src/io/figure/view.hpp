@@ -12,20 +12,12 @@ namespace talus::figure {
 /// Three orthogonal directions of length 1: right and up on the page, and out of it towards the eye.
 struct View {
   Vector3 right{1, 0, 0}, up{0, 1, 0}, toward{0, 0, 1};
-  double tilt = 0;  ///< rad; the slope's angle against the page's horizontal, if it is seen tilted from the side
 };
 
 /// On the slope from above, x to the right.
 inline constexpr View view_xy{};
 /// Along the slope from the side, x to the right, the slope drawn level.
 inline constexpr View view_xz{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
-
-/// From the side, the slope tilted as it is, falling to the right.
-/// \param angle of the slope, rad
-inline View view_tilted(double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {{c, 0, s}, {-s, 0, c}, {0, -1, 0}, angle};
-}
 
 /// From the side, turned by `azimuth` about the slope's normal and raised by `elevation` above the slope (both in rad).
 inline View view_oblique(double azimuth, double elevation) {

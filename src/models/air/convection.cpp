@@ -23,7 +23,7 @@ std::size_t plus(std::size_t index, std::ptrdiff_t by) {
   return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + by);
 }
 
-// Rows of faces. Functions of their own, so that the compiler makes vectors of them.
+// Loops over rows of faces: separate functions so that the compiler vectorises them.
 
 /// A row of faces and what flows between them and those before them along a second axis.
 struct FluxRow {
@@ -40,8 +40,8 @@ TALUS_CLONES void find_fluxes_of_row(int count, double upwind, const FluxRow& gi
   const std::ptrdiff_t across = row.across;
   for (int f = 0; f < count; ++f) {
     const double mass = 0.5 * (row.mass[f] + row.mass[f - row.along]);
-    flux[f] = convected_momentum(mass, carried_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across],
-                                                        row.wide[f], mass > 0 ? 1.0 : -1.0, upwind));
+    flux[f] = convected_momentum(mass, advected_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across],
+                                                         row.wide[f], mass > 0 ? 1.0 : -1.0, upwind));
   }
 }
 
@@ -52,13 +52,13 @@ TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double factor, const
 
 }  // namespace
 
-Convection::Convection(const Passages& passages) : passages_(passages), flux_(passages.grid.cell_field()) {}
+Convection::Convection(const FaceApertures& apertures) : apertures_(apertures), flux_(apertures.grid.cell_field()) {}
 
 void Convection::fill_ghosts(Stream& stream) const {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {
-      if (!passages_.boundaries.is_open(axis, side)) continue;
+      if (!apertures_.boundaries.is_open(axis, side)) continue;
       const int n = grid.count[static_cast<std::size_t>(axis)];
       const std::ptrdiff_t outward = side == 0 ? -grid.stride(axis) : grid.stride(axis);
       const auto& through = stream.mass[static_cast<std::size_t>(axis)];
@@ -76,16 +76,16 @@ void Convection::fill_ghosts(Stream& stream) const {
         });
       }
     }
-  for (std::size_t a = 0; a < 3; ++a) passages_.wrap(stream.velocity[a]), passages_.wrap(stream.mass[a]);
+  for (std::size_t a = 0; a < 3; ++a) apertures_.wrap(stream.velocity[a]), apertures_.wrap(stream.mass[a]);
 }
 
 void Convection::find_force(ThreadTeam& team, const Stream& stream, double upwind, FaceField& force) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double* u = stream.velocity[a].data();
     double* out = force[a].data();
-    for_each_face(team, passages_, axis, [&](std::ptrdiff_t f) { out[f] = 0; });
+    for_each_face(team, apertures_, axis, [&](std::ptrdiff_t f) { out[f] = 0; });
     for (int second = 0; second < 3; ++second) {
       const auto b = static_cast<std::size_t>(second);
       const std::ptrdiff_t across = grid.stride(second);
@@ -93,7 +93,7 @@ void Convection::find_force(ThreadTeam& team, const Stream& stream, double upwin
       find_fluxes(team, stream, axis, second, upwind);
       const double* flux = flux_.data();
       const double per_width = 1 / grid.spacing[second];
-      for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+      for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
         if (second != axis || !run.is_end)
           return subtract_difference(run.end - run.begin, per_width, flux + run.begin, flux + run.begin + across,
                                      out + run.begin);
@@ -111,14 +111,14 @@ void Convection::find_force(ThreadTeam& team, const Stream& stream, double upwin
 /// last within the box that to the one beyond, too.
 void Convection::find_fluxes(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind) {
   const auto a = static_cast<std::size_t>(axis), b = static_cast<std::size_t>(second);
-  const Grid& grid = passages_.grid;
-  std::array<int, 3> count = passages_.faces(axis);
+  const Grid& grid = apertures_.grid;
+  std::array<int, 3> count = apertures_.faces(axis);
   count[b] = grid.count[b] + 1;
   for_each_row(team, grid, count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
     find_fluxes_of_row(count[0], upwind,
                        {.velocity = stream.velocity[a].data() + begin,
                         .mass = stream.mass[b].data() + begin,
-                        .wide = passages_.wide[a][b].data() + begin,
+                        .wide = apertures_.wide[a][b].data() + begin,
                         .along = grid.stride(axis),
                         .across = grid.stride(second)},
                        flux_.data() + begin);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What convection does to the air's velocities on the faces of a grid.
+/// Convection of the velocities of the air on the faces of a grid.
 #pragma once
 
 #include "base/parallel.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 
 namespace talus::air {
 
-/// Velocity and what flows with it.
+/// Velocity and mass flux.
 struct Stream {
   FaceField velocity;  ///< m/s
   FaceField mass;      ///< rho Phi u, kg/(m^2 s)
@@ -15,20 +15,20 @@ struct Stream {
 
 class Convection {
  public:
-  explicit Convection(const Passages& passages);
+  explicit Convection(const FaceApertures& apertures);
 
   /// Fills the ghosts: periodic copies; beyond an open face the velocity within where the air leaves, none where it
   /// enters.
   void fill_ghosts(Stream& stream) const;
 
-  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3; what one face's volume gains another loses. Ghosts filled.
-  /// \param upwind 0 central, 1 third-order upstream
+  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3; conservative. Ghosts must be filled.
+  /// \param upwind 0 central, 1 third-order upwind-biased
   void find_force(ThreadTeam& team, const Stream& stream, double upwind, FaceField& force);
 
  private:
   void find_fluxes(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind);
 
-  const Passages& passages_;
+  const FaceApertures& apertures_;
   CellField flux_;
 };
 

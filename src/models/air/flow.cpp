@@ -20,7 +20,7 @@ std::array<bool, 3> periodic_axes(const FlowBoundaries& boundaries) {
   return {boundaries.is_periodic(0), boundaries.is_periodic(1), boundaries.is_periodic(2)};
 }
 
-/// With the case's velocities of the walls among the boundaries.
+/// Adds the wall velocities of the case to the boundaries.
 Parameters with_moving_walls(Parameters p) {
   for (std::size_t face = 0; face < 6; ++face)
     p.boundaries.wall_velocity[face] +=
@@ -32,29 +32,29 @@ Parameters with_moving_walls(Parameters p) {
 
 AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls)
     : parameters_(with_moving_walls(parameters)),
-      passages_(grid, parameters_.boundaries, walls),
-      convection_(passages_),
-      viscosity_(passages_),
+      apertures_(grid, parameters_.boundaries, walls),
+      convection_(apertures_),
+      viscosity_(apertures_),
       solver_(grid, periodic_axes(parameters.boundaries)),
       drag_(grid.cell_field()),
       source_(drag_),
       guess_(drag_) {
-  for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &dragged_, &rate_,
+  for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_, &rate_,
                            &viscous_, &conductance_, &stream_.velocity, &stream_.mass})
     *field = grid.face_field();
 }
 
 void AirFlow::set_walls(const std::vector<Wall>& walls) {
-  passages_ = Passages(passages_.grid, parameters_.boundaries, walls);
+  apertures_ = FaceApertures(apertures_.grid, parameters_.boundaries, walls);
 }
 
 void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
   if (parameters_.motion == Motion::frozen) return drag_alone(team, dt, solids, state, impulse);
   double stiffness = 0;  // of the Laplacian, 1/m^2
-  for (int axis = 0; axis < 3; ++axis) stiffness += 4 / (passages_.grid.spacing[axis] * passages_.grid.spacing[axis]);
+  for (int axis = 0; axis < 3; ++axis) stiffness += 4 / (apertures_.grid.spacing[axis] * apertures_.grid.spacing[axis]);
   implicit_ = dt * parameters_.viscosity / parameters_.density() * stiffness > 1;
   iterations_ = 0;
-  take_solids(team, solids);
+  set_solids(team, solids);
 
   stream_.velocity = state.velocity, stream_.mass = state.momentum;
   measure_drag(team, solids, stream_.velocity);
@@ -65,13 +65,13 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
     for (std::size_t c = 0; c < solids.fraction.size(); ++c) cell_void_fraction_[c] = 1 - solids.fraction[c];
   }
   stage(team, 0.5 * dt, stream_, state, guess_);
-  for (std::size_t a = 0; a < 3; ++a) passages_.wrap(stream_.velocity[a]);
+  for (std::size_t a = 0; a < 3; ++a) apertures_.wrap(stream_.velocity[a]);
   measure_drag(team, solids, stream_.velocity);
   state.pressure = guess_;
   stage(team, dt, stream_, state, state.pressure);
-  hand_over(team, dt, stream_.velocity, state, impulse);
+  exchange_momentum(team, dt, stream_.velocity, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
-    passages_.wrap(stream_.velocity[a]), passages_.wrap(stream_.mass[a]);
+    apertures_.wrap(stream_.velocity[a]), apertures_.wrap(stream_.mass[a]);
     std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);
   }
 }
@@ -79,7 +79,7 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
 /// What air that does not move does to the grains.
 void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
   measure_drag(team, solids, state.velocity);
-  for_each_cell(team, passages_.grid, [&](int, int, int, std::ptrdiff_t place) {
+  for_each_cell(team, apertures_.grid, [&](int, int, int, std::ptrdiff_t place) {
     const auto c = static_cast<std::size_t>(place);
     const double s = solids.fraction[c];
     for (std::size_t a = 0; a < 3; ++a) {
@@ -92,7 +92,7 @@ void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirS
 /// From the momentum at the start of the step: velocity and pressure after dt, under the convection and viscosity of
 /// `stream`, which is overwritten.
 void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   const double rho = parameters_.density();
   convection_.fill_ghosts(stream);
   convection_.find_force(team, stream, parameters_.upwind, rate_);
@@ -106,7 +106,7 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
     const double viscosity = implicit_ ? 0 : parameters_.viscosity;
     const double *phi = void_fraction_[a].data(), *drag = drag_.data();
     double *decay = decay_[a].data(), *mean = mean_[a].data();
-    for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+    for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
       for (auto f = run.begin; f < run.end; ++f) {
         const double between = 0.5 * (drag[f + run.before] + drag[f + run.here]);
         const coupling::SlipDecay slip =
@@ -114,83 +114,84 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
         decay[f] = slip.decay, mean[f] = slip.mean;
       }
       const auto from = [&](auto& field) { return field[a].data() + run.begin; };
-      move_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
-               (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
-               {.open = from(passages_.open),
-                .void_fraction = from(void_fraction_),
-                .momentum = from(start.momentum),
-                .grain_velocity = from(grain_velocity_),
-                .convection = from(rate_),
-                .viscous = from(viscous_),
-                .decay = from(decay_),
-                .mean = from(mean_)},
-               from(dragged_), from(stream.velocity), from(conductance_));
+      predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
+                  (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
+                  {.open = from(apertures_.open),
+                   .void_fraction = from(void_fraction_),
+                   .momentum = from(start.momentum),
+                   .grain_velocity = from(grain_velocity_),
+                   .convection = from(rate_),
+                   .viscous = from(viscous_),
+                   .decay = from(decay_),
+                   .mean = from(mean_)},
+                  from(after_drag_), from(stream.velocity), from(conductance_));
     });
   }
-  // Pressure's share of the velocity over dt.
-  const auto press = [&](double share) {
+  // Adds the share of the pressure term over dt to the velocity.
+  const auto add_pressure = [&](double share) {
     fill_ghosts(pressure);
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
       const double factor = share * dt / (rho * grid.spacing[axis]);
-      for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
         const double* high = pressure.data() + begin;
-        press_row(end - begin, factor, grains_share(),
-                  {.open = passages_.open[a].data() + begin,
-                   .void_fraction = void_fraction_[a].data() + begin,
-                   .mean = mean_[a].data() + begin,
-                   .low = high - grid.stride(axis),
-                   .high = high},
-                  stream.velocity[a].data() + begin);
+        add_pressure_row(end - begin, factor, grains_share(),
+                         {.open = apertures_.open[a].data() + begin,
+                          .void_fraction = void_fraction_[a].data() + begin,
+                          .mean = mean_[a].data() + begin,
+                          .low = high - grid.stride(axis),
+                          .high = high},
+                         stream.velocity[a].data() + begin);
       });
     }
   };
   if (implicit_) {
-    // With the guessed pressure at work: viscosity then meets the velocity to come, and a steady flow is exact.
-    press(1);
+    // Includes the guessed pressure: viscosity then acts on the final velocity, and a steady flow is exact.
+    add_pressure(1);
     viscous_ = stream.velocity;
-    stream.velocity = before_;  // nearer to what comes than what viscosity has not met
+    stream.velocity = before_;  // a better first guess than the velocity without viscosity
     viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream.velocity);
-    press(-1);
+    add_pressure(-1);
   }
   project(team, dt, stream, pressure);
-  press(1);
+  add_pressure(1);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double *phi = void_fraction_[a].data(), *velocity = stream.velocity[a].data();
     double* mass = stream.mass[a].data();
-    for_each_face(team, passages_, axis, [&](std::ptrdiff_t f) { mass[f] = rho * phi[f] * velocity[f]; });
+    for_each_face(team, apertures_, axis, [&](std::ptrdiff_t f) { mass[f] = rho * phi[f] * velocity[f]; });
   }
 }
 
-/// What the air lost to drag, and in model A what the pressure does to the solid, over its volume: first on the faces,
-/// then as the cells' means, so that it is handed out with the weights by which the solids were gathered.
-/// \param velocity at the end of the step; the state's momentum is that of its start, its pressure the step's
-void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse) {
-  const Grid& grid = passages_.grid;
+/// Impulse of the drag, and in model A of the pressure, on the solid, per solid volume: first on faces, then as the
+/// mean in cells, so that it is distributed to the particles with the weights by which their volume was deposited.
+/// \param velocity at the end of the step; state.momentum is that of the start, state.pressure that of the step
+void AirFlow::exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state,
+                                FaceField& impulse) {
+  const Grid& grid = apertures_.grid;
   const double rho = parameters_.density();
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const std::ptrdiff_t stride = grid.stride(axis);
-    for_each_row(team, grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
       const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
       const double* high = state.pressure.data() + begin;
-      hand_over_row(end - begin, dt, rho, grains_share() / grid.spacing[axis],
-                    {.open = from(passages_.open),
-                     .void_fraction = from(void_fraction_),
-                     .solid_fraction = from(solid_fraction_),
-                     .grain_velocity = from(grain_velocity_),
-                     .velocity = from(velocity),
-                     .momentum = from(state.momentum),
-                     .decay = from(decay_),
-                     .mean = from(mean_),
-                     .dragged = from(dragged_),
-                     .low = high - stride,
-                     .high = high},
-                    rate_[a].data() + begin, viscous_[a].data() + begin);
+      exchange_row(end - begin, dt, rho, grains_share() / grid.spacing[axis],
+                   {.open = from(apertures_.open),
+                    .void_fraction = from(void_fraction_),
+                    .solid_fraction = from(solid_fraction_),
+                    .grain_velocity = from(grain_velocity_),
+                    .velocity = from(velocity),
+                    .momentum = from(state.momentum),
+                    .decay = from(decay_),
+                    .mean = from(mean_),
+                    .after_drag = from(after_drag_),
+                    .low = high - stride,
+                    .high = high},
+                   rate_[a].data() + begin, viscous_[a].data() + begin);
     });
-    passages_.wrap(rate_[a]);
-    passages_.wrap(viscous_[a]);
+    apertures_.wrap(rate_[a]);
+    apertures_.wrap(viscous_[a]);
     for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
       const double *received = rate_[a].data() + begin, *drag = viscous_[a].data() + begin;
       average_row(end - begin, received, received + stride, impulse[a].data() + begin);
@@ -200,29 +201,29 @@ void AirFlow::hand_over(ThreadTeam& team, double dt, const FaceField& velocity, 
 }
 
 void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
-  take_solids(team, solids);
+  set_solids(team, solids);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_face(team, passages_, axis, [&](std::ptrdiff_t face) {
+    for_each_face(team, apertures_, axis, [&](std::ptrdiff_t face) {
       const auto f = static_cast<std::size_t>(face);
-      state.velocity[a][f] *= passages_.open[a][f];
+      state.velocity[a][f] *= apertures_.open[a][f];
       state.momentum[a][f] = parameters_.density() * void_fraction_[a][f] * state.velocity[a][f];
     });
-    passages_.wrap(state.velocity[a]);
-    passages_.wrap(state.momentum[a]);
+    apertures_.wrap(state.velocity[a]);
+    apertures_.wrap(state.momentum[a]);
   }
 }
 
 Vector3 AirFlow::momentum(const AirState& state) const {
   Vector3 total;
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < passages_.faces(axis, 2); ++k)
-      for (int j = 0; j < passages_.faces(axis, 1); ++j)
-        for (int i = 0; i < passages_.faces(axis, 0); ++i) {
+    for (int k = 0; k < apertures_.faces(axis, 2); ++k)
+      for (int j = 0; j < apertures_.faces(axis, 1); ++j)
+        for (int i = 0; i < apertures_.faces(axis, 0); ++i) {
           const int place = axis == 0 ? i : axis == 1 ? j : k;
           total[axis] += state.momentum[static_cast<std::size_t>(axis)][grid.index(i, j, k)] * grid.volume() *
-                         (passages_.is_end(axis, place) ? 0.5 : 1);
+                         (apertures_.is_end(axis, place) ? 0.5 : 1);
         }
   return total;
 }

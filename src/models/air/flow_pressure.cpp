@@ -15,17 +15,17 @@ namespace talus::air {
 /// Fills the ghosts of a pressure so that its difference across every face of the box, over the distance of two
 /// centres, is the gradient there: to an end of the box the way is half as long.
 void AirFlow::fill_ghosts(CellField& pressure) const {
-  const Grid& grid = passages_.grid;
-  passages_.wrap(pressure);
+  const Grid& grid = apertures_.grid;
+  apertures_.wrap(pressure);
   for (int axis = 0; axis < 3; ++axis) {
-    if (passages_.boundaries.is_periodic(axis)) continue;
+    if (apertures_.boundaries.is_periodic(axis)) continue;
     for (const int side : {0, 1}) {
       std::array<int, 3> layer = grid.count;
       layer[static_cast<std::size_t>(axis)] = 1;
       const int n = grid.count[static_cast<std::size_t>(axis)];
       const std::ptrdiff_t within = side == 0 ? 0 : (n - 1) * grid.stride(axis);
       const std::ptrdiff_t beyond = side == 0 ? -grid.stride(axis) : n * grid.stride(axis);
-      const double outside = passages_.boundaries.pressure[static_cast<std::size_t>(2 * axis + side)];
+      const double outside = apertures_.boundaries.pressure[static_cast<std::size_t>(2 * axis + side)];
       for (int k = 0; k < layer[2]; ++k)
         for (int j = 0; j < layer[1]; ++j)
           for (int i = 0; i < layer[0]; ++i) {
@@ -38,27 +38,28 @@ void AirFlow::fill_ghosts(CellField& pressure) const {
 
 /// The volume flow through every face, of air and grains or of the air.
 void AirFlow::find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const {
-  const double carried = with_grains ? 1 : 0;
+  const double mixture = with_grains ? 1 : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_row(team, passages_.grid, passages_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
-      find_volume_flow_of_row(end - begin, carried,
-                              {.open = from(passages_.open),
-                               .void_fraction = from(void_fraction_),
-                               .velocity = from(velocity),
-                               .solid_fraction = from(solid_fraction_),
-                               .grain_velocity = from(grain_velocity_)},
-                              flow[a].data() + begin);
-    });
-    passages_.wrap(flow[a]);
+    for_each_row(team, apertures_.grid, apertures_.faces(axis),
+                 [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
+                   find_volume_flow_of_row(end - begin, mixture,
+                                           {.open = from(apertures_.open),
+                                            .void_fraction = from(void_fraction_),
+                                            .velocity = from(velocity),
+                                            .solid_fraction = from(solid_fraction_),
+                                            .grain_velocity = from(grain_velocity_)},
+                                           flow[a].data() + begin);
+                 });
+    apertures_.wrap(flow[a]);
   }
 }
 
 /// What an ideal gas takes in for each Pa, over the time, and adds to the source: the pressure at the start of the step
 /// is where it would stay.
 void AirFlow::find_storage(ThreadTeam& team, double dt) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   storage_.resize(source_.size());
   for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t place) {
     const auto c = static_cast<std::size_t>(place);
@@ -78,9 +79,9 @@ void AirFlow::find_storage(ThreadTeam& team, double dt) {
 
 /// The pressure that takes the divergence from the volume flow of a stream that has not felt it yet.
 void AirFlow::project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   find_volume_flow(team, parameters_.continuity == Continuity::mixture, stream.velocity, rate_);
-  for (auto& conductance : conductance_) passages_.wrap(conductance);
+  for (auto& conductance : conductance_) apertures_.wrap(conductance);
   const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
   const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
   double* source = source_.data();
@@ -89,10 +90,10 @@ void AirFlow::project(ThreadTeam& team, double dt, const Stream& stream, CellFie
                        source + begin);
   });
   for (int axis = 0; axis < 3; ++axis)
-    for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+    for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
       if (!run.is_end) return;
       const auto a = static_cast<std::size_t>(axis);
-      const double outside = passages_.boundaries.pressure[2 * a + (run.place == 0 ? 0 : 1)];
+      const double outside = apertures_.boundaries.pressure[2 * a + (run.place == 0 ? 0 : 1)];
       for (auto f = run.begin; f < run.end; ++f) source[f + run.here] += conductance_[a][f] * outside;
     });
   const bool stores = parameters_.compressibility == Compressibility::isothermal;
@@ -112,7 +113,7 @@ void AirFlow::project(ThreadTeam& team, double dt, const Stream& stream, CellFie
 }
 
 void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   find_volume_flow(team, false, state.velocity, rate_);
   const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
   const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
@@ -131,8 +132,8 @@ void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, Ce
 
 double AirFlow::largest_divergence(const Solids& solids, const AirState& state) {
   ThreadTeam alone;
-  const Grid& grid = passages_.grid;
-  take_solids(alone, solids);
+  const Grid& grid = apertures_.grid;
+  set_solids(alone, solids);
   find_volume_flow(alone, parameters_.continuity == Continuity::mixture, state.velocity, rate_);
   return largest_of_cells(alone, grid, [&](std::ptrdiff_t c) {
     double sum = 0;

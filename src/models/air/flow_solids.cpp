@@ -13,8 +13,8 @@ namespace talus::air {
 
 /// Void fraction, solid fraction and grains' velocity on the faces: means of the two cells, of the one within at an
 /// end.
-void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
-  const Grid& grid = passages_.grid;
+void AirFlow::set_solids(ThreadTeam& team, const Solids& solids) {
+  const Grid& grid = apertures_.grid;
   const double* fraction = solids.fraction.data();
   for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t c) {
     const double s = fraction[c];
@@ -30,7 +30,7 @@ void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
     const auto a = static_cast<std::size_t>(axis);
     const double* flux = solids.flux[a].data();
     double *solid = solid_fraction_[a].data(), *gap = void_fraction_[a].data(), *velocity = grain_velocity_[a].data();
-    for_each_run(team, passages_, axis, [&](const FaceRun& run) {
+    for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
       for (auto f = run.begin; f < run.end; ++f) {
         const double s = 0.5 * (fraction[f + run.before] + fraction[f + run.here]);
         const double through = 0.5 * (flux[f + run.before] + flux[f + run.here]);
@@ -43,7 +43,7 @@ void AirFlow::take_solids(ThreadTeam& team, const Solids& solids) {
 
 /// beta of the cells, at the slip in their centres.
 void AirFlow::measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   const coupling::DragMedium medium = parameters_.medium();
   for_each_cell(team, grid, [&](int, int, int, std::ptrdiff_t place) {
     const auto c = static_cast<std::size_t>(place);
@@ -71,7 +71,7 @@ struct AirFlow::Rates {
 
   /// At which the air crosses it.
   double crossing(std::ptrdiff_t c) const {
-    const Grid& grid = flow.passages_.grid;
+    const Grid& grid = flow.apertures_.grid;
     const auto fastest = [&](int axis) {
       const double* u = state.velocity[static_cast<std::size_t>(axis)].data();
       return std::max(std::abs(u[c]), std::abs(u[c + grid.stride(axis)])) / grid.spacing[axis];
@@ -89,7 +89,7 @@ struct AirFlow::Rates {
 };
 
 double AirFlow::time_step(ThreadTeam& team, const Solids& solids, const AirState& state) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   measure_drag(team, solids, state.velocity);
   const Rates rates{*this, solids, state};
   const double crossing = largest_of_cells(team, grid, [&](std::ptrdiff_t c) { return rates.crossing(c); });
@@ -101,7 +101,7 @@ double AirFlow::time_step(ThreadTeam& team, const Solids& solids, const AirState
 }
 
 NumericalError::Report AirFlow::step_limit(const Solids& solids, const AirState& state) const {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   const Rates rates{*this, solids, state};
   double crossing = 0, response = 0;
   std::array<int, 3> crossed{}, held{};

@@ -42,7 +42,7 @@ Extremes on_middle_line(const Grid& grid, const AirState& state, int component, 
   std::array<int, 3> low{}, high{};
   for (std::size_t a = 0; a < 3; ++a) {
     const int n = grid.count[a];
-    // Velocities along `component` stand on faces: number n/2 is in the middle where n is even.
+    // Velocities along `component` are on faces: number n/2 is in the middle where n is even.
     const bool on_face = static_cast<int>(a) == component;
     low[a] = on_face ? n / 2 : (n - 1) / 2;
     high[a] = on_face ? (n + 1) / 2 : n / 2;
@@ -112,7 +112,7 @@ void AirModel::begin(ThreadTeam& team) {
   flow_ = std::make_unique<AirFlow>(grid_, parameters_.gas);
   if (parameters_.start.flow == InitialFlow::taylor_green)
     for (int axis = 0; axis < 3; ++axis)
-      for_each_place(flow_->passages().faces(axis), grid_, [&](std::size_t face, int i, int j, int k) {
+      for_each_place(flow_->apertures().faces(axis), grid_, [&](std::size_t face, int i, int j, int k) {
         state_.flow.velocity[static_cast<std::size_t>(axis)][face] =
             taylor_green(parameters_, face_centre(grid_, axis, i, j, k), 0)[axis];
       });

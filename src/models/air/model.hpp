@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The model `air`: air alone in a box, for flows whose answer is known (driven cavities, channels, decaying vortices).
+/// The model `air`: air alone in a box, for flows with known solutions (driven cavities, channels, decaying vortices).
 /// It is the same AirFlow that moves around grains in the model `continuum`.
 #pragma once
 
@@ -84,17 +84,17 @@ void for_each_field(Visit&& visit, S& s) {
   constexpr std::array<std::string_view, 3> velocity{"air_velocity_x", "air_velocity_y", "air_velocity_z"};
   constexpr std::array<std::string_view, 3> momentum{"air_momentum_x", "air_momentum_y", "air_momentum_z"};
   const auto grid = [&](std::string_view name, std::string_view unit, auto& field) {
-    visit(Field{name, unit, FieldRole::kept, false, false}, field);
+    visit(FieldInfo{name, unit, FieldRole::kept, false, false}, field);
   };
-  visit(Field{"time", "s"}, s.time);
-  visit(Field{"step", "1"}, s.step);
+  visit(FieldInfo{"time", "s"}, s.time);
+  visit(FieldInfo{"step", "1"}, s.step);
   grid("air_pressure", "Pa", s.flow.pressure);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     grid(velocity[axis], "m/s", s.flow.velocity[axis]);
     grid(momentum[axis], "kg/(m2 s)", s.flow.momentum[axis]);
   }
-  visit(Field{"last_step", "s"}, s.last_step);
-  visit(Field{"air_iterations", "1"}, s.iterations);
+  visit(FieldInfo{"last_step", "s"}, s.last_step);
+  visit(FieldInfo{"air_iterations", "1"}, s.iterations);
 }
 
 class AirModel {
@@ -113,9 +113,9 @@ class AirModel {
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
 
-  /// Step, kinetic energy, largest speed, range of the pressure, what the pressure left of the divergence, iterations;
-  /// extremes of u on the upright middle line and of w on the level one; of Taylor and Green's vortices the largest
-  /// error of a face's velocity over start.speed, and the energy over the exact one.
+  /// Step, kinetic energy, largest speed, range of the pressure, remaining divergence, iterations; extremes of u on the
+  /// upright middle line and of w on the level one; of Taylor and Green's vortices the largest error of a face's
+  /// velocity over start.speed, and the energy over the exact one.
   std::vector<NamedValue> totals() const;
   std::optional<GridSnapshot> grid() const;
   std::vector<RegimeLine> regime(const RunRecord& record) const;

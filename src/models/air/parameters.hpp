@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 #include "physics/air/gas.hpp"
 #include "physics/coupling/drag.hpp"
 
@@ -87,8 +87,8 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
   visit(Parameter{"air.left",
                   {},
                   {},
-                  "what the left face is to the air, whatever it is to the grains: a wall, a plane of symmetry (or a "
-                  "wall without friction), periodic (with its opposite), or open to a pressure"},
+                  "boundary condition of the air at the left face, independent of that of the grains: a no-slip wall, "
+                  "a plane of symmetry (or a slip wall), periodic (with its opposite), or open at a given pressure"},
         p.boundaries.kind[0]);
   visit(Parameter{"air.right", {}, {}, "the right face"}, p.boundaries.kind[1]);
   visit(Parameter{"air.front", {}, {}, "the front face"}, p.boundaries.kind[2]);
@@ -97,8 +97,8 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
   visit(Parameter{"air.top", {}, {}, "the top"}, p.boundaries.kind[5]);
   constexpr struct {
     const char *face, *pressure, *velocity;
-  } faces[6] = {{"left", "pressure beyond the left face where it is open, against air.pressure",
-                 "along x, y and z: of the left face where it is a wall that moves along itself"},
+  } faces[6] = {{"left", "pressure beyond the left face if it is open, relative to air.pressure",
+                 "velocity along x, y and z of the left face if it is a wall that moves tangentially"},
                 {"right", "beyond the right face", "of the right face"},
                 {"front", "beyond the front face", "of the front face"},
                 {"rear", "beyond the rear face", "of the rear face"},
@@ -111,48 +111,44 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
     visit(Parameter{key + "_velocity", dimension::velocity, any(), faces[k].velocity}, p.wall_velocity[k]);
   }
   flowing(Parameter{"air.upwind", dimension::none, between(0, 1),
-                    "upstream weight of the air's convection: 0 the printed central scheme of fourth order, 1 the "
-                    "upstream-biased one of third"},
+                    "upwind weight of the convection of the air: 0 the printed fourth-order central scheme, 1 the "
+                    "third-order upwind-biased one"},
           p.upwind);
-  visit(Parameter{"air.courant", dimension::none, above(0), "most cells that the air moves in one of its steps"},
+  visit(Parameter{"air.courant", dimension::none, above(0),
+                  "largest number of cells that the air may move in one of its steps"},
         p.courant);
-  visit(Parameter{"air.longest_step", dimension::time, above(0), "longest step of the air in any case"},
-        p.longest_step);
+  visit(Parameter{"air.longest_step", dimension::time, above(0), "upper limit of the step of the air"}, p.longest_step);
   flowing(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
-                    "residual of the pressure equation over its source at which it is solved"},
+                    "residual of the pressure equation over its source at which the iteration stops"},
           p.tolerance);
   flowing(Parameter{"air.most_iterations", dimension::none, at_least(1),
-                    "iterations after which a pressure that is not solved ends the run"},
+                    "iterations after which a pressure that has not converged ends the run"},
           p.most_iterations);
 }
 
 /// Every key of the air among grains, once; those of a grain are the grains' own.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
-  visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest and of one pressure, so that it only drags"},
+  visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest at uniform pressure, so that it only exerts drag"},
         p.motion);
   auto flowing = only_if(where("air.motion", p.motion, Motion::flowing), visit);
-  flowing(
-      Parameter{"air.continuity",
-                {},
-                {},
-                "what has no divergence: the flow of air and grains together (Eq. 19), or that of the air alone, as "
-                "if the void fraction did not change with time"},
-      p.continuity);
-  flowing(
-      Parameter{
-          "air.formulation",
-          {},
-          {},
-          "whom the gradient of the pressure moves: air and grains by their shares of the volume (model A, Eqs 17 "
-          "and 18), or the air alone, so that the drag is all that the grains feel (model B)"},
-      p.formulation);
+  flowing(Parameter{"air.continuity",
+                    {},
+                    {},
+                    "which volume flow is divergence-free: that of air and grains together (Eq. 19), or that of the "
+                    "air alone, as if the void fraction did not change with time"},
+          p.continuity);
+  flowing(Parameter{"air.formulation",
+                    {},
+                    {},
+                    "what the pressure gradient acts on: air and grains by their volume fractions (model A, Eqs 17 and "
+                    "18), or the air alone, so that the drag is the only force on the grains (model B)"},
+          p.formulation);
   flowing(Parameter{"air.compressibility",
                     {},
                     {},
-                    "none: the pressure does not change the air's density, which holds while pressures differ by less "
-                    "than a tenth of air.pressure; or isothermal, for thin air in closed vessels: an ideal gas whose "
-                    "pressure falls where its volume grows"},
+                    "none: the density of the air is constant, which is valid while pressures differ by less than a "
+                    "tenth of air.pressure; or isothermal, for thin air in closed vessels: an ideal gas"},
           p.compressibility);
   visit(Parameter{"air.drag",
                   {},
@@ -161,7 +157,7 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "Ergun, Wen and Yu"},
         p.drag);
   visit(Parameter{"air.response", dimension::none, above(0),
-                  "longest step of the air over the time in which the pressure it takes stops a bed that dilates"},
+                  "longest step of the air over the time in which the pressure it causes stops a dilating bed"},
         p.response);
   for_each_parameter_of_flow(visit, flowing, p);
 }

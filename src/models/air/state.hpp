@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the air knows between its steps: of the solids in its cells, and of itself.
+/// The state of the air between its steps, and the solids in its cells.
 #pragma once
 
 #include "numerics/grid/grid.hpp"
 
 namespace talus::air {
 
-/// What stands in the air, cell by cell.
+/// The grains in the air, cell by cell.
 struct Solids {
   CellField fraction;  ///< solid volume over volume, 0 to below 1
   FaceField flux;      ///< by component, of every cell: fraction times the solid's velocity, m/s
@@ -15,11 +15,11 @@ struct Solids {
   explicit Solids(const Grid& grid) : fraction(grid.cell_field()), flux(grid.face_field()) {}
 };
 
-/// What the air remembers between steps.
+/// The fields of the air.
 struct AirState {
   FaceField velocity;  ///< m/s
   FaceField momentum;  ///< rho Phi u, kg/(m^2 s)
-  CellField pressure;  ///< against the boundaries' reference, Pa; mean of the last step
+  CellField pressure;  ///< relative to that of the surroundings, Pa; mean of the last step
   FaceField drag;      ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
 
   AirState() = default;

@@ -13,9 +13,9 @@ namespace {
 
 /// Calls body(component, first face, faces, row of the component) for all rows of a component.
 template <class Body>
-void for_rows_of(ThreadTeam& team, const Passages& passages, int axis, Body&& body) {
-  const std::array<int, 3> faces = passages.faces(axis);
-  for_each_row(team, passages.grid, faces, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+void for_rows_of(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
+  const std::array<int, 3> faces = apertures.faces(axis);
+  for_each_row(team, apertures.grid, faces, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
     body(static_cast<std::size_t>(axis), begin, static_cast<int>(end - begin),
          static_cast<std::size_t>(k * faces[1] + j));
   });
@@ -23,17 +23,18 @@ void for_rows_of(ThreadTeam& team, const Passages& passages, int axis, Body&& bo
 
 }  // namespace
 
-Viscosity::Viscosity(const Passages& passages) : passages_(passages), divergence_(passages.grid.cell_field()) {}
+Viscosity::Viscosity(const FaceApertures& apertures)
+    : apertures_(apertures), divergence_(apertures.grid.cell_field()) {}
 
 void Viscosity::wrap(FaceField& field) const {
-  for (auto& component : field) passages_.wrap(component);
+  for (auto& component : field) apertures_.wrap(component);
 }
 
 /// Calls body(component, first face, faces) for all rows.
 template <class Body>
 void Viscosity::for_all_rows(ThreadTeam& team, Body&& body) const {
   for (int axis = 0; axis < 3; ++axis)
-    for_rows_of(team, passages_, axis,
+    for_rows_of(team, apertures_, axis,
                 [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t) { body(a, f, count); });
 }
 
@@ -42,8 +43,8 @@ template <class Body>
 TwoSums Viscosity::sum_over_rows(ThreadTeam& team, Body&& body) {
   TwoSums total;
   for (int axis = 0; axis < 3; ++axis) {
-    row_sums_.resize(static_cast<std::size_t>(passages_.faces(axis, 1) * passages_.faces(axis, 2)));
-    for_rows_of(team, passages_, axis, [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t row) {
+    row_sums_.resize(static_cast<std::size_t>(apertures_.faces(axis, 1) * apertures_.faces(axis, 2)));
+    for_rows_of(team, apertures_, axis, [&](std::size_t a, std::ptrdiff_t f, int count, std::size_t row) {
       row_sums_[row] = body(a, f, count);
     });
     for (const TwoSums& row : row_sums_) total.first += row.first, total.second += row.second;
@@ -56,26 +57,26 @@ void Viscosity::find_divergence(ThreadTeam& team, const FaceField& velocity, Fac
 }
 
 void Viscosity::find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence) {
-  const Grid& grid = passages_.grid;
+  const Grid& grid = apertures_.grid;
   const std::ptrdiff_t dy = grid.stride(1), dz = grid.stride(2);
   const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
   for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
     find_divergence_of_row(grid.count[0], dy, dz, per_width, velocity[0].data() + begin, velocity[1].data() + begin,
-                           velocity[2].data() + begin, passages_.inner.data() + begin, divergence_.data() + begin);
+                           velocity[2].data() + begin, apertures_.inner.data() + begin, divergence_.data() + begin);
   });
-  passages_.wrap(divergence_);
+  apertures_.wrap(divergence_);
   for_all_rows(team, [&](std::size_t a, std::ptrdiff_t begin, int count) {
     const auto from = [&](const CellField& field) { return field.data() + begin; };
-    const auto& link = passages_.link[a];
+    const auto& link = apertures_.link[a];
     const int axis = static_cast<int>(a);
     find_viscous_divergence_of_row(count, walls == Walls::moving ? 1 : 0, dy, dz, per_width,
                                    {.velocity = from(velocity[a]),
                                     .link_x = from(link[0]),
                                     .link_y = from(link[1]),
                                     .link_z = from(link[2]),
-                                    .wall = from(passages_.wall[a]),
-                                    .drive = from(passages_.drive[a]),
-                                    .open = from(passages_.open[a]),
+                                    .wall = from(apertures_.wall[a]),
+                                    .drive = from(apertures_.drive[a]),
+                                    .open = from(apertures_.open[a]),
                                     .divergence = from(divergence_),
                                     .along = grid.stride(axis),
                                     .third = per_width[axis] / 3},
@@ -100,19 +101,18 @@ struct Viscosity::System {
   }
   double apply_to_direction() {
     v.wrap(v.direction_);
-    v.find_divergence(team, Walls::at_rest, v.direction_, v.image_);
+    v.find_divergence(team, Walls::at_rest, v.direction_, v.applied_);
     return v
         .sum_over_rows(
             team,
             [&](std::size_t a, std::ptrdiff_t f, int count) {
-              return TwoSums{
-                  find_image_of_row(count, amount, &v.per_weight_[a][f], &v.direction_[a][f], &v.image_[a][f]), 0};
+              return TwoSums{apply_row(count, amount, &v.per_weight_[a][f], &v.direction_[a][f], &v.applied_[a][f]), 0};
             })
         .first;
   }
   void advance(double step) {
     v.for_all_rows(team, [&](std::size_t a, std::ptrdiff_t f, int count) {
-      step_row(count, step, &v.direction_[a][f], &v.image_[a][f], &velocity[a][f], &v.residual_[a][f]);
+      step_row(count, step, &v.direction_[a][f], &v.applied_[a][f], &velocity[a][f], &v.residual_[a][f]);
     });
   }
 };
@@ -124,9 +124,9 @@ struct Viscosity::Diagonal {
   const System& system;
 
   double apply(double) { return system.preconditioned; }
-  void turn(double turn) {
+  void update_direction(double beta) {
     v.for_all_rows(team, [&](std::size_t a, std::ptrdiff_t f, int count) {
-      turn_row(count, turn, &v.per_diagonal_[a][f], &v.residual_[a][f], &v.direction_[a][f]);
+      update_direction_row(count, beta, &v.per_diagonal_[a][f], &v.residual_[a][f], &v.direction_[a][f]);
     });
   }
 };
@@ -135,24 +135,24 @@ int Viscosity::advance_implicitly(ThreadTeam& team, const FaceField& start, cons
                                   FaceField& velocity) {
   constexpr int most_iterations = 500;
   constexpr double tolerance = 1e-6;
-  const Grid& grid = passages_.grid;
-  for (FaceField* field : {&residual_, &direction_, &image_, &per_weight_, &per_diagonal_})
+  const Grid& grid = apertures_.grid;
+  for (FaceField* field : {&residual_, &direction_, &applied_, &per_weight_, &per_diagonal_})
     if (field->front().empty()) *field = grid.face_field();
   double own = 0;  // of the Laplacian and of the gradient of the divergence
   for (int axis = 0; axis < 3; ++axis) own += 2 / (grid.spacing[axis] * grid.spacing[axis]);
   wrap(velocity);
-  find_divergence(team, Walls::moving, velocity, image_);
+  find_divergence(team, Walls::moving, velocity, applied_);
   const double source =
       sum_over_rows(team, [&](std::size_t a, std::ptrdiff_t f, int count) {
         const double width = grid.spacing[static_cast<int>(a)];
         return TwoSums{begin_row(count, amount, own + 2 / (3 * width * width),
-                                 {.open = &passages_.open[a][f],
-                                  .wall = &passages_.wall[a][f],
-                                  .drive = &passages_.drive[a][f],
+                                 {.open = &apertures_.open[a][f],
+                                  .wall = &apertures_.wall[a][f],
+                                  .drive = &apertures_.drive[a][f],
                                   .weight = &weight[a][f],
                                   .start = &start[a][f],
                                   .velocity = &velocity[a][f],
-                                  .viscous = &image_[a][f]},
+                                  .viscous = &applied_[a][f]},
                                  &per_weight_[a][f], &per_diagonal_[a][f], &residual_[a][f], &direction_[a][f]),
                        0};
       }).first;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What viscosity does to the air's velocities on the faces of a grid: explicitly, or implicitly where its time limit
-/// is shorter than the step.
+/// Viscous terms of the velocities of the air on the faces of a grid: explicit, or implicit where the viscous time
+/// limit is shorter than the step.
 #pragma once
 
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "models/air/viscosity_rows.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 
 namespace talus::air {
 
 class Viscosity {
  public:
-  explicit Viscosity(const Passages& passages);
+  explicit Viscosity(const FaceApertures& apertures);
 
   /// divergence := laplacian u + grad(div u)/3 (viscous_divergence()), with rough walls, 1/(m s); ghosts of the
   /// velocity filled.
@@ -37,9 +37,9 @@ class Viscosity {
   TwoSums sum_over_rows(ThreadTeam& team, Body&& body);
   void wrap(FaceField& field) const;
 
-  const Passages& passages_;
+  const FaceApertures& apertures_;
   CellField divergence_;  // of the velocity
-  FaceField residual_, direction_, image_, per_weight_,
+  FaceField residual_, direction_, applied_, per_weight_,
       per_diagonal_;  // of the implicit step; made when it is asked for
   std::vector<TwoSums> row_sums_;
 };

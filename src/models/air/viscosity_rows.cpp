@@ -80,26 +80,26 @@ TALUS_CLONES TwoSums measure_residual_of_row(int count, const double* per_diagon
   return {square.total(), product.total()};
 }
 
-TALUS_CLONES void turn_row(int count, double turn, const double* per_diagonal, const double* residual,
-                           double* __restrict direction) {
-  for (int f = 0; f < count; ++f) direction[f] = per_diagonal[f] * residual[f] + turn * direction[f];
+TALUS_CLONES void update_direction_row(int count, double beta, const double* per_diagonal, const double* residual,
+                                       double* __restrict direction) {
+  for (int f = 0; f < count; ++f) direction[f] = per_diagonal[f] * residual[f] + beta * direction[f];
 }
 
-TALUS_CLONES double find_image_of_row(int count, double amount, const double* per_weight, const double* direction,
-                                      double* __restrict image) {
+TALUS_CLONES double apply_row(int count, double amount, const double* per_weight, const double* direction,
+                              double* __restrict applied) {
   InterleavedSum product;
   for_each_interleaved(count, [&](int f, int part) {
-    image[f] = direction[f] * per_weight[f] - amount * image[f];
-    product.part[part] += direction[f] * image[f];
+    applied[f] = direction[f] * per_weight[f] - amount * applied[f];
+    product.part[part] += direction[f] * applied[f];
   });
   return product.total();
 }
 
-TALUS_CLONES void step_row(int count, double step, const double* direction, const double* image,
+TALUS_CLONES void step_row(int count, double step, const double* direction, const double* applied,
                            double* __restrict velocity, double* __restrict residual) {
   for (int f = 0; f < count; ++f) {
     velocity[f] += step * direction[f];
-    residual[f] -= step * image[f];
+    residual[f] -= step * applied[f];
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Rows of faces for the viscosity of the air and for the conjugate gradients of its implicit form. Functions of their
-/// own, so that the compiler makes vectors of them; arrays begin with the row's first face or cell.
+/// The loops over a row of faces for the viscosity of the air and the conjugate gradients of its implicit form. They
+/// are separate functions so that the compiler vectorises them; arrays begin with the first face or cell of the row.
 #pragma once
 
 #include <cstddef>
@@ -18,23 +18,23 @@ struct TwoSums {
 void find_divergence_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& per_width, const double* u,
                             const double* v, const double* w, const double* inner, double* __restrict out);
 
-/// What the viscous stress of a row of faces is made of.
+/// Input of the viscous term on a row of faces.
 struct ViscousRow {
   const double* velocity;                  ///< m/s
-  const double *link_x, *link_y, *link_z;  ///< 1 where a face sees the one before it along an axis
-  const double* wall;                      ///< Passages::wall, 1/m^2
-  const double* drive;                     ///< Passages::drive, 1/(m s)
+  const double *link_x, *link_y, *link_z;  ///< 1 where no wall separates a face from the one before
+  const double* wall;                      ///< FaceApertures::wall, 1/m^2
+  const double* drive;                     ///< FaceApertures::drive, 1/(m s)
   const double* open;
   const double* divergence;  ///< of the velocity, in cells, 1/s
   std::ptrdiff_t along;      ///< from a cell to the next across a face
   double third;              ///< of the inverse of their distance, 1/m
 };
 
-/// \param driven 1, or 0: as if the walls stood still
+/// \param driven 1, or 0: as if the walls were at rest
 void find_viscous_divergence_of_row(int count, double driven, std::ptrdiff_t dy, std::ptrdiff_t dz,
                                     const Vector3& per_width, const ViscousRow& row, double* __restrict out);
 
-/// The start of an implicit step.
+/// Input of an implicit step.
 struct ImplicitRow {
   const double *open, *wall, *drive;
   const double* weight;    ///< of the viscous force
@@ -43,7 +43,7 @@ struct ImplicitRow {
   const double* viscous;   ///< of the first guess, 1/(m s)
 };
 
-/// Residual of the first guess, with a direction of zero.
+/// Residual of the first guess; sets the direction to zero.
 /// \param amount kinematic viscosity times time, m^2; \param own diagonal of -(laplacian + grad div/3) away from rough
 /// walls, 1/m^2; \returns square of the source
 double begin_row(int count, double amount, double own, const ImplicitRow& row, double* __restrict per_weight,
@@ -52,14 +52,15 @@ double begin_row(int count, double amount, double own, const ImplicitRow& row, d
 /// \returns square of the residual, and its product with itself over the diagonal
 TwoSums measure_residual_of_row(int count, const double* per_diagonal, const double* residual);
 
-/// direction := residual/diagonal + turn direction.
-void turn_row(int count, double turn, const double* per_diagonal, const double* residual, double* __restrict direction);
+/// direction := residual/diagonal + beta direction.
+void update_direction_row(int count, double beta, const double* per_diagonal, const double* residual,
+                          double* __restrict direction);
 
-/// \param image in: the viscous divergence of the direction; \returns its product with the direction
-double find_image_of_row(int count, double amount, const double* per_weight, const double* direction,
-                         double* __restrict image);
+/// \param applied in: the viscous divergence of the direction; \returns its product with the direction
+double apply_row(int count, double amount, const double* per_weight, const double* direction,
+                 double* __restrict applied);
 
-void step_row(int count, double step, const double* direction, const double* image, double* __restrict velocity,
+void step_row(int count, double step, const double* direction, const double* applied, double* __restrict velocity,
               double* __restrict residual);
 
 }  // namespace talus::air

@@ -93,8 +93,8 @@ Grains sample(const Parameters& p, std::size_t count) {
   const auto side = static_cast<std::size_t>(std::ceil(std::pow(static_cast<double>(count), plane ? 0.5 : 1.0 / 3)));
   Grains grains;
   for (std::size_t n = 0; n < count; ++n) {
-    const double i = static_cast<double>(n % side), j = static_cast<double>(n / side % side),
-                 k = static_cast<double>(n / side / side);
+    const std::size_t row = n / side, layer = row / side;
+    const double i = static_cast<double>(n % side), j = static_cast<double>(row % side), k = static_cast<double>(layer);
     const double x = i * spacing, across = (j + 0.5) * spacing;
     grains.position.push_back(p.motion == Motion::xy   ? Vector3{x, across, 0}
                               : p.motion == Motion::xz ? Vector3{x, 0, across}

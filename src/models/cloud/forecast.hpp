@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a run of a cloud will take, from its parameters and the number of its grains alone: nothing is placed.
+/// The cost of a run of a cloud, from its parameters and the number of grains alone.
 #pragma once
 
 #include <optional>
@@ -15,22 +15,22 @@ struct Forecast {
   double evaluations = 0;  ///< of all velocities
 };
 
-/// Steps and evaluations of a run up to a time. A free cloud takes the largest step with the stages that contacts which
-/// form within a step ask for. One that gravity presses against a slope falls in on it at the start, in steps that the
-/// growth of overlaps limits, and its contacts are stiffer, the more so the more grains move each other: its layer on
-/// the slope gives way as one, with a mobility that grows with its extent (a sum of 1/r over it).
-/// Measured: docs/decisions/0015-forecast.md.
+/// Steps and evaluations of a run up to a time. A free cloud takes the largest step, with the stages required by
+/// contacts that form within a step. A cloud that gravity presses against a slope first collapses onto it, in steps
+/// limited by the growth of overlaps; its contacts relax faster, the more so the more grains interact: the layer on the
+/// slope moves collectively, with a mobility that grows with its extent (a sum of 1/r over it). Measured:
+/// docs/decisions/0015-forecast.md.
 /// \param end s; \param grains how many
 Forecast forecast(const Parameters& parameters, double end, double grains);
 
-/// A problem if a run would take more steps than any machine can: run.end against the longest step.
+/// A problem if a run would take more steps than is possible: run.end over the longest step.
 std::optional<Problem> check_steps(const Parameters& parameters, double end);
 
-/// Bytes that a run takes, the program itself among them.
+/// Memory of a run in bytes, including the program itself.
 double memory_of(double grains);
 
-/// Grains on a regular lattice, in the plane of motion or in space, that almost touch: what a machine's speed is
-/// measured with.
+/// Grains on a regular lattice, in the plane of motion or in space, that almost touch: the sample on which the speed of
+/// the machine is measured.
 Grains sample(const Parameters& parameters, std::size_t count);
 
 }  // namespace talus::cloud

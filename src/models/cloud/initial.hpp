@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The grains at the start: radii, then places drawn at random in the case's shape without overlap.
+/// The initial grains: radii, then positions drawn at random in the shape of the case without overlap.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ struct Grains {
 };
 
 /// Packs the shape of the case by random sequential addition: each grain in turn is placed at random until it overlaps
-/// none placed before. All radii are drawn before the first place.
-/// With a slope, shapes that stand on it (triangle, wedge, dome; any shape in the plane xz) keep every grain above it.
+/// none placed before. All radii are drawn before the first place. With a slope, shapes on it (triangle, wedge, dome;
+/// any shape in the plane xz) keep every grain above it.
 /// \throws NumericalError if a grain finds no place after 10^6 trials (the fraction is too high)
 Grains pack(const Parameters& parameters);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The cloud model: grains that drag each other through a viscous fluid (Niiya, Awazu & Nishimori 2020).
+/// The cloud model: grains that interact through a viscous fluid (Niiya, Awazu & Nishimori 2020).
 #pragma once
 
 #include <optional>
@@ -33,7 +33,8 @@ class Cloud {
   /// Of the last step: step_size, stages, evaluations, spectral_radius, overlap_max (m), speed_max, centre_x.
   std::vector<NamedValue> totals() const;
 
-  /// How far the run is from what the model assumes: Reynolds and Stokes numbers, overlaps, contact over weight.
+  /// Whether the run is within the assumptions of the model: Reynolds and Stokes numbers, overlaps, contact over
+  /// weight.
   std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:

@@ -108,7 +108,7 @@ void PairSum::pack(ThreadTeam& team, std::span<const Vector3> position, std::spa
       column(dimensions_ + k)[n] = force[order_[n]].*axis_[k] * speed_per_force;
     }
   });
-  // The padding stands beside all spheres along the first axis, farther off and apart than two radii (each below 2).
+  // The padding lies beyond all spheres along the first axis, farther off and apart than two radii (each below 2).
   double* const x = column(0);
   const double beyond = *std::max_element(x, x + size()) + 8;
   for (std::size_t n = size(); n < padded_; ++n) {

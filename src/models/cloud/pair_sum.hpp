@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The direct sum over all pairs of spheres that drag each other through a viscous fluid: Eqs 3b, 3c and the sum of
-/// Eq. 4a of Niiya, Awazu & Nishimori 2020.
+/// The direct sum over all pairs of spheres that interact through a viscous fluid: Eqs 3b, 3c and the sum of Eq. 4a of
+/// Niiya, Awazu & Nishimori 2020.
 #pragma once
 
 #include <array>
@@ -25,11 +25,11 @@ enum class Motion { xy, xz, xyz };
 /// to a near one, and adds blocks of them up in double precision.
 enum class Precision { double_precision, single_precision };
 
-/// Velocities of spheres under the forces on the others. The work is N^2/2 pairs, the memory some 1 kB a sphere.
+/// Velocities of spheres due to the forces on the others. The cost is N^2/2 pairs, the memory about 1 kB per sphere.
 ///
-/// The same bits for any number of threads. Instruction sets agree within 1e-14 of the largest sum over pairs of
-/// |M_ij F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from the processor's
-/// own estimate, whose bits are the maker's choice.
+/// The same bits for any number of threads. Instruction sets agree within 1e-14 of the largest sum over pairs of |M_ij
+/// F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from an estimate of the
+/// processor, which depends on its make.
 class PairSum {
  public:
   struct Options {
@@ -40,21 +40,21 @@ class PairSum {
     double viscosity = 0;  ///< Pa s, > 0
   };
 
-  /// \param radius one a sphere, m, > 0
+  /// \param radius one per sphere, m, > 0
   /// \param order as `reorder`
   /// \throws InputError if the processor does not have the instruction set
   PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order = {});
 
-  /// Sets the order in which the spheres are packed: a permutation, best one that keeps what is near in space near in
-  /// the order; empty: as they are. It changes the last bits, and in single precision it matters for the accuracy:
-  /// pairs lose digits in proportion to the extent of a tile of 128 spheres over their distance.
+  /// Sets the order in which the spheres are stored: a permutation, preferably one that keeps neighbours in space near
+  /// in memory; empty: unchanged. It changes the last bits, and in single precision it matters for the accuracy: pairs
+  /// lose digits in proportion to the extent of a tile of 128 spheres over their distance.
   /// \throws std::invalid_argument if it is neither empty nor a permutation
   void reorder(std::span<const std::uint32_t> order);
 
   /// velocity[i] = sum over j != i of M_ij F_j; the sphere's own Stokes drag is not in it. Overwrites; components
   /// outside the plane of motion become 0. With the printed tensor two spheres at one place get a velocity that is not
   /// finite; with zuk-2014 every configuration has a finite one.
-  /// \param position m; \param force N; \param velocity m/s; one a sphere, in the order of the radii
+  /// \param position m; \param force N; \param velocity m/s; one per sphere, in the order of the radii
   /// \throws std::invalid_argument if a length is not the number of spheres
   void velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                   std::span<Vector3> velocity);

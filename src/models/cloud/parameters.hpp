@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a case of the cloud model says: grains that drag each other through a viscous fluid on an incline or in free
-/// space (Niiya, Awazu & Nishimori 2020). SI, angles in radians; the initial values are the defaults.
+/// Parameters of the cloud model: grains that interact through a viscous fluid on an incline or in free space (Niiya,
+/// Awazu & Nishimori 2020). SI, angles in radians; the initial values are the defaults.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct Parameters {
   struct Particles {
     Shape shape = Shape::circle;
     std::int64_t count = 2000;
-    std::optional<double> size, length, width;  ///< m; those that the shape has, check() sees to it
+    std::optional<double> size, length, width;  ///< m; those that the shape needs, ensured by check()
     std::string file;
     double radius = 0;
     double radius_spread = 0.05;
@@ -68,15 +68,14 @@ struct Parameters {
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
-  visit(
-      Parameter{"particles.shape",
-                {},
-                {},
-                "where the grains are at the start: circle, rectangle, triangle and wedge (a heap with a level surface "
-                "behind a gate upright to the slope) in the plane of motion, ball and dome (half a ball on the slope) "
-                "in space, or a file of points",
-                true},
-      p.particles.shape);
+  visit(Parameter{"particles.shape",
+                  {},
+                  {},
+                  "initial arrangement of the grains: circle, rectangle, triangle and wedge (a heap with a level "
+                  "surface behind a gate perpendicular to the slope) in the plane of motion, ball and dome (half a "
+                  "ball on the slope) in space, or a file of points",
+                  true},
+        p.particles.shape);
   auto packed = only_if(unless("particles.shape", p.particles.shape, Shape::file), visit);
   packed(Parameter{"seed", dimension::none, between(0, 9e15), "seed of the radii and positions"}, p.seed);
   packed(Parameter{"particles.count", dimension::none, between(1, 1e7), "number of grains"}, p.particles.count);
@@ -112,8 +111,8 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"fluid.mobility",
                   {},
                   {},
-                  "how grains drag each other: the printed tensor, its symmetric form for "
-                  "unequal and overlapping spheres, or not at all"},
+                  "hydrodynamic interaction of the grains: the printed tensor, its symmetric form for unequal and "
+                  "overlapping spheres, or none"},
         p.fluid.mobility);
   auto dragged = only_if(unless("fluid.mobility", p.fluid.mobility, hydrodynamics::Mobility::none), visit);
   dragged(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
@@ -125,7 +124,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   touching(Parameter{"contact.stiffness", dimension::stiffness, above(0), "spring constant k_n of grains and slope"},
            p.contact.stiffness);
 
-  visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 carries the grains (a wall for contacts only)"},
+  visit(Parameter{"slope.enabled", {}, {}, "whether the plane z = 0 supports the grains (a wall for contacts only)"},
         p.slope.enabled);
   visit(Parameter{"slope.angle", dimension::angle, between(0, 1.5707963267948966), "incline; x points down the slope"},
         p.slope.angle);
@@ -145,8 +144,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   {},
                   "damped Runge-Kutta-Chebyshev of first order; Dormand and Prince's Runge-Kutta pair of fifth order, "
-                  "for grains that hardly touch (stiff contacts make its steps short); or explicit Euler at its "
-                  "stability limit (a reference for tests)"},
+                  "for grains with few contacts (stiff contacts shorten its steps); or explicit Euler at its stability "
+                  "limit (a reference for tests)"},
         p.integration.method);
   visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
         p.integration.largest_step);
@@ -171,7 +170,7 @@ void for_each_parameter(Visit&& visit, P& p) {
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
 
-/// How far a case is from what the model assumes: the lines of the regime card that are known before the run.
+/// Whether a case is within the assumptions of the model: the lines of the regime card that are known before the run.
 std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
 
 /// Quantities that follow from the parameters alone.

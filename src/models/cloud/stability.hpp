@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which steps a cloud can take with its contacts, from its parameters alone.
+/// Stability limits of the step of a cloud, from its parameters alone.
 #pragma once
 
 #include "models/cloud/parameters.hpp"
 
 namespace talus::cloud {
 
-/// Of the stability polynomial: stiff modes shrink by 10 % a step at least.
+/// Of the stability polynomial: stiff modes decay by at least 10 % per step.
 inline constexpr double stage_damping = 0.1;
 
 /// Rate at which contacts that form within a step relax, 1/s: a floor for the estimate, since the power iteration sees

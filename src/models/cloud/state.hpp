@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The state of a cloud: its columns and counters, each named once.
+/// The state of a cloud: its fields and counters, each defined once.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct State {
   // Warm starts and memory of the step control: kept, so that a resumed run takes the same steps.
   std::vector<Vector3> increment;           ///< m, the last step's displacement
   std::vector<Vector3> stiff_mode;          ///< unit vector of the stiffest motion found so far
-  std::vector<std::int64_t> packing_order;  ///< order in which the pair sum packs the grains
+  std::vector<std::int64_t> spatial_order;  ///< order in which the pair sum stores the grains
   double last_step = 0;                     ///< s, length of the last step; 0 before the first
   double next_step = 0;                     ///< s, proposed by the error control
   double spectral_radius = 0;               ///< 1/s, estimate of the stiffest rate
@@ -36,22 +36,22 @@ struct State {
 
 template <class Visit, class S>
 void for_each_field(Visit&& visit, S& s) {
-  visit(Field{"time", "s"}, s.time);
-  visit(Field{"step", "1"}, s.step);
-  visit(Field{"position", "m"}, s.position);
-  visit(Field{"radius", "m"}, s.radius);
-  visit(Field{"velocity", "m/s", FieldRole::derived}, s.velocity);
-  visit(Field{"contact_force", "N", FieldRole::derived}, s.contact_force);
-  visit(Field{"overlap", "m", FieldRole::derived}, s.overlap);
-  visit(Field{"increment", "m", FieldRole::kept, false}, s.increment);
-  visit(Field{"stiff_mode", "1", FieldRole::kept, false}, s.stiff_mode);
-  visit(Field{"packing_order", "1", FieldRole::kept, false}, s.packing_order);
-  visit(Field{"last_step", "s"}, s.last_step);
-  visit(Field{"next_step", "s"}, s.next_step);
-  visit(Field{"spectral_radius", "1/s"}, s.spectral_radius);
-  visit(Field{"stages", "1"}, s.stages);
-  visit(Field{"evaluations", "1"}, s.evaluations);
-  visit(Field{"rejected_steps", "1"}, s.rejected_steps);
+  visit(FieldInfo{"time", "s"}, s.time);
+  visit(FieldInfo{"step", "1"}, s.step);
+  visit(FieldInfo{"position", "m"}, s.position);
+  visit(FieldInfo{"radius", "m"}, s.radius);
+  visit(FieldInfo{"velocity", "m/s", FieldRole::derived}, s.velocity);
+  visit(FieldInfo{"contact_force", "N", FieldRole::derived}, s.contact_force);
+  visit(FieldInfo{"overlap", "m", FieldRole::derived}, s.overlap);
+  visit(FieldInfo{"increment", "m", FieldRole::kept, false}, s.increment);
+  visit(FieldInfo{"stiff_mode", "1", FieldRole::kept, false}, s.stiff_mode);
+  visit(FieldInfo{"spatial_order", "1", FieldRole::kept, false}, s.spatial_order);
+  visit(FieldInfo{"last_step", "s"}, s.last_step);
+  visit(FieldInfo{"next_step", "s"}, s.next_step);
+  visit(FieldInfo{"spectral_radius", "1/s"}, s.spectral_radius);
+  visit(FieldInfo{"stages", "1"}, s.stages);
+  visit(FieldInfo{"evaluations", "1"}, s.evaluations);
+  visit(FieldInfo{"rejected_steps", "1"}, s.rejected_steps);
 }
 
 }  // namespace talus::cloud

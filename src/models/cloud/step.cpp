@@ -23,27 +23,27 @@ constexpr int steps_between_estimates = 5;
 constexpr int steps_between_sorts = 16;
 constexpr double least_step_over_largest = 1e-6;
 
-void sort_now_and_then(ThreadTeam& team, const Parameters& p, State& state, Workspace& work);
+void sort_at_intervals(ThreadTeam& team, const Parameters& p, State& state, Workspace& work);
 double stiffest_rate(const Parameters& p, const State& state, double largest_overlap);
-bool may_stand(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
-               double overlap_before);
+bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
+                   double overlap_before);
 void accept(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, const Trial& trial, double step);
 double largest_step(const Parameters& p, const Workspace& work);
 
 }  // namespace
 
-/// On entry and exit velocity, contact_force and overlap belong to position: the velocities at the end of a step open
-/// the next one, and tell whether this one may stand.
+/// On entry and exit velocity, contact_force and overlap belong to position: the velocities at the end of a step start
+/// the next one, and decide whether this one is accepted.
 void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
   const double overlap_before = *std::max_element(state.overlap.begin(), state.overlap.end());
-  sort_now_and_then(team, p, state, work);
+  sort_at_intervals(team, p, state, work);
   if (state.step % steps_between_estimates == 0 && p.contact.enabled) estimate_stiffness(team, p, state, work, 3);
   double step = std::min(state.next_step, largest_step(p, work));
   while (true) {
     const double rate = stiffest_rate(p, state, overlap_before);
     if (rate > 0) step = std::min(step, longest_stable_step(p, rate));
     const Trial trial = try_step(team, p, state, work, step, rate);
-    if (may_stand(p, state, work, trial, step, overlap_before)) return accept(team, p, state, work, trial, step);
+    if (is_acceptable(p, state, work, trial, step, overlap_before)) return accept(team, p, state, work, trial, step);
     ++state.rejected_steps;
     step *= 0.5;
     estimate_stiffness(team, p, state, work, 3);
@@ -64,11 +64,11 @@ void keep_derived(State& state, Workspace& work) {
 
 void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   const auto order = spatial_order(state.position, 4 * p.particles.radius);
-  state.packing_order.assign(order.begin(), order.end());
-  work.velocities.reorder(state.packing_order);
+  state.spatial_order.assign(order.begin(), order.end());
+  work.velocities.reorder(state.spatial_order);
 }
 
-void sort_now_and_then(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
+void sort_at_intervals(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
   if (state.step % steps_between_sorts != 0 || state.step == 0) return;
   sort_for_packing(p, state, work);
   derive(team, state, work);
@@ -134,8 +134,8 @@ double share_of_tolerance(const Parameters& p, const Trial& trial) {
 
 /// A step that is as short as the shortest stands, whatever its error.
 /// \throws NumericalError for one that cannot, though it is as short
-bool may_stand(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
-               double overlap_before) {
+bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
+                   double overlap_before) {
   const double a = p.particles.radius;
   const bool at_least = step < least_step_over_largest * largest_step(p, work);
   const bool overlapped = trial.overlap > p.integration.largest_overlap * a;
@@ -204,7 +204,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
 
 void derive(ThreadTeam& team, State& state, Workspace& work) {
   state.velocity.resize(state.position.size());
-  work.velocities.reorder(state.packing_order);
+  work.velocities.reorder(state.spatial_order);
   work.velocities(team, state.position, work.trial_velocity);
   keep_derived(state, work);
 }

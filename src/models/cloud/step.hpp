@@ -12,7 +12,7 @@
 
 namespace talus::cloud {
 
-/// What a step needs beside the state; made anew from the state when a run is resumed.
+/// Workspace of a step; recomputed from the state when a run is resumed.
 struct Workspace {
   Velocities velocities;
   Scales scales;
@@ -28,7 +28,7 @@ void begin(ThreadTeam& team, const Parameters& parameters, State& state, Workspa
 /// Recomputes the derived columns, from kept ones, after a checkpoint was read.
 void derive(ThreadTeam& team, State& state, Workspace& workspace);
 
-/// What holds the last step as short as it is, and where: the contacts' stiffness, or the error control.
+/// The condition that limits the last step, and where: the stiffness of the contacts, or the error control.
 NumericalError::Report step_limit(const Parameters& parameters, const State& state);
 
 /// Advances by one step of at most integration.largest_step.

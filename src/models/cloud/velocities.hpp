@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The velocities of all grains at given places, Eq. 4a: each grain's own Stokes drag against weight and contacts, and
-/// the fluid's motion that all others make. This is the right-hand side that the integrators evaluate.
+/// The velocities of all grains at given positions, Eq. 4a: the Stokes velocity of each grain under weight and contact
+/// forces, plus the flow induced by all others. This is the right-hand side that the integrators evaluate.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ namespace talus::cloud {
 
 class Velocities {
  public:
-  /// \param radius m, one a grain; copied
+  /// \param radius m, one per grain; copied
   Velocities(const Parameters& parameters, std::span<const double> radius);
 
-  /// Sets the order in which the pair sum packs the grains (part of the definition of the sum's bits).
+  /// Sets the order in which the pair sum stores the grains (on which the bits of the sum depend).
   void reorder(std::span<const std::int64_t> order);
 
   /// Evaluates Eq. 4a. \param position m; \param velocity m/s, overwritten

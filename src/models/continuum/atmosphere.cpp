@@ -65,7 +65,7 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   a.swing_max =
       std::max(a.swing_max, largest_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
   received_.resize(s.position.size());
-  deposition_.hand_out(team, s.mass / grain_density_, per_solid_volume_, received_);
+  deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),
            [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
   a.force = s.mass * reduce(
@@ -78,8 +78,8 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
 }
 
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposition_.weigh(team, s.position, smoothing_length);
-  deposition_.gather(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+  deposition_.find_weights(team, s.position, smoothing_length);
+  deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
 }
 
 void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
@@ -102,7 +102,7 @@ void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
         }
       }
   });
-  deposition_.hand_out(team, 1, per_solid_volume_, received_);
+  deposition_.distribute(team, 1, per_solid_volume_, received_);
   const double reynolds = reduce(
       team, received_.size(), 0.0, [&](std::size_t i) { return coupling::grain_reynolds(medium_, norm(received_[i])); },
       [](double x, double y) { return std::max(x, y); });

@@ -15,7 +15,7 @@ namespace talus::continuum {
 
 /// Almansi's strain of every particle, positive in compression.
 /// \param around lists that hold at `position`; \param reset_position X_i, m; \param smoothing_length h_k, m
-/// \param strain number; resized to one a particle; not finite where the displacements have no inverse
+/// \param strain number; resized to one per particle; not finite where the displacements have no inverse
 void measure_strain(ThreadTeam& team, const Neighbourhood& around, std::span<const Vector3> position,
                     std::span<const Vector3> reset_position, std::span<const double> smoothing_length,
                     std::vector<SymmetricTensor3<>>& strain);

@@ -34,7 +34,8 @@ class Material {
   double sound_speed(double density) const;
 
   /// Applies the law to every particle over a time step, from `old` to `next`, which may be the same.
-  /// \param velocity_gradient 1/s; \param measured_strain at the end of the step, one a particle if by_displacements(),
+  /// \param velocity_gradient 1/s; \param measured_strain at the end of the step, one per particle if
+  /// by_displacements(),
   ///        else empty; \param density at the end of the step, kg/m^3; \param keep_history false: only the stress of
   ///        `next` is written, for a stage within a step
   void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,

@@ -119,9 +119,9 @@ struct Parameters {
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
-  visit(
-      Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right", true},
-      p.box.width);
+  visit(Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right face",
+                  true},
+        p.box.width);
   visit(
       Parameter{"box.depth", dimension::length, above(0), "extent along y, from the front face at 0 to the rear", true},
       p.box.depth);
@@ -130,7 +130,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"box.left",
                   {},
                   {},
-                  "what the left face is: a wall (with friction), a symmetry plane, periodic (with its opposite), free "
+                  "kind of the left face: a wall (with friction), a symmetry plane, periodic (with its opposite), free "
                   "as printed (mirror without reversing the velocity), or open"},
         p.box.left);
   visit(Parameter{"box.right", {}, {}, "the right face"}, p.box.right);
@@ -142,10 +142,9 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"plate.height", dimension::length, above(0),
                   "height of a thin horizontal plate across the box; left out: no plate"},
         p.plate.height);
-  visit(Parameter{"plate.slit_left", dimension::length, at_least(0), "where the slit in the plate begins, along x"},
+  visit(Parameter{"plate.slit_left", dimension::length, at_least(0), "start of the slit in the plate, along x"},
         p.plate.slit_left);
-  visit(Parameter{"plate.slit_right", dimension::length, above(0), "where the slit in the plate ends"},
-        p.plate.slit_right);
+  visit(Parameter{"plate.slit_right", dimension::length, above(0), "end of the slit in the plate"}, p.plate.slit_right);
   visit(
       Parameter{"wedge.half_angle",
                 dimension::angle,
@@ -153,7 +152,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                 "angle to the vertical of the two walls of a wedge hopper, which reach from its outlet, in the middle "
                 "of the box, up to the left and right faces; left out: no wedge"},
       p.wedge.half_angle);
-  visit(Parameter{"wedge.outlet", dimension::length, at_least(0), "width of the wedge's outlet, which the gate shuts"},
+  visit(Parameter{"wedge.outlet", dimension::length, at_least(0),
+                  "width of the outlet of the wedge, which the gate closes"},
         p.wedge.outlet);
   visit(Parameter{"wedge.height", dimension::length, at_least(0), "height of the outlet above the floor"},
         p.wedge.height);
@@ -161,42 +161,46 @@ void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{plate_key(n, 0),
                     dimension::length,
                     {},
-                    "thin straight plate through the whole depth, at any angle: x and z of its one end",
+                    "thin straight plate through the whole depth, at any angle: x and z of one end",
                     true},
           p.plates[n].from);
-    visit(Parameter{plate_key(n, 1), dimension::length, {}, "x and z of its other end", true}, p.plates[n].to);
+    visit(Parameter{plate_key(n, 1), dimension::length, {}, "x and z of the other end", true}, p.plates[n].to);
     visit(Parameter{plate_key(n, 2), dimension::length, at_least(0),
-                    "where each opening in it begins and ends, along the plate from `from`"},
+                    "start and end of each opening, along the plate from `from`"},
           p.plates[n].openings);
-    visit(Parameter{plate_key(n, 3), dimension::time, at_least(0),
-                    "its openings are shut by gates that go so long after the gate of the case; left out: no gates"},
-          p.plates[n].opens_after);
+    visit(
+        Parameter{plate_key(n, 3), dimension::time, at_least(0),
+                  "its openings are closed by gates that open so long after the gate of the case; left out: no gates"},
+        p.plates[n].opens_after);
   }
-  visit(Parameter{"gate.opens", {}, {}, "when the gate that shuts the slit or the wedge's outlet goes"}, p.gate.opens);
+  visit(Parameter{"gate.opens", {}, {}, "when the gate of the slit or of the wedge's outlet opens"}, p.gate.opens);
   auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
-  timed(Parameter{"gate.time", dimension::time, at_least(0), "with gate.opens = \"at-time\": when"}, p.gate.time);
+  timed(Parameter{"gate.time", dimension::time, at_least(0),
+                  "time at which the gate opens, with gate.opens = \"at-time\""},
+        p.gate.time);
 
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
 
   visit(Parameter{"bed.packing", dimension::none, between(1e-4, 0.74), "packing fraction at the start"}, p.bed.packing);
-  visit(Parameter{"bed.spacing", dimension::length, above(0),
-                  "distance of the particles at the start; fitted to whole numbers of particles along each side", true},
-        p.bed.spacing);
   visit(
-      Parameter{"bed.height", dimension::length, above(0),
-                "height of the bed at the start; it is where the middle of its top can be seen from, no plate between",
-                true},
-      p.bed.height);
+      Parameter{"bed.spacing", dimension::length, above(0),
+                "distance of the particles at the start; adjusted to whole numbers of particles along each side", true},
+      p.bed.spacing);
+  visit(Parameter{"bed.height", dimension::length, above(0),
+                  "height of the bed at the start; the bed fills the region that is connected with the middle of its "
+                  "top, with no plate between",
+                  true},
+        p.bed.height);
   visit(Parameter{"bed.bottom", dimension::length, at_least(0),
                   "bottom of the bed; left out: the plate, the wedge's outlet, or the floor"},
         p.bed.bottom);
-  visit(Parameter{"bed.left", dimension::length, at_least(0), "where the bed begins along x; left out: the left face"},
+  visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
         p.bed.left);
-  visit(Parameter{"bed.right", dimension::length, above(0), "where the bed ends along x; left out: the right face"},
+  visit(Parameter{"bed.right", dimension::length, above(0), "end of the bed along x; left out: the right face"},
         p.bed.right);
-  visit(Parameter{"bed.velocity", dimension::velocity, {}, "velocity of the bed at the start; left out: it is at rest"},
+  visit(Parameter{"bed.velocity", dimension::velocity, {}, "initial velocity of the bed; left out: at rest"},
         p.bed.velocity);
 
   granular::for_each_parameter(visit, p.law);
@@ -207,13 +211,12 @@ void for_each_parameter(Visit&& visit, P& p) {
           "sph.smoothing",
           {},
           {},
-          "smoothing length: of each particle from its density, h = (m/rho_b)^(1/3), or fixed at its value at the "
-          "start"},
+          "smoothing length: of each particle from its density, h = (m/rho_b)^(1/3), or fixed at its initial value"},
       p.sph.smoothing);
   visit(Parameter{"sph.continuity",
                   {},
                   {},
-                  "rate of the density: Eq. 16 as printed, which follows the kernel's sum, or -rho_b times the trace "
+                  "rate of the density: Eq. 16 as printed, consistent with the kernel sum, or -rho_b times the trace "
                   "of the corrected velocity gradient"},
         p.sph.continuity);
   visit(Parameter{"sph.stress_form",
@@ -246,8 +249,10 @@ void for_each_parameter(Visit&& visit, P& p) {
   rough(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
                   "coefficient of wall friction, the tangent of the angle of wall friction"},
         p.walls.coefficient);
-  rough(Parameter{"walls.friction_from", {}, {}, "whether walls are rough from the start or once the gate has opened"},
-        p.walls.friction_from);
+  rough(
+      Parameter{
+          "walls.friction_from", {}, {}, "whether walls have friction from the start or from the opening of the gate"},
+      p.walls.friction_from);
 
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
@@ -256,8 +261,8 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.air.enabled);
   auto airy = only_if(where("air.enabled", p.air.enabled, true), visit);
   airy(Parameter{"air.cell", dimension::length, above(0),
-                 "size of the air's cells, fitted to whole numbers along each side of the box; left out: three "
-                 "quarters of bed.spacing, fitted to the plate too"},
+                 "size of the cells of the air, adjusted to whole numbers along each side of the box; left out: three "
+                 "quarters of bed.spacing, adjusted to the plate too"},
        p.air.cell);
   air::for_each_parameter(airy, p.air.gas);
 
@@ -265,29 +270,30 @@ void for_each_parameter(Visit&& visit, P& p) {
   settling(Parameter{"settle.speed", dimension::velocity, above(0),
                      "the bed has settled when 99 of 100 particles are slower than this"},
            p.settle.speed);
-  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for so long"}, p.settle.duration);
+  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for this long"}, p.settle.duration);
   settling(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
            p.settle.longest);
-  settling(
-      Parameter{"settle.loading_time", dimension::time, at_least(0),
-                "time over which gravity comes on while the bed settles, so that no wave passes through it that would "
-                "press it harder than its weight does; 0: at once; left out: that of twenty passages of a pressure "
-                "wave through the bed's height, at most a quarter of settle.longest"},
-      p.settle.loading_time);
+  settling(Parameter{"settle.loading_time", dimension::time, at_least(0),
+                     "time over which gravity is raised to its full value while the bed settles, so that no pressure "
+                     "wave compresses it beyond its weight; 0: at once; left out: the time in which a pressure wave "
+                     "passes twenty times through the height of the bed, at most a quarter of settle.longest"},
+           p.settle.loading_time);
   auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
-  gated(Parameter{"settle.damping_time", dimension::time, above(0),
-                  "time in which velocities decay by a factor e until the gate opens, which spares waiting; left out: "
-                  "no such damping"},
-        p.settle.damping_time);
+  gated(
+      Parameter{"settle.damping_time", dimension::time, above(0),
+                "time constant of an artificial damping of the velocities until the gate opens; left out: no damping"},
+      p.settle.damping_time);
 
   visit(Parameter{"integration.method", {}, {}, "second-order Runge-Kutta, or leapfrog"}, p.integration.method);
-  visit(Parameter{"integration.step", dimension::time, above(0), "a fixed time step in place of the Courant number's"},
+  visit(Parameter{"integration.step", dimension::time, above(0),
+                  "fixed time step, instead of that of the Courant number"},
         p.integration.step);
   visit(Parameter{"integration.courant", dimension::none, above(0),
                   "time step times the speed of pressure waves over the smallest smoothing length"},
         p.integration.courant);
   visit(Parameter{"integration.skin", dimension::none, between(0, 2),
-                  "skin of the neighbour lists, in particle spacings: wider lists last longer and cost more"},
+                  "skin of the neighbour lists, in particle spacings: with a larger one lists are rebuilt less often "
+                  "but are longer"},
         p.integration.skin);
   visit(
       Parameter{

@@ -10,7 +10,7 @@ namespace talus::continuum {
 
 void sort_for_locality(State& state, double cell_size) {
   const std::vector<std::uint32_t> order = spatial_order(state.position, cell_size);
-  const auto sort = [&]<class Member>(const Field& field, Member& column) {
+  const auto sort = [&]<class Member>(const FieldInfo& field, Member& column) {
     if constexpr (!std::is_arithmetic_v<Member>) {
       if (!field.of_particles || column.empty()) return;  // not yet filled
       Member sorted(order.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the stabilisers of the sums take: gradients of density and velocity, measured on the packed records in a sweep
-/// of their own, so that nothing but the state decides them.
+/// Input of the stabilisers of the sums: gradients of density and velocity, computed from the packed records in a
+/// separate sweep, so that they depend only on the state.
 #include "models/continuum/material.hpp"
 #include "models/continuum/sweep.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
@@ -21,7 +21,7 @@ Vector3 displaced(const Image& image, const Vector3& d) {
 
 void Sweep::prepare_stabilisers(ThreadTeam& team, const ParticleView& particles) {
   const std::size_t count = particles.position.size();
-  const auto ghosts = around_.ghosts();
+  const auto ghosts = neighbourhood_.ghosts();
   stabilisers_.assign(records_.size(), {});
   for_each(team, count, [&](std::size_t i) {
     thread_local std::vector<std::uint32_t> record, end;
@@ -41,7 +41,7 @@ void Sweep::prepare_stabilisers(ThreadTeam& team, const ParticleView& particles)
                        0};
   });
   for_each(team, ghosts.size(), [&](std::size_t g) {
-    const Image& image = around_.image(ghosts[g]);
+    const Image& image = neighbourhood_.image(ghosts[g]);
     StabiliserRecord ghost = stabilisers_[ghosts[g].source];
     double* const slope = ghost.density_gradient;
     const Vector3 turned = displaced(image, {slope[0], slope[1], slope[2]});

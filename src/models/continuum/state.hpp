@@ -19,7 +19,7 @@ namespace talus::continuum {
 struct MaterialColumns {
   std::array<std::vector<double>, 6> stress;       ///< the law's, Pa, compression positive: xx yy zz xy yz zx
   std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order
-  std::vector<std::vector<double>> history;        ///< one column a slot of the law
+  std::vector<std::vector<double>> history;        ///< one column per slot of the law
 };
 
 /// The names of the walls that may bear load, and of the columns of their impulses.
@@ -109,9 +109,9 @@ inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = 
 
 template <class Visit, class A>
 void for_each_field_of_air(Visit&& visit, A& a) {
-  visit(Field{"air_acceleration", "m/s2"}, a.acceleration);
+  visit(FieldInfo{"air_acceleration", "m/s2"}, a.acceleration);
   const auto grid = [&](const char* name, const char* unit, auto& field) {
-    visit(Field{name, unit, FieldRole::kept, false, false}, field);
+    visit(FieldInfo{name, unit, FieldRole::kept, false, false}, field);
   };
   grid("air_pressure", "Pa", a.flow.pressure);
   grid("air_solid_fraction", "1", a.solids.fraction);
@@ -122,48 +122,48 @@ void for_each_field_of_air(Visit&& visit, A& a) {
     grid(names.momentum, "kg/(m2 s)", a.flow.momentum[axis]);
     grid(names.drag, "N/m3", a.flow.drag[axis]);
     grid(names.solid_flux, "m/s", a.solids.flux[axis]);
-    visit(Field{names.force, "N"}, a.force[static_cast<int>(axis)]);
-    visit(Field{names.impulse, "N s"}, a.impulse[static_cast<int>(axis)]);
+    visit(FieldInfo{names.force, "N"}, a.force[static_cast<int>(axis)]);
+    visit(FieldInfo{names.impulse, "N s"}, a.impulse[static_cast<int>(axis)]);
   }
-  visit(Field{"air_steps", "1"}, a.steps);
-  visit(Field{"air_steps_left", "1"}, a.steps_left);
-  visit(Field{"air_iterations", "1"}, a.iterations);
-  visit(Field{"air_last_step", "s"}, a.last_step);
-  visit(Field{"air_reynolds_max", "1"}, a.reynolds_max);
-  visit(Field{"air_swing_max", "Pa"}, a.swing_max);
+  visit(FieldInfo{"air_steps", "1"}, a.steps);
+  visit(FieldInfo{"air_steps_left", "1"}, a.steps_left);
+  visit(FieldInfo{"air_iterations", "1"}, a.iterations);
+  visit(FieldInfo{"air_last_step", "s"}, a.last_step);
+  visit(FieldInfo{"air_reynolds_max", "1"}, a.reynolds_max);
+  visit(FieldInfo{"air_swing_max", "Pa"}, a.swing_max);
 }
 
 template <class Visit, class S>
 void for_each_field(Visit&& visit, S& s) {
-  visit(Field{"time", "s"}, s.time);
-  visit(Field{"step", "1"}, s.step);
-  visit(Field{"position", "m"}, s.position);
-  visit(Field{"velocity", "m/s"}, s.velocity);
-  visit(Field{"density", "kg/m3"}, s.density);
-  visit(Field{"identity", "1"}, s.identity);
-  for (std::size_t c = 0; c < 6; ++c) visit(Field{detail::stress_names[c], "Pa"}, s.material.stress[c]);
+  visit(FieldInfo{"time", "s"}, s.time);
+  visit(FieldInfo{"step", "1"}, s.step);
+  visit(FieldInfo{"position", "m"}, s.position);
+  visit(FieldInfo{"velocity", "m/s"}, s.velocity);
+  visit(FieldInfo{"density", "kg/m3"}, s.density);
+  visit(FieldInfo{"identity", "1"}, s.identity);
+  for (std::size_t c = 0; c < 6; ++c) visit(FieldInfo{detail::stress_names[c], "Pa"}, s.material.stress[c]);
   for (std::size_t c = 0; c < 6; ++c)
-    visit(Field{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
+    visit(FieldInfo{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
   for (std::size_t k = 0; k < s.slots.size(); ++k)
-    visit(Field{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
-  visit(Field{"mass", "kg"}, s.mass);
-  if (!s.reset_position.empty()) visit(Field{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
-  visit(Field{"packing", "1", FieldRole::derived}, s.packing);
-  visit(Field{"strain", "1", FieldRole::derived}, s.strain);
-  visit(Field{"shear_rate", "1/s"}, s.shear_rate);
+    visit(FieldInfo{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
+  visit(FieldInfo{"mass", "kg"}, s.mass);
+  if (!s.reset_position.empty()) visit(FieldInfo{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
+  visit(FieldInfo{"packing", "1", FieldRole::derived}, s.packing);
+  visit(FieldInfo{"strain", "1", FieldRole::derived}, s.strain);
+  visit(FieldInfo{"shear_rate", "1/s"}, s.shear_rate);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     for (int axis = 0; axis < 3; ++axis)
-      visit(Field{detail::impulse_names[wall][static_cast<std::size_t>(axis)], "N s"}, s.wall_impulse[wall][axis]);
+      visit(FieldInfo{detail::impulse_names[wall][static_cast<std::size_t>(axis)], "N s"}, s.wall_impulse[wall][axis]);
   for (int axis = 0; axis < 3; ++axis) {
-    visit(Field{detail::damping_names[axis], "N s"}, s.damping_impulse[axis]);
-    visit(Field{detail::gravity_names[axis], "N s"}, s.gravity_impulse[axis]);
+    visit(FieldInfo{detail::damping_names[axis], "N s"}, s.damping_impulse[axis]);
+    visit(FieldInfo{detail::gravity_names[axis], "N s"}, s.gravity_impulse[axis]);
   }
-  visit(Field{"gate_time", "s"}, s.gate_time);
-  visit(Field{"quiet_time", "s"}, s.quiet_time);
-  visit(Field{"list_position", "m", FieldRole::kept, false}, s.list_position);
-  visit(Field{"list_smoothing_length", "m", FieldRole::kept, false}, s.list_smoothing_length);
-  visit(Field{"list_builds", "1"}, s.list_builds);
-  visit(Field{"last_step", "s"}, s.last_step);
+  visit(FieldInfo{"gate_time", "s"}, s.gate_time);
+  visit(FieldInfo{"quiet_time", "s"}, s.quiet_time);
+  visit(FieldInfo{"list_position", "m", FieldRole::kept, false}, s.list_position);
+  visit(FieldInfo{"list_smoothing_length", "m", FieldRole::kept, false}, s.list_smoothing_length);
+  visit(FieldInfo{"list_builds", "1"}, s.list_builds);
+  visit(FieldInfo{"last_step", "s"}, s.last_step);
   if (!s.air.flow.pressure.empty()) for_each_field_of_air(visit, s.air);
 }
 

@@ -17,8 +17,8 @@ namespace talus::continuum {
 
 namespace {
 
-/// The stages of a step. Each of those that change the state starts from the state at the start of the step, so that
-/// none toggles a branch of the law.
+/// The stages of a step. Each stage that changes the state starts from the state at the start of the step, so that no
+/// stage toggles a branch of the law.
 struct Step {
   ThreadTeam& team;
   const Parameters& p;
@@ -29,7 +29,7 @@ struct Step {
   void air() const;
   void half() const;
   void gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
-                Wanted wanted) const;
+                SweepTerms terms) const;
   void momentum(double duration, double time) const;
   void drift(double duration, std::span<const Vector3> velocity) const;
   void density() const;
@@ -51,26 +51,26 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (p.integration.method == Method::runge_kutta) {
     // The explicit midpoint rule.
     step.half();
-    step.gradient(w.velocity, w.density, w.columns, Wanted::all);
+    step.gradient(w.velocity, w.density, w.columns, SweepTerms::all);
     step.drift(dt, w.velocity);
     step.momentum(dt, s.time + 0.5 * dt);
     step.density();
     step.stress();
     step.walls(dt);
   } else {
-    // The leapfrog: velocities live half a step before positions, densities and stresses. It neither damps nor feeds
-    // waves, and evaluates forces and gradients once each.
+    // The leapfrog: velocities are staggered by half a step. It neither damps nor amplifies waves, and evaluates forces
+    // and gradients once each.
     const double kick = 0.5 * (s.last_step + dt);
     step.momentum(kick, s.time);
     w.position = s.position;
     step.walls(kick);
     for_each(team, s.position.size(), [&](std::size_t i) { w.position[i] += (0.5 * dt) * s.velocity[i]; });
-    step.gradient(s.velocity, s.density, s.material, Wanted::gradients);
+    step.gradient(s.velocity, s.density, s.material, SweepTerms::gradients);
     step.drift(dt, s.velocity);
     step.density();
     step.stress();
   }
-  turn_back(team, w.material, w.domain, w.position, s);
+  reflect_at_walls(team, w.material, w.domain, w.position, s);
   step.damping();
   step.clock();
   check_possible(team, p, w.domain, s, dt);
@@ -92,8 +92,8 @@ double step_of_grains(ThreadTeam& team, const Parameters& p, const Workspace& w)
   return p.integration.courant * least / w.sound_speed;
 }
 
-/// The length of the step, decided here alone, s: what the grains allow; where the air is about to take a step, no more
-/// than the air allows; until the end of the air's step, as long as the one before.
+/// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
+/// the air; until the end of that step unchanged.
 double step_length(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (!w.air) return step_of_grains(team, p, w);
   if (!w.air->is_due(s)) return s.last_step;
@@ -105,7 +105,7 @@ Vector3 gravity(const Parameters& p, const Workspace& w, double time) {
   return {0, 0, -share_of_gravity(time, w.loading_time) * p.gravity.acceleration};
 }
 
-/// Acceleration by the air, which lasts over a step of its own.
+/// Acceleration by the air, constant during a step of the air.
 Vector3 by_air(const State& s, std::size_t i) {
   return s.air.acceleration.empty() ? Vector3{} : s.air.acceleration[i];
 }
@@ -115,13 +115,12 @@ void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span
     measure_strain(team, w.sweep.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
 }
 
-/// Where the particles have come to the end of the air's step, the air takes the next one and fixes what it gives them
-/// in each of theirs.
+/// At the end of a step of the air: takes its next step, which fixes the acceleration of the particles until its end.
 void Step::air() const {
   if (w.air) w.air->advance(team, dt, s);
 }
 
-/// The state in the middle of the step, in the workspace, by the rates at its start.
+/// The state at the midpoint of the step, in the workspace, from the rates at its start.
 void Step::half() const {
   const Vector3 start = gravity(p, w, s.time);
   for_each(team, s.position.size(), [&](std::size_t i) {
@@ -134,10 +133,10 @@ void Step::half() const {
                     false);
 }
 
-/// Velocity gradient and rate of the density in the middle of the step, and the acceleration there if it is wanted.
+/// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
 void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
-                    Wanted wanted) const {
-  w.sweep(team, {w.position, velocity, density, material}, wanted, w.rates);
+                    SweepTerms terms) const {
+  w.sweep(team, {w.position, velocity, density, material}, terms, w.rates);
 }
 
 /// Eq. 17. \param duration of the force of stress and gravity, that of the air's is dt, s; \param time of gravity, s
@@ -151,7 +150,7 @@ void Step::momentum(double duration, double time) const {
   s.gravity_impulse += (duration * s.mass * static_cast<double>(s.velocity.size())) * g;
 }
 
-/// The workspace keeps where the particles were.
+/// The workspace keeps the previous positions.
 void Step::drift(double duration, std::span<const Vector3> velocity) const {
   for_each(team, s.position.size(), [&](std::size_t i) {
     w.position[i] = s.position[i];
@@ -164,7 +163,7 @@ void Step::density() const {
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += dt * w.rates.density_rate[i]; });
 }
 
-/// The law over the whole step; a particle whose strain it resets has its displacement counted anew from here.
+/// The law over the whole step; the displacement of a particle whose strain is reset is counted from here.
 void Step::stress() const {
   measure_strain_at(team, s, w, s.position);
   const bool displaced = w.material.by_displacements();
@@ -177,9 +176,9 @@ void Step::stress() const {
   });
 }
 
-/// Friction, and the load of the walls.
+/// Friction, and the loads of the walls.
 void Step::walls(double duration) const {
-  meet_walls(team, p, w.domain, w.rates, w.position, duration, s);
+  apply_wall_friction(team, p, w.domain, w.rates, w.position, duration, s);
 }
 
 void Step::damping() const {

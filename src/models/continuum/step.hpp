@@ -9,10 +9,10 @@ namespace talus::continuum {
 /// Completes a new state: neighbour lists, rates, derived columns.
 void begin(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
-/// Recomputes what follows from kept fields, after a checkpoint was read.
+/// Recomputes derived fields after a checkpoint was read.
 void derive(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
-/// What holds the last step as short as it is, and where: the Courant number of the grains, or the air.
+/// The condition that limits the last step, and where: the Courant number of the grains, or the air.
 NumericalError::Report step_limit(const Parameters& parameters, const State& state, const Workspace& workspace);
 
 /// Advances by one step.

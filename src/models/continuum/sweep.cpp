@@ -13,16 +13,16 @@ namespace talus::continuum {
 
 namespace {
 
-SumNeighbours choose(InstructionSet set, Wanted wanted, Stabilisers stabilisers) {
+SumNeighbours choose(InstructionSet set, SweepTerms terms, Stabilisers stabilisers) {
   switch (set) {
 #if defined(__x86_64__)
     case InstructionSet::avx512:
-      return sum_neighbours_avx512(wanted, stabilisers);
+      return sum_neighbours_avx512(terms, stabilisers);
     case InstructionSet::avx2:
-      return sum_neighbours_avx2(wanted, stabilisers);
+      return sum_neighbours_avx2(terms, stabilisers);
 #endif
     default:
-      return sum_neighbours_portable(wanted, stabilisers);
+      return sum_neighbours_portable(terms, stabilisers);
   }
 }
 
@@ -33,7 +33,7 @@ void Rates::resize(std::size_t count) {
   density_rate.resize(count);
   velocity_gradient.resize(count);
   kernel_density.resize(count);
-  wall_push.resize(count);
+  wall_acceleration.resize(count);
 }
 
 Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
@@ -51,12 +51,12 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
-      around_(domain) {
+      neighbourhood_(domain) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
-  for (const Wanted wanted : {Wanted::all, Wanted::gradients, Wanted::forces})
-    sum_[static_cast<std::size_t>(wanted)] = choose(set, wanted, stabilised ? Stabilisers::acting : Stabilisers::none);
-  if (stabilised) prepare_sum_ = choose(set, Wanted::gradients, Stabilisers::prepared);
+  for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
+    sum_[static_cast<std::size_t>(terms)] = choose(set, terms, stabilised ? Stabilisers::acting : Stabilisers::none);
+  if (stabilised) prepare_sum_ = choose(set, SweepTerms::gradients, Stabilisers::prepared);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -66,22 +66,22 @@ double Sweep::smoothing_length(double density) const {
 void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
-  around_.build(team, position, smoothing_length, skin_);
+  neighbourhood_.build(team, position, smoothing_length, skin_);
   loads_.clear();
-  for (const Image& image : around_.images()) loads_.push_back(around_.domain().loads(image));
+  for (const Image& image : neighbourhood_.images()) loads_.push_back(neighbourhood_.domain().loads(image));
   find_groups();
 }
 
 /// Where each group of a particle's neighbours ends: particles first, then images by mirror, as the lists are sorted.
 void Sweep::find_groups() {
-  const auto ghosts = around_.ghosts();
-  const std::size_t count = around_.particles();
+  const auto ghosts = neighbourhood_.ghosts();
+  const std::size_t count = neighbourhood_.particles();
   groups_.clear();
   first_group_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto neighbours = around_.of(i);
-    groups_.push_back({static_cast<std::uint32_t>(around_.first_ghost_of(i)), -1});
-    for (std::size_t n = around_.first_ghost_of(i); n < neighbours.size(); ++n) {
+    const auto neighbours = neighbourhood_.of(i);
+    groups_.push_back({static_cast<std::uint32_t>(neighbourhood_.first_ghost_of(i)), -1});
+    for (std::size_t n = neighbourhood_.first_ghost_of(i); n < neighbours.size(); ++n) {
       const auto image = static_cast<std::int32_t>(ghosts[neighbours[n] - count].image);
       if (groups_.back().image != image) groups_.push_back({0, image});
       groups_.back().end = static_cast<std::uint32_t>(n + 1);
@@ -92,7 +92,7 @@ void Sweep::find_groups() {
 
 void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
   const std::size_t count = particles.position.size();
-  const auto ghosts = around_.ghosts();
+  const auto ghosts = neighbourhood_.ghosts();
   records_.resize(count + ghosts.size() + 1);
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
@@ -108,7 +108,7 @@ void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
                    0};
   });
   for_each(team, ghosts.size(), [&](std::size_t g) {
-    const Image& image = around_.image(ghosts[g]);
+    const Image& image = neighbourhood_.image(ghosts[g]);
     ParticleRecord ghost = records_[ghosts[g].source];
     const Vector3 x = image.position({ghost.position[0], ghost.position[1], ghost.position[2]});
     const Vector3 u = image.vector({ghost.velocity[0], ghost.velocity[1], ghost.velocity[2]});
@@ -132,9 +132,9 @@ void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
 /// The neighbours of a particle that it sees. Near a wall they are picked into `record` and `end`.
 Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
   static constexpr Image identity;
-  const auto neighbours = around_.of(i);
+  const auto neighbours = neighbourhood_.of(i);
   const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
-  const bool near_wall = around_.is_near_wall(i);
+  const bool near_wall = neighbourhood_.is_near_wall(i);
   const auto place = [this](std::size_t r) {
     const double* x = records_[r].position;
     return Vector3{x[0], x[1], x[2]};
@@ -145,9 +145,9 @@ Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, s
   for (std::uint32_t g = first; g < last; ++g) {
     if (near_wall) {
       const Image& image =
-          groups_[g].image < 0 ? identity : around_.images()[static_cast<std::size_t>(groups_[g].image)];
+          groups_[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(groups_[g].image)];
       for (; n < groups_[g].end; ++n)
-        if (around_.domain().sees(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
+        if (neighbourhood_.domain().sees(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
       end.push_back(static_cast<std::uint32_t>(record.size()));
     } else {
       end.push_back(groups_[g].end);
@@ -157,12 +157,12 @@ Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, s
           static_cast<std::uint32_t>(records_.size() - 1)};
 }
 
-void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates) {
+void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
   rates.resize(count);
   pack(team, particles);
   if (prepare_sum_) prepare_stabilisers(team, particles);
-  const SumNeighbours sum = sum_[static_cast<std::size_t>(wanted)];
+  const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   for_each(team, count, [&](std::size_t i) {
     thread_local std::vector<std::uint32_t> record, end;
     thread_local std::vector<std::array<double, 3>> acceleration;
@@ -171,16 +171,16 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted w
     PairSums sums;
     sum(records_.data(), static_cast<std::uint32_t>(i), neighbours, constants_, sums,
         reinterpret_cast<double(*)[3]>(acceleration.data()));
-    if (wanted != Wanted::forces) {
+    if (terms != SweepTerms::forces) {
       const double *m = sums.moment, *v = sums.velocity;
       const Tensor3<> gradient = sph::velocity_gradient(
           {{m[0], m[1], m[2], m[3], m[4], m[5]}, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
       rates.velocity_gradient[i] = gradient;
       rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
     }
-    if (wanted == Wanted::gradients) return;
+    if (terms == SweepTerms::gradients) return;
     Vector3 all;
-    std::array<double, most_walls> push{};
+    std::array<double, most_walls> by_wall{};
     for (std::size_t g = 0; g < acceleration.size(); ++g) {
       all += Vector3{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
       const std::int32_t image = groups_[first_group_[i] + g].image;
@@ -188,12 +188,12 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, Wanted w
       const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
       for (const Domain::Load& load : loads_[static_cast<std::size_t>(image)]) {
         if (load.wall < 0) break;
-        push[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
+        by_wall[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
       }
     }
     rates.acceleration[i] = all;
     rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
-    rates.wall_push[i] = push;
+    rates.wall_acceleration[i] = by_wall;
   });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sweep over pairs: what each particle feels from its neighbours and from their images behind the boundaries.
-/// Particles are packed into records, one a particle; images exist only as records, made from those of their sources.
-/// The loops themselves stand in pair_sweep/, compiled once for each instruction set.
+/// The sums over pairs: the rates of each particle from its neighbours and their images behind the boundaries.
+/// Particles are packed into records, one per particle; images exist only as records, made from those of their sources.
+/// The loops themselves are in pair_sweep/, compiled once for each instruction set.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ struct Rates {
   std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
   std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
   std::vector<double> kernel_density;        ///< sum of m W over particles and images, kg/m^3
-  /// Part of the acceleration that comes from images, by the wall that makes them, along the wall's normal, m/s^2. What
-  /// images do along a wall cancels in the sum over all particles.
-  std::vector<std::array<double, most_walls>> wall_push;
+  /// Acceleration by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel in the sum over
+  /// all particles.
+  std::vector<std::array<double, most_walls>> wall_acceleration;
 
   void resize(std::size_t count);
 };
 
-/// What an evaluation reads.
+/// Input of an evaluation.
 struct ParticleView {
   std::span<const Vector3> position;
   std::span<const Vector3> velocity;
@@ -50,10 +50,10 @@ class Sweep {
 
   /// Builds the neighbour lists.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
-  const Neighbourhood& neighbourhood() const { return around_; }
+  const Neighbourhood& neighbourhood() const { return neighbourhood_; }
 
-  /// Packs the records, then computes the rates that are wanted. The density's follow both from gradients.
-  void operator()(ThreadTeam& team, const ParticleView& particles, Wanted wanted, Rates& rates);
+  /// Packs the records, then computes the requested rates.
+  void operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates);
 
  private:
   struct Group {
@@ -62,7 +62,7 @@ class Sweep {
   };
 
   void pack(ThreadTeam& team, const ParticleView& particles);
-  /// Measures the gradients that the stabilisers take of the packed records, and packs theirs (stabilise.cpp).
+  /// Computes the gradients that the stabilisers need from the packed records, and packs them (stabilise.cpp).
   void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
@@ -74,13 +74,13 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;     // by what is wanted
+  std::array<SumNeighbours, 3> sum_;     // by SweepTerms
   SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
   bool local_sound_speed_;
   std::vector<StabiliserRecord> stabilisers_;  // of every record
-  Neighbourhood around_;
+  Neighbourhood neighbourhood_;
   std::vector<std::array<Domain::Load, 3>> loads_;  // by image
-  std::vector<ParticleRecord> records_;             // particles, images, nobody
+  std::vector<ParticleRecord> records_;             // particles, images, padding
   std::vector<Group> groups_;                       // of every particle's neighbours, one particle after the other
   std::vector<std::uint32_t> first_group_;          // of a particle; one more than particles
 };

@@ -17,14 +17,15 @@ Impulses sum(Impulses a, const Impulses& b) {
   return a;
 }
 
-/// The velocity of a particle after a boundary has rubbed it.
-Vector3 rubbed(const Parameters& p, const Domain& domain, int wall, const State& state, std::size_t i,
-               const Vector3& position, double push, double duration) {
+/// The velocity of a particle after friction at a wall.
+Vector3 velocity_after_friction(const Parameters& p, const Domain& domain, int wall, const State& state, std::size_t i,
+                                const Vector3& position, double normal_acceleration, double duration) {
   const Vector3 n = domain.normal(wall), velocity = state.velocity[i];
   const Vector3 through = dot(velocity, n) * n;
   const Vector3 along = velocity - through;
   if (p.walls.friction == Friction::coulomb)
-    return through + sph::coulomb_friction(along, domain.side(wall, position) * push * duration, p.walls.coefficient);
+    return through + sph::coulomb_friction(along, domain.side(wall, position) * normal_acceleration * duration,
+                                           p.walls.coefficient);
   if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass, state.density[i]) ||
       !domain.is_beside(wall, position))
     return velocity;
@@ -38,23 +39,24 @@ Vector3 rubbed(const Parameters& p, const Domain& domain, int wall, const State&
 
 }  // namespace
 
-bool is_rough(const Parameters& p, const State& state) {
+bool has_wall_friction(const Parameters& p, const State& state) {
   return p.walls.friction != Friction::none && (p.walls.friction_from == FrictionFrom::start || state.gate_time >= 0);
 }
 
-void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
-                std::span<const Vector3> position, double duration, State& state) {
-  const bool rough = is_rough(p, state);
+void apply_wall_friction(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
+                         std::span<const Vector3> position, double duration, State& state) {
+  const bool rough = has_wall_friction(p, state);
   const auto meet = [&](std::size_t i, Impulses& received) {
-    const std::array<double, most_walls>& push = rates.wall_push[i];
+    const std::array<double, most_walls>& normal_acceleration = rates.wall_acceleration[i];
     for (int wall = 0; wall < domain.wall_count(); ++wall)
-      if (const auto w = static_cast<std::size_t>(wall); push[w] != 0)
-        received[w] -= (state.mass * duration * push[w]) * domain.normal(wall);
+      if (const auto w = static_cast<std::size_t>(wall); normal_acceleration[w] != 0)
+        received[w] -= (state.mass * duration * normal_acceleration[w]) * domain.normal(wall);
     if (!rough) return;
     for (int wall = 0; wall < domain.wall_count(); ++wall) {
       const auto w = static_cast<std::size_t>(wall);
-      if ((p.walls.friction == Friction::coulomb && push[w] == 0) || !domain.is_solid(wall)) continue;
-      const Vector3 after = rubbed(p, domain, wall, state, i, position[i], push[w], duration);
+      if ((p.walls.friction == Friction::coulomb && normal_acceleration[w] == 0) || !domain.is_solid(wall)) continue;
+      const Vector3 after =
+          velocity_after_friction(p, domain, wall, state, i, position[i], normal_acceleration[w], duration);
       received[w] += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
     }
@@ -62,8 +64,8 @@ void meet_walls(ThreadTeam& team, const Parameters& p, const Domain& domain, con
   state.wall_impulse = sum(state.wall_impulse, accumulate(team, position.size(), Impulses{}, meet, sum));
 }
 
-void turn_back(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
-               State& state) {
+void reflect_at_walls(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
+                      State& state) {
   constexpr int most_bounces = 8;
   const auto turn = [&](std::size_t i, Impulses& received) {
     const auto become = [&](int wall, const Vector3& position, const Vector3& velocity) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What boundaries do to the particles in a step, and what the particles do to them.
+/// Wall friction and reflection of particles in a step, and the loads of the walls.
 #pragma once
 
 #include <span>
@@ -12,19 +12,18 @@
 
 namespace talus::continuum {
 
-/// Whether walls are rough at present.
-bool is_rough(const Parameters& parameters, const State& state);
+/// Whether walls have friction at present.
+bool has_wall_friction(const Parameters& parameters, const State& state);
 
-/// After velocities have changed by rates over `duration`: counts the load of the walls in state.wall_impulse, and rubs
-/// the particles that the walls push.
+/// After velocities have changed by rates over `duration`: adds the loads of the walls to state.wall_impulse, and
+/// applies friction to the particles that press against them.
 /// \param position where the rates were evaluated, m
-void meet_walls(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const Rates& rates,
-                std::span<const Vector3> position, double duration, State& state);
+void apply_wall_friction(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const Rates& rates,
+                         std::span<const Vector3> position, double duration, State& state);
 
-/// Turns back the particles that have passed a boundary: each goes on as the image that has come in for it, place,
-/// velocity and what the law knows mirrored. The walls receive twice the normal momentum. \param before positions at
-/// the start of the step, m
-void turn_back(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
-               State& state);
+/// Reflects the particles that have crossed a boundary: position, velocity and history of the law are mirrored. The
+/// walls receive twice the normal momentum. \param before positions at the start of the step, m
+void reflect_at_walls(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
+                      State& state);
 
 }  // namespace talus::continuum

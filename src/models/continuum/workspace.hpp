@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a step needs beside the state, and how it is brought up to it.
+/// The workspace of a step, and its update from the state.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,18 @@
 
 namespace talus::continuum {
 
-/// Made anew from the state when a run is resumed. It owns the model's only Domain: the sweep, the air and observers
-/// refer to it, so that a gate that opens there is open for all.
+/// Recomputed from the state when a run is resumed. It owns the only Domain of the model: the sweep, the air and
+/// observers refer to it, so that a gate is opened for all of them at once.
 struct Workspace {
   Domain domain;
   Material material;
   double sound_speed;   ///< bound for the time step, m/s
-  double loading_time;  ///< over which gravity comes on, s
+  double loading_time;  ///< over which gravity is raised, s
   Sweep sweep;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
 
-  /// The state in the middle of a step.
+  /// The state at the midpoint of a step.
   std::vector<Vector3> position, velocity;
   std::vector<double> density;
   MaterialColumns columns;
@@ -40,17 +40,17 @@ struct Workspace {
   Workspace& operator=(const Workspace&) = delete;
 };
 
-/// Smoothing lengths of the state's densities.
+/// Smoothing lengths from the densities of the state.
 void measure(ThreadTeam& team, const State& state, Workspace& workspace);
 
-/// Builds the neighbour lists, of particles sorted now and then.
+/// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
-/// From the gradients last evaluated: with the leapfrog those in the middle of the step, which the state at its end
-/// cannot give again. A resumed run has it from its checkpoint.
+/// From the last velocity gradients: with the leapfrog those at the midpoint of the step, which cannot be recomputed
+/// from the state at its end. A resumed run reads it from its checkpoint.
 void measure_shear_rate(ThreadTeam& team, State& state, const Workspace& workspace);
 
 }  // namespace talus::continuum

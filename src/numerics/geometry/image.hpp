@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How an image behind a boundary follows its source.
+/// The map from a particle to its image behind a boundary.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace talus {
 
-/// What turns the x-z plane beyond changes of sign: the entries beside the diagonal.
+/// The off-diagonal entries of a reflection in the x-z plane.
 struct Turn {
   double xz = 0, zx = 0;
   constexpr bool operator==(const Turn&) const = default;
 };
 
-/// x' = sign x + turn x + offset, v' = vector_sign v + vector_turn v. Only walls at an angle turn.
+/// x' = sign x + turn x + offset, v' = vector_sign v + vector_turn v. Only walls at an angle have off-diagonal entries.
 struct Image {
   Vector3 sign{1, 1, 1};
   Vector3 offset;
@@ -24,7 +24,7 @@ struct Image {
   Turn turn, vector_turn;
   std::array<std::int8_t, 3> side{};  ///< the mirror face, per axis: -1 low, 1 high, 0 none (or periodic)
   std::array<std::int8_t, 3> copy{};  ///< number of the copy per axis, periodic ones too; 0: within the box
-  /// Of an image in walls, by number in Domain::mirrors(): what the line to it meets, one after the other; -1: no more.
+  /// Of an image in walls, by number in Domain::mirrors(): the mirrors that the line to it crosses, in order; -1: none.
   std::array<std::int8_t, 3> mirrors{-1, -1, -1};
 
   constexpr bool is_in_walls() const { return mirrors[0] >= 0; }
@@ -46,7 +46,7 @@ struct Image {
     t.zx *= vector_sign.z * vector_sign.x;
     return t;
   }
-  /// The place whose image is at x.
+  /// The position whose image is at x.
   constexpr Vector3 source(const Vector3& x) const {
     const Vector3 d = x - offset;
     return {sign.x * d.x + turn.zx * d.z, sign.y * d.y, sign.z * d.z + turn.xz * d.x};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A straight wall without thickness between two places of the x-z plane, through the whole depth: the plate under a
-/// bed, a wall of a wedge hopper, a chute, a partition. It has openings along its length; a gate is one that is shut at
-/// first.
+/// bed, a wall of a wedge hopper, a chute, a partition. It has openings along its length; a gate is one that is closed
+/// at first.
 ///
-/// The rule for where a line meets a wall is one for all directions; along the axes it is computed from the coordinates
-/// themselves, which is exact and quick.
+/// The rule for the intersection of a line with a wall is the same for all directions; for walls along the axes it is
+/// computed from the coordinates themselves, which is exact and fast.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace talus {
 
-/// How far along the line between two places of the x-z plane a third is, as a share of its length.
+/// Position of a point along a segment in the x-z plane, as a fraction of its length.
 constexpr double share_of_segment(const Vector3& x, const Vector3& from, const Vector3& to) {
   const double dx = to.x - from.x, dz = to.z - from.z;
   return (dx * (x.x - from.x) + dz * (x.z - from.z)) / (dx * dx + dz * dz);
@@ -48,14 +48,14 @@ class Wall {
   /// The axis of its normal, -1 for a wall at an angle.
   int axis() const { return axis_; }
 
-  /// Distance from the wall's plane, to the side of its normal, m.
+  /// Signed distance from the plane of the wall, positive on the side of its normal, m.
   double above(const Vector3& x) const { return dot(normal_, x - from_); }
   /// Whether a place lies on the side of the normal. The plane itself belongs to that side.
   bool is_above(const Vector3& x) const {
     if (axis_ >= 0) return normal_[axis_] > 0 ? x[axis_] >= from_[axis_] : x[axis_] <= from_[axis_];
     return cross(x) >= 0;
   }
-  /// Distance from the wall itself, openings filled, m.
+  /// Distance from the wall including its openings, m.
   double distance(const Vector3& x) const;
 
   /// Whether it is solid there: at a place beside it, the nearest place of its plane counts. Ends and rims belong to
@@ -67,14 +67,14 @@ class Wall {
                         [&](const Opening& o) { return !o.shut && s > o.begin && s < o.end; });
   }
 
-  /// Where the line from a to b, which lie on different sides, meets the wall's plane.
+  /// Intersection of the line from a to b, which lie on different sides, with the plane of the wall.
   double share_to_plane(const Vector3& a, const Vector3& b) const {
     if (axis_ >= 0) return (from_[axis_] - a[axis_]) / (b[axis_] - a[axis_]);
     const double at_a = cross(a);
     return at_a / (at_a - cross(b));
   }
 
-  /// The share of the way from a to b at which it meets the solid wall; nothing if it does not.
+  /// The fraction of the line from a to b at which it crosses the solid wall; nothing if it does not.
   std::optional<double> meets(const Vector3& a, const Vector3& b) const {
     if (is_above(a) == is_above(b)) return std::nullopt;
     const double t = share_to_plane(a, b);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The order in which the pressure solver keeps the cells of a grid: of each row along x first the red cells, then,
-/// elsewhere, the black ones, so that a sweep over one colour reads and writes runs of numbers without gaps.
-/// A cell is red if i + j + k is even. In row r = (j, k) the cells of a colour are i = 2 m + first, m = 0, 1, ...;
-/// its neighbours along x are m + first - 1 and m + first of the other colour in the same row, those along y and z are
-/// m of the other colour in the neighbouring rows.
+/// The order in which the pressure solver keeps the cells of a grid: red cells and black cells in separate arrays, row
+/// by row along x, so that a sweep over one colour accesses contiguous memory. A cell is red if i + j + k is even. In
+/// row r = (j, k) the cells of a colour are i = 2 m + first, m = 0, 1, ...; its neighbours along x are m + first - 1
+/// and m + first of the other colour in the same row, those along y and z are m of the other colour in the neighbouring
+/// rows.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class Checkerboard {
   const std::array<int, 3>& count() const { return count_; }
   bool is_periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
   std::size_t rows() const { return rows_; }
-  /// Length of an array; its tail is a row of zeros that stands for whatever lies outside the grid.
+  /// Length of an array; its tail is a row of zeros that represents all cells outside the grid.
   std::size_t size() const { return 2 * (rows_ + 1) * stride_; }
 
   /// First cell of the colour in row r; one pad cell before and at least one after the run.
@@ -53,9 +53,9 @@ class Checkerboard {
   }
   std::size_t blocks() const { return (rows_ + block_ - 1) / block_; }
 
-  /// Repeats the ends of a run behind its other end where x is periodic.
+  /// Fills the ghosts at both ends of a run if x is periodic.
   template <class Number>
-  void close_run(Number* run, int length) const {
+  void fill_ghosts(Number* run, int length) const {
     if (!periodic_[0]) return;
     run[-1] = run[length - 1];
     run[length] = run[0];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Preconditioned conjugate gradients (Hestenes & Stiefel 1952; Saad 2003, Iterative Methods for Sparse Linear Systems,
-/// algorithm 9.1) for a symmetric matrix A. Where the columns stand, how their sums are joined and what M is like is
-/// the system's and the preconditioner's business: any order is fine that does not depend on the number of threads.
+/// algorithm 9.1) for a symmetric matrix A. The storage of the columns, the order of their sums and M are up to the
+/// system and the preconditioner; the order must not depend on the number of threads.
 #pragma once
 
 #include <cmath>
@@ -20,9 +20,9 @@ concept LinearSystem = requires(S system, double step) {
 
 /// M, near the inverse of A, symmetric.
 template <class P>
-concept Preconditioner = requires(P preconditioner, double norm, double turn) {
+concept Preconditioner = requires(P preconditioner, double norm, double beta) {
   { preconditioner.apply(norm) } -> std::same_as<double>;  // z := M r, where |r| = norm; returns r . z
-  preconditioner.turn(turn);                               // d := z + turn d
+  preconditioner.update_direction(beta);                   // d := z + beta d
 };
 
 enum class Convergence { reached, too_slow, not_finite };
@@ -43,7 +43,7 @@ ConjugateGradients solve_by_conjugate_gradients(S& system, P& preconditioner, do
     if (!(norm <= std::numeric_limits<double>::max())) return {Convergence::not_finite, iteration, norm};
     if (iteration == most_iterations) return {Convergence::too_slow, iteration, norm};
     const double product = preconditioner.apply(norm);
-    preconditioner.turn(before > 0 ? product / before : 0);
+    preconditioner.update_direction(before > 0 ? product / before : 0);
     before = product;
     system.advance(product / system.apply_to_direction());
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A box of equal rectangular cells. Every field on it, of cells or of faces, is a flat array in the same order, x
-/// fastest, with a margin of ghost cells around, so that one index and three strides serve all stencils.
+/// fastest, with a margin of ghost cells, so that one index and three strides serve all stencils.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Parallel loops over the rows of a grid along x, over its cells, and over the faces where a fluid passes or might.
-/// What writes only to the index that it is called with gives the same bits for any number of threads.
+/// Parallel loops over the rows of a grid along x, over its cells, and over its faces. A body that writes only to its
+/// own index gives the same bits for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "base/parallel.hpp"
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 
 namespace talus {
 
@@ -62,26 +62,27 @@ struct FaceRun {
 
 /// Calls body(run) for all faces of an axis.
 template <class Body>
-void for_each_run(ThreadTeam& team, const Passages& passages, int axis, Body&& body) {
-  const int n = passages.grid.count[static_cast<std::size_t>(axis)];
-  const std::ptrdiff_t stride = passages.grid.stride(axis);
-  const bool ring = passages.boundaries.is_periodic(axis);
+void for_each_run(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
+  const int n = apertures.grid.count[static_cast<std::size_t>(axis)];
+  const std::ptrdiff_t stride = apertures.grid.stride(axis);
+  const bool ring = apertures.boundaries.is_periodic(axis);
   const auto run = [&](std::ptrdiff_t begin, std::ptrdiff_t end, int place) {
     const std::ptrdiff_t before = place > 0 ? -stride : ring ? stride * (n - 1) : 0;
-    body(FaceRun{begin, end, place, before, place < n ? 0 : before, passages.is_end(axis, place)});
+    body(FaceRun{begin, end, place, before, place < n ? 0 : before, apertures.is_end(axis, place)});
   };
-  for_each_row(team, passages.grid, passages.faces(axis), [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-    if (axis > 0) return run(begin, end, axis == 1 ? j : k);
-    run(begin, begin + 1, 0);
-    run(begin + 1, begin + n, 1);
-    run(begin + n, end, n);
-  });
+  for_each_row(team, apertures.grid, apertures.faces(axis),
+               [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                 if (axis > 0) return run(begin, end, axis == 1 ? j : k);
+                 run(begin, begin + 1, 0);
+                 run(begin + 1, begin + n, 1);
+                 run(begin + n, end, n);
+               });
 }
 
 /// Calls body(index) for all faces of an axis.
 template <class Body>
-void for_each_face(ThreadTeam& team, const Passages& passages, int axis, Body&& body) {
-  for_each_row(team, passages.grid, passages.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+void for_each_face(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
+  for_each_row(team, apertures.grid, apertures.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
     for (auto f = begin; f < end; ++f) body(f);
   });
 }

@@ -74,7 +74,7 @@ void Multigrid::Level::complete(ThreadTeam& team) {
   board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = begin; r < end; ++r)
-        for (auto& low : matrix.low) board.close_run(low.data() + board.run(colour, r), board.length(colour, r));
+        for (auto& low : matrix.low) board.fill_ghosts(low.data() + board.run(colour, r), board.length(colour, r));
   });
   board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
@@ -103,7 +103,7 @@ void Multigrid::Level::smooth(ThreadTeam& team, int colour, bool from_zero) {
         for (int m = 0; m < length; ++m) x[m] = d[m] * b[m];
       else
         relax(length, runs, b, d, x);
-      board.close_run(x, length);
+      board.fill_ghosts(x, length);
     }
   });
 }
@@ -223,7 +223,7 @@ void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fin
         float* __restrict x = fine.value.data() + fine.board.run(colour, r);
         const float* e = correction.data();
         for_each_joined(fine.board, fine.factor[0], colour, r, [&](int m, int I) { x[m] += e[I]; });
-        fine.board.close_run(x, fine.board.length(colour, r));
+        fine.board.fill_ghosts(x, fine.board.length(colour, r));
       }
     }
   });

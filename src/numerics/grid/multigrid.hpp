@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One multigrid V-cycle for sums of flows between neighbouring cells, as a preconditioner: symmetric, in single
-/// precision, the same bits for any number of threads.
+/// One multigrid V-cycle for a seven-point Poisson matrix, as a preconditioner: symmetric, in single precision, the
+/// same bits for any number of threads.
 ///
-/// Cells are joined in twos along every axis; the conductances of joined faces add up and are divided by the longer
-/// way between the centres. Coarse corrections are handed to all cells joined, residuals are summed. One red-black
-/// sweep before the coarse grid, one black-red sweep after it. Compare Trottenberg, Oosterlee & Schueller 2001,
-/// Multigrid, 4.3 and 8.7.
+/// Cells are merged in pairs along every axis; the conductances of merged faces are added and divided by the larger
+/// distance of the centres. Prolongation is constant, restriction sums the residuals. One red-black Gauss-Seidel sweep
+/// before the coarse grid, one black-red sweep after it. Compare Trottenberg, Oosterlee & Schueller 2001, Multigrid,
+/// 4.3 and 8.7.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace talus {
 
 class Multigrid {
  public:
-  /// Conductances, in the order of the checkerboard, ends of runs closed.
+  /// Conductances, in the order of the checkerboard, ghosts filled.
   template <class Number>
   struct Matrix {
     std::array<std::vector<Number>, 3> low;  ///< through the low face of every cell, by axis, to its neighbour
@@ -35,7 +35,7 @@ class Multigrid {
 
   explicit Multigrid(const Checkerboard& finest);
 
-  /// Takes the matrix of the finest grid, times `scale`, and makes those of the coarser ones.
+  /// Sets the matrix of the finest grid, times `scale`, and computes those of the coarser ones.
   void set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale);
 
   /// One cycle from zero: correction := correction_scale * cycle(residual_scale * residual). The scales keep single
@@ -46,14 +46,14 @@ class Multigrid {
  private:
   struct Level {
     Checkerboard board;
-    std::array<int, 3> factor;                 // how many cells the next coarser level joins along each axis: 1 or 2
+    std::array<int, 3> factor;                 // cells that the next coarser level merges along each axis: 1 or 2
     std::array<std::vector<float>, 3> extent;  // of the cells along each axis, in cells of the finest level
     Matrix<float> matrix;
     std::vector<float> inverse;  // of the diagonal
     std::vector<float> value, source;
 
     Level(const Checkerboard& board, std::array<std::vector<float>, 3> extent);
-    /// Ends of runs, diagonal and its inverse from the conductances.
+    /// Ghosts, diagonal and its inverse from the conductances.
     void complete(ThreadTeam& team);
     void smooth(ThreadTeam& team, int colour, bool from_zero = false);
   };

@@ -49,7 +49,7 @@ PoissonSolver::PoissonSolver(const Grid& grid, std::array<bool, 3> periodic)
   for (int k = 0; k < grid.count[2]; ++k)
     for (int j = 0; j < grid.count[1]; ++j)
       for (int i = 0; i < grid.count[0]; ++i) index_[board_.at(i, j, k)] = grid.index(i, j, k);
-  for (auto* column : {&value_, &residual_, &direction_, &image_, &correction_}) column->assign(board_.size(), 0);
+  for (auto* column : {&value_, &residual_, &direction_, &applied_, &correction_}) column->assign(board_.size(), 0);
 }
 
 /// Calls body(block, begin, end) for ranges in the board's order, pads among them.
@@ -102,7 +102,7 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
           }
           matrix_.outside[c] = outside;
         }
-        for (auto& low : matrix_.low) board_.close_run(low.data() + own, length);
+        for (auto& low : matrix_.low) board_.fill_ghosts(low.data() + own, length);
       }
     }
   });
@@ -194,18 +194,18 @@ void PoissonSolver::remove_means(std::vector<double>& column) const {
   }
 }
 
-/// image := matrix x; \returns x . image
-double PoissonSolver::apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& image) {
+/// applied := matrix x; \returns x . applied
+double PoissonSolver::apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& applied) {
   board_.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = begin; r < end; ++r) {
         const std::size_t own = board_.run(colour, r);
         const int length = board_.length(colour, r);
         const Runs<double> runs(board_, pointers(matrix_.low), x.data(), colour, r);
-        find_outflow(length, runs, matrix_.diagonal.data() + own, x.data() + own, image.data() + own);
+        find_outflow(length, runs, matrix_.diagonal.data() + own, x.data() + own, applied.data() + own);
       }
   });
-  return sum(team, [&](std::size_t c) { return x[c] * image[c]; });
+  return sum(team, [&](std::size_t c) { return x[c] * applied[c]; });
 }
 
 double PoissonSolver::residual_square(ThreadTeam& team) {
@@ -218,13 +218,13 @@ struct PoissonSolver::System {
   ThreadTeam& team;
 
   double residual_square() { return solver.residual_square(team); }
-  double apply_to_direction() { return solver.apply(team, solver.direction_, solver.image_); }
+  double apply_to_direction() { return solver.apply(team, solver.direction_, solver.applied_); }
   void advance(double step) {
     PoissonSolver& s = solver;
     s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t c = begin; c < end; ++c) {
         s.value_[c] += step * s.direction_[c];
-        s.residual_[c] -= step * s.image_[c];
+        s.residual_[c] -= step * s.applied_[c];
       }
     });
   }
@@ -240,10 +240,10 @@ struct PoissonSolver::MultigridCycle {
     s.multigrid_.precondition(team, s.residual_, 1 / norm, norm * s.scale_, s.correction_);
     return s.sum(team, [&](std::size_t c) { return s.residual_[c] * s.correction_[c]; });
   }
-  void turn(double turn) {
+  void update_direction(double beta) {
     PoissonSolver& s = solver;
     s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) s.direction_[c] = s.correction_[c] + turn * s.direction_[c];
+      for (std::size_t c = begin; c < end; ++c) s.direction_[c] = s.correction_[c] + beta * s.direction_[c];
     });
   }
 };
@@ -266,10 +266,10 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
   if (board_.is_periodic(0))
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = 0; r < board_.rows(); ++r)
-        board_.close_run(value_.data() + board_.run(colour, r), board_.length(colour, r));
-  apply(team, value_, image_);
+        board_.fill_ghosts(value_.data() + board_.run(colour, r), board_.length(colour, r));
+  apply(team, value_, applied_);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) residual_[c] -= image_[c];
+    for (std::size_t c = begin; c < end; ++c) residual_[c] -= applied_[c];
   });
 
   System system{*this, team};

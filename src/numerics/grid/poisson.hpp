@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Poisson's equation with a coefficient on every face: the value of each cell such that what flows out through its
-/// faces is its source,
+/// Poisson's equation with a conductance on every face: the value of each cell such that the outflow through its faces
+/// equals its source,
 ///   sum over faces of conductance * (value - value of the neighbour) + storage * value = source,
-/// where the storage of cells is none unless given and the value outside an open boundary is zero (add conductance *
-/// outside value to the source for another one). Conjugate gradients in double precision, preconditioned by a multigrid
-/// cycle; the bits do not depend on the number of threads. Faces of no conductance may cut the grid into regions; a
-/// region without an open boundary has a value up to a constant only, chosen so that its mean is zero, and its sources
-/// must balance.
+/// where the storage is zero unless given and the value outside an open boundary is zero (add conductance * outside
+/// value to the source for another one). Conjugate gradients in double precision, preconditioned by a multigrid cycle;
+/// the bits do not depend on the number of threads. Faces of zero conductance may divide the grid into regions; the
+/// value in a region without an open boundary is determined up to a constant, chosen so that its mean is zero, and its
+/// sources must balance.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class PoissonSolver {
  public:
   struct Stop {
     double tolerance = 1e-6;  ///< of the residual over the source, both as root of the sum of squares
-    double absolute = 0;      ///< root of the sum of squares of the residual that is small enough in any case
+    double absolute = 0;      ///< absolute limit of the residual, root of the sum of squares
     int most_iterations = 200;
   };
   struct Outcome {
@@ -34,13 +34,13 @@ class PoissonSolver {
   /// \throws std::invalid_argument for a periodic axis with an odd number of cells above 1
   PoissonSolver(const Grid& grid, std::array<bool, 3> periodic);
 
-  /// Takes the conductances, at least 0, unit [source] / [value]; those of the high faces of a periodic axis are not
-  /// read. Finds the regions anew where the pattern of zeros has changed.
+  /// Sets the conductances, at least 0, unit [source] / [value]; those of the high faces of a periodic axis are not
+  /// read. Finds the regions again if the pattern of zeros has changed.
   /// \param storage at least 0 in every cell, in the grid's order; none: 0
   void set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage = nullptr);
 
   /// \param source of every cell, in the grid's order
-  /// \param value in: a first guess, out: the solution; ghosts are left alone
+  /// \param value in: a first guess, out: the solution; ghosts are unchanged
   /// \throws NumericalError if it does not converge, or if the sources of a closed region do not balance; the report
   ///         names the worst cell
   Outcome solve(ThreadTeam& team, const CellField& source, CellField& value, const Stop& stop);
@@ -52,7 +52,7 @@ class PoissonSolver {
   void for_each_range(ThreadTeam& team, Body&& body) const;
   template <class Term>
   double sum(ThreadTeam& team, Term&& term);
-  double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& image);
+  double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& applied);
   double residual_square(ThreadTeam& team);
   void find_closed_regions();
   double unbalanced() const;
@@ -67,11 +67,11 @@ class PoissonSolver {
   std::vector<std::size_t> index_;  // in the grid's order, of every cell in the board's order; or `pad`
   Multigrid::Matrix<double> matrix_;
   Multigrid multigrid_;
-  double scale_ = 1;                              // brings the conductances near 1
+  double scale_ = 1;                              // scales the conductances to about 1
   std::vector<unsigned char> pattern_;            // which faces of a cell are open
   std::vector<std::vector<std::size_t>> closed_;  // cells of each closed region, in the board's order
-  // In the board's order. Pads of the residual and of the image are zero, so that they add nothing to sums.
-  std::vector<double> value_, residual_, direction_, image_, correction_;
+  // In the board's order. Pads of residual_ and applied_ are zero, so that they do not contribute to sums.
+  std::vector<double> value_, residual_, direction_, applied_, correction_;
   std::vector<double> partial_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a run of cells of one colour exchanges with its six neighbours, for the sweeps of the pressure solver.
+/// The seven-point stencil on a run of cells of one colour, for the sweeps of the pressure solver.
 #pragma once
 
 #include <array>

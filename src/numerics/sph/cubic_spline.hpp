@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus::sph {
 

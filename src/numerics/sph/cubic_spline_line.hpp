@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The cubic spline kernel integrated along a straight line: what a particle looks like in a section that is averaged
-/// along its normal.
+/// The cubic spline kernel integrated along a straight line: the kernel of a particle in a section averaged along its
+/// normal.
 #pragma once
 
 #include <cmath>

@@ -4,7 +4,7 @@
 /// 58; Bonet & Lok 1999.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "base/tensor.hpp"
 #include "base/vector.hpp"
 
@@ -36,8 +36,8 @@ struct GradientSums {
 };
 
 /// Least determinant of the moment that is inverted. On a lattice it is 1.06 within a body, 0.38 on its surface, 0.13
-/// at an edge, 0.044 at a corner; below stand single particles and threads of them, whose neighbours hardly span the
-/// space.
+/// at an edge, 0.044 at a corner; lower values occur for single particles and filaments, whose neighbours hardly span
+/// the space.
 inline constexpr double least_moment = 0.01;
 
 /// L = velocity . moment^-1, L_ij = du_i/dx_j, 1/s; without the correction where the neighbours do not span the space.

@@ -29,7 +29,7 @@ TALUS_CLONES void weigh_row(std::size_t count, const double* square, double besi
 
 }  // namespace
 
-/// The cells within reach of a particle, and what they weigh.
+/// The cells within reach of a particle, and their weights.
 struct Deposition::Scratch {
   struct Along {
     int from = 0;                   // the first one along an axis
@@ -83,16 +83,18 @@ std::optional<std::size_t> Deposition::Scratch::Along::slot_at(const Grid& grid,
 }
 
 Deposition::Deposition(const Grid& grid, const Domain& domain) : grid_(grid), domain_(domain) {
-  const auto close = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
+  const auto nearly_equal = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
   for (int axis = 0; axis < 3; ++axis) {
     const double width = grid.spacing[axis];
     const double high = grid.low[axis] + width * grid.count[static_cast<std::size_t>(axis)];
-    if (!close(grid.low[axis], domain.box().low[axis], width) || !close(high, domain.box().high[axis], width))
+    if (!nearly_equal(grid.low[axis], domain.box().low[axis], width) ||
+        !nearly_equal(high, domain.box().high[axis], width))
       throw std::invalid_argument("Deposition: the grid must fill the box");
   }
 }
 
-void Deposition::weigh(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
+void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> position,
+                              std::span<const double> smoothing_length) {
   count_ = position.size();
   blocks_.resize((count_ + block_size - 1) / block_size);
   team.run(blocks_.size(), [&](std::size_t b) {
@@ -100,11 +102,11 @@ void Deposition::weigh(ThreadTeam& team, std::span<const Vector3> position, std:
     Scratch scratch;
     block.end.clear();
     for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, count_); ++i)
-      weigh(position[i], smoothing_length[i], scratch, block);
+      find_weights(position[i], smoothing_length[i], scratch, block);
   });
 }
 
-void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& block) const {
+void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Block& block) const {
   // At least the nearest cell's centre is within reach.
   const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
   const double per_width = sph::support / reach;
@@ -115,7 +117,7 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
   scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
   scratch.weight.resize(along_x.square.size());
   double *sum = scratch.sum.data(), *weight = scratch.weight.data();
-  const auto spread = [&](bool beside_wall) {
+  const auto add_weights = [&](bool beside_wall) {
     if (beside_wall) find_seen(x, scratch);
     for (std::size_t k = 0; k < along_z.slot.size(); ++k)
       for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
@@ -133,10 +135,10 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
       }
   };
   const bool beside_wall = domain_.is_near_wall(x, reach);
-  spread(beside_wall);
+  add_weights(beside_wall);
   // In a corner too narrow for a cell's centre a particle sees none: then it has all.
   if (beside_wall && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
-    spread(false);
+    add_weights(false);
 
   const std::size_t begin = block.end.empty() ? 0 : block.end.back(), most = begin + scratch.sum.size();
   if (block.cell.size() < most) block.cell.resize(2 * most), block.weight.resize(2 * most);
@@ -159,7 +161,7 @@ void Deposition::weigh(const Vector3& x, double h, Scratch& scratch, Block& bloc
 }
 
 /// For each cell within reach, that which has its share: where the line to its centre ends, turned at walls and faces.
-/// Behind a wall that lies on faces of the cells this is the cell's mirror image; where it is no cell's centre, nobody
+/// Behind a wall that lies on faces of the cells this is the cell's mirror image; where it is no cell's centre, nothing
 /// has it.
 void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
   const auto& [along_x, along_y, along_z] = scratch.along;
@@ -182,8 +184,8 @@ void Deposition::for_each_particle(const Block& block, std::size_t first, Body&&
   for (std::size_t n = 0; n < block.end.size(); begin = block.end[n++]) body(first + n, begin, block.end[n]);
 }
 
-void Deposition::gather(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
-                        FaceField& flux) const {
+void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
+                         FaceField& flux) const {
   // Cells are shared by particles of several blocks, so the four sums are the tasks; each adds the particles in order.
   const double share = solid_volume / grid_.volume();
   team.run(4, [&](std::size_t task) {
@@ -199,8 +201,8 @@ void Deposition::gather(ThreadTeam& team, double solid_volume, std::span<const V
   });
 }
 
-void Deposition::hand_out(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
-                          std::span<Vector3> received) const {
+void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
+                            std::span<Vector3> received) const {
   team.run(blocks_.size(), [&](std::size_t b) {
     const Block& block = blocks_[b];
     for_each_particle(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {

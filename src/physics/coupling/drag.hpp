@@ -37,11 +37,6 @@ constexpr double umekage_yuu(double void_fraction) {
   return 3.8 + (2.6 / void_fraction - 5.4) / void_fraction;
 }
 
-/// Number of grains in a unit volume, 1/m^3.
-constexpr double number_density(double solid_fraction, double diameter) {
-  return solid_fraction * 6 / (3.14159265358979323846 * diameter * diameter * diameter);
-}
-
 /// beta of Yuu & Umekage 2011, Eqs 20 and 21: 3 pi mu D_p (1 + 0.15 Re_p^0.687) n zeta(Phi) / C_c.
 /// \param solid_fraction 1 - Phi, 0 to 0.74; \param slip |u - u_p|, m/s; \returns kg/(m^3 s)
 inline double schiller_naumann_umekage_yuu(const DragMedium& medium, double solid_fraction, double slip) {
@@ -72,29 +67,29 @@ inline double drag_coefficient(DragLaw law, const DragMedium& medium, double sol
                                       : schiller_naumann_umekage_yuu(medium, solid_fraction, slip);
 }
 
-/// What the drag, with a coefficient that stays as it is, does to the air in a time dt that is not short against the
-/// time T = rho Phi/beta in which the slip decays. The exact solution of rho Phi du/dt = -beta (u - u_p) + rho Phi f is
+/// Effect of drag with a constant coefficient on the air over a time dt that need not be short compared with the
+/// relaxation time T = rho Phi/beta of the slip. The exact solution of rho Phi du/dt = -beta (u - u_p) + rho Phi f is
 /// u(dt) = u_p + decay (u(0) - u_p) + mean dt f.
 struct SlipDecay {
   double decay;  ///< exp(-dt/T)
-  double mean;   ///< of it over dt: (1 - exp(-dt/T)) T/dt
+  double mean;   ///< of the decay over dt: (1 - exp(-dt/T)) T/dt
 };
 /// \param steps dt/T >= 0
 inline SlipDecay slip_decay(double steps) {
-  // expm1 is slow, and more exact only where little is lost.
+  // expm1 is slow, and more accurate only for small steps.
   const double lost = steps < 0.5 ? -std::expm1(-steps) : 1 - std::exp(-steps);
   return {1 - lost, steps > 0 ? lost / steps : 1};
 }
 
-/// Velocity that the drag leaves of the air's after dt without other forces, u_p + decay (u - u_p), m/s.
+/// Velocity of the air after dt with drag alone, u_p + decay (u - u_p), m/s.
 /// \param momentum rho Phi u, kg/(m^2 s); \param per_mass 1/(rho Phi), m^3/kg; \param grain_velocity u_p, m/s
-constexpr double dragged_velocity(double decay, double momentum, double per_mass, double grain_velocity) {
+constexpr double velocity_after_drag(double decay, double momentum, double per_mass, double grain_velocity) {
   return decay * momentum * per_mass + (1 - decay) * grain_velocity;
 }
 
-/// Momentum that the drag takes from the air in dt, N s/m^3.
-/// \param mass rho Phi, kg/m^3; \param slip u - u_p at the start, m/s; \param gained dt f, what the other forces would
-/// give without the drag, m/s
+/// Momentum that drag removes from the air in dt, N s/m^3.
+/// \param mass rho Phi, kg/m^3; \param slip u - u_p at the start, m/s; \param gained dt f, the velocity that the other
+/// forces would add without drag, m/s
 constexpr double drag_impulse(double decay, double mean, double mass, double slip, double gained) {
   return mass * (slip * (1 - decay) + (1 - mean) * gained);
 }

@@ -39,13 +39,13 @@ void for_each_contact_parameter(Visit&& visit, C& contact) {
   visit(Parameter{"volume",
                   {},
                   {},
-                  "what the volumetric strain is measured by: the density over that of the reference packing, the "
-                  "density over that at which the grains last touched, or the strain since the last reset"},
+                  "measure of the volumetric strain: the density over that of the reference packing, the density over "
+                  "that at which the grains last touched, or the strain since the last reset"},
         contact.volume);
   auto remembered = only_if(where("volume", contact.volume, Volume::contact), visit);
   remembered(
       Parameter{"compaction", dimension::none, at_least(0),
-                "volume by contact: how fast shear packs grains again that came apart, per unit of shear strain"},
+                "volume by contact: rate at which shear compacts dilated grains again, per unit of shear strain"},
       contact.compaction);
   visit(Parameter{"gate_packing", dimension::none, between(0, 0.74),
                   "packing below which grains lose contact and stress vanishes by a power of the packing"},

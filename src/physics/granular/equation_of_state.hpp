@@ -3,7 +3,7 @@
 /// Source: Yuu & Umekage 2011, section 2.1.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus::granular {
 
@@ -27,7 +27,7 @@ Number contact_gate(const Number& packing, double gate, int power) {
   return result;
 }
 
-/// The volumetric part of the strain, tr(e)/3, as the density tells it: ln(rho_b/rho_ref)/3, positive in compression.
+/// The volumetric part of the strain, tr(e)/3, from the density: ln(rho_b/rho_ref)/3, positive in compression.
 /// deviates: the paper takes it from displacements since the last reset; this cannot drift from the packing.
 /// \param packing, reference_packing rho_b/rho_p, rho_ref/rho_p
 template <class Number>

@@ -6,8 +6,8 @@
 #include <array>
 #include <string_view>
 
-#include "base/lanes.hpp"
 #include "base/parameter.hpp"
+#include "base/simd.hpp"
 #include "physics/granular/fitted_functions.hpp"
 
 namespace talus::granular {

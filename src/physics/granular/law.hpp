@@ -59,8 +59,9 @@ struct LawParameters {
   Laws::Parameters own;
 
   LawParameters() = default;
-  /// Chooses the law that has these parameters.
+  /// Chooses the law with these parameters; implicit, so that they can be passed as a law.
   template <class P>
+  // NOLINTNEXTLINE(google-explicit-constructor)
   requires(Laws::has_parameters<P>) LawParameters(const P& parameters) : name(LawName{Laws::index_of<P>()}) {
     std::get<P>(own) = parameters;
   }

@@ -56,10 +56,10 @@ struct UnloadingRule {
 
 template <class Visit, class R>
 void for_each_main_strain_parameter(Visit&& visit, R& rule) {
-  visit(Parameter{"main_strain", {}, {}, "the strain whose fall is an unloading process; volume: tr(e)/3"},
+  visit(Parameter{"main_strain", {}, {}, "the strain whose decrease is an unloading process; volume: tr(e)/3"},
         rule.main_strain);
   visit(Parameter{"smoothing_time", dimension::time, at_least(0),
-                  "time over which the rate of the main strain is averaged before its sign counts"},
+                  "time over which the rate of the main strain is averaged before its sign is evaluated"},
         rule.smoothing_time);
 }
 

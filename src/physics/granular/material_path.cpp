@@ -40,7 +40,7 @@ Tensor3<> deformed(const Tensor3<>& deformation, const Tensor3<>& velocity_gradi
   return result;
 }
 
-/// The law over a step, with the strain from displacements where it asks for that.
+/// The law over a step, with the strain from displacements if it requires that.
 template <class Law>
 MaterialPoint<Law> updated(const Law& law, const MaterialPoint<Law>& old, Tensor3<>& deformation,
                            const Tensor3<>& velocity_gradient, double density, double step) {

@@ -20,7 +20,7 @@
 
 namespace talus::granular {
 
-/// A number that a law remembers of each point: a column of the state.
+/// A history variable of a law: a column of the state.
 struct HistorySlot {
   const char* name;  ///< snake_case, unique within the law
   const char* unit;  ///< SI; "1" for numbers
@@ -28,14 +28,14 @@ struct HistorySlot {
   int axis = 0, other_axis = 0;
 };
 
-/// Grains at one place, as a law sees them. A new point is all zeros: no stress, nothing remembered.
+/// A material point. A new one is all zeros: no stress, no history.
 template <class Law, class Number = double>
 struct MaterialPoint {
   SymmetricTensor3<Number> stress;                 ///< Pa, strain-rate independent part, compression positive
   typename Law::template History<Number> history;  ///< named by Law::for_each_slot(visit, history)
 };
 
-/// What a law was made for. Outside of it the law still gives numbers, and `talus check` and the regime card warn.
+/// The range of validity of a law. Outside of it `talus check` and the regime card warn.
 struct LawRange {
   double grain_diameter = 0;  ///< of the grains that it is a fit to, m; 0: of any
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< Pa
@@ -72,15 +72,6 @@ constexpr void for_each_tensor_slot(Visit&& visit, const char* const (&names)[6]
   visit(HistorySlot{names[3], unit, 0, 1}, tensor.xy);
   visit(HistorySlot{names[4], unit, 1, 2}, tensor.yz);
   visit(HistorySlot{names[5], unit, 2, 0}, tensor.zx);
-}
-
-/// Number of slots of a law.
-template <class Law>
-constexpr int history_slots() {
-  int count = 0;
-  typename Law::template History<double> history{};
-  Law::for_each_slot([&](HistorySlot, double&) { ++count; }, history);
-  return count;
 }
 
 }  // namespace talus::granular

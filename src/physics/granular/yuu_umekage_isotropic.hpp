@@ -59,21 +59,23 @@ class YuuUmekageIsotropic {
     visit_largest_deviator(visit, p.fits, within_fits());
     for_each_contact_parameter(visit, p.contact);
     visit(Parameter{"close_packing", dimension::none, between(0.1, 1),
-                    "packing beyond which grains cannot give way any more, random close packing: from there on the "
-                    "pressure rises along its initial stiffness again; 1: never"},
+                    "random close packing, beyond which the pressure rises with its initial stiffness again; 1: never"},
           p.close_packing);
-    visit(Parameter{"unloading",
-                    {},
-                    {},
-                    "stresses that fall along the initial stiffness times unloading_stiffness when the strain falls, "
-                    "and rise along the same line to the yield point; the others go back along the loading curve"},
-          p.unloading);
-    visit(Parameter{"reset",
-                    {},
-                    {},
-                    "what is forgotten at the end of an unloading process: nothing, the deviator of the strain, or all "
-                    "the strain"},
-          p.rule.reset);
+    visit(
+        Parameter{
+            "unloading",
+            {},
+            {},
+            "stresses that decrease with the initial stiffness times unloading_stiffness when the strain decreases, "
+            "and increase along the same line up to the yield point; the others return along the loading curve"},
+        p.unloading);
+    visit(
+        Parameter{
+            "reset",
+            {},
+            {},
+            "what is reset at the end of an unloading process: nothing, the deviator of the strain, or all the strain"},
+        p.rule.reset);
     Condition line = unless("unloading", p.unloading, Unloading::none);
     line.holds = line.holds || p.rule.reset != Reset::never;  // a reset drops the shear stress along the line too
     auto falling = only_if(line, visit);

@@ -58,21 +58,24 @@ class YuuUmekagePrinted {
         Parameter{
             "shear_sum", {}, {}, "how shear strains enter the normal stresses, |e_xy| + |e_xz| or with their signs"},
         p.shear_sum);
-    visit(Parameter{"unloading",
-                    {},
-                    {},
-                    "whether stress falls along the initial stiffness times unloading_stiffness when the main strain "
-                    "falls, and rises along the same line to the yield point, or goes back along the loading curve"},
-          p.unloading);
+    visit(
+        Parameter{
+            "unloading",
+            {},
+            {},
+            "whether stress decreases with the initial stiffness times unloading_stiffness when the main strain "
+            "decreases, and increases along the same line up to the yield point, or returns along the loading curve"},
+        p.unloading);
     auto falling = only_if(where("unloading", p.unloading, PrintedUnloading::all), visit);
     falling(Parameter{"unloading_stiffness", dimension::none, at_least(1), "k_u, over the initial stiffness"},
             p.rule.unloading_stiffness);
-    falling(Parameter{"reset",
-                      {},
-                      {},
-                      "what is forgotten at the end of an unloading process: nothing, the deviator of the strain, or "
-                      "all the strain"},
-            p.rule.reset);
+    falling(
+        Parameter{
+            "reset",
+            {},
+            {},
+            "what is reset at the end of an unloading process: nothing, the deviator of the strain, or all the strain"},
+        p.rule.reset);
     for_each_main_strain_parameter(falling, p.rule);
   }
   /// Contradictions between keys that are each valid by themselves.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The choice among the laws by which spheres in a viscous fluid drag each other. Plain, because files compiled for one
-/// instruction set include it; the names for case files stand in mobility_names.hpp.
+/// instruction set include it; the names for case files are in mobility_names.hpp.
 #pragma once
 
 namespace talus::hydrodynamics {

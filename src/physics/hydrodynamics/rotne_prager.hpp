@@ -4,7 +4,7 @@
 /// Source: Rotne & Prager, J. Chem. Phys. 50, 4831 (1969); Niiya, Awazu & Nishimori 2020, Eqs 3b and 3c.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus::hydrodynamics {
 

@@ -4,7 +4,7 @@
 /// Range: alpha = 0.01-0.1. In a bed of 1226 Pa at 100 m/s, alpha = 1 would add up to 850 Pa of false stress.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace talus::sph {
 

@@ -3,7 +3,7 @@
 /// alternate from particle to particle, and velocities that do. Both vanish as the spacing does.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "base/tensor.hpp"
 
 namespace talus::sph {

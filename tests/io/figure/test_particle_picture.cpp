@@ -87,20 +87,13 @@ TEST(ParticlePicture, ViewsShowTheirPlanes) {
     EXPECT_DOUBLE_EQ(dot(c.view.right, p), c.right);
     EXPECT_DOUBLE_EQ(dot(c.view.up, p), c.up);
   }
-  // Tilted by 30 degrees: the slope's direction falls to the right, the vertical stays vertical.
-  const double angle = std::numbers::pi / 6;
-  const View tilted = view_tilted(angle);
-  EXPECT_DOUBLE_EQ(dot(tilted.up, {1, 0, 0}), -std::sin(angle));
-  const Vector3 vertical{-std::sin(angle), 0, std::cos(angle)};
-  EXPECT_NEAR(dot(tilted.right, vertical), 0, 1e-15);
-  EXPECT_NEAR(dot(tilted.up, vertical), 1, 1e-15);
 }
 
 TEST(ParticlePicture, ViewsAreRightHandedFrames) {
   auto cross = [](const Vector3& a, const Vector3& b) {
     return Vector3{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   };
-  for (const View& view : {view_xy, view_xz, view_tilted(0.7), view_oblique(0.5, 0.4)}) {
+  for (const View& view : {view_xy, view_xz, view_oblique(0.5, 0.4)}) {
     EXPECT_NEAR(norm(view.right), 1, 1e-15);
     EXPECT_NEAR(norm(view.up), 1, 1e-15);
     EXPECT_NEAR(norm(cross(view.right, view.up) - view.toward), 0, 1e-15);
@@ -186,14 +179,6 @@ TEST(ParticlePicture, SlopeIsTheLineZIsZero) {
   EXPECT_LT(difference(picture.at(100, 60), ink), 0.4);
   EXPECT_EQ(picture.at(100, 57), white);
   EXPECT_NE(picture.at(100, 70), white) << "the ground";
-
-  scene.picture.view = view_tilted(std::numbers::pi / 4);
-  scene.picture.window = Window{-1, 1, -0.5, 0.5};
-  const Picture tilted = scene.drawn();
-  EXPECT_LT(difference(tilted.at(100, 50), ink), 0.4);
-  EXPECT_LT(difference(tilted.at(70, 20), ink), 0.4) << "higher on the left";
-  EXPECT_NE(tilted.at(70, 60), white);
-  EXPECT_EQ(tilted.at(90, 20), white);
 }
 
 TEST(ParticlePicture, ArrowsPointAlongTheirVectors) {

@@ -48,9 +48,9 @@ struct Case {
   template <class Velocity>
   void set_velocity(Velocity&& velocity) {
     for (int axis = 0; axis < 3; ++axis)
-      for (int k = 0; k < flow.passages().faces(axis, 2); ++k)
-        for (int j = 0; j < flow.passages().faces(axis, 1); ++j)
-          for (int i = 0; i < flow.passages().faces(axis, 0); ++i)
+      for (int k = 0; k < flow.apertures().faces(axis, 2); ++k)
+        for (int j = 0; j < flow.apertures().faces(axis, 1); ++j)
+          for (int i = 0; i < flow.apertures().faces(axis, 0); ++i)
             state.velocity[static_cast<std::size_t>(axis)][grid.index(i, j, k)] =
                 velocity(face_centre(grid, axis, i, j, k))[axis];
   }

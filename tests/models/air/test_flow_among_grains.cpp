@@ -355,10 +355,10 @@ TEST(AirFlow, SaysWhatHoldsItsStepAndWhere) {
   c.set_solids(0, 4, 0.6, {});
   c.solids.fraction[c.grid.index(3, 0, 2)] = 0.96;
   c.flow.time_step(c.team, c.solids, c.state);
-  const NumericalError::Report dragged = c.flow.step_limit(c.solids, c.state);
-  EXPECT_THAT(dragged.term, testing::HasSubstr("drag on the grains"));
-  EXPECT_THAT(dragged.place, testing::HasSubstr("cell (3, 0, 2)"));
-  EXPECT_THAT(dragged.place, testing::HasSubstr("solid fraction 0.96"));
+  const NumericalError::Report after_drag = c.flow.step_limit(c.solids, c.state);
+  EXPECT_THAT(after_drag.term, testing::HasSubstr("drag on the grains"));
+  EXPECT_THAT(after_drag.place, testing::HasSubstr("cell (3, 0, 2)"));
+  EXPECT_THAT(after_drag.place, testing::HasSubstr("solid fraction 0.96"));
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ TEST(Stiffness, PowerIterationFindsTheRateOfTwoTouchingGrains) {
   Cloud cloud(p, two_grains(p, 1.9));
   cloud.begin(team);
   Workspace work(p, cloud.state());
-  work.velocities.reorder(cloud.state().packing_order);
+  work.velocities.reorder(cloud.state().spatial_order);
   estimate_stiffness(team, p, cloud.mutable_state(), work, 30);
   const double exact = 2 * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
   EXPECT_NEAR(cloud.state().spectral_radius, exact, 0.01 * exact);
@@ -237,7 +237,7 @@ TEST(Advance, SameBitsForAnyNumberOfThreads) {
 
 /// What a checkpoint leaves of a state: derived columns are gone.
 struct ForgetDerived {
-  void operator()(const Field& field, auto& member) const {
+  void operator()(const FieldInfo& field, auto& member) const {
     if (field.role == FieldRole::derived) member = {};
   }
 };

@@ -142,7 +142,7 @@ TEST(Atmosphere, AGateOpensForGrainsAndAirAtOnce) {
 std::vector<std::any> kept(const State& state) {
   std::vector<std::any> values;
   for_each_field(
-      [&](const Field& field, const auto& member) {
+      [&](const FieldInfo& field, const auto& member) {
         if (field.role == FieldRole::kept) values.emplace_back(member);
       },
       state);
@@ -161,7 +161,7 @@ TEST(Atmosphere, AResumedRunTakesTheSameSteps) {
     const std::vector<std::any> checkpoint = kept(whole.state());
     std::size_t next = 0;
     for_each_field(
-        [&](const Field& field, auto& member) {
+        [&](const FieldInfo& field, auto& member) {
           if (field.role == FieldRole::kept) member = std::any_cast<std::decay_t<decltype(member)>>(checkpoint[next++]);
         },
         resumed.mutable_state());

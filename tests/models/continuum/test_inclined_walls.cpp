@@ -23,7 +23,7 @@ TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   p.bed.height = 12 * spacing;
   p.plates = {{.from = {10 * spacing, 0}, .to = {30 * spacing, 20 * spacing}, .openings = {}, .opens_after = {}}};
   p.gate.opens = GateOpens::when_settled;
-  p.settle = {.speed = 2e-2, .duration = 0.02, .longest = 2, .damping_time = 5e-3};
+  p.settle = {.speed = 2e-2, .duration = 0.02, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
   ThreadTeam team(2);
   Continuum model = started(p, team);
   const State& s = model.state();
@@ -57,7 +57,13 @@ double acceleration_down(double angle, double coefficient) {
                .openings = {},
                .opens_after = {}}};
   p.box.width = 3;
-  p.bed = {.packing = 0.6, .spacing = spacing, .height = spacing, .bottom = 9, .left = 0.5, .right = 0.5 + spacing};
+  p.bed = {.packing = 0.6,
+           .spacing = spacing,
+           .height = spacing,
+           .bottom = 9,
+           .left = 0.5,
+           .right = 0.5 + spacing,
+           .velocity = {}};
   p.box.front = p.box.rear = FaceKind::periodic;
   ThreadTeam team(1);
   Continuum model(p);

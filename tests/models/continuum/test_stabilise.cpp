@@ -41,7 +41,7 @@ struct Stabilised {
     std::vector<double> h;
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
-    sweep(team, {state.position, state.velocity, state.density, state.material}, Wanted::all, rates);
+    sweep(team, {state.position, state.velocity, state.density, state.material}, SweepTerms::all, rates);
   }
 };
 

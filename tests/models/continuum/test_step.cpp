@@ -267,7 +267,7 @@ TEST(Advance, MomentumIsWhatGravityAndTheWallsGave) {
     for (const Vector3& x : s.position) below += x.z < *p.plate.height;
     EXPECT_GT(below, 10u);                        // through the slit
     EXPECT_LT(below, s.position.size() - 40);     // and not through the plate
-    EXPECT_GT(std::abs(s.wall_impulse[6].x), 0);  // the plate rubbed
+    EXPECT_GT(std::abs(s.wall_impulse[6].x), 0);  // friction at the plate
     for (const Vector3& x : s.position) {
       EXPECT_GE(x.z, 0);
       EXPECT_TRUE(x.x >= 0 && x.x <= p.box.width);
@@ -316,7 +316,7 @@ TEST(Advance, SameBitsForAnyNumberOfThreads) {
 
 /// What a checkpoint leaves of a state: derived columns are gone.
 struct ForgetDerived {
-  void operator()(const Field& field, auto& member) const {
+  void operator()(const FieldInfo& field, auto& member) const {
     if (field.role == FieldRole::derived) member = {};
   }
 };

@@ -43,11 +43,11 @@ struct Evaluation {
   void velocity(Field&& field) {
     for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
   }
-  void evaluate(Wanted wanted = Wanted::all) {
+  void evaluate(SweepTerms terms = SweepTerms::all) {
     std::vector<double> h;
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
-    sweep(team, {state.position, state.velocity, state.density, state.material}, wanted, rates);
+    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
   }
 };
 
@@ -122,12 +122,12 @@ TEST(Sweep, WallsBearTheStressTimesTheirArea) {
   Evaluation e(p);
   e.stress({3000, 2000, 1000, 0, 0, 0});
   e.evaluate();
-  std::array<double, most_walls> push{};
-  for (const auto& one : e.rates.wall_push)
-    for (std::size_t w = 0; w < most_walls; ++w) push[w] += e.state.mass * one[w];
+  std::array<double, most_walls> by_wall{};
+  for (const auto& one : e.rates.wall_acceleration)
+    for (std::size_t w = 0; w < most_walls; ++w) by_wall[w] += e.state.mass * one[w];
   const double d2 = spacing * spacing, m = lattice_moment();
   const double expected[6] = {3000 * 15, -3000 * 15, 2000 * 35, -2000 * 35, 1000 * 21, -1000 * 21};
-  for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(push[w], expected[w] * d2 * m, 1e-9 * std::abs(expected[w] * d2));
+  for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(by_wall[w], expected[w] * d2 * m, 1e-9 * std::abs(expected[w] * d2));
 }
 
 TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
@@ -152,8 +152,8 @@ TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   for (std::size_t i = 0; i < e.state.position.size(); ++i) {
     total += e.rates.acceleration[i];
     size += norm(e.rates.acceleration[i]);
-    const auto& push = e.rates.wall_push[i];
-    by_walls += Vector3{push[0] + push[1], push[2] + push[3], push[4] + push[5] + push[6]};
+    const auto& by_wall = e.rates.wall_acceleration[i];
+    by_walls += Vector3{by_wall[0] + by_wall[1], by_wall[2] + by_wall[3], by_wall[4] + by_wall[5] + by_wall[6]};
   }
   EXPECT_LT(norm(total - by_walls), 1e-13 * size);
   EXPECT_GT(norm(by_walls), 1e-6 * size);
@@ -229,7 +229,7 @@ TEST(Sweep, TheDensityFollowsTheKernelsSum) {
   const auto start = e.state.position;
   const auto at = [&](double time) {
     for (std::size_t i = 0; i < start.size(); ++i) e.state.position[i] = start[i] + time * e.state.velocity[i];
-    e.evaluate(Wanted::forces);
+    e.evaluate(SweepTerms::forces);
     return e.rates.kernel_density;
   };
   const auto later = at(dt), earlier = at(-dt);

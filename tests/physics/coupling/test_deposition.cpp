@@ -42,9 +42,9 @@ struct Silo {
       for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 12; ++i) place({(i + 0.5) * spacing, (j + 0.5) * spacing, low + (k + 0.5) * spacing});
   }
-  void gather() {
-    deposition.weigh(team, position, smoothing_length);
-    deposition.gather(team, volume, velocity, fraction, flux);
+  void deposit() {
+    deposition.find_weights(team, position, smoothing_length);
+    deposition.deposit(team, volume, velocity, fraction, flux);
   }
 };
 
@@ -68,7 +68,7 @@ TEST(Deposition, ConservesVolumeAndMomentum) {
   for (const FaceKind front : {FaceKind::symmetry, FaceKind::periodic}) {
     Silo silo(front);
     place_at_random(silo, 500);
-    silo.gather();
+    silo.deposit();
     EXPECT_NEAR(total(silo.grid, silo.fraction) / (500 * silo.volume), 1, 1e-13);
     for (int a = 0; a < 3; ++a) {
       double momentum = 0;
@@ -81,13 +81,13 @@ TEST(Deposition, ConservesVolumeAndMomentum) {
 TEST(Deposition, HandsBackWithTheSameWeights) {
   Silo silo;
   place_at_random(silo, 300);
-  silo.gather();
+  silo.deposit();
   FaceField given = silo.grid.face_field();
   Random random(9);
   for (auto& component : given)
     for (double& g : component) g = random.normal();
   std::vector<Vector3> received(300);
-  silo.deposition.hand_out(silo.team, silo.volume, given, received);
+  silo.deposition.distribute(silo.team, silo.volume, given, received);
   for (int a = 0; a < 3; ++a) {
     const auto& g = given[static_cast<std::size_t>(a)];
     CellField product = silo.fraction;
@@ -101,7 +101,7 @@ TEST(Deposition, HandsBackWithTheSameWeights) {
 TEST(Deposition, ABedIsAsDenseAtWallsAndPlateAsWithin) {
   Silo silo;
   silo.fill(15e-3, 35e-3);
-  silo.gather();
+  silo.deposit();
   // Layers from the plate up to one reach below the surface, on the solid part and away from the slit.
   for (int k = 12; k < 25; ++k)
     for (int j = 0; j < 4; ++j)
@@ -112,7 +112,7 @@ TEST(Deposition, ABedIsAsDenseAtWallsAndPlateAsWithin) {
 TEST(Deposition, APlateHidesWhatIsBehindItAndItsSlitDoesNot) {
   Silo silo;
   silo.place({2.5e-3, 2.5e-3, 15.5e-3});
-  silo.gather();
+  silo.deposit();
   double below = 0;
   for (int k = 0; k < 12; ++k)
     for (int j = 0; j < 4; ++j)
@@ -121,7 +121,7 @@ TEST(Deposition, APlateHidesWhatIsBehindItAndItsSlitDoesNot) {
 
   Silo open;
   open.place({10e-3, 2.5e-3, 15.5e-3});
-  open.gather();
+  open.deposit();
   EXPECT_GT(open.fraction[open.grid.index(8, 2, 11)], 0);
   double through = 0, all = 0;
   for (int k = 0; k < 32; ++k)
@@ -138,15 +138,17 @@ TEST(Deposition, OfAParticleThatLeavesTheAirHasTheShareWithinTheBox) {
   for (const double z : {36e-3, 38.7e-3, 39.999e-3, 40.001e-3, 41.3e-3, 44e-3}) {  // the open top is at 40 mm
     Silo silo;
     silo.place({10e-3, 2e-3, z}, {0, 0, 1});
-    silo.gather();
+    silo.deposit();
     const double share = total(silo.grid, silo.fraction) / silo.volume;
     EXPECT_LE(share, before + 1e-13);
-    if (std::abs(z - 40e-3) < 2e-6) EXPECT_NEAR(share, 0.5, 0.12);  // the faces of the cells do not halve a kernel
+    if (std::abs(z - 40e-3) < 2e-6) {
+      EXPECT_NEAR(share, 0.5, 0.12);  // the faces of the cells do not halve a kernel
+    }
     before = share;
     std::vector<Vector3> received(1);
     FaceField given = silo.grid.face_field();
     for (auto& component : given) component.assign(component.size(), 1);
-    silo.deposition.hand_out(silo.team, silo.volume, given, received);
+    silo.deposition.distribute(silo.team, silo.volume, given, received);
     EXPECT_NEAR(received[0].x / silo.volume, share, 1e-13);  // as much as it gives
   }
   EXPECT_EQ(before, 0);
@@ -157,7 +159,7 @@ TEST(Deposition, AStreamIsAsDenseAtTheFaceItLeavesThroughAsWithin) {
   for (const double shift : {0.05, 0.25, 0.5, 0.75, 0.95}) {
     Silo silo;
     silo.fill(20e-3 + shift * spacing, 46e-3);
-    silo.gather();
+    silo.deposit();
     for (int k = 28; k < 32; ++k)
       for (int i = 0; i < 16; ++i) EXPECT_NEAR(silo.fraction[silo.grid.index(i, 2, k)], 0.6, 0.012) << shift;
   }
@@ -165,7 +167,7 @@ TEST(Deposition, AStreamIsAsDenseAtTheFaceItLeavesThroughAsWithin) {
 
 TEST(Deposition, GivesTheSameBitsForAnyNumberOfThreads) {
   Silo one(FaceKind::symmetry, 1), three(FaceKind::symmetry, 3);
-  for (Silo* silo : {&one, &three}) place_at_random(*silo, 400), silo->gather();
+  for (Silo* silo : {&one, &three}) place_at_random(*silo, 400), silo->deposit();
   EXPECT_EQ(one.fraction, three.fraction);
   EXPECT_EQ(one.flux, three.flux);
 }
@@ -189,7 +191,7 @@ TEST(Deposition, AWallBetweenFacesOfCellsHidesWhatIsBehindIt) {
                                 FaceKind::open}},
                      {Wall("plate", {0, 0, height}, {20e-3, 0, height})}));
     silo.place({3e-3, 2e-3, height + 0.4e-3});
-    silo.gather();
+    silo.deposit();
     EXPECT_NEAR(total(silo.grid, silo.fraction), silo.volume, 1e-14 * silo.volume);
     for (int k = 0; k < 32; ++k)
       for (int i = 0; i < 16; ++i)
@@ -208,14 +210,14 @@ TEST(Deposition, NothingIsSpreadBehindAWallAtAnAngle) {
         {slope});
     Silo silo(sloping);
     place_at_random(silo, 200);
-    silo.gather();
+    silo.deposit();
     EXPECT_NEAR(total(silo.grid, silo.fraction), 200 * silo.volume, 1e-12 * 200 * silo.volume);
 
     const double s = 0.4 * slope.length(), away = 0.4 * spacing;
     for (const double to : {-away, away}) {
       Silo one(sloping);
       one.place(slope.from() + s * slope.direction() + to * slope.normal());
-      one.gather();
+      one.deposit();
       int reached = 0;
       for (int k = 0; k < one.grid.count[2]; ++k)
         for (int j = 0; j < one.grid.count[1]; ++j)

@@ -213,7 +213,7 @@ TEST(PressureTable, IsTheFitWhileThatRisesAndNeverFalls) {
 
 TEST(PieceTable, LanesEqualNumbersAlone) {
   const ComponentTable table = component_table(printed_2011);
-  using Many = Lanes<double>;
+  using Many = SimdVector<double>;
   for (double a = 1e-6; a < 0.1; a *= 1.13) {
     Many x, A[4];
     for (int k = 0; k < Many::lanes; ++k) x.row[0][k] = a * (1 + 0.4 * k);

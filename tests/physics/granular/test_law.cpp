@@ -43,7 +43,7 @@ std::vector<LawParameters> many_laws() {
 
 TEST(Law, LanesEqualNumbersAlone) {
   // Every lane with its own path, kicks of all kinds; all laws with all their branches.
-  using Many = Lanes<double>;
+  using Many = SimdVector<double>;
   for (const LawParameters& parameters : many_laws())
     std::visit(
         []<class Law>(const Law& law) {

@@ -6,7 +6,7 @@
 /// On Zen 5 with AVX-512 the loop keeps 0.81 to 0.87 of the multiplication slots busy (benchmarks/benchmark_pair_sum).
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
 #include "physics/hydrodynamics/rotne_prager.hpp"
 #include "physics/hydrodynamics/zuk.hpp"
@@ -48,21 +48,21 @@ struct alignas(64) Side {
   }
 };
 
-/// A block of rows: each number spread over the lanes. `velocity` is the sum so far, lane by lane.
+/// A block of rows: each number broadcast to all lanes. `velocity` is the sum so far, lane by lane.
 template <Mobility mobility, class T, int dimensions>
 struct Rows {
-  using Number = Lanes<T, block_rows>;
+  using Number = SimdVector<T, block_rows>;
   Number position[dimensions], force[dimensions], radius, size, velocity[dimensions];
 
   template <std::size_t length>
   TALUS_INLINE Rows(const Side<mobility, T, dimensions, length>& rows, std::size_t first) {
     TALUS_UNROLL for (int k = 0; k < dimensions; ++k) {
-      position[k] = Number::spread(rows.position[k] + first);
-      force[k] = Number::spread(rows.force[k] + first);
+      position[k] = Number::broadcast(rows.position[k] + first);
+      force[k] = Number::broadcast(rows.force[k] + first);
       velocity[k] = 0;
     }
-    if constexpr (mobility == Mobility::zuk_2014) radius = Number::spread(rows.radius + first);
-    size = Number::spread(rows.size + first);
+    if constexpr (mobility == Mobility::zuk_2014) radius = Number::broadcast(rows.radius + first);
+    size = Number::broadcast(rows.size + first);
   }
 };
 
@@ -90,8 +90,8 @@ TALUS_INLINE Number project(const Number* d, const Vector* force) {
 template <bool on_diagonal, Mobility mobility, class T, int dimensions, std::size_t length>
 TALUS_INLINE void add_pairs(Rows<mobility, T, dimensions>& i, Side<mobility, T, dimensions, length>& columns,
                             std::size_t column, [[maybe_unused]] std::size_t first = 0) {
-  using Column = Lanes<T>;
-  using Number = Lanes<T, block_rows>;
+  using Column = SimdVector<T>;
+  using Number = SimdVector<T, block_rows>;
   Number d[dimensions];
   TALUS_UNROLL for (int k = 0; k < dimensions; ++k) d[k] = Column::load(columns.position[k] + column) - i.position[k];
   const Number square = project<dimensions>(d, d);
@@ -133,7 +133,7 @@ TALUS_INLINE void add_pairs(Rows<mobility, T, dimensions>& i, Side<mobility, T, 
 /// what is near keeps its digits, and adds no more than a tile up.
 template <Mobility mobility, class T, int dimensions>
 void sum_rows(const PackedSpheres& spheres, std::size_t row_begin, std::size_t row_end, double* const* velocity) {
-  constexpr std::size_t width = tile_columns<T>, lanes = Lanes<T>::lanes;
+  constexpr std::size_t width = tile_columns<T>, lanes = SimdVector<T>::lanes;
   Side<mobility, T, dimensions, tile_rows> rows;
   Side<mobility, T, dimensions, width> columns;
   if (row_end > spheres.padded) row_end = spheres.padded;

@@ -42,9 +42,9 @@ struct PairConstants {
 /// other one the images by one mirror.
 struct Neighbours {
   const std::uint32_t* record;
-  const std::uint32_t* group_end;  ///< one a group: where it ends in `record`
+  const std::uint32_t* group_end;  ///< one per group: where it ends in `record`
   int groups;
-  std::uint32_t nobody;  ///< a record far away from all others, which fills up registers
+  std::uint32_t padding;  ///< a record far away from all others, which fills up registers
 };
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
@@ -56,18 +56,18 @@ struct PairSums {
   double density_gradient[3];  ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared
 };
 
-enum class Wanted { all, gradients, forces };
+enum class SweepTerms { all, gradients, forces };
 
 /// Whether stabilisers act; before they can, the gradients that they take are measured.
 enum class Stabilisers { none, prepared, acting };
 
-/// \param acceleration one a group, of three components: Eq. 17 without gravity, m/s^2; untouched where no forces are
-/// wanted
+/// \param acceleration one per group, of three components: Eq. 17 without gravity, m/s^2; untouched if no forces are
+/// requested
 using SumNeighbours = void (*)(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
 
 /// \param stabilisers prepared: of `gradients` only
-using ChooseSumNeighbours = SumNeighbours(Wanted wanted, Stabilisers stabilisers);
+using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

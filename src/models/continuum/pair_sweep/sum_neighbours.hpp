@@ -3,7 +3,7 @@
 /// into columns. Included by one file for each instruction set; its contents live in that set's namespace.
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 #include "base/tensor.hpp"
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -15,9 +15,9 @@
 namespace talus::continuum {
 inline namespace TALUS_INSTRUCTION_SET {
 
-using Number = Lanes<double>;
+using Number = SimdVector<double>;
 
-struct LaneVector {
+struct SimdVector3 {
   Number x, y, z;
 };
 
@@ -34,23 +34,23 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
   sph::GradientSums<Number> gradient{{zero, zero, zero, zero, zero, zero},
                                      {zero, zero, zero, zero, zero, zero, zero, zero, zero}};
   Number density_rate = zero, kernel_density = zero;
-  LaneVector density_gradient{zero, zero, zero};
+  SimdVector3 density_gradient{zero, zero, zero};
   std::uint32_t begin = 0;
   for (int group = 0; group < neighbours.groups; ++group) {
     const std::uint32_t end = neighbours.group_end[group];
-    LaneVector push{zero, zero, zero};
+    SimdVector3 sum{zero, zero, zero};
     for (std::uint32_t first = begin; first < end; first += Number::lanes) {
       Number other[16];
       load_columns(
           [&](int lane) {
             const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
-            return records[n < end ? neighbours.record[n] : neighbours.nobody].position;
+            return records[n < end ? neighbours.record[n] : neighbours.padding].position;
           },
           other);
-      const LaneVector d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
-                         other[2] - Number(own.position[2])};
-      const LaneVector du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
-                          other[5] - Number(own.velocity[2])};
+      const SimdVector3 d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
+                          other[2] - Number(own.position[2])};
+      const SimdVector3 du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
+                           other[5] - Number(own.velocity[2])};
       const Number h = 0.5 * (Number(own.smoothing_length) + other[6]);
       const Number square = d.x * d.x + d.y * d.y + d.z * d.z;
       const Number inverse_h = 1.0 / h;
@@ -71,12 +71,12 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
         load_columns(
             [&](int lane) {
               const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
-              return constants.stabilisers[n < end ? neighbours.record[n] : neighbours.nobody].density_gradient;
+              return constants.stabilisers[n < end ? neighbours.record[n] : neighbours.padding].density_gradient;
             },
             its);
       if constexpr (gradients && stabilisers == Stabilisers::acting) {
         const double* g = constants.stabilisers[self].density_gradient;
-        const LaneVector both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
+        const SimdVector3 both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
         density_rate = density_rate + constants.stabilisers[self].dense * its[14] *
                                           sph::density_diffusion(constants.density_diffusion, h, other[7], slope, d,
                                                                  other[14] - Number(own.density), both);
@@ -104,13 +104,13 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
         const SymmetricTensor3<Number> stress{other[8] + Number(s[0]),  other[9] + Number(s[1]),
                                               other[10] + Number(s[2]), other[11] + Number(s[3]),
                                               other[12] + Number(s[4]), other[13] + Number(s[5])};
-        const LaneVector a = sph::acceleration(constants.mass, slope, d, stress, viscosity);
-        push = {push.x + a.x, push.y + a.y, push.z + a.z};
+        const SimdVector3 a = sph::acceleration(constants.mass, slope, d, stress, viscosity);
+        sum = {sum.x + a.x, sum.y + a.y, sum.z + a.z};
       }
     }
     if constexpr (forces)
-      acceleration[group][0] = total(push.x), acceleration[group][1] = total(push.y),
-      acceleration[group][2] = total(push.z);
+      acceleration[group][0] = total(sum.x), acceleration[group][1] = total(sum.y),
+      acceleration[group][2] = total(sum.z);
     begin = end;
   }
   if constexpr (gradients) {
@@ -130,15 +130,15 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
 }
 
 template <Stabilisers stabilisers>
-TALUS_INLINE SumNeighbours choose(Wanted wanted) {
-  return wanted == Wanted::all         ? sum_neighbours<true, true, stabilisers>
-         : wanted == Wanted::gradients ? sum_neighbours<true, false, stabilisers>
-                                       : sum_neighbours<false, true, stabilisers>;
+TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
+  return terms == SweepTerms::all         ? sum_neighbours<true, true, stabilisers>
+         : terms == SweepTerms::gradients ? sum_neighbours<true, false, stabilisers>
+                                          : sum_neighbours<false, true, stabilisers>;
 }
 
-TALUS_INLINE SumNeighbours choose(Wanted wanted, Stabilisers stabilisers) {
-  return stabilisers == Stabilisers::none     ? choose<Stabilisers::none>(wanted)
-         : stabilisers == Stabilisers::acting ? choose<Stabilisers::acting>(wanted)
+TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers) {
+  return stabilisers == Stabilisers::none     ? choose<Stabilisers::none>(terms)
+         : stabilisers == Stabilisers::acting ? choose<Stabilisers::acting>(terms)
                                               : sum_neighbours<true, false, Stabilisers::prepared>;
 }
 

@@ -4,8 +4,8 @@
 
 namespace talus::continuum {
 
-SumNeighbours sum_neighbours_avx2(Wanted wanted, Stabilisers stabilisers) {
-  return choose(wanted, stabilisers);
+SumNeighbours sum_neighbours_avx2(SweepTerms terms, Stabilisers stabilisers) {
+  return choose(terms, stabilisers);
 }
 
 }  // namespace talus::continuum

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A number that is many numbers: `Lanes<T, rows>` holds `rows` vector registers of doubles or floats and computes with
-/// all of them at once. A law written as a template over its number type works on double, on float and on lanes alike,
-/// with `select` in place of branches. Several rows in one number keep several independent chains of operations in
-/// flight, which is what hides the latency of each; a single row spreads over the rows of its partner.
+/// SIMD vectors: `SimdVector<T, rows>` holds `rows` vector registers of doubles or floats and computes with all of them
+/// at once. A law written as a template over its number type works on double, on float and on SIMD vectors alike, with
+/// `select` in place of branches. Several rows in one number keep several independent chains of operations in flight,
+/// which is what hides the latency of each; a single row is combined with every row of its partner.
 ///
 /// The instruction set is the one that the including file is compiled for, and everything here lives in a namespace of
 /// its name: two files compiled for different sets share no function.
@@ -16,7 +16,7 @@
 
 namespace talus {
 
-// A number alone. Products and sums are rounded one by one.
+// Scalars. Products and sums are rounded separately.
 template <class T>
 concept Scalar = std::is_floating_point_v<T>;
 
@@ -44,7 +44,7 @@ template <Scalar T>
 TALUS_INLINE constexpr T maximum(T a, T b) {
   return a > b ? a : b;
 }
-/// f of every number of x; of a number alone f(x).
+/// f of every number of x; for a scalar f(x).
 template <Scalar T, class Function>
 TALUS_INLINE T map_lanes(T x, Function&& f) {
   return f(x);
@@ -60,39 +60,39 @@ TALUS_INLINE void gather_rows(T x, RowOf&& row_of, T (&values)[count]) {
 inline namespace TALUS_INSTRUCTION_SET {
 
 template <class T, int rows = 1>
-struct Lanes {
+struct SimdVector {
   using Register = typename registers::Of<T>::Register;
   static constexpr int lanes = registers::bytes / sizeof(T);  ///< numbers in a row
   Register row[rows];
 
-  Lanes() = default;
-  /// The same number everywhere.
-  TALUS_INLINE Lanes(double value) {
+  SimdVector() = default;
+  /// The same number everywhere. Implicit, so that laws can be written alike for scalars and vectors.
+  TALUS_INLINE SimdVector(double value) {  // NOLINT(google-explicit-constructor)
     TALUS_UNROLL for (int r = 0; r < rows; ++r) row[r] = Register{} + static_cast<T>(value);
   }
-  /// One number a row, repeated over its lanes. \param values `rows` numbers
-  TALUS_INLINE static Lanes spread(const T* values) {
-    Lanes x;
+  /// One number per row, repeated over its lanes. \param values `rows` numbers
+  TALUS_INLINE static SimdVector broadcast(const T* values) {
+    SimdVector x;
     TALUS_UNROLL for (int r = 0; r < rows; ++r) x.row[r] = Register{} + values[r];
     return x;
   }
   /// Row r holds first + r.
-  TALUS_INLINE static Lanes ramp_of_rows(std::size_t first) {
-    Lanes x;
+  TALUS_INLINE static SimdVector ramp_of_rows(std::size_t first) {
+    SimdVector x;
     TALUS_UNROLL for (int r = 0; r < rows; ++r) {
       x.row[r] = Register{} + static_cast<T>(first + static_cast<std::size_t>(r));
     }
     return x;
   }
   /// Lane k holds first + k.
-  TALUS_INLINE static Lanes ramp(std::size_t first) requires(rows == 1) {
-    Lanes x;
+  TALUS_INLINE static SimdVector ramp(std::size_t first) requires(rows == 1) {
+    SimdVector x;
     for (int k = 0; k < lanes; ++k) x.row[0][k] = static_cast<T>(first + static_cast<std::size_t>(k));
     return x;
   }
   /// One row from memory, and to it. \param values aligned to a register
-  TALUS_INLINE static Lanes load(const T* values) requires(rows == 1) {
-    Lanes x;
+  TALUS_INLINE static SimdVector load(const T* values) requires(rows == 1) {
+    SimdVector x;
     x.row[0] = *reinterpret_cast<const Register*>(values);
     return x;
   }
@@ -100,46 +100,46 @@ struct Lanes {
 };
 
 template <class T, int rows>
-struct LanesMask {
+struct SimdMask {
   typename registers::Of<T>::Mask row[rows];
 };
 
 // Binary operations: a single row meets every row of the other.
-#define TALUS_LANES_OPERATOR(symbol)                                                                    \
+#define TALUS_SIMD_OPERATOR(symbol)                                                                     \
   template <class T, int p, int q>                                                                      \
-  TALUS_INLINE Lanes<T, (p > q ? p : q)> operator symbol(Lanes<T, p> a, Lanes<T, q> b) {                \
-    Lanes<T, (p > q ? p : q)> c;                                                                        \
+  TALUS_INLINE SimdVector<T, (p > q ? p : q)> operator symbol(SimdVector<T, p> a, SimdVector<T, q> b) { \
+    SimdVector<T, (p > q ? p : q)> c;                                                                   \
     TALUS_UNROLL for (int r = 0; r < (p > q ? p : q); ++r) c.row[r] = a.row[r % p] symbol b.row[r % q]; \
     return c;                                                                                           \
   }                                                                                                     \
   template <class T, int p>                                                                             \
-  TALUS_INLINE Lanes<T, p> operator symbol(double a, Lanes<T, p> b) {                                   \
-    return Lanes<T>(a) symbol b;                                                                        \
+  TALUS_INLINE SimdVector<T, p> operator symbol(double a, SimdVector<T, p> b) {                         \
+    return SimdVector<T>(a) symbol b;                                                                   \
   }                                                                                                     \
   template <class T, int p>                                                                             \
-  TALUS_INLINE Lanes<T, p> operator symbol(Lanes<T, p> a, double b) {                                   \
-    return a symbol Lanes<T>(b);                                                                        \
+  TALUS_INLINE SimdVector<T, p> operator symbol(SimdVector<T, p> a, double b) {                         \
+    return a symbol SimdVector<T>(b);                                                                   \
   }
-TALUS_LANES_OPERATOR(+)
-TALUS_LANES_OPERATOR(-)
-TALUS_LANES_OPERATOR(*)
-TALUS_LANES_OPERATOR(/)
-#undef TALUS_LANES_OPERATOR
+TALUS_SIMD_OPERATOR(+)
+TALUS_SIMD_OPERATOR(-)
+TALUS_SIMD_OPERATOR(*)
+TALUS_SIMD_OPERATOR(/)
+#undef TALUS_SIMD_OPERATOR
 
 /// a b + c, rounded once (portable: twice).
 template <class T, int p, int q, int s>
-TALUS_INLINE auto multiply_add(Lanes<T, p> a, Lanes<T, q> b, Lanes<T, s> c) {
+TALUS_INLINE auto multiply_add(SimdVector<T, p> a, SimdVector<T, q> b, SimdVector<T, s> c) {
   constexpr int rows = p > q ? (p > s ? p : s) : (q > s ? q : s);
-  Lanes<T, rows> d;
+  SimdVector<T, rows> d;
   TALUS_UNROLL for (int r = 0; r < rows; ++r) d.row[r] = registers::fused(a.row[r % p], b.row[r % q], c.row[r % s]);
   return d;
 }
 
 /// c - a b, rounded once (portable: twice).
 template <class T, int p, int q, int s>
-TALUS_INLINE auto negative_multiply_add(Lanes<T, p> a, Lanes<T, q> b, Lanes<T, s> c) {
+TALUS_INLINE auto negative_multiply_add(SimdVector<T, p> a, SimdVector<T, q> b, SimdVector<T, s> c) {
   constexpr int rows = p > q ? (p > s ? p : s) : (q > s ? q : s);
-  Lanes<T, rows> d;
+  SimdVector<T, rows> d;
   TALUS_UNROLL for (int r = 0; r < rows; ++r) {
     d.row[r] = registers::negative_fused(a.row[r % p], b.row[r % q], c.row[r % s]);
   }
@@ -148,7 +148,7 @@ TALUS_INLINE auto negative_multiply_add(Lanes<T, p> a, Lanes<T, q> b, Lanes<T, s
 
 /// Sum over the rows, one after the other, of a b, added to c.
 template <class T, int p, int q>
-TALUS_INLINE Lanes<T> multiply_add_rows(Lanes<T, p> a, Lanes<T, q> b, Lanes<T> c) {
+TALUS_INLINE SimdVector<T> multiply_add_rows(SimdVector<T, p> a, SimdVector<T, q> b, SimdVector<T> c) {
   TALUS_UNROLL for (int r = 0; r < (p > q ? p : q); ++r) {
     c.row[0] = registers::fused(a.row[r % p], b.row[r % q], c.row[0]);
   }
@@ -156,31 +156,31 @@ TALUS_INLINE Lanes<T> multiply_add_rows(Lanes<T, p> a, Lanes<T, q> b, Lanes<T> c
 }
 
 template <class T, int p, int q>
-TALUS_INLINE LanesMask<T, (p > q ? p : q)> operator>(Lanes<T, p> a, Lanes<T, q> b) {
-  LanesMask<T, (p > q ? p : q)> mask;
+TALUS_INLINE SimdMask<T, (p > q ? p : q)> operator>(SimdVector<T, p> a, SimdVector<T, q> b) {
+  SimdMask<T, (p > q ? p : q)> mask;
   TALUS_UNROLL for (int r = 0; r < (p > q ? p : q); ++r) mask.row[r] = registers::greater(a.row[r % p], b.row[r % q]);
   return mask;
 }
 
 template <class T, int p, int q>
-TALUS_INLINE LanesMask<T, (p > q ? p : q)> operator<(Lanes<T, p> a, Lanes<T, q> b) {
+TALUS_INLINE SimdMask<T, (p > q ? p : q)> operator<(SimdVector<T, p> a, SimdVector<T, q> b) {
   return b > a;
 }
 template <class T, int rows>
-TALUS_INLINE LanesMask<T, rows> operator&&(LanesMask<T, rows> a, LanesMask<T, rows> b) {
+TALUS_INLINE SimdMask<T, rows> operator&&(SimdMask<T, rows> a, SimdMask<T, rows> b) {
   for (int r = 0; r < rows; ++r) a.row[r] = static_cast<typename registers::Of<T>::Mask>(a.row[r] & b.row[r]);
   return a;
 }
 template <class T, int rows>
-TALUS_INLINE LanesMask<T, rows> operator||(LanesMask<T, rows> a, LanesMask<T, rows> b) {
+TALUS_INLINE SimdMask<T, rows> operator||(SimdMask<T, rows> a, SimdMask<T, rows> b) {
   for (int r = 0; r < rows; ++r) a.row[r] = static_cast<typename registers::Of<T>::Mask>(a.row[r] | b.row[r]);
   return a;
 }
 
-/// Lane by lane, `yes` where the condition holds and `no` elsewhere, whatever stands in the other.
+/// Lane by lane, `yes` where the condition holds and `no` elsewhere; the other value may be anything.
 template <class T, int rows, int p, int q>
-TALUS_INLINE Lanes<T, rows> select(LanesMask<T, rows> condition, Lanes<T, p> yes, Lanes<T, q> no) {
-  Lanes<T, rows> x;
+TALUS_INLINE SimdVector<T, rows> select(SimdMask<T, rows> condition, SimdVector<T, p> yes, SimdVector<T, q> no) {
+  SimdVector<T, rows> x;
   TALUS_UNROLL for (int r = 0; r < rows; ++r) {
     x.row[r] = registers::blend(condition.row[r], yes.row[r % p], no.row[r % q]);
   }
@@ -188,49 +188,49 @@ TALUS_INLINE Lanes<T, rows> select(LanesMask<T, rows> condition, Lanes<T, p> yes
 }
 
 template <class T, int p, int q>
-TALUS_INLINE auto minimum(Lanes<T, p> a, Lanes<T, q> b) {
+TALUS_INLINE auto minimum(SimdVector<T, p> a, SimdVector<T, q> b) {
   return select(a > b, b, a);
 }
 template <class T, int p, int q>
-TALUS_INLINE auto maximum(Lanes<T, p> a, Lanes<T, q> b) {
+TALUS_INLINE auto maximum(SimdVector<T, p> a, SimdVector<T, q> b) {
   return select(a > b, a, b);
 }
 
 /// f(number) of every number of x, one after the other: for what has no vector form.
 template <class T, int rows, class Function>
-TALUS_INLINE Lanes<T, rows> map_lanes(Lanes<T, rows> x, Function&& f) {
+TALUS_INLINE SimdVector<T, rows> map_lanes(SimdVector<T, rows> x, Function&& f) {
   for (int r = 0; r < rows; ++r)
-    for (int k = 0; k < Lanes<T>::lanes; ++k) x.row[r][k] = static_cast<T>(f(x.row[r][k]));
+    for (int k = 0; k < SimdVector<T>::lanes; ++k) x.row[r][k] = static_cast<T>(f(x.row[r][k]));
   return x;
 }
 template <class T, int rows>
-TALUS_INLINE Lanes<T, rows> sqrt(Lanes<T, rows> x) {
+TALUS_INLINE SimdVector<T, rows> sqrt(SimdVector<T, rows> x) {
   return map_lanes(x, [](T number) { return std::sqrt(number); });
 }
 template <class T, int rows>
-TALUS_INLINE Lanes<T, rows> log(Lanes<T, rows> x) {
+TALUS_INLINE SimdVector<T, rows> log(SimdVector<T, rows> x) {
   return map_lanes(x, [](T number) { return std::log(number); });
 }
 
-/// As gather_rows of a number alone.
+/// As gather_rows of a scalar.
 template <int count, class T, int rows, class RowOf>
-TALUS_INLINE void gather_rows(Lanes<T, rows> x, RowOf&& row_of, Lanes<T, rows> (&values)[count]) {
+TALUS_INLINE void gather_rows(SimdVector<T, rows> x, RowOf&& row_of, SimdVector<T, rows> (&values)[count]) {
   for (int r = 0; r < rows; ++r) {
-    alignas(registers::bytes) T lane[count][Lanes<T>::lanes];
-    for (int k = 0; k < Lanes<T>::lanes; ++k) {
+    alignas(registers::bytes) T lane[count][SimdVector<T>::lanes];
+    for (int k = 0; k < SimdVector<T>::lanes; ++k) {
       const auto* row = row_of(x.row[r][k]);
       for (int c = 0; c < count; ++c) lane[c][k] = static_cast<T>(row[c]);
     }
-    for (int c = 0; c < count; ++c) values[c].row[r] = Lanes<T>::load(lane[c]).row[0];
+    for (int c = 0; c < count; ++c) values[c].row[r] = SimdVector<T>::load(lane[c]).row[0];
   }
 }
 
 /// Columns of a table whose rows are elsewhere in memory: column c of the rows that the lanes choose.
 /// \param row_of lane -> const double*, aligned to a register \param columns as many as the table has, a multiple of 8
 template <int columns, class RowOf>
-TALUS_INLINE void load_columns(RowOf&& row_of, Lanes<double> (&column)[columns]) {
-  using Register = Lanes<double>::Register;
-  constexpr int lanes = Lanes<double>::lanes;
+TALUS_INLINE void load_columns(RowOf&& row_of, SimdVector<double> (&column)[columns]) {
+  using Register = SimdVector<double>::Register;
+  constexpr int lanes = SimdVector<double>::lanes;
   const double* row[lanes];
   TALUS_UNROLL for (int k = 0; k < lanes; ++k) row[k] = row_of(k);
   TALUS_UNROLL for (int c = 0; c < columns; c += lanes) {
@@ -243,7 +243,7 @@ TALUS_INLINE void load_columns(RowOf&& row_of, Lanes<double> (&column)[columns])
 
 /// Whether the condition holds in every lane.
 template <class T, int rows>
-TALUS_INLINE bool all(LanesMask<T, rows> condition) {
+TALUS_INLINE bool all(SimdMask<T, rows> condition) {
   auto together = condition.row[0];
   TALUS_UNROLL for (int r = 1; r < rows; ++r) together &= condition.row[r];
   return registers::all(together);
@@ -253,16 +253,16 @@ TALUS_INLINE bool all(LanesMask<T, rows> condition) {
 /// as the type can hold. Measured relative error: 1.7e-16 and 9e-8, three quarters of the type's epsilon. Not finite at
 /// x = 0. With avx2 doubles start from a float: beyond its range, 1e-38 to 3e38, the result is 0 or not finite.
 template <class T, int rows>
-TALUS_INLINE Lanes<T, rows> reciprocal_sqrt(Lanes<T, rows> x) {
-  using Number = Lanes<T>;
-  Lanes<T, rows> y;
+TALUS_INLINE SimdVector<T, rows> reciprocal_sqrt(SimdVector<T, rows> x) {
+  using Number = SimdVector<T>;
+  SimdVector<T, rows> y;
   TALUS_UNROLL for (int r = 0; r < rows; ++r) y.row[r] = registers::estimate_reciprocal_sqrt(x.row[r]);
   constexpr int bits = sizeof(T) == 8 ? 53 : 24;
   if constexpr (registers::estimate_bits >= bits) {
     return y;
   } else {
-    const Lanes<T, rows> e = negative_multiply_add(x * y, y, Number(1));
-    const Lanes<T, rows> ye = y * e;
+    const SimdVector<T, rows> e = negative_multiply_add(x * y, y, Number(1));
+    const SimdVector<T, rows> ye = y * e;
     if constexpr (2 * registers::estimate_bits >= bits) {
       return multiply_add(ye, Number(0.5), y);
     } else if constexpr (3 * registers::estimate_bits >= bits) {
@@ -279,7 +279,7 @@ TALUS_INLINE Lanes<T, rows> reciprocal_sqrt(Lanes<T, rows> x) {
 
 /// Sum of the lanes of row r, in a fixed order.
 template <class T, int rows>
-TALUS_INLINE T sum_lanes(Lanes<T, rows> x, int r) {
+TALUS_INLINE T sum_lanes(SimdVector<T, rows> x, int r) {
   return registers::sum(x.row[r]);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lanes of the instruction set that the tests are compiled for. The others run in the tests of the sum over pairs.
-#include "base/lanes.hpp"
+/// SimdVector of the instruction set that the tests are compiled for. The others run in the tests of the sum over
+/// pairs.
+#include "base/simd.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,25 +12,25 @@ namespace talus {
 namespace {
 
 template <class T>
-class LanesOf : public testing::Test {};
+class SimdVectors : public testing::Test {};
 using Numbers = testing::Types<float, double>;
-TYPED_TEST_SUITE(LanesOf, Numbers);
+TYPED_TEST_SUITE(SimdVectors, Numbers);
 
 template <class T>
-Lanes<T> ramp(double first) {
-  return Lanes<T>::ramp(0) + first;
+SimdVector<T> ramp(double first) {
+  return SimdVector<T>::ramp(0) + first;
 }
 
-TYPED_TEST(LanesOf, ComputeLaneByLaneAndRowByRow) {
+TYPED_TEST(SimdVectors, ComputeLaneByLaneAndRowByRow) {
   using T = TypeParam;
   const T rows[2] = {3, 5};
-  const auto x = Lanes<T, 2>::spread(rows);
+  const auto x = SimdVector<T, 2>::broadcast(rows);
   const auto y = ramp<T>(2);
   const auto sum = x + y, difference = x - y, product = x * y, quotient = x / y;
-  const auto fused = multiply_add(x, y, Lanes<T>(7)), negative = negative_multiply_add(x, y, Lanes<T>(7));
-  const auto over_rows = multiply_add_rows(x, y, Lanes<T>(1));
+  const auto fused = multiply_add(x, y, SimdVector<T>(7)), negative = negative_multiply_add(x, y, SimdVector<T>(7));
+  const auto over_rows = multiply_add_rows(x, y, SimdVector<T>(1));
   for (int r = 0; r < 2; ++r)
-    for (int k = 0; k < Lanes<T>::lanes; ++k) {
+    for (int k = 0; k < SimdVector<T>::lanes; ++k) {
       const T a = rows[r], b = static_cast<T>(2 + k);
       EXPECT_EQ(sum.row[r][k], a + b);
       EXPECT_EQ(difference.row[r][k], a - b);
@@ -39,36 +40,36 @@ TYPED_TEST(LanesOf, ComputeLaneByLaneAndRowByRow) {
       EXPECT_EQ(negative.row[r][k], 7 - a * b);
       EXPECT_EQ(over_rows.row[0][k], 1 + 3 * b + 5 * b);
     }
-  const int n = Lanes<T>::lanes;
+  const int n = SimdVector<T>::lanes;
   EXPECT_EQ(sum_lanes(x, 1), 5 * n);
   EXPECT_EQ(sum_lanes(y, 0), 2 * n + n * (n - 1) / 2);
 }
 
-TYPED_TEST(LanesOf, SelectWhateverStandsInTheOther) {
+TYPED_TEST(SimdVectors, SelectWhateverStandsInTheOther) {
   using T = TypeParam;
   const T nan = std::numeric_limits<T>::quiet_NaN();
-  const auto index = Lanes<T>::ramp(4);
-  const auto chosen = select(index > Lanes<T, 2>::ramp_of_rows(4), index, Lanes<T>(static_cast<double>(nan)));
+  const auto index = SimdVector<T>::ramp(4);
+  const auto chosen = select(index > SimdVector<T, 2>::ramp_of_rows(4), index, SimdVector<T>(static_cast<double>(nan)));
   for (int r = 0; r < 2; ++r)
-    for (int k = 0; k < Lanes<T>::lanes; ++k)
+    for (int k = 0; k < SimdVector<T>::lanes; ++k)
       if (k > r)
         EXPECT_EQ(chosen.row[r][k], 4 + k);
       else
         EXPECT_TRUE(std::isnan(chosen.row[r][k]));
-  EXPECT_TRUE(all(index > Lanes<T>(3)));
-  EXPECT_FALSE(all(index > Lanes<T>(4)));
-  EXPECT_FALSE(all(Lanes<T>(static_cast<double>(nan)) > Lanes<T>(0)));
+  EXPECT_TRUE(all(index > SimdVector<T>(3)));
+  EXPECT_FALSE(all(index > SimdVector<T>(4)));
+  EXPECT_FALSE(all(SimdVector<T>(static_cast<double>(nan)) > SimdVector<T>(0)));
 }
 
-TYPED_TEST(LanesOf, ReciprocalSquareRootOverTheRangeOfDistances) {
+TYPED_TEST(SimdVectors, ReciprocalSquareRootOverTheRangeOfDistances) {
   using T = TypeParam;
   for (double x = 1e-12; x < 1e12; x *= 1.37) {
     const T argument = static_cast<T>(x);
-    const T y = reciprocal_sqrt(Lanes<T>(static_cast<double>(argument))).row[0][0];
+    const T y = reciprocal_sqrt(SimdVector<T>(static_cast<double>(argument))).row[0][0];
     const auto ratio = static_cast<double>(y * std::sqrt(static_cast<long double>(argument)));
     EXPECT_NEAR(ratio, 1, std::numeric_limits<T>::epsilon());
   }
-  EXPECT_FALSE(std::isfinite(reciprocal_sqrt(Lanes<T>(0)).row[0][0]));
+  EXPECT_FALSE(std::isfinite(reciprocal_sqrt(SimdVector<T>(0)).row[0][0]));
 }
 
 }  // namespace

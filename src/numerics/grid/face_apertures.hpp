@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where a fluid passes on a grid: the boundaries of the box, the walls within it, and which neighbouring
-/// velocities see each other.
+/// Where a fluid can pass on a grid: the boundaries of the box, the walls within it, and which neighbouring velocities
+/// see each other.
 ///
 /// Velocities stand on faces (Harlow & Welch 1965). The neighbour of a face along another axis is hidden where a wall
 /// or the box comes between; a rough wall then holds the velocity at the wall's, half a cell away. At a wall's rim,
@@ -35,7 +35,7 @@ struct FlowBoundaries {
   }
 };
 
-struct Passages {
+struct FaceApertures {
   Grid grid;
   FlowBoundaries boundaries;
 
@@ -49,7 +49,7 @@ struct Passages {
   CellField inner;  ///< 1: a cell without a face open to outside the grid
 
   /// \throws std::invalid_argument for a periodic face without its opposite
-  Passages(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls);
+  FaceApertures(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls);
 
   /// Faces of an axis along a second one: one more than cells along the axis itself, unless it is periodic.
   int faces(int axis, int along) const {

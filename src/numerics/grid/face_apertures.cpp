@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "numerics/grid/passages.hpp"
+#include "numerics/grid/face_apertures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,13 +29,13 @@ std::size_t index(const Grid& grid, const Place& place) {
 }
 
 /// Closes the faces that a wall's solid part stands before.
-void close(const Passages& passages, const Wall& wall, FaceField& open) {
-  const Grid& grid = passages.grid;
+void close_faces(const FaceApertures& apertures, const Wall& wall, FaceField& open) {
+  const Grid& grid = apertures.grid;
   for (const int axis : {0, 2}) {
     const auto a = static_cast<std::size_t>(axis);
     Vector3 step;
     step[axis] = grid.spacing[axis];
-    const auto faces = passages.faces(axis);
+    const auto faces = apertures.faces(axis);
     for_each_place({0, 0, 0}, {faces[0], faces[1], faces[2]}, [&](const Place& at) {
       const Vector3 after = grid.centre(at[0], at[1], at[2]);
       if (wall.meets(after - step, after)) open[a][index(grid, at)] = 0;
@@ -45,19 +45,19 @@ void close(const Passages& passages, const Wall& wall, FaceField& open) {
 
 }  // namespace
 
-Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Wall>& walls)
+FaceApertures::FaceApertures(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Wall>& walls)
     : grid(cells), boundaries(bounds), open(grid.face_field()), wall(open), drive(open), inner(grid.cell_field()) {
   link = {open, open, open}, wide = link;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if ((bounds.kind[2 * a] == FlowBoundary::periodic) != (bounds.kind[2 * a + 1] == FlowBoundary::periodic))
-      throw std::invalid_argument("Passages: a periodic face needs its opposite periodic too");
+      throw std::invalid_argument("FaceApertures: a periodic face needs its opposite periodic too");
     for_each_place({0, 0, 0}, {faces(axis, 0), faces(axis, 1), faces(axis, 2)}, [&](const Place& at) {
       const bool passes = !is_end(axis, at[a]) || bounds.is_open(axis, at[a] == 0 ? 0 : 1);
       open[a][index(grid, at)] = passes;
     });
   }
-  for (const Wall& solid : walls) close(*this, solid, open);
+  for (const Wall& solid : walls) close_faces(*this, solid, open);
   for (auto& faces_of_axis : open) wrap(faces_of_axis);
 
   for_each_place({0, 0, 0}, grid.count, [&](const Place& at) {
@@ -122,7 +122,7 @@ Passages::Passages(const Grid& cells, const FlowBoundaries& bounds, const std::v
   for (std::size_t a = 0; a < 3; ++a) wrap(wall[a]), wrap(drive[a]);
 }
 
-void Passages::wrap(CellField& field) const {
+void FaceApertures::wrap(CellField& field) const {
   constexpr int m = Grid::margin;
   const int length = grid.count[0] + 2 * m;
   for (int axis = 0; axis < 3; ++axis) {
