@@ -210,11 +210,6 @@ bool RunFolder::remove_snapshots(int first, std::string_view kind) const {
   return any;
 }
 
-std::optional<int> RunFolder::latest_snapshot(std::string_view kind) const {
-  const std::vector<int> numbers = snapshot_numbers(kind);
-  return numbers.empty() ? std::nullopt : std::optional(numbers.back());
-}
-
 void RunFolder::lock(Existing existing) {
   using namespace std::chrono_literals;
   lock_ = std::make_shared<Descriptor>(path_.string(), O_RDONLY | O_DIRECTORY);

@@ -54,7 +54,6 @@ class RunFolder {
   /// Removes the snapshots with this number and above that the list names: a resumed run makes them again.
   /// \returns whether there were any \throws FileError
   bool remove_snapshots(int first, std::string_view kind = "particles") const;
-  std::optional<int> latest_snapshot(std::string_view kind = "particles") const;
 
  private:
   void lock(Existing existing);

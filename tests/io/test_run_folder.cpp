@@ -66,22 +66,21 @@ TEST(RunFolder, NamesSnapshotsSoThatTheyAreASeries) {
   EXPECT_EQ(folder.snapshot_index(), "out/snapshots/particles.hdf.series");
 }
 
-TEST(RunFolder, FindsTheLatestSnapshotByNumber) {
+TEST(RunFolder, FindsTheSnapshotsByNumber) {
   const ScratchFolder scratch;
-  EXPECT_EQ(RunFolder(scratch / "none").latest_snapshot(), std::nullopt);
+  EXPECT_THAT(RunFolder(scratch / "none").snapshot_numbers(), ::testing::IsEmpty());
   run_in(scratch / "run");
   const RunFolder folder(scratch / "run");
   for (const char* name : {"particles_99.vtkhdf.part", "particles_x9.vtkhdf", "particles_.vtkhdf", "particles_88.h5",
                            "particles_-5.vtkhdf", "my_particles_0077.vtkhdf", "particles_0050.vtkhdf"})
     put_content(folder.snapshots() / name, "");
   EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0, 9, 10));
-  EXPECT_EQ(folder.latest_snapshot(), 10);
-  EXPECT_EQ(folder.latest_snapshot("air"), 10000);
+  EXPECT_EQ(folder.snapshot_numbers("air").back(), 10000);
   // What the user put there is no snapshot of the run, and stays.
   EXPECT_TRUE(folder.remove_snapshots(9));
   EXPECT_FALSE(folder.remove_snapshots(9));
   EXPECT_THAT(folder.snapshot_numbers(), ElementsAre(0));
-  EXPECT_EQ(folder.latest_snapshot("air"), 10000);
+  EXPECT_EQ(folder.snapshot_numbers("air").back(), 10000);
   EXPECT_TRUE(std::filesystem::exists(folder.snapshot(50)));
   // Without a list the names decide, and nothing is removed.
   std::filesystem::remove(scratch / "run/files.txt");
@@ -114,7 +113,7 @@ TEST(RunFolder, ResumingKeepsEverythingButTheStopFile) {
   const RunFolder folder = RunFolder::create(scratch / "run", Existing::resume);
   EXPECT_EQ(names_in(scratch / "run"), before);
   EXPECT_EQ(content_of(folder.series()), "series.csv");
-  EXPECT_EQ(folder.latest_snapshot(), 10);
+  EXPECT_EQ(folder.snapshot_numbers().back(), 10);
 }
 
 TEST(RunFolder, OverwritingRemovesTheRunsFilesAndNoOthers) {

@@ -214,18 +214,4 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
   }
 }
 
-Vector3 AirFlow::momentum(const AirState& state) const {
-  Vector3 total;
-  const Grid& grid = apertures_.grid;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int k = 0; k < apertures_.faces(axis, 2); ++k)
-      for (int j = 0; j < apertures_.faces(axis, 1); ++j)
-        for (int i = 0; i < apertures_.faces(axis, 0); ++i) {
-          const int place = axis == 0 ? i : axis == 1 ? j : k;
-          total[axis] += state.momentum[static_cast<std::size_t>(axis)][grid.index(i, j, k)] * grid.volume() *
-                         (apertures_.is_end(axis, place) ? 0.5 : 1);
-        }
-  return total;
-}
-
 }  // namespace talus::air

@@ -56,9 +56,6 @@ class AirFlow {
   /// expansion, over the volume of the cell.
   void add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum);
 
-  /// Momentum of all the air, N s.
-  Vector3 momentum(const AirState& state) const;
-
   /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver.
   double largest_divergence(const Solids& solids, const AirState& state);
 

@@ -121,9 +121,6 @@ class AirModel {
   std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:
-  template <class Velocity>
-  void set_velocity(Velocity&& velocity);
-
   ModelParameters parameters_;
   Grid grid_;
   ModelState state_;

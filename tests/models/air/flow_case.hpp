@@ -61,6 +61,19 @@ struct Case {
       for (int a = 0; a < 3; ++a) solids.flux[static_cast<std::size_t>(a)][c] = fraction * velocity[a];
     });
   }
+  /// Momentum of all the air, N s.
+  Vector3 momentum() const {
+    Vector3 total;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int k = 0; k < flow.apertures().faces(axis, 2); ++k)
+        for (int j = 0; j < flow.apertures().faces(axis, 1); ++j)
+          for (int i = 0; i < flow.apertures().faces(axis, 0); ++i) {
+            const bool is_end = flow.apertures().is_end(axis, axis == 0 ? i : axis == 1 ? j : k);
+            total[axis] += state.momentum[static_cast<std::size_t>(axis)][grid.index(i, j, k)] * grid.volume() *
+                           (is_end ? 0.5 : 1);
+          }
+    return total;
+  }
   void begin() { flow.begin(team, solids, state); }
   void advance(double dt, int steps = 1) {
     for (int n = 0; n < steps; ++n) flow.advance(team, dt, solids, state, impulse);
