@@ -194,8 +194,11 @@ TEST(Deposition, AWallBetweenFacesOfCellsHidesWhatIsBehindIt) {
     silo.deposit();
     EXPECT_NEAR(total(silo.grid, silo.fraction), silo.volume, 1e-14 * silo.volume);
     for (int k = 0; k < 32; ++k)
-      for (int i = 0; i < 16; ++i)
-        if (silo.grid.centre(i, 0, k).z < height) EXPECT_EQ(silo.fraction[silo.grid.index(i, 1, k)], 0) << k;
+      for (int i = 0; i < 16; ++i) {
+        if (silo.grid.centre(i, 0, k).z < height) {
+          EXPECT_EQ(silo.fraction[silo.grid.index(i, 1, k)], 0) << k;
+        }
+      }
   }
 }
 

@@ -52,9 +52,9 @@ TEST(CollisionalStress, WithinItsRangeIsTheSameToTheBit) {
   const Tensor3<> slow = (1 / time) * Tensor3<>{-0.05, 0.12, 0.03, 0.04, 0.02, -0.02, 0.01, 0.02, 0.03};
   const Tensor3<> compressed = (1 / time) * Tensor3<>{-0.05, 0.05, 0, 0.05, -0.03, 0.02, 0, 0.02, -0.04};
   for (const Collisions form : {Collisions::printed, Collisions::isotropic})
-    for (const Tensor3<>& gradient : {slow, compressed, -1.0 * slow})
-      EXPECT_EQ(collisional_stress({.form = form, .range = CollisionRange::printed}, time, 500.0, gradient),
-                collisional_stress({.form = form}, time, 500.0, gradient));
+    for (const Tensor3<>& slow_enough : {slow, compressed, -1.0 * slow})
+      EXPECT_EQ(collisional_stress({.form = form, .range = CollisionRange::printed}, time, 500.0, slow_enough),
+                collisional_stress({.form = form}, time, 500.0, slow_enough));
 }
 
 TEST(CollisionalStress, BeyondItsRangeStaysWhatItIsAtTheEnd) {
