@@ -25,6 +25,32 @@ double distance_to_stretch(const Vector3& x, double from, double to, double heig
   return std::hypot(std::max({from - x.x, 0.0, x.x - to}), x.z - height);
 }
 
+/// From the nearer of the two side walls, m.
+double distance_from_side(const Section& packing, const HopperShape& shape, std::size_t column) {
+  return std::min(packing.x(column), shape.width - packing.x(column));
+}
+
+/// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the cells of
+/// the same layer for which compared(column, row) holds, both without the outermost h/2 at walls and bottom. nan if
+/// either is empty.
+template <class Compared>
+double corner_packing_over(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size,
+                           Compared&& compared) {
+  const double margin = 0.5 * shape.spacing;
+  std::vector<double> corners, others;
+  for (std::size_t row = 0; row < packing.rows; ++row) {
+    const double above_bottom = packing.z(row) - vessel.bottom;
+    if (above_bottom < margin || above_bottom > size) continue;
+    for (std::size_t column = 0; column < packing.columns; ++column) {
+      const double from_side = distance_from_side(packing, shape, column);
+      if (from_side < margin) continue;
+      if (from_side <= size) corners.push_back(packing.at(column, row));
+      if (compared(column, row)) others.push_back(packing.at(column, row));
+    }
+  }
+  return mean(corners) / mean(others);
+}
+
 }  // namespace
 
 Vessel HopperShape::bin() const {
@@ -86,35 +112,16 @@ std::vector<bool> outside_outlet(std::span<const Vector3> position, const Hopper
 }
 
 double corner_packing_over_middle(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size) {
-  const double margin = 0.5 * shape.spacing;
-  std::vector<double> corners, middle;
-  for (std::size_t row = 0; row < packing.rows; ++row) {
-    const double above_bottom = packing.z(row) - vessel.bottom;
-    if (above_bottom < margin || above_bottom > size) continue;
-    for (std::size_t column = 0; column < packing.columns; ++column) {
-      const double from_wall = std::min(packing.x(column), shape.width - packing.x(column));
-      if (from_wall >= margin && from_wall <= size) corners.push_back(packing.at(column, row));
-      if (from_wall >= shape.width / 3) middle.push_back(packing.at(column, row));
-    }
-  }
-  return mean(corners) / mean(middle);
+  return corner_packing_over(packing, vessel, shape, size, [&](std::size_t column, std::size_t) {
+    return distance_from_side(packing, shape, column) >= shape.width / 3;
+  });
 }
 
 double corner_packing_ratio(const Section& packing, const FreeSurface& surface, const Vessel& vessel,
                             const HopperShape& shape, double size) {
-  const double margin = 0.5 * shape.spacing, depth = depth_in_spacings * shape.spacing;
-  std::vector<double> corners, layer;
-  for (std::size_t row = 0; row < packing.rows; ++row) {
-    const double above_bottom = packing.z(row) - vessel.bottom;
-    if (above_bottom < margin || above_bottom > size) continue;
-    for (std::size_t column = 0; column < packing.columns; ++column) {
-      const double from_wall = std::min(packing.x(column), shape.width - packing.x(column));
-      if (from_wall < margin) continue;
-      if (from_wall <= size) corners.push_back(packing.at(column, row));
-      if (surface.z[column] - packing.z(row) > depth) layer.push_back(packing.at(column, row));
-    }
-  }
-  return mean(corners) / mean(layer);
+  return corner_packing_over(packing, vessel, shape, size, [&](std::size_t column, std::size_t row) {
+    return surface.z[column] - packing.z(row) > depth_in_spacings * shape.spacing;
+  });
 }
 
 }  // namespace talus
