@@ -31,44 +31,42 @@ std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, 
   return numbers;
 }
 
-double inertial_share(std::span<const Vector3> position, std::span<const double> inertial, double height) {
+std::vector<bool> bearing_particles(std::span<const double> inertial) {
+  std::vector<bool> bearing;
+  for (const double number : inertial) bearing.push_back(std::isfinite(number));
+  return bearing;
+}
+
+double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken) {
   double all = 0, slow = 0;
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    if (!(position[i].z >= height)) continue;
+  for (std::size_t i = 0; i < inertial.size(); ++i) {
+    if (!taken[i]) continue;
     ++all;
     slow += inertial[i] < quasistatic;
   }
   return all > 0 ? slow / all : none;
 }
 
-double inertial_share_of_bearing(std::span<const double> inertial, const std::vector<bool>& taken) {
-  double bearing = 0, slow = 0;
-  for (std::size_t i = 0; i < inertial.size(); ++i) {
-    if (!taken[i] || !std::isfinite(inertial[i])) continue;
-    ++bearing;
-    slow += inertial[i] < quasistatic;
-  }
-  return bearing > 0 ? slow / bearing : none;
+std::vector<bool> dense_particles(const Snapshot& snapshot) {
+  std::vector<bool> chosen;
+  for (const double packing : snapshot.scalars("packing")) chosen.push_back(packing > dense);
+  return chosen;
 }
 
-double stress_ratio_where_dense(const Snapshot& snapshot) {
-  const auto xx = snapshot.scalars("stress_xx"), zz = snapshot.scalars("stress_zz");
-  const auto packing = snapshot.scalars("packing");
-  double horizontal = 0, vertical = 0;
-  for (std::size_t i = 0; i < xx.size(); ++i) {
-    if (!(packing[i] > dense)) continue;
-    horizontal += xx[i];
-    vertical += zz[i];
-  }
-  return vertical > 0 ? horizontal / vertical : none;
+std::vector<bool> quasistatic_particles(const Snapshot& snapshot, std::span<const double> inertial,
+                                        const QuasistaticRule& rule) {
+  const auto zz = snapshot.scalars("stress_zz"), packing = snapshot.scalars("packing");
+  std::vector<bool> chosen;
+  for (std::size_t i = 0; i < zz.size(); ++i)
+    chosen.push_back(packing[i] > rule.packing && inertial[i] < rule.inertial_number && zz[i] > rule.stress_zz);
+  return chosen;
 }
 
-double stress_ratio(const Snapshot& snapshot, std::span<const double> inertial, const QuasistaticRule& rule) {
+double stress_ratio(const Snapshot& snapshot, const std::vector<bool>& taken) {
   const auto xx = snapshot.scalars("stress_xx"), zz = snapshot.scalars("stress_zz");
-  const auto packing = snapshot.scalars("packing");
   double horizontal = 0, vertical = 0;
   for (std::size_t i = 0; i < xx.size(); ++i) {
-    if (!(packing[i] > rule.packing && inertial[i] < rule.inertial_number && zz[i] > rule.stress_zz)) continue;
+    if (!taken[i]) continue;
     horizontal += xx[i];
     vertical += zz[i];
   }

@@ -21,15 +21,14 @@ double inertial_number(double shear_rate, double pressure, double diameter, doub
 /// Inertial number of every particle, from the columns shear_rate, stress_xx, stress_yy, stress_zz.
 std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density);
 
-/// Share of the particles at or above a height whose inertial number is below 1e-2; nan if there are none.
-double inertial_share(std::span<const Vector3> position, std::span<const double> inertial, double height);
+/// The particles that bear a pressure: those that touch nothing are in no regime.
+std::vector<bool> bearing_particles(std::span<const double> inertial);
 
-/// The same share of the particles taken that bear a pressure: those that touch nothing are in no regime.
-double inertial_share_of_bearing(std::span<const double> inertial, const std::vector<bool>& taken);
+/// Share of the particles taken whose inertial number is below 1e-2; nan if there are none.
+double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken);
 
-/// Horizontal over vertical stress, sum of stress_xx over sum of stress_zz of the particles with packing above 0.5,
-/// below which no stress acts. nan if there are none.
-double stress_ratio_where_dense(const Snapshot& snapshot);
+/// The particles with packing above 0.5, below which no stress acts.
+std::vector<bool> dense_particles(const Snapshot& snapshot);
 
 /// Which particles count as quasi-static grains.
 struct QuasistaticRule {
@@ -37,9 +36,12 @@ struct QuasistaticRule {
   double inertial_number = 1e-3;  ///< below
   double stress_zz = 50;          ///< above, Pa
 };
-/// Horizontal over vertical stress, sum of stress_xx over sum of stress_zz of the quasi-static particles: a mean
-/// weighted with the vertical stress. nan if there are none.
-double stress_ratio(const Snapshot& snapshot, std::span<const double> inertial, const QuasistaticRule& rule = {});
+std::vector<bool> quasistatic_particles(const Snapshot& snapshot, std::span<const double> inertial,
+                                        const QuasistaticRule& rule = {});
+
+/// Horizontal over vertical stress, sum of stress_xx over sum of stress_zz of the particles taken: a mean weighted with
+/// the vertical stress. nan if there are none.
+double stress_ratio(const Snapshot& snapshot, const std::vector<bool>& taken);
 
 /// Sizes of the components of the velocity's gradient over the particles with packing above 0.5, times (D/g)^(1/2).
 struct GradientSizes {

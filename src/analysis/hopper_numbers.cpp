@@ -37,6 +37,11 @@ std::vector<bool> without_nan(std::vector<bool> taken, std::span<const double> v
   return taken;
 }
 
+std::vector<bool> both(std::vector<bool> taken, const std::vector<bool>& too) {
+  for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = taken[i] && too[i];
+  return taken;
+}
+
 /// The largest distance from the middle, on the side of `sign`, at which the packing of the columns passes the foot's;
 /// the wall's where it does not.
 double reach_to(const Section& section, const std::vector<double>& packing, double middle, int sign) {
@@ -126,19 +131,20 @@ double density_drift(const HopperSnapshot& s, const Place&) {
 }
 
 double stress_ratio(const HopperSnapshot& s, const Place&) {
-  return talus::stress_ratio(s.now, s.inertial());
+  return talus::stress_ratio(s.now, quasistatic_particles(s.now, s.inertial()));
 }
 
 double stress_ratio_where_dense(const HopperSnapshot& s, const Place&) {
-  return talus::stress_ratio_where_dense(s.now);
+  return talus::stress_ratio(s.now, dense_particles(s.now));
 }
 
 double inertial_share_of_bearing(const HopperSnapshot& s, const Place&) {
-  return talus::inertial_share_of_bearing(s.inertial(), outside_outlet(s.now.positions(), s.shape()));
+  return talus::inertial_share(s.inertial(),
+                               both(outside_outlet(s.now.positions(), s.shape()), bearing_particles(s.inertial())));
 }
 
 double inertial_share(const HopperSnapshot& s, const Place&) {
-  return talus::inertial_share(s.now.positions(), s.inertial(), has_hopper(s) ? s.shape().plate->height : 0);
+  return talus::inertial_share(s.inertial(), above_outlet(s.now.positions(), s.shape()));
 }
 
 double left_right_imbalance(const HopperSnapshot& s, const Place&) {

@@ -111,6 +111,13 @@ std::vector<bool> outside_outlet(std::span<const Vector3> position, const Hopper
   return outside;
 }
 
+std::vector<bool> above_outlet(std::span<const Vector3> position, const HopperShape& shape) {
+  const double height = shape.plate ? shape.plate->height : 0;
+  std::vector<bool> above;
+  for (const Vector3& x : position) above.push_back(x.z >= height);
+  return above;
+}
+
 double corner_packing_over_middle(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size) {
   return corner_packing_over(packing, vessel, shape, size, [&](std::size_t column, std::size_t) {
     return distance_from_side(packing, shape, column) >= shape.width / 3;

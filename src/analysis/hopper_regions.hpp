@@ -53,6 +53,9 @@ double mean_between(std::span<const Vector3> position, std::span<const double> v
 /// The particles that are neither below the outlet nor in it: beside its slit, or above the plate.
 std::vector<bool> outside_outlet(std::span<const Vector3> position, const HopperShape& shape);
 
+/// The particles at or above the plate; without one, above the floor.
+std::vector<bool> above_outlet(std::span<const Vector3> position, const HopperShape& shape);
+
 /// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the middle
 /// third of the layer of that height, both without the outermost h/2 at walls and bottom. nan if either is empty.
 double corner_packing_over_middle(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size);

@@ -145,6 +145,37 @@ TEST(Hopper, FrameOfAFoot) {
   EXPECT_TRUE(std::isnan(hopper::foot_reach(HopperSnapshot(paper, right.view(), gate), {{"height", 5e-3}})));
 }
 
+/// Where grains may be: above the plate, beside the slit below it, in the stream; slow, fast and free ones.
+TEST(Hopper, TheShareOfSlowFlow) {
+  struct Grain {
+    Vector3 position;
+    double pressure, shear_rate;
+  };
+  constexpr double slow = 0, fast = 1000;  // 1/s: I = 0.2 at 2500 Pa
+  constexpr double above = plate + 0.02, below = plate - 0.02, beside = 0.01, middle = 0.05;
+  const std::vector<Grain> grains = {{{beside, 0, above}, 2500, slow}, {{middle, 0, above}, 2500, slow},
+                                     {{middle, 0, above}, 2500, fast}, {{middle, 0, above}, 0, slow},
+                                     {{beside, 0, below}, 2500, slow}, {{beside, 0, below}, 0, slow},
+                                     {{middle, 0, below}, 2500, fast}, {{middle, 0, below}, 2500, slow}};
+  test::GrainColumns now(std::vector<Vector3>(grains.size()), bulk_density, grain_density, gate + 0.2);
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    now.position[i] = grains[i].position;
+    now.stress_xx[i] = now.stress_yy[i] = now.stress_zz[i] = grains[i].pressure;
+    now.shear_rate[i] = grains[i].shear_rate;
+  }
+  const HopperSetting paper = setting();
+  const HopperSnapshot snapshot(paper, now.view(), gate);
+  EXPECT_DOUBLE_EQ(hopper::inertial_share(snapshot, {}), 2.0 / 4)
+      << "above the outlet; those that bear nothing as fast";
+  EXPECT_DOUBLE_EQ(hopper::inertial_share_of_bearing(snapshot, {}), 3.0 / 4)
+      << "those that bear a pressure and are not below the outlet, beside it too";
+  HopperSetting box = setting();
+  box.shape.plate.reset();
+  const HopperSnapshot whole(box, now.view(), gate);
+  EXPECT_DOUBLE_EQ(hopper::inertial_share(whole, {}), 4.0 / 8) << "without an outlet, of all";
+  EXPECT_DOUBLE_EQ(hopper::inertial_share_of_bearing(whole, {}), 4.0 / 6);
+}
+
 /// Numbers of 21 snapshots, one every 50 ms.
 double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number, const Place& place) {
   const auto n = static_cast<int>(snapshot);
