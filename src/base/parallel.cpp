@@ -25,7 +25,9 @@ void relax() {
 struct ThreadTeam::Shared {
   std::atomic<unsigned> generation{0};  // of loops that threads were woken for
   std::atomic<std::size_t> next{0};
-  std::atomic<int> inside{0};  // twice the threads at work in the loop, plus 1 while more may enter
+  // Twice the threads that have taken part in the loop and not yet left it, plus 1 while more may enter: for these the
+  // loop waits, and for no others.
+  std::atomic<int> inside{0};
   std::atomic<bool> stop{false};
   std::size_t tasks = 0;
   Call call = nullptr;
@@ -46,6 +48,7 @@ struct ThreadTeam::Shared {
     }
   }
 
+  // Whether the loop is still open; from then on it waits for this thread.
   bool enter() {
     for (int now = inside.load(std::memory_order_relaxed); now & open;)
       if (inside.compare_exchange_weak(now, now + one, std::memory_order_acquire, std::memory_order_relaxed))
@@ -102,7 +105,8 @@ void ThreadTeam::run_tasks(std::size_t tasks, Call call, void* context) {
     shared.generation.notify_all();
   }
   shared.work();
-  // Who has not come by now finds the loop closed and is not waited for: on a busy machine it may not run for long.
+  // No tasks are left to take. Only threads that have entered can still be at work on one; a thread that has not
+  // finds the loop closed and is not waited for: on a busy machine it may not run for long.
   shared.inside.fetch_and(~Shared::open, std::memory_order_acq_rel);
   for (int look = 0; look < looks_before_sleep && shared.inside.load(std::memory_order_acquire) > 0; ++look) relax();
   for (int inside; (inside = shared.inside.load(std::memory_order_acquire)) > 0;)

@@ -12,6 +12,8 @@
 namespace talus {
 
 /// A team of threads that waits passively between loops. One loop runs at a time; a loop is not started inside a loop.
+/// A loop ends when its tasks are done; it waits only for the threads that have taken part in it. A thread that the
+/// system has not let run by then finds the loop closed and sits it out.
 class ThreadTeam {
  public:
   /// \param threads at least 1; the calling thread is one of them
@@ -22,7 +24,8 @@ class ThreadTeam {
 
   int size() const;
 
-  /// Calls body(task) once for each task in [0, tasks), in any order, on any thread; returns when all are done.
+  /// Calls body(task) once for each task in [0, tasks), in any order, on any thread; returns when all are done and the
+  /// threads that took part have left the loop.
   /// An exception leaves the loop after all tasks have ended; of several, that of the lowest task.
   template <class Body>
   void run(std::size_t tasks, Body&& body) {
