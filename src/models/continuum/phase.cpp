@@ -38,11 +38,11 @@ void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   evaluate(team, p, s, w);
   const double bed = p.bed.packing * p.grains.density;
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });
-  measure(team, s, w);
+  update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
 }
 
-void look_at_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double limit = p.settle.speed * p.settle.speed;
   const auto moving = reduce(
       team, s.velocity.size(), std::size_t{0},

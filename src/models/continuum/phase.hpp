@@ -10,8 +10,8 @@ namespace talus::continuum {
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.
 void begin_densities(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
-/// Looks whether the bed is at rest, and opens the gates whose time has come.
+/// Finds out whether the bed is at rest, and opens the gates whose time has come.
 /// \throws NumericalError for a bed that does not settle in time
-void look_at_phase(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+void update_phase(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
 }  // namespace talus::continuum

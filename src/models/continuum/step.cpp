@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "models/continuum/check_state.hpp"
 #include "models/continuum/displacement.hpp"
 #include "models/continuum/loading.hpp"
 #include "models/continuum/phase.hpp"
-#include "models/continuum/possible.hpp"
 #include "models/continuum/walls.hpp"
 
 namespace talus::continuum {
@@ -73,9 +73,9 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   reflect_at_walls(team, w.material, w.domain, w.position, s);
   step.damping();
   step.clock();
-  check_possible(team, p, w.domain, s, dt);
-  look_at_phase(team, p, s, w);
-  measure(team, s, w);
+  check_state(team, p, w.domain, s, dt);
+  update_phase(team, p, s, w);
+  update_smoothing_lengths(team, s, w);
   if (!w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) find_neighbours(team, p, s, w);
   evaluate(team, p, s, w);
   measure_shear_rate(team, s, w);
@@ -204,7 +204,7 @@ void Step::clock() const {
 
 void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (p.gate.opens == GateOpens::from_the_start) s.gate_time = 0;
-  measure(team, s, w);
+  update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
   begin_densities(team, p, s, w);
   if (w.air) w.air->begin(team, w.smoothing_length, s);
@@ -214,7 +214,7 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (s.gate_time >= 0) w.domain.open_gates(s.time - s.gate_time);
-  measure(team, s, w);
+  update_smoothing_lengths(team, s, w);
   w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
   evaluate(team, p, s, w);
 }

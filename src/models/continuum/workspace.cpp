@@ -28,7 +28,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       columns(state.material),
       smoothing_length(state.position.size()) {}
 
-void measure(ThreadTeam& team, const State& s, Workspace& w) {
+void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
   for_each(team, s.position.size(),
            [&](std::size_t i) { w.smoothing_length[i] = w.sweep.smoothing_length(s.density[i]); });
 }
@@ -36,7 +36,7 @@ void measure(ThreadTeam& team, const State& s, Workspace& w) {
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (s.list_builds % builds_between_sorts == 0) {
     sort_for_locality(s, sph::support * p.bed.spacing);
-    measure(team, s, w);
+    update_smoothing_lengths(team, s, w);
   }
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     const Vector3 wrapped = w.domain.wrap(s.position[i]);

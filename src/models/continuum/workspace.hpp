@@ -40,8 +40,8 @@ struct Workspace {
   Workspace& operator=(const Workspace&) = delete;
 };
 
-/// Smoothing lengths from the densities of the state.
-void measure(ThreadTeam& team, const State& state, Workspace& workspace);
+/// Those of the workspace, from the densities of the state.
+void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& workspace);
 
 /// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

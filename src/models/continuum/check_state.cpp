@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/possible.hpp"
+#include "models/continuum/check_state.hpp"
 
 #include <fmt/format.h>
 
@@ -15,23 +15,23 @@ namespace {
 
 /// A particle of no or of hardly any density reaches past plates and faces; one that jumps over its neighbours in a
 /// step was thrown by stresses that cannot be.
-struct Possible {
+struct Limits {
   double least_density;  // kg/m^3
   double most_speed;     // m/s
 
-  Possible(const Parameters& p, const Domain& domain, const State& s, double dt)
+  Limits(const Parameters& p, const Domain& domain, const State& s, double dt)
       : least_density(p.sph.smoothing == Smoothing::fixed
                           ? 0
                           : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing), -3)),
         most_speed(p.bed.spacing / dt) {}
 
-  bool density(double value) const { return value > least_density && std::isfinite(value); }
-  bool velocity(const Vector3& v) const { return norm(v) <= most_speed; }
+  bool allow_density(double value) const { return value > least_density && std::isfinite(value); }
+  bool allow_velocity(const Vector3& v) const { return norm(v) <= most_speed; }
 };
 
-[[noreturn]] void give_up(const Parameters& p, const State& s, const Possible& possible, std::size_t i) {
+[[noreturn]] void give_up(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
   const Vector3& x = s.position[i];
-  const bool density = !possible.density(s.density[i]);
+  const bool density = !limits.allow_density(s.density[i]);
   const double speed = norm(s.velocity[i]);
   throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
                                 : std::isfinite(speed)
@@ -47,14 +47,16 @@ struct Possible {
 
 }  // namespace
 
-void check_possible(ThreadTeam& team, const Parameters& p, const Domain& domain, const State& s, double dt) {
-  const Possible possible(p, domain, s, dt);
+void check_state(ThreadTeam& team, const Parameters& p, const Domain& domain, const State& s, double dt) {
+  const Limits limits(p, domain, s, dt);
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   const std::size_t worst = reduce(
       team, s.position.size(), none,
-      [&](std::size_t i) { return possible.velocity(s.velocity[i]) && possible.density(s.density[i]) ? none : i; },
+      [&](std::size_t i) {
+        return limits.allow_velocity(s.velocity[i]) && limits.allow_density(s.density[i]) ? none : i;
+      },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (worst != none) give_up(p, s, possible, worst);
+  if (worst != none) give_up(p, s, limits, worst);
 }
 
 }  // namespace talus::continuum

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Whether the state after a step can be.
+/// The check of a state after a step.
 #pragma once
 
 #include "base/parallel.hpp"
@@ -11,7 +11,6 @@ namespace talus::continuum {
 
 /// \param dt length of the step that led here, s
 /// \throws NumericalError for a density or velocity that is not finite, or that no step of this length can have made
-void check_possible(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const State& state,
-                    double dt);
+void check_state(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const State& state, double dt);
 
 }  // namespace talus::continuum
