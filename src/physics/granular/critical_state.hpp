@@ -5,13 +5,13 @@
 ///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to 1
 ///     elastic     p = 3 K e_v, e_v = ln(phi/phi_s)/3;   ds/dt = 2G (-D_dev + D^p) + W s - s W
 ///     yield       |s| <= 2^(1/2) M p,  M = max(0, mu(I) + beta + Delta_mu c),  returned along s at constant p
-///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' D (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
+///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' d (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
 ///     dilatancy   d ln phi_s = -beta dgamma,  beta = k (phi_s - phi_c(I)),   phi_c(I) = phi_c - Delta min(I, 0.3)
 ///     contacts    dc/dt = (1 - c)/T - (c/gamma_0) dgamma/dt
 ///     apart       p = 0 and s = 0 where phi < phi_s:  phi_s follows phi down to phi_min,  c = 0
 ///
-/// with D the rate of deformation, s the deviator of the stress, positive in compression, and dgamma = 2^(1/2) |D^p| dt
-/// the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
+/// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
+/// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (mu(I) + Delta_mu c) p dgamma/dt >= 0 is left and turns into heat (-beta p dgamma/dt >= 0 where M would
@@ -105,7 +105,7 @@ class CriticalState {
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);
 
-  /// \param grain_density rho_p, kg/m^3; \param grain_diameter D, m, of the inertial number
+  /// \param grain_density rho_p, kg/m^3; \param grain_diameter d, m, of the inertial number
   explicit CriticalState(const Parameters& parameters, double grain_density = 2500, double grain_diameter = 200e-6);
 
   template <class Number>
@@ -177,7 +177,7 @@ class CriticalState {
   Parameters parameters_;
   double reference_density_;  // kg/m^3
   double largest_volume_;     // at phi_min
-  double grain_inertia_;      // (2 rho_p)^(1/2) D: I over |D_dev| p^(-1/2)
+  double grain_inertia_;      // (2 rho_p)^(1/2) d: I over |D_dev| p^(-1/2)
 };
 
 static_assert(ConstitutiveLaw<CriticalState>);
