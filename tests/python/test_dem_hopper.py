@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What validation/dem-hopper/coarse_grain.py makes of beads at known places with known velocities and forces.
+"""What validation/dem-hopper/coarse_grain.py and its modules make of beads at known places, with known velocities and
+forces.
 
 Usage: test_dem_hopper.py TALUS
 """
@@ -16,8 +17,10 @@ sys.argv.pop()
 SCRIPTS = Path(__file__).resolve().parents[2] / "validation" / "dem-hopper"
 sys.path.insert(0, str(SCRIPTS))
 
-import coarse_grain as cg  # noqa: E402
+import fields  # noqa: E402
+import frames as referee  # noqa: E402
 import numpy as np  # noqa: E402
+import surfaces  # noqa: E402
 import trend  # noqa: E402
 
 RADIUS, APART, DEPTH = 0.5e-3, 1e-3, 4e-3
@@ -29,7 +32,7 @@ def lattice(heights, bottom=0.0, time=0.0):
     x, z = np.meshgrid(np.arange(0.5, 100) * APART, np.arange(0.5, 210) * APART, indexing="ij")
     there = (z > bottom) & (z < heights(x))
     x, z = (np.repeat(values[there], 4) for values in (x, z))  # four layers deep
-    return cg.Frame(time, np.full(len(x), RADIUS), x, z, np.zeros((len(x), 3)), np.zeros((len(x), 4)))
+    return referee.Frame(time, np.full(len(x), RADIUS), x, z, np.zeros((len(x), 3)), np.zeros((len(x), 4)))
 
 
 def write(folder, frames, walls={}):
@@ -49,38 +52,38 @@ def write(folder, frames, walls={}):
 
 class Surfaces(unittest.TestCase):
     def test_a_level_bed_has_its_packing_and_its_surface(self):
-        section = cg.Section(lattice(lambda x: 0.05 + 0 * x), DEPTH)
+        section = fields.Section(lattice(lambda x: 0.05 + 0 * x), DEPTH)
         self.assertAlmostEqual(section.packing[100, 40:60].mean(), PACKING, delta=1e-3)
         self.assertAlmostEqual(section.packing[:2, 40:60].mean(), PACKING, delta=0.01)  # at the wall too
-        _, bin_ = cg.surfaces(section)
+        _, bin_ = surfaces.surface_heights(section)
         # The packing passes 0.3 of 0.524 a little below its half.
         self.assertLess(abs(bin_ - 0.05).max(), 0.7e-3)
 
     def test_slopes_are_found_with_their_angles(self):
         slope = np.tan(np.radians(25))
-        section = cg.Section(lattice(lambda x: 0.06 - slope * abs(x - 0.05)), DEPTH)
-        _, bin_ = cg.surfaces(section)
-        self.assertAlmostEqual(cg.repose_angle(section, bin_), 25, delta=0.7)
-        self.assertAlmostEqual(cg.outward_angle(section.x, bin_, 0.01, 0.045), 25, delta=0.7)
-        self.assertAlmostEqual(cg.band(section.x, bin_, 0.02, 0.03), 0.06 - 0.025 * slope, delta=0.7e-3)
-        rising = cg.Section(lattice(lambda x: 0.03 + slope * abs(x - 0.05)), DEPTH)
-        self.assertAlmostEqual(cg.outward_angle(rising.x, cg.surfaces(rising)[1], 0.01, 0.045), -25, delta=0.7)
+        section = fields.Section(lattice(lambda x: 0.06 - slope * abs(x - 0.05)), DEPTH)
+        _, bin_ = surfaces.surface_heights(section)
+        self.assertAlmostEqual(surfaces.repose_angle(section, bin_), 25, delta=0.7)
+        self.assertAlmostEqual(surfaces.outward_angle(section.x, bin_, 0.01, 0.045), 25, delta=0.7)
+        self.assertAlmostEqual(surfaces.band(section.x, bin_, 0.02, 0.03), 0.06 - 0.025 * slope, delta=0.7e-3)
+        rising = fields.Section(lattice(lambda x: 0.03 + slope * abs(x - 0.05)), DEPTH)
+        self.assertAlmostEqual(surfaces.outward_angle(rising.x, surfaces.surface_heights(rising)[1], 0.01, 0.045), -25, delta=0.7)
 
     def test_hopper_and_bin_have_their_own_surface_and_a_stream_hides_the_bins(self):
         hopper, bin_ = lattice(lambda x: 0.16 + 0 * x, bottom=0.1), lattice(lambda x: np.where(abs(x - 0.05) < 0.01, 0.1, 0.02))
-        both = cg.Frame(0, *(np.concatenate([getattr(hopper, n), getattr(bin_, n)])
+        both = referee.Frame(0, *(np.concatenate([getattr(hopper, n), getattr(bin_, n)])
                              for n in ("radius", "x", "z", "velocity", "stress")))
-        above, below = cg.surfaces(cg.Section(both, DEPTH))
+        above, below = surfaces.surface_heights(fields.Section(both, DEPTH))
         self.assertLess(abs(above - 0.16).max(), 0.7e-3)
         self.assertTrue(np.isnan(below[95:105]).all())
         self.assertLess(abs(below[:60] - 0.02).max(), 0.7e-3)
-        nothing = cg.surfaces(cg.Section(lattice(lambda x: 0 * x), DEPTH))
+        nothing = surfaces.surface_heights(fields.Section(lattice(lambda x: 0 * x), DEPTH))
         self.assertTrue(np.isnan(nothing).all())
 
     def test_a_short_slope_is_none(self):
         x = np.arange(60) * 1.0
-        self.assertEqual(cg.heap_slopes(x, np.tile([0.0, 1.0, 0.5, 1.5], 15), 10), [])
-        (start, stop, angle), = cg.heap_slopes(x, np.where(x < 20, np.nan, 2 * x), 10)
+        self.assertEqual(surfaces.heap_slopes(x, np.tile([0.0, 1.0, 0.5, 1.5], 15), 10), [])
+        (start, stop, angle), = surfaces.heap_slopes(x, np.where(x < 20, np.nan, 2 * x), 10)
         self.assertEqual((start, stop), (20, 59))
         self.assertAlmostEqual(angle, np.degrees(np.arctan(2)))
 
@@ -88,16 +91,16 @@ class Surfaces(unittest.TestCase):
 class Foot(unittest.TestCase):
     def test_its_speed_is_that_of_the_layer(self):
         times = 0.15 + 2e-3 * np.arange(20)
-        reach = np.array([cg.foot_reach(cg.Section(lattice(
+        reach = np.array([surfaces.foot_reach(fields.Section(lattice(
             lambda x: np.where((x > 0.05 - (0.02 + 0.8 * (t - 0.15))) & (x < 0.05 + (0.02 + 1.2 * (t - 0.15))), 0.006, 0)),
             DEPTH)) for t in times])
-        self.assertAlmostEqual(cg.foot_speed(times, reach[:, 0]), 0.8, delta=0.03)
-        self.assertAlmostEqual(cg.foot_speed(times, reach[:, 1]), 1.2, delta=0.05)
-        self.assertTrue(np.isnan(cg.foot_speed(times[:2], reach[:2, 0])))
+        self.assertAlmostEqual(surfaces.foot_speed(times, reach[:, 0]), 0.8, delta=0.03)
+        self.assertAlmostEqual(surfaces.foot_speed(times, reach[:, 1]), 1.2, delta=0.05)
+        self.assertTrue(np.isnan(surfaces.foot_speed(times[:2], reach[:2, 0])))
 
     def test_a_full_floor_reaches_the_walls_and_an_empty_one_nowhere(self):
-        self.assertEqual(cg.foot_reach(cg.Section(lattice(lambda x: 0.01 + 0 * x), DEPTH)), [0.05, 0.05])
-        self.assertTrue(np.isnan(cg.foot_reach(cg.Section(lattice(lambda x: 0.2 + 0 * x, bottom=0.1), DEPTH))).all())
+        self.assertEqual(surfaces.foot_reach(fields.Section(lattice(lambda x: 0.01 + 0 * x), DEPTH)), [0.05, 0.05])
+        self.assertTrue(np.isnan(surfaces.foot_reach(fields.Section(lattice(lambda x: 0.2 + 0 * x, bottom=0.1), DEPTH))).all())
 
 
 class Stress(unittest.TestCase):
@@ -106,7 +109,7 @@ class Stress(unittest.TestCase):
         frame = lattice(lambda x: 0.02 + 0 * x)
         force, area = 3e-4, APART**2
         frame.stress[:, 2] = force * 2 * RADIUS
-        _, contact, kinetic = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
+        _, contact, kinetic = fields.box_state(frame, fields.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
         np.testing.assert_allclose(contact, [0, 0, force / area, 0], atol=1e-12)
         np.testing.assert_allclose(kinetic, 0, atol=1e-12)
 
@@ -115,15 +118,15 @@ class Stress(unittest.TestCase):
         random = np.random.default_rng(1).normal(0, [0.1, 0.2, 0.3], (len(frame.x), 3))
         frame.velocity[:] = [0, 0, -1]
         frame.velocity += random
-        packing, _, kinetic = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.01, 0.07))
+        packing, _, kinetic = fields.box_state(frame, fields.Section(frame, DEPTH), (0.01, 0.05), (0.01, 0.07))
         self.assertAlmostEqual(packing, PACKING, delta=1e-9)
-        expected = cg.DENSITY * PACKING * np.array([0.01, 0.04, 0.09])
+        expected = referee.DENSITY * PACKING * np.array([0.01, 0.04, 0.09])
         np.testing.assert_allclose(kinetic[:3], expected, rtol=0.06)
 
     def test_shear_stress_of_the_mirror_image_adds(self):
         frame = lattice(lambda x: 0.02 + 0 * x)
         frame.stress[:, 3] = np.where(frame.x < 0.05, 2e-7, -2e-7)
-        _, contact, _ = cg.box_state(frame, cg.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
+        _, contact, _ = fields.box_state(frame, fields.Section(frame, DEPTH), (0.01, 0.05), (0.005, 0.015))
         self.assertAlmostEqual(contact[3], 2e-7 / APART**3, delta=1e-9)
 
 
@@ -159,32 +162,32 @@ class Folder(unittest.TestCase):
 
     def test_discharge_and_profiles(self):
         write(self.folder / "run", self.falling(12))
-        run = cg.Run(self.folder / "run")
-        layer = 100 * 4 * cg.DENSITY * 4 / 3 * np.pi * RADIUS**3 * cg.DEPTH / DEPTH  # kg, in 5 mm
-        mass = cg.discharge(run)
+        run = referee.Run(self.folder / "run")
+        layer = 100 * 4 * referee.DENSITY * 4 / 3 * np.pi * RADIUS**3 * referee.DEPTH / DEPTH  # kg, in 5 mm
+        mass = referee.discharge(run)
         np.testing.assert_allclose(mass[:, 1], layer * np.arange(12), rtol=1e-6)
-        self.assertAlmostEqual(cg.rate(mass, 0.004, 0.02), layer / cg.FRAME, delta=1e-6)
-        self.assertTrue(np.isnan(cg.rate(mass, 0.0, 0.04)))
-        x, velocity, packing = cg.profile(run, 0.01, 0.16)
+        self.assertAlmostEqual(referee.rate(mass, 0.004, 0.02), layer / referee.FRAME, delta=1e-6)
+        self.assertTrue(np.isnan(referee.rate(mass, 0.0, 0.04)))
+        x, velocity, packing = fields.profile(run, 0.01, 0.16)
         np.testing.assert_allclose(velocity, -0.5)
         np.testing.assert_allclose(packing, PACKING, rtol=1e-6)
 
     def test_wall_loads_are_means_of_20_ms_and_a_resumed_run_counts(self):
         rows = [[100 * n, *np.full(8, 1.0 * n)] for n in range(1, 21)]
         write(self.folder / "run", self.falling(3), {0: rows[:12], 1100: [[1200, *np.full(8, 99.0)]] + rows[12:]})
-        loads = cg.wall_loads(cg.Run(self.folder / "run"))
+        loads = referee.wall_loads(referee.Run(self.folder / "run"))
         np.testing.assert_allclose(loads[:, 0], [0.01, 0.03])
-        np.testing.assert_allclose(loads[0, 1:], 5.5 * cg.DEPTH / DEPTH)
-        np.testing.assert_allclose(loads[1, 1:], (15.5 + 8.7) * cg.DEPTH / DEPTH)
+        np.testing.assert_allclose(loads[0, 1:], 5.5 * referee.DEPTH / DEPTH)
+        np.testing.assert_allclose(loads[1, 1:], (15.5 + 8.7) * referee.DEPTH / DEPTH)
 
     def test_a_frame_that_is_being_written_is_left_out_and_others_must_be_whole(self):
         write(self.folder / "run", self.falling(4))
         last = self.folder / "run" / "frames" / "300.txt"
         last.write_text(last.read_text()[:5000])
-        run = cg.Run(self.folder / "run")
-        self.assertAlmostEqual(run.end, 2 * cg.FRAME)
+        run = referee.Run(self.folder / "run")
+        self.assertAlmostEqual(run.end, 2 * referee.FRAME)
         with self.assertRaises(ValueError):
-            cg.read_frame(last, 0.006)
+            referee.read_frame(last, 0.006)
 
     def test_the_tables_have_their_units_and_every_run(self):
         for name in ("one", "two"):
