@@ -5,51 +5,10 @@
 
 #include <cmath>
 
-#include "base/random.hpp"
-#include "cases.hpp"
-#include "numerics/sph/cubic_spline.hpp"
+#include "models/continuum/evaluation.hpp"
 
 namespace talus::continuum {
 namespace {
-
-/// A state and its sweep, to be evaluated as it stands.
-struct Evaluation {
-  ThreadTeam team{2};
-  Parameters parameters;
-  Material material;
-  State state;
-  Domain domain;
-  Sweep sweep;
-  Rates rates;
-
-  explicit Evaluation(const Parameters& p)
-      : parameters(p),
-        material(p),
-        state(initial_state(p, material)),
-        domain(domain_of(p)),
-        sweep(p, domain, state.mass, 50) {}
-
-  /// Moves every particle at random by up to a share of the spacing.
-  void disturb(double share) {
-    Random random(3);
-    for (Vector3& x : state.position)
-      x += share * spacing * Vector3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-  }
-  void stress(const SymmetricTensor3<>& t) {
-    const double component[6] = {t.xx, t.yy, t.zz, t.xy, t.yz, t.zx};
-    for (std::size_t c = 0; c < 6; ++c) state.material.stress[c].assign(state.position.size(), component[c]);
-  }
-  template <class Field>
-  void velocity(Field&& field) {
-    for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
-  }
-  void evaluate(SweepTerms terms = SweepTerms::all) {
-    std::vector<double> h;
-    for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
-    sweep.find_neighbours(team, state.position, h);
-    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
-  }
-};
 
 void expect_gradient(const Tensor3<>& found, const Tensor3<>& exact, double tolerance) {
   const Tensor3<> d = found - exact;
@@ -60,28 +19,17 @@ TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedPart
   Evaluation e(free_block(6, 5, 7));
   e.disturb(0.1);
   const Tensor3<> exact{1, -2, 0.5, 3, -1, 0.25, 0.75, 2, -0.5};
-  e.velocity([&](const Vector3& x) {
-    return Vector3{exact.xx * x.x + exact.xy * x.y + exact.xz * x.z, exact.yx * x.x + exact.yy * x.y + exact.yz * x.z,
-                   exact.zx * x.x + exact.zy * x.y + exact.zz * x.z};
-  });
+  e.velocity(linear(exact));
   e.evaluate();
   for (const Tensor3<>& found : e.rates.velocity_gradient) expect_gradient(found, exact, 1e-10);
 }
 
 TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
   for (const double depth : {1.0, 2.0, 5.0}) {
-    // The floor, the left and the front face are mirrors; the others free. Fields that leave the mirrors' planes in
-    // place are u_x = a x, u_y = b y, u_z = c z.
-    Parameters p = column(6, depth, 6, 4);
-    p.box.width *= 2;
-    p.bed.left = 0;
-    p.bed.right = 6 * spacing;
-    p.box.rear = FaceKind::open;
-    p.box.right = FaceKind::open;
-    Evaluation e(p);
+    Evaluation e(block_between_mirrors(depth));
     e.disturb(0.2);
     const Tensor3<> exact{1, 0, 0, 0, -2, 0, 0, 0, 3};
-    e.velocity([&](const Vector3& x) { return Vector3{exact.xx * x.x, exact.yy * x.y, exact.zz * x.z}; });
+    e.velocity(linear(exact));
     e.evaluate();
     for (const Tensor3<>& found : e.rates.velocity_gradient) expect_gradient(found, exact, 1e-11);
   }
@@ -140,12 +88,7 @@ TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   p.sph.viscosity_alpha = 0.1;
   Evaluation e(p);
   e.disturb(0.3);
-  Random random(5);
-  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
-    e.state.density[i] *= random.uniform(0.9, 1.1);
-    e.state.velocity[i] = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
-    for (auto& column : e.state.material.stress) column[i] = random.uniform(-1000, 1000);
-  }
+  e.randomise(0.9);
   e.evaluate();
   Vector3 total, by_walls;
   double size = 0;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A state whose columns a test sets by hand, and the sums over neighbours of it.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "models/continuum/cases.hpp"
+#include "models/continuum/sweep.hpp"
+
+namespace talus::continuum {
+
+/// A state and its sweep, to be evaluated as it stands.
+struct Evaluation {
+  ThreadTeam team{2};
+  Parameters parameters;
+  Material material;
+  State state;
+  Domain domain;
+  Sweep sweep;
+  Rates rates;
+
+  explicit Evaluation(const Parameters& p)
+      : parameters(p),
+        material(p),
+        state(initial_state(p, material)),
+        domain(domain_of(p)),
+        sweep(p, domain, state.mass, 50) {}
+
+  /// Moves every particle at random by up to a share of the spacing.
+  void disturb(double share) {
+    Random random(3);
+    for (Vector3& x : state.position)
+      x += share * spacing * Vector3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  }
+  void stress(const SymmetricTensor3<>& t) {
+    const double component[6] = {t.xx, t.yy, t.zz, t.xy, t.yz, t.zx};
+    for (std::size_t c = 0; c < 6; ++c) state.material.stress[c].assign(state.position.size(), component[c]);
+  }
+  void pressure(double p) { stress({p, p, p, 0, 0, 0}); }
+  template <class Field>
+  void velocity(Field&& field) {
+    for (std::size_t i = 0; i < state.position.size(); ++i) state.velocity[i] = field(state.position[i]);
+  }
+  template <class Field>
+  void density(Field&& field) {
+    for (std::size_t i = 0; i < state.position.size(); ++i) state.density[i] = field(state.position[i]);
+  }
+  /// Densities from a share of the bed's to 1.1 of it, velocities and stresses of any size and sign.
+  void randomise(double least_density) {
+    Random random(5);
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+      state.density[i] *= random.uniform(least_density, 1.1);
+      state.velocity[i] = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+      for (auto& column : state.material.stress) column[i] = random.uniform(-1000, 1000);
+    }
+  }
+  void evaluate(SweepTerms terms = SweepTerms::all) {
+    std::vector<double> h;
+    for (const double rho : state.density) h.push_back(sweep.smoothing_length(rho));
+    sweep.find_neighbours(team, state.position, h);
+    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
+  }
+};
+
+/// A velocity that is linear in space, L x.
+inline auto linear(const Tensor3<>& l) {
+  return [l](const Vector3& x) {
+    return Vector3{l.xx * x.x + l.xy * x.y + l.xz * x.z, l.yx * x.x + l.yy * x.y + l.yz * x.z,
+                   l.zx * x.x + l.zy * x.y + l.zz * x.z};
+  };
+}
+
+/// A lattice on the floor, at the left and the front face, which are mirrors; its other sides are free. Linear fields
+/// that leave the mirrors' planes in place are u_x = a x, u_y = b y, u_z = c z.
+inline Parameters block_between_mirrors(double depth) {
+  Parameters p = column(6, depth, 6, 4);
+  p.box.width *= 2;
+  p.box.right = p.box.rear = FaceKind::open;
+  p.bed.left = 0;
+  p.bed.right = 6 * spacing;
+  return p;
+}
+
+}  // namespace talus::continuum
