@@ -21,6 +21,9 @@ bool always(const Run&) {
 bool level_ground(const Run& run) {
   return run.setting.level_ground;
 }
+bool gravity(const Run& run) {
+  return run.setting.gravity > 0;
+}
 bool outlet(const Run& run) {
   return run.setting.shape.plate.has_value();
 }
@@ -188,9 +191,11 @@ const std::vector<Row> of_grains = {
     Row("velocity_gradient_shear_max", "1",
         "(D/g)^½ times the largest |∂u_i/∂x_j|, i ≠ j, of the particles with packing above 0.5, corrected gradient, "
         "largest over the snapshots",
-        largest_of(gradient<&GradientSizes::shear_max>)),
-    Row("velocity_gradient_normal_max", "1", "the same with i = j", largest_of(gradient<&GradientSizes::normal_max>)),
-    Row("velocity_gradient_shear_percentile", "1", "the 99.9th percentile over the particles in place of the largest",
+        largest_of(gradient<&GradientSizes::shear_max>), {{gravity}}),
+    Row("velocity_gradient_normal_max", "1", "the same with i = j", largest_of(gradient<&GradientSizes::normal_max>),
+        {{gravity}}),
+    Row("velocity_gradient_shear_percentile", "1",
+        "as velocity_gradient_shear_max, the 99.9th percentile over the particles in place of the largest",
         largest_of(gradient<&GradientSizes::shear_percentile>)),
     Row("velocity_gradient_normal_percentile", "1", "the same with i = j",
         largest_of(gradient<&GradientSizes::normal_percentile>)),

@@ -46,6 +46,8 @@ class Measures(ProgramTest):
         self.assertAlmostEqual(largest, numbers["packing_max"], delta=1e-9)
         self.assertFalse(OF_PLACES & set(numbers))
         self.assertIn(f"share of slow flow = {numbers['inertial_share']:.3f}", self.card(said))
+        over = max(numbers["velocity_gradient_shear_max"] / 0.2, numbers["velocity_gradient_normal_max"] / 0.05)
+        self.assertIn(f"velocity gradients over the range of collisions = {over:.3g}:", self.card(said))
         again = self.talus("run", case, *COARSE, "--out", "r", "--resume").stdout
         self.assertEqual(self.card(again), self.card(said))
 

@@ -13,6 +13,8 @@ namespace talus::continuum {
 
 namespace {
 
+constexpr double notable_share = 0.1;  // of the particles: fewer are the edge of a stream
+
 double largest_speed(const State& s) {
   double speed = 0;
   for (const Vector3& v : s.velocity) speed = std::max(speed, norm(v));
@@ -45,6 +47,32 @@ double largest_pressure(const State& s) {
   for (std::size_t i = 0; i < s.position.size(); ++i)
     pressure = std::max(pressure, trace(tensor_at(s.material.stress, i)) / 3);
   return pressure;
+}
+
+/// Share of the particles that bear a pressure whose inertial number is above a bound; 0 if there are none.
+double share_above_inertial_number(const Parameters& p, const State& s, double bound) {
+  double bearing = 0, above = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const double pressure = trace(tensor_at(s.material.stress, i)) / 3;
+    if (!(pressure > 0)) continue;
+    ++bearing;
+    above += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) > bound;
+  }
+  return bearing > 0 ? above / bearing : 0;
+}
+
+/// Whether Eqs 13 and 14 are used at rates beyond those for which the paper has them.
+RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions, const RunRecord& record) {
+  const double over = std::max(record.value("velocity_gradient_shear_max") / granular::largest_shear_rate,
+                               record.value("velocity_gradient_normal_max") / granular::largest_normal_rate);
+  const bool unlimited = collisions.range == granular::CollisionRange::unlimited;
+  return {"velocity gradients over the range of collisions", fmt::format("{:.3g}", over),
+          fmt::format("the larger of velocity_gradient_shear_max over {:g} and velocity_gradient_normal_max over {:g}, "
+                      "the largest in the paper's flow; beyond 1 the stress by collisions, Eqs 13 and 14, {}",
+                      granular::largest_shear_rate, granular::largest_normal_rate,
+                      unlimited ? "is extrapolated; collisions.range = \"printed\" holds it at what it is there"
+                                : "stays what it is there"),
+          unlimited && over > 1};
 }
 
 template <class Body>
@@ -240,6 +268,16 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
   }
+  if (const double most = workspace_->material.range().largest_inertial_number; std::isfinite(most)) {
+    const double beyond = share_above_inertial_number(parameters_, s, most);
+    lines.push_back({"share of flow too fast for the law", fmt::format("{:.3f}", beyond),
+                     fmt::format("at the end, of the particles that bear a pressure those with an inertial number "
+                                 "above {:g}, where the range of the law ends",
+                                 most),
+                     beyond > notable_share});
+  }
+  if (parameters_.collisions.form != granular::Collisions::none)
+    lines.push_back(regime_of_collisions(parameters_.collisions, record));
   if (parameters_.air.enabled)
     for (RegimeLine& line : regime_of_air(parameters_, s)) lines.push_back(std::move(line));
   return lines;

@@ -39,6 +39,7 @@ struct MaterialPoint {
 struct LawRange {
   double grain_diameter = 0;  ///< of the grains that it is a fit to, m; 0: of any
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< Pa
+  double largest_inertial_number = std::numeric_limits<double>::infinity();
 };
 
 /// What a law has to offer. `density` is the bulk density at the end of the time step, kg/m^3; the velocity gradient,

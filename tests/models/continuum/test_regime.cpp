@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/regime.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string>
 
 #include "models/continuum/cases.hpp"
@@ -89,6 +92,61 @@ TEST(RegimeOfCase, StandsOnTheCardOfTheRun) {
   ASSERT_GT(of_run.size(), of_case.size());
   for (std::size_t k = 0; k < of_case.size(); ++k) EXPECT_EQ(of_run[k].quantity, of_case[k].quantity);
   EXPECT_TRUE(of_case[0].warning);
+}
+
+/// The line of a quantity on a run's card; nothing if the card has none.
+std::optional<RegimeLine> line_of(const Continuum& model, const RunRecord& record, const std::string& quantity) {
+  for (const RegimeLine& line : model.regime(record))
+    if (line.quantity == quantity) return line;
+  return std::nullopt;
+}
+
+TEST(RegimeOfRun, WarnsOfGradientsBeyondTheRangeOfCollisionsUnlessTheStressEndsThere) {
+  Parameters p = small_hopper();
+  ThreadTeam team(1);
+  const auto line = [&](double shear, double normal) {
+    const RunRecord record{
+        .series = {},
+        .summary = {{"velocity_gradient_shear_max", "1", shear}, {"velocity_gradient_normal_max", "1", normal}}};
+    return line_of(started(p, team), record, "velocity gradients over the range of collisions");
+  };
+  EXPECT_FALSE(line(1, 1)) << "without collisions there is no range";
+  p.collisions.form = granular::Collisions::isotropic;
+  EXPECT_EQ(line(0.1, 0.02)->value, "0.5");
+  EXPECT_FALSE(line(0.1, 0.02)->warning);
+  EXPECT_EQ(line(0.3, 0.02)->value, "1.5");
+  EXPECT_TRUE(line(0.3, 0.02)->warning);
+  EXPECT_EQ(line(0.1, 0.1)->value, "2");
+  EXPECT_TRUE(line(0.1, 0.1)->warning);
+  EXPECT_FALSE(line(std::nan(""), std::nan(""))->warning) << "there are no snapshots";
+  p.collisions.range = granular::CollisionRange::printed;
+  EXPECT_EQ(line(0.3, 0.02)->value, "1.5");
+  EXPECT_FALSE(line(0.3, 0.02)->warning);
+}
+
+TEST(RegimeOfRun, WarnsOfFlowFasterThanTheRangeOfItsLaw) {
+  const std::string quantity = "share of flow too fast for the law";
+  ThreadTeam team(1);
+  EXPECT_FALSE(line_of(started(small_hopper(), team), {}, quantity)) << "the law has no such range";
+  Parameters p = small_hopper();
+  p.law = granular::CriticalState::Parameters{};
+  Continuum model = started(p, team);
+  State& s = model.mutable_state();
+  const std::size_t count = s.position.size(), fast = count / 5, bearing = count / 2;
+  constexpr double pressure = 100;
+  // I of 0.31 and 0.29: the fast fifth of all is two fifths of those that bear a pressure.
+  const auto rate = [&](double inertial) {
+    return inertial / p.grains.diameter * std::sqrt(pressure / p.grains.density);
+  };
+  for (std::size_t c = 0; c < 6; ++c)
+    for (std::size_t i = 0; i < count; ++i) s.material.stress[c][i] = c < 3 && i < bearing ? pressure : 0;
+  for (std::size_t i = 0; i < count; ++i) s.shear_rate[i] = rate(i < fast || i >= bearing ? 0.31 : 0.29);
+  const RegimeLine line = *line_of(model, {}, quantity);
+  EXPECT_EQ(line.value, fmt::format("{:.3f}", double(fast) / double(bearing)));
+  EXPECT_TRUE(line.warning);
+  std::fill(s.shear_rate.begin(), s.shear_rate.end(), rate(0.29));
+  EXPECT_EQ(line_of(model, {}, quantity)->value, "0.000");
+  EXPECT_FALSE(line_of(model, {}, quantity)->warning);
 }
 
 TEST(RegimeOfRun, FrozenAirHasNoPressureAndLacksNothing) {
