@@ -55,7 +55,9 @@ std::optional<ParameterValue> ParameterReader::read(const Parameter& parameter, 
   keys_.emplace_back(parameter.key);
   const CaseEntry* entry = file_.find(parameter.key);
   if (const Condition& condition = parameter.condition; !condition.holds) {
-    if (entry)
+    const CaseEntry* choice = file_.find(condition.key);
+    const bool is_overridden = choice && choice->is_option && entry && !entry->is_option;
+    if (entry && !is_overridden)
       check({{.key = parameter.key,
               .what = fmt::format("given, but {} {}", condition.key, condition.found),
               .allowed = fmt::format("{} {}", condition.key, condition.needed)}});

@@ -29,7 +29,8 @@ class ParameterReader {
   explicit ParameterReader(const CaseFile& file, std::span<const RenamedKey> renamed = {});
 
   /// Reads one parameter. The member keeps its initial value if the key is missing or faulty, or where its condition
-  /// fails; there a key that is given is a fault.
+  /// fails. There a key that is given is a fault, unless it stands in the file and an option has taken another choice:
+  /// then it belongs to the choice that was replaced.
   template <class T>
   void operator()(const Parameter& parameter, T& member) {
     if (const auto value = read(parameter, value_type<T>())) from_value(*value, member);

@@ -22,7 +22,8 @@ struct Limits {
   Limits(const Parameters& p, const Domain& domain, const State& s, double dt)
       : least_density(p.sph.smoothing == Smoothing::fixed
                           ? 0
-                          : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing), -3)),
+                          : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing) /
+                                                  p.sph.smoothing_ratio, -3)),
         most_speed(p.bed.spacing / dt) {}
 
   bool allow_density(double value) const { return value > least_density && std::isfinite(value); }

@@ -25,7 +25,7 @@ double wave_speed(const Parameters& p) {
 }
 
 double smoothing_length(const Parameters& p) {
-  return sph::smoothing_length(lattice_of(p).mass, p.bed.packing * p.grains.density);
+  return p.sph.smoothing_ratio * sph::smoothing_length(lattice_of(p).mass, p.bed.packing * p.grains.density);
 }
 
 double step_of(const Parameters& p) {

@@ -87,7 +87,7 @@ Domain domain_of(const Parameters& p) {
 
 double least_distance_of_layers(const Parameters& p) {
   // Images reach twice the support and the skin; particles grow as they thin out, so some room is left.
-  return 3 * sph::support * p.bed.spacing;
+  return 3 * sph::support * p.sph.smoothing_ratio * p.bed.spacing;
 }
 
 Lattice lattice_of(const Parameters& p) {

@@ -38,8 +38,10 @@ void Rates::resize(std::size_t count) {
 
 Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
     : mass_(mass),
-      fixed_smoothing_length_(
-          p.sph.smoothing == Smoothing::fixed ? sph::smoothing_length(mass, p.bed.packing * p.grains.density) : 0.0),
+      smoothing_ratio_(p.sph.smoothing_ratio),
+      fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
+                                  ? smoothing_ratio_ * sph::smoothing_length(mass, p.bed.packing * p.grains.density)
+                                  : 0.0),
       grain_density_(p.grains.density),
       skin_(p.integration.skin * p.bed.spacing),
       stress_form_(p.sph.stress_form),
@@ -60,7 +62,8 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
 }
 
 double Sweep::smoothing_length(double density) const {
-  return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_ : sph::smoothing_length(mass_, density);
+  return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_
+                                     : smoothing_ratio_ * sph::smoothing_length(mass_, density);
 }
 
 void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,

@@ -68,6 +68,7 @@ class Sweep {
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
 
   double mass_;
+  double smoothing_ratio_;
   double fixed_smoothing_length_;  // 0: local
   double grain_density_;
   double skin_;

@@ -54,15 +54,25 @@ inline double bulk_density(const Parameters& p) {
   return p.bed.packing * p.grains.density;
 }
 
-/// Moment of the kernel's gradient on the cubic lattice with h equal to its spacing: divergences of stress come out
-/// larger by this factor.
-inline double lattice_moment() {
-  double moment = 0;
-  for (int i = -2; i <= 2; ++i)
-    for (int j = -2; j <= 2; ++j)
-      for (int k = -2; k <= 2; ++k)
-        moment -= sph::cubic_spline_slope(std::sqrt(double(i * i + j * j + k * k)), 1.0) * i * i;
-  return moment;
+/// Sum of `term` over the places of a cubic lattice of unit spacing within three spacings of one of them.
+template <class Term>
+double lattice_sum(Term term) {
+  double sum = 0;
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j)
+      for (int k = -3; k <= 3; ++k) sum += term(i, std::sqrt(double(i * i + j * j + k * k)));
+  return sum;
+}
+
+/// Moment of the kernel's gradient on the cubic lattice: divergences of stress come out larger by this factor.
+/// \param smoothing_length in spacings
+inline double lattice_moment(double smoothing_length = 1) {
+  return lattice_sum([&](int i, double r) { return -sph::cubic_spline_slope(r, smoothing_length) * i * i; });
+}
+
+/// The kernel's sum on the cubic lattice over what it is in a continuum. \param smoothing_length in spacings
+inline double lattice_density(double smoothing_length) {
+  return lattice_sum([&](int, double r) { return sph::cubic_spline(r, smoothing_length); });
 }
 
 /// A column in the order of the particles at the start.

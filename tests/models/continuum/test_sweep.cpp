@@ -190,5 +190,27 @@ TEST(Sweep, TheKernelsPackingOnALatticeIsTheBeds) {
   }
 }
 
+TEST(Sweep, AWiderKernelSumsOverAllWithinItsSupport) {
+  // Density and force of a bed under a linear stress, against sums over the whole lattice.
+  for (const double ratio : {1.2, 1.5}) {
+    Parameters p = column(8, 1, 12, 4);
+    p.sph.smoothing_ratio = ratio;
+    Evaluation e(p);
+    constexpr double gradient = 1e4;
+    for (std::size_t i = 0; i < e.state.position.size(); ++i)
+      e.state.material.stress[2][i] = gradient * e.state.position[i].z;
+    e.evaluate();
+    int inside = 0;
+    for (std::size_t i = 0; i < e.state.position.size(); ++i) {
+      const double z = e.state.position[i].z / spacing;
+      if (z > 8 || z < 4) continue;
+      ++inside;
+      EXPECT_NEAR(e.rates.kernel_density[i], bulk_density(p) * lattice_density(ratio), 1e-9 * bulk_density(p));
+      EXPECT_NEAR(e.rates.acceleration[i].z, -gradient * lattice_moment(ratio) / bulk_density(p), 1e-6);
+    }
+    EXPECT_EQ(inside, 32);
+  }
+}
+
 }  // namespace
 }  // namespace talus::continuum
