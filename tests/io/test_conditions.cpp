@@ -54,8 +54,9 @@ struct Read {
   std::vector<std::string> problems;
 };
 
-Read read(const std::string& text) {
-  const CaseFile file = CaseFile::from_text(text, "c");
+Read read(const std::string& text, const std::vector<std::string>& options = {}) {
+  CaseFile file = CaseFile::from_text(text, "c");
+  for (const std::string& option : options) file.set(option);
   Read result;
   ParameterReader reader(file, choosing::renamed);
   for_each_parameter(reader, result.parameters);
@@ -79,6 +80,21 @@ TEST(Conditions, AKeyOfAChoiceThatIsNotTakenIsAFault) {
   EXPECT_THAT(read("cover.depth = \"1 m\"").problems,
               ElementsAre("c:1: cover.depth: given, but cover.name is \"none\"; allowed: cover.name other than "
                           "\"none\""));
+}
+
+TEST(Conditions, AnOptionThatTakesAnotherChoiceReplacesTheKeysOfTheFormer) {
+  const std::string sand = "cover = { name = \"sand\", sand = { wet = true, water = 0.2 } }";
+  EXPECT_THAT(read(sand).problems, IsEmpty());
+  for (const auto& option : {"cover.name=snow", "cover.name=none"}) {
+    const Read other = read(sand, {option});
+    EXPECT_THAT(other.problems, IsEmpty()) << option;
+    EXPECT_EQ(other.parameters.sand.water, 0.1) << option;
+  }
+  // An inner choice takes its own keys along alone.
+  EXPECT_EQ(read(sand, {"cover.sand.wet=false"}).parameters.sand.water, 0.1);
+  // What an option gives itself still has to mean something.
+  EXPECT_THAT(read(sand, {"cover.name=snow", "cover.sand.friction=0.5"}).problems,
+              ElementsAre(HasSubstr("cover.sand.friction: given, but cover.name is \"snow\"")));
 }
 
 TEST(Conditions, ATakenChoiceHasItsKeysWhateverTheirOrder) {
