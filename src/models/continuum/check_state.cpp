@@ -23,7 +23,8 @@ struct Limits {
       : least_density(p.sph.smoothing == Smoothing::fixed
                           ? 0
                           : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing) /
-                                                  p.sph.smoothing_ratio, -3)),
+                                                  p.sph.smoothing_ratio,
+                                              -3)),
         most_speed(p.bed.spacing / dt) {}
 
   bool allow_density(double value) const { return value > least_density && std::isfinite(value); }

@@ -214,9 +214,10 @@ void for_each_parameter(Visit&& visit, P& p) {
           {},
           "smoothing length: of each particle from its density, h = (m/rho_b)^(1/3), or fixed at its initial value"},
       p.sph.smoothing);
-  visit(Parameter{"sph.smoothing_ratio", dimension::none, between(1, 1.5),
-                  "smoothing length in units of (m/rho_b)^(1/3), the paper's: a wider kernel sums over more neighbours"},
-        p.sph.smoothing_ratio);
+  visit(
+      Parameter{"sph.smoothing_ratio", dimension::none, between(1, 1.5),
+                "smoothing length in units of (m/rho_b)^(1/3), the paper's: a wider kernel sums over more neighbours"},
+      p.sph.smoothing_ratio);
   visit(Parameter{"sph.continuity",
                   {},
                   {},
