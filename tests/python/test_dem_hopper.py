@@ -200,6 +200,10 @@ class Folder(unittest.TestCase):
         first = [float(row["hopper_mm"]) for row in rows if row["run"] == "one" and float(row["time_s"]) == 0]
         self.assertEqual(len(first), 50)
         self.assertLess(max(abs(height - 180) for height in first), 0.7)
+        before = (self.folder / "data" / "surfaces.csv").read_text()
+        subprocess.run([sys.executable, SCRIPTS / "coarse_grain.py", self.folder / "two", "--out", self.folder / "data"],
+                       check=True)
+        self.assertEqual((self.folder / "data" / "surfaces.csv").read_text(), before, "run one is kept, run two replaced")
         wrong = subprocess.run([sys.executable, SCRIPTS / "coarse_grain.py", self.folder / "three"], capture_output=True,
                                text=True)
         self.assertNotEqual(wrong.returncode, 0)

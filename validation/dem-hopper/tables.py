@@ -44,12 +44,19 @@ class Tables:
                  unit, float(value))
 
     def write(self, folder):
+        """Rows of other runs that the files hold already stay, in front."""
         folder.mkdir(parents=True, exist_ok=True)
+        mine = {row[0] for rows in self.rows.values() for row in rows}
         for name, rows in self.rows.items():
-            with open(folder / f"{name}.csv", "w", encoding="utf-8", newline="") as file:
+            path = folder / f"{name}.csv"
+            kept = []
+            if path.exists():
+                with open(path, encoding="utf-8", newline="") as file:
+                    kept = [row for row in list(csv.reader(file))[1:] if row[0] not in mine]
+            with open(path, "w", encoding="utf-8", newline="") as file:
                 writer = csv.writer(file, lineterminator="\n")
                 writer.writerow(self.HEADS[name].split(","))
-                writer.writerows(rows)
+                writer.writerows(kept + rows)
 
 
 def add_run(tables, run):
