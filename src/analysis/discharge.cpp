@@ -71,8 +71,10 @@ Curve about_running_mean(const Curve& curve, double length, double from, double 
   for (std::size_t n = 0; n < curve.time.size(); ++n) {
     const double t = curve.time[n];
     if (t <= from || t > to || !covers(sums, t - 0.5 * length, t + 0.5 * length)) continue;
+    const double difference = curve.value[n] - mean_rate(sums, t - 0.5 * length, t + 0.5 * length);
+    if (!std::isfinite(difference)) break;  // the curve has ended within the mean
     left.time.push_back(t);
-    left.value.push_back(curve.value[n] - mean_rate(sums, t - 0.5 * length, t + 0.5 * length));
+    left.value.push_back(difference);
   }
   return left;
 }

@@ -33,7 +33,7 @@ double drift(const Curve& cumulative, double length, double from, double to);
 double first_maximum_time(const Curve& values, double reach);
 
 /// What is left of a curve when its own centred mean over `length` is taken off, of the data within from..to whose mean
-/// the curve covers.
+/// the curve covers before its first value that is not a number.
 Curve about_running_mean(const Curve& curve, double length, double from, double to);
 
 /// Standard deviation of that.

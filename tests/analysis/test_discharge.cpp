@@ -62,5 +62,16 @@ TEST(Discharge, FluctuationOfASinusoidOnATrend) {
   EXPECT_NEAR(fluctuation(curve, 0.02, 0.05, 0.3), 0.2 / std::sqrt(2), 1e-4);
 }
 
+TEST(Discharge, FluctuationEndsWhereTheCurveDoes) {
+  // Nothing is left in the slit from 0.3 s on: the last mean over 20 ms is that about 0.29 s.
+  const Curve curve = sampled(0, 0.4, 1e-4, [](double t) {
+    return t < 0.30005 ? 0.2 * std::sin(2 * std::numbers::pi * t / 0.01) : std::nan("");
+  });
+  const Curve left = about_running_mean(curve, 0.02, 0.05, 0.3);
+  ASSERT_FALSE(left.time.empty());
+  EXPECT_NEAR(left.time.back(), 0.29, 1e-4);
+  EXPECT_NEAR(fluctuation(curve, 0.02, 0.05, 0.3), 0.2 / std::sqrt(2), 1e-4);
+}
+
 }  // namespace
 }  // namespace talus
