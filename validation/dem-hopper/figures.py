@@ -71,6 +71,8 @@ def pictures(hopper, album):
     surfaces = by(read("surfaces.csv"), "run", "time_s")
     for path in sorted((HERE / "data").glob("picture-*.csv")):
         referee = path.stem.removeprefix("picture-")
+        if ("-r" in referee) != (hopper.variant == "rolling"):
+            continue  # beads with rolling friction beside the run that has their friction
         shown = [(time, rows) for (time,), rows in by(read(path.name), "time_s").items() if hopper.reaches(time)]
         figure, axes = plt.subplots(2, len(shown), figsize=(1.75 * len(shown), 6.4), sharex=True, sharey=True, squeeze=False)
         for (time, rows), above, below in zip(shown, *axes):
@@ -138,8 +140,8 @@ def velocity(hoppers, album):
 
 
 def draw(study, album):
-    hoppers = [Hopper(ensemble, number) for number, ensemble in enumerate(study.of_case("hopper") +
-                                                                          study.of_case("section"))]
+    ensembles = [ensemble for case in ("hopper", "section", "rolling") for ensemble in study.of_case(case)]
+    hoppers = [Hopper(ensemble, number) for number, ensemble in enumerate(ensembles)]
     for hopper in hoppers:
         pictures(hopper, album)
     discharge(hoppers, album)
