@@ -8,6 +8,8 @@
 #include "base/random.hpp"
 #include "models/continuum/initial.hpp"
 #include "models/continuum/model.hpp"
+#include "models/continuum/sort.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 namespace {
@@ -53,6 +55,7 @@ struct Bed {
     for (double& density : state.density) density *= random.uniform(0.999, 1.001);
     for (auto& stress : state.material.stress)
       for (double& component : stress) component = random.uniform(0, 1000);
+    sort_for_locality(state, sph::support * parameters.bed.spacing);
     for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
     sweep.find_neighbours(team, state.position, h);
     evaluate(SweepTerms::all);

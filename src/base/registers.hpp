@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 #if defined(__AVX2__)
@@ -102,7 +104,8 @@ TALUS_INLINE void transpose(Register (&r)[sizeof(Register) / 8]) requires(sizeof
 
 // The few operations that the vector arithmetic of the compiler lacks: a b + c and c - a b, rounded once where the
 // instruction set can; an estimate of the reciprocal square root, good to `estimate_bits` bits; a > b; a choice lane by
-// lane; whether a mask holds in every lane.
+// lane; whether a mask holds in every lane, and its lanes as bits; those of eight numbers whose bit is set, one after
+// the other (the places behind them, up to eight in all, may be overwritten), and how many they are.
 #if defined(__AVX512F__)
 inline constexpr int estimate_bits = 14;
 TALUS_INLINE __m512d fused(__m512d a, __m512d b, __m512d c) {
@@ -141,6 +144,15 @@ TALUS_INLINE bool all(__mmask8 mask) {
 TALUS_INLINE bool all(__mmask16 mask) {
   return mask == 0xffff;
 }
+TALUS_INLINE unsigned bits(__mmask8 mask) {
+  return mask;
+}
+TALUS_INLINE std::size_t pack(const std::uint32_t* numbers, unsigned bits, std::uint32_t* packed) {
+  const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(packed),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), eight));
+  return static_cast<std::size_t>(__builtin_popcount(bits));
+}
 #elif defined(__AVX2__)
 inline constexpr int estimate_bits = 11;
 TALUS_INLINE __m256d fused(__m256d a, __m256d b, __m256d c) {
@@ -174,6 +186,10 @@ template <class Mask>
 TALUS_INLINE bool all(Mask mask) {
   return _mm256_movemask_epi8((__m256i)mask) == -1;
 }
+template <class Mask>
+TALUS_INLINE unsigned bits(Mask mask) requires(sizeof(mask[0]) == 8) {
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+}
 #else
 inline constexpr int estimate_bits = 53;  // not an estimate
 template <class Register>
@@ -202,6 +218,19 @@ TALUS_INLINE bool all(Mask mask) {
   bool set = true;
   for (unsigned k = 0; k < sizeof(Mask) / sizeof(mask[0]); ++k) set = set && mask[k] != 0;
   return set;
+}
+template <class Mask>
+TALUS_INLINE unsigned bits(Mask mask) {
+  unsigned set = 0;
+  for (unsigned k = 0; k < sizeof(Mask) / sizeof(mask[0]); ++k) set |= (mask[k] != 0 ? 1u : 0u) << k;
+  return set;
+}
+#endif
+#if !defined(__AVX512F__)
+TALUS_INLINE std::size_t pack(const std::uint32_t* numbers, unsigned bits, std::uint32_t* packed) {
+  std::size_t count = 0;
+  for (; bits != 0; bits &= bits - 1) packed[count++] = numbers[__builtin_ctz(bits)];
+  return count;
 }
 #endif
 

@@ -249,6 +249,12 @@ TALUS_INLINE bool all(SimdMask<T, rows> condition) {
   return registers::all(together);
 }
 
+/// A bit for each lane, the first one lowest: whether the condition holds there.
+template <class T>
+TALUS_INLINE unsigned lane_bits(SimdMask<T, 1> condition) {
+  return registers::bits(condition.row[0]);
+}
+
 /// 1/sqrt(x): the processor's estimate y, and with e = 1 - x y^2 as many terms of y (1 + e/2 + 3/8 e^2 + 5/16 e^3 ...)
 /// as the type can hold. Measured relative error: 1.7e-16 and 9e-8, three quarters of the type's epsilon. Not finite at
 /// x = 0. With avx2 doubles start from a float: beyond its range, 1e-38 to 3e38, the result is 0 or not finite.

@@ -2,6 +2,8 @@
 #include "numerics/cell_grid.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <stdexcept>
 
 namespace talus {
@@ -42,9 +44,22 @@ struct Keyed {
   std::uint32_t point;
 };
 
+/// By key, equal ones as they come: sorted by one digit after the other, the lowest first.
 void sort(std::vector<Keyed>& points) {
-  std::sort(points.begin(), points.end(),
-            [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
+  constexpr int bits = 7;  // the numbers of a cell along the axes of a grid of up to 128 cells are three digits
+  constexpr std::size_t digits = std::size_t{1} << bits;
+  std::uint64_t used = 0;
+  for (const Keyed& p : points) used |= p.key;
+  std::vector<Keyed> sorted(points.size());
+  for (int shift = 0; shift < 64; shift += bits) {
+    const auto digit = [&](std::uint64_t key) { return (key >> shift) % digits; };
+    if (digit(used) == 0) continue;
+    std::array<std::size_t, digits> next{};
+    for (const Keyed& p : points) ++next[digit(p.key)];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    for (const Keyed& p : points) sorted[next[digit(p.key)]++] = p;
+    points.swap(sorted);
+  }
 }
 
 /// Largest whole number not above x. std::floor is a call on a machine without SSE 4.1.
@@ -64,41 +79,34 @@ CellGrid::CellGrid(std::span<const Vector3> points, double cell_size) : origin_(
   check_fits(points, origin_, cell_size);
   std::vector<Keyed> keyed(points.size());
   for (std::uint32_t n = 0; n < points.size(); ++n) {
-    const Cell cell = cell_of(points[n]);
+    const Index cell = cell_of(points[n]);
     last_ = {std::max(last_.i, cell.i), std::max(last_.j, cell.j), std::max(last_.k, cell.k)};
     keyed[n] = {cell_key(cell.i, cell.j, cell.k), n};
   }
   sort(keyed);
   order_.resize(keyed.size());
-  keys_.resize(keyed.size());
   for (std::size_t n = 0; n < keyed.size(); ++n) {
     order_[n] = keyed[n].point;
-    keys_[n] = keyed[n].key;
-    const std::uint64_t row = keys_[n] & ~cell_key(most_cells * 2 - 1, 0, 0);
-    if (rows_.empty() || rows_.back().key != row) rows_.push_back({row, n});
+    if (cells_.empty() || cells_.back().key != keyed[n].key) cells_.push_back({keyed[n].key, n});
   }
-  rows_.push_back({~std::uint64_t{0}, keyed.size()});
+  cells_.push_back({~std::uint64_t{0}, keyed.size()});
 }
 
-CellGrid::Cell CellGrid::cell_of(const Vector3& x) const {
+CellGrid::Index CellGrid::cell_of(const Vector3& x) const {
   const Vector3 d = x - origin_;
   return {whole(d.x / cell_size_), whole(d.y / cell_size_), whole(d.z / cell_size_)};
 }
 
-CellGrid::Range CellGrid::points_in_row(std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) const {
+std::span<const std::uint32_t> CellGrid::points_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
+                                                       std::int64_t k) const {
   first = std::max(first, first_.i);
   last = std::min(last, last_.i);
-  if (first > last) return {0, 0};
-  const std::uint64_t key = cell_key(0, j, k);
-  const auto row =
-      std::lower_bound(rows_.begin(), rows_.end(), key, [](const Row& r, std::uint64_t v) { return r.key < v; });
-  if (row->key != key) return {0, 0};
-  const auto row_begin = keys_.begin() + static_cast<std::ptrdiff_t>(row->begin);
-  const auto row_end = keys_.begin() + static_cast<std::ptrdiff_t>((row + 1)->begin);
-  const auto begin = std::lower_bound(row_begin, row_end, cell_key(first, j, k));
-  auto end = begin;  // a cell holds few points: walking beats searching
-  while (end != row_end && *end <= cell_key(last, j, k)) ++end;
-  return {static_cast<std::size_t>(begin - keys_.begin()), static_cast<std::size_t>(end - keys_.begin())};
+  if (first > last) return {};
+  const auto begin = std::lower_bound(cells_.begin(), cells_.end(), cell_key(first, j, k),
+                                      [](const Cell& cell, std::uint64_t key) { return cell.key < key; });
+  auto end = begin;  // the cell at the end of all stops it
+  while (end->key <= cell_key(last, j, k)) ++end;
+  return order().subspan(begin->begin, end->begin - begin->begin);
 }
 
 std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell_size) {

@@ -23,37 +23,38 @@ class CellGrid {
   /// some beyond. The order is fixed by the points alone.
   template <class Visit>
   void for_each_candidate(const Vector3& x, Visit&& visit) const {
-    const Cell centre = cell_of(x);
+    const Index centre = cell_of(x);
     for (std::int64_t k = std::max(centre.k - 1, first_.k); k <= std::min(centre.k + 1, last_.k); ++k)
-      for (std::int64_t j = std::max(centre.j - 1, first_.j); j <= std::min(centre.j + 1, last_.j); ++j) {
-        const Range cells = points_in_row(centre.i - 1, centre.i + 1, j, k);
-        for (std::size_t n = cells.begin; n < cells.end; ++n) visit(order_[n]);
-      }
+      for (std::int64_t j = std::max(centre.j - 1, first_.j); j <= std::min(centre.j + 1, last_.j); ++j)
+        for (const std::uint32_t point : points_in_row(centre.i - 1, centre.i + 1, j, k)) visit(point);
   }
 
-  /// The points in the order of their cells, x fastest.
+  /// The points in the order of their cells, x fastest; those of a cell by number.
   std::span<const std::uint32_t> order() const { return order_; }
 
+  /// How many cells hold points, and the points of one of them, sorted.
+  std::size_t cells() const { return cells_.size() - 1; }
+  std::span<const std::uint32_t> points_of(std::size_t cell) const {
+    return order().subspan(cells_[cell].begin, cells_[cell + 1].begin - cells_[cell].begin);
+  }
+
  private:
-  struct Cell {
+  struct Index {
     std::int64_t i, j, k;
   };
-  struct Range {
-    std::size_t begin, end;
-  };
-  struct Row {
-    std::uint64_t key;  // of its cell i = 0
+  struct Cell {
+    std::uint64_t key;
     std::size_t begin;  // its first point in the order
   };
-  Cell cell_of(const Vector3& x) const;
-  Range points_in_row(std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) const;
+  Index cell_of(const Vector3& x) const;
+  std::span<const std::uint32_t> points_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
+                                               std::int64_t k) const;
 
   Vector3 origin_;
   double cell_size_;
-  Cell first_{}, last_{};             // that hold points
-  std::vector<Row> rows_;             // that hold points, sorted; one more at the end
-  std::vector<std::uint64_t> keys_;   // of each point, sorted
-  std::vector<std::uint32_t> order_;  // the point with that key
+  Index first_{}, last_{};            // that hold points
+  std::vector<std::uint32_t> order_;  // the points by cell
+  std::vector<Cell> cells_;           // that hold points, sorted; one more at the end
 };
 
 /// A permutation that keeps points near in space near in memory (Morton order of cells of edge `cell_size`).

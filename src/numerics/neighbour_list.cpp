@@ -2,39 +2,145 @@
 #include "numerics/neighbour_list.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
+#include "base/instruction_set.hpp"
 #include "numerics/cell_grid.hpp"
+#include "numerics/near_points/kernel.hpp"
 
 namespace talus {
+
+namespace {
+
+/// Numbers that go in in any order and come out in theirs: a bit for each, and one for each word of bits in use.
+class NumberSet {
+ public:
+  /// \param bound above all numbers
+  void allow(std::size_t bound) {
+    words_.resize(bound / 64 + 1);
+    used_.resize(words_.size() / 64 + 1);
+  }
+  void insert(std::uint32_t n) {
+    words_[n / 64] |= std::uint64_t{1} << (n % 64);
+    used_[n / 4096] |= std::uint64_t{1} << (n / 64 % 64);
+  }
+  /// Calls visit(n) for each number and leaves the set empty.
+  template <class Visit>
+  void drain(Visit&& visit) {
+    for (std::size_t u = 0; u < used_.size(); ++u)
+      for (; used_[u] != 0; used_[u] &= used_[u] - 1) {
+        const std::size_t w = 64 * u + static_cast<std::size_t>(std::countr_zero(used_[u]));
+        for (; words_[w] != 0; words_[w] &= words_[w] - 1)
+          visit(static_cast<std::uint32_t>(64 * w + static_cast<std::size_t>(std::countr_zero(words_[w]))));
+      }
+  }
+
+ private:
+  std::vector<std::uint64_t> words_, used_;
+};
+
+/// The points around a cell, sorted by number.
+class Surroundings {
+ public:
+  /// \param listed points of one cell, sorted
+  void gather(const CellGrid& grid, std::span<const Vector3> position, std::span<const double> radius,
+              std::span<const std::uint32_t> listed) {
+    std::size_t count = 0;
+    numbers_.allow(position.size());
+    grid.for_each_candidate(position[listed.front()], [&](std::uint32_t j) { numbers_.insert(j), ++count; });
+    size_ = (count + PointBlock::size - 1) / PointBlock::size;
+    if (blocks_.size() < size_) blocks_.resize(size_), near_.resize(PointBlock::size * size_);
+    places_.clear();
+    std::size_t n = 0;
+    numbers_.drain([&](std::uint32_t j) {
+      if (places_.size() < listed.size() && listed[places_.size()] == j) places_.push_back(n);
+      PointBlock& block = blocks_[n / PointBlock::size];
+      const std::size_t place = n++ % PointBlock::size;
+      block.x[place] = position[j].x, block.y[place] = position[j].y, block.z[place] = position[j].z;
+      block.radius[place] = radius[j];
+      block.number[place] = j;
+    });
+    for (; n < PointBlock::size * size_; ++n)
+      blocks_[size_ - 1].x[n % PointBlock::size] = std::numeric_limits<double>::infinity();
+  }
+
+  /// Those near the n-th listed point, sorted; until the next call.
+  std::span<std::uint32_t> near(PickNear* pick, std::size_t n, double skin) {
+    return std::span(near_).first(pick(blocks_.data(), size_, places_[n], skin, near_.data()));
+  }
+
+ private:
+  NumberSet numbers_;
+  std::vector<PointBlock> blocks_;
+  std::size_t size_ = 0;             // of the blocks in use
+  std::vector<std::size_t> places_;  // of the listed points in the blocks
+  std::vector<std::uint32_t> near_;
+};
+
+PickNear* choose_pick_near() {
+  switch (resolve(InstructionSet::automatic)) {
+#if defined(__x86_64__)
+    case InstructionSet::avx512:
+      return pick_near_avx512;
+    case InstructionSet::avx2:
+      return pick_near_avx2;
+#endif
+    default:
+      return pick_near_portable;
+  }
+}
+
+}  // namespace
 
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
                           double skin, std::size_t count, const Keep& keep) {
   reference_.assign(position.begin(), position.end());
   skin_ = skin;
-  neighbours_.clear();
   first_.assign(count + 1, 0);
-  if (count == 0) return;
+  if (count == 0) return neighbours_.clear();
 
   const double largest = *std::max_element(radius.begin(), radius.end());
   const CellGrid grid(position, 2 * largest + skin);
-  const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
-  std::vector<std::vector<std::uint32_t>> found(chunks);
-  team.run(chunks, [&](std::size_t chunk) {
-    std::vector<std::uint32_t>& list = found[chunk];
-    for (std::size_t i = chunk * chunk_size; i < std::min(count, (chunk + 1) * chunk_size); ++i) {
-      const auto begin = static_cast<std::ptrdiff_t>(list.size());
-      grid.for_each_candidate(position[i], [&](std::uint32_t j) {
-        const Vector3 d = position[i] - position[j];
-        const double reach = radius[i] + radius[j] + skin;
-        if (dot(d, d) <= reach * reach && j != i && (!keep || keep(i, j))) list.push_back(j);
-      });
-      std::sort(list.begin() + begin, list.end());
-      first_[i + 1] = list.size() - static_cast<std::size_t>(begin);
+  constexpr std::size_t cells_at_once = 32;
+  const std::size_t chunks = (grid.cells() + cells_at_once - 1) / cells_at_once;
+  const auto for_each_listed = [&](std::size_t chunk, const auto& visit) {  // the listed points of one cell at a time
+    for (std::size_t c = chunk * cells_at_once; c < std::min(grid.cells(), (chunk + 1) * cells_at_once); ++c) {
+      const auto points = grid.points_of(c);
+      const auto ghosts = std::lower_bound(points.begin(), points.end(), count);
+      if (ghosts != points.begin()) visit(std::span(points.begin(), ghosts));
     }
+  };
+  static PickNear* const pick_near = choose_pick_near();
+  found_.resize(std::max(chunks, found_.size()));
+  team.run(chunks, [&](std::size_t chunk) {
+    thread_local Surroundings of_thread;
+    Surroundings& around = of_thread;  // its address is looked up once
+    std::vector<std::uint32_t>& list = found_[chunk];
+    list.clear();
+    for_each_listed(chunk, [&](std::span<const std::uint32_t> listed) {
+      around.gather(grid, position, radius, listed);
+      for (std::size_t n = 0; n < listed.size(); ++n) {
+        const std::span<std::uint32_t> near = around.near(pick_near, n, skin);
+        const std::size_t length = keep ? keep(listed[n], near) : near.size();
+        list.insert(list.end(), near.begin(), near.begin() + static_cast<std::ptrdiff_t>(length));
+        first_[listed[n] + 1] = length;
+      }
+    });
   });
   for (std::size_t i = 0; i < count; ++i) first_[i + 1] += first_[i];
-  neighbours_.reserve(first_[count]);
-  for (const auto& list : found) neighbours_.insert(neighbours_.end(), list.begin(), list.end());
+  // Sums go through the particles by number: in that order their lists lie in memory.
+  neighbours_.resize(first_[count]);
+  team.run(chunks, [&](std::size_t chunk) {
+    const std::uint32_t* list = found_[chunk].data();
+    for_each_listed(chunk, [&](std::span<const std::uint32_t> listed) {
+      for (const std::uint32_t i : listed) {
+        const std::size_t length = first_[i + 1] - first_[i];
+        std::copy_n(list, length, neighbours_.data() + first_[i]);
+        list += length;
+      }
+    });
+  });
 }
 
 bool NeighbourList::holds(ThreadTeam& team, std::span<const Vector3> position) const {

@@ -23,8 +23,9 @@ class NeighbourList {
   }
 
   /// The same, with neighbours among all for the first `listed` particles only: those behind them are ghosts.
-  /// \param keep whether i may ever interact with the near j; none: always
-  using Keep = std::function<bool(std::size_t i, std::uint32_t j)>;
+  /// \param keep moves those of the particles near i that i may ever interact with to the front, in their order, and
+  /// returns how many they are; none: all stay
+  using Keep = std::function<std::size_t(std::size_t i, std::span<std::uint32_t> near)>;
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin,
              std::size_t listed, const Keep& keep);
 
@@ -42,6 +43,7 @@ class NeighbourList {
   std::vector<Vector3> reference_;
   std::vector<std::uint32_t> neighbours_;
   std::vector<std::size_t> first_ = {0};
+  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory
 };
 
 }  // namespace talus

@@ -19,27 +19,30 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   reference_radius_.assign(radius.begin(), radius.end());
 
   images_ = domain_.images(reach_);
-  ghosts_.clear();
-  for (std::uint32_t image = 0; image < images_.size(); ++image)
-    for (std::uint32_t j = 0; j < count; ++j)
-      if (domain_.is_near(images_[image], images_[image].position(position[j]), largest + radius[j] + skin))
-        ghosts_.push_back({j, image});
+  find_ghosts(team, position, radius, largest);
 
   std::vector<Vector3> points(position.begin(), position.end());
   std::vector<double> radii(radius.begin(), radius.end());
-  for (const Ghost& ghost : ghosts_) {
-    points.push_back(image(ghost).position(position[ghost.source]));
-    radii.push_back(radius[ghost.source]);
-  }
+  points.resize(count + ghosts_.size());
+  radii.resize(count + ghosts_.size());
+  for_each(team, ghosts_.size(), [&](std::size_t g) {
+    points[count + g] = image(ghosts_[g]).position(position[ghosts_[g].source]);
+    radii[count + g] = radius[ghosts_[g].source];
+  });
   near_wall_.resize(count);
   for_each(team, count, [&](std::size_t i) { near_wall_[i] = domain_.is_near_wall(position[i], reach_ + skin); });
-  // Images in walls are seen from near them only.
-  const NeighbourList::Keep may_see = [&](std::size_t i, std::uint32_t j) {
-    if (j < count) return true;
-    const Image& mirrored = image(ghosts_[j - count]);
-    return !mirrored.is_in_walls() || (near_wall_[i] && domain_.may_see(points[i], points[j], mirrored, skin));
+  // Images in walls are the last ones, and seen from near walls only.
+  const auto first_in_walls = std::partition_point(ghosts_.begin(), ghosts_.end(),
+                                                   [&](const Ghost& ghost) { return !image(ghost).is_in_walls(); });
+  const std::size_t in_walls = count + static_cast<std::size_t>(first_in_walls - ghosts_.begin());
+  const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
+    const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
+    const auto end = !near_wall_[i] ? seldom : std::remove_if(seldom, near.end(), [&](std::uint32_t j) {
+      return !domain_.may_see(points[i], points[j], image(ghosts_[j - count]), skin);
+    });
+    return static_cast<std::size_t>(end - near.begin());
   };
-  list_.build(team, points, radii, skin, count, domain_.walls().empty() ? nullptr : may_see);
+  list_.build(team, points, radii, skin, count, domain_.walls().empty() ? nullptr : keep_visible);
 
   first_ghost_.resize(count);
   for_each(team, count, [&](std::size_t i) {
@@ -47,6 +50,44 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     const auto first = std::lower_bound(neighbours.begin(), neighbours.end(), count);
     first_ghost_[i] = static_cast<std::uint32_t>(first - neighbours.begin());
   });
+}
+
+void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
+                                double largest) {
+  // Particles whose numbers follow each other are mostly near each other too: those of a sphere that is far from all
+  // that an image is seen in need no test.
+  struct Sphere {
+    Vector3 centre;
+    double radius = 0;
+  };
+  constexpr std::size_t together = 32;
+  std::vector<Sphere> spheres((position.size() + together - 1) / together);
+  const auto within = [&](std::size_t sphere, const auto& visit) {
+    for (std::size_t j = together * sphere; j < std::min(position.size(), together * (sphere + 1)); ++j) visit(j);
+  };
+  for_each(team, spheres.size(), [&](std::size_t n) {
+    Vector3 low = position[together * n], high = low;
+    within(n, [&](std::size_t j) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], position[j][axis]);
+        high[axis] = std::max(high[axis], position[j][axis]);
+      }
+    });
+    spheres[n] = {0.5 * (low + high), 0.5 * norm(high - low)};
+  });
+  std::vector<std::vector<Ghost>> found(images_.size());
+  team.run(images_.size(), [&](std::size_t n) {
+    const Image& image = images_[n];
+    constexpr double rounding = 1 + 1e-6;
+    for (std::size_t s = 0; s < spheres.size(); ++s)
+      if (domain_.is_near(image, image.position(spheres[s].centre), rounding * (reach_ + spheres[s].radius)))
+        within(s, [&](std::size_t j) {
+          if (domain_.is_near(image, image.position(position[j]), largest + radius[j] + skin_))
+            found[n].push_back({static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(n)});
+        });
+  });
+  ghosts_.clear();
+  for (const auto& of_image : found) ghosts_.insert(ghosts_.end(), of_image.begin(), of_image.end());
 }
 
 bool Neighbourhood::holds(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) const {

@@ -49,6 +49,8 @@ class Neighbourhood {
   bool is_near_wall(std::size_t i) const { return near_wall_[i]; }
 
  private:
+  void find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double largest);
+
   const Domain& domain_;
   double skin_ = -1;
   double reach_ = 0;

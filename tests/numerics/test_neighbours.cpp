@@ -6,8 +6,10 @@
 #include <limits>
 #include <set>
 
+#include "base/instruction_set.hpp"
 #include "base/random.hpp"
 #include "numerics/cell_grid.hpp"
+#include "numerics/near_points/kernel.hpp"
 #include "numerics/neighbour_list.hpp"
 
 namespace talus {
@@ -43,6 +45,61 @@ TEST(NeighbourList, FindsExactlyThePairsThatAllPairsFind) {
   }
 }
 
+TEST(NeighbourList, FindsThePairsOfParticlesAndGhostsThatAreKept) {
+  const auto points = random_points(3000, {12, 12, 12}, 9);
+  const std::vector<double> radius(points.size(), 0.6);
+  const std::size_t listed = 1000;
+  const auto is_kept = [](std::size_t i, std::uint32_t j) { return j < 2000 || (i + j) % 3 == 0; };
+  ThreadTeam team(2);
+  NeighbourList list;
+  for (const double skin : {0.3, 0.1})  // the second time into used memory
+    list.build(team, points, radius, skin, listed, [&](std::size_t i, std::span<std::uint32_t> near) {
+      return static_cast<std::size_t>(
+          std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) { return !is_kept(i, j); }) - near.begin());
+    });
+  for (std::size_t i = 0; i < listed; ++i) {
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t j = 0; j < points.size(); ++j)
+      if (j != i && norm(points[i] - points[j]) <= 1.3 && is_kept(i, j)) expected.push_back(j);
+    const auto found = list.of(i);
+    EXPECT_THAT(std::vector<std::uint32_t>(found.begin(), found.end()), testing::ElementsAreArray(expected)) << i;
+  }
+}
+
+TEST(NearPoints, AreTheSameForAllInstructionSets) {
+  constexpr std::size_t size = PointBlock::size, count = 30;
+  Random random(5);
+  std::vector<PointBlock> blocks(count);
+  for (std::size_t b = 0; b < count; ++b)
+    for (std::size_t k = 0; k < size; ++k) {
+      PointBlock& block = blocks[b];
+      block.x[k] = b + 1 == count && k > 2 ? std::numeric_limits<double>::infinity() : random.uniform(0, 4);
+      block.y[k] = random.uniform(0, 4), block.z[k] = random.uniform(0, 4);
+      block.radius[k] = random.uniform(0.5, 0.9);
+      block.number[k] = static_cast<std::uint32_t>(3 * (size * b + k));
+    }
+  for (const std::size_t self : {std::size_t{0}, std::size_t{77}, size * (count - 1) + 2}) {
+    const auto picked = [&](PickNear* pick) {
+      std::vector<std::uint32_t> near(size * count);
+      near.resize(pick(blocks.data(), count, self, 0.2, near.data()));
+      return near;
+    };
+    const std::vector<std::uint32_t> near = picked(pick_near_portable);
+    EXPECT_GT(near.size(), 10u);
+    EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
+    EXPECT_THAT(near, testing::Not(testing::Contains(3 * self)));
+    EXPECT_LT(near.back(), 3 * (size * (count - 1) + 3));
+#if defined(__x86_64__)
+    if (is_available(InstructionSet::avx2)) {
+      EXPECT_EQ(picked(pick_near_avx2), near);
+    }
+    if (is_available(InstructionSet::avx512)) {
+      EXPECT_EQ(picked(pick_near_avx512), near);
+    }
+#endif
+  }
+}
+
 TEST(NeighbourList, HoldsUntilTwoParticlesCouldHaveClosedTheSkin) {
   ThreadTeam team(1);
   std::vector<Vector3> points = {{0, 0, 0}, {3, 0, 0}};
@@ -67,6 +124,23 @@ TEST(CellGrid, RefusesWhatItCannotHold) {
   const std::vector<Vector3> wide = {{0, 0, 0}, {1e7, 0, 0}};
   EXPECT_THROW(CellGrid(wide, 1.0), std::invalid_argument);
   EXPECT_NO_THROW(CellGrid(wide, 10.0));
+}
+
+TEST(CellGrid, SortsPointsByCellAndThenByNumber) {
+  const auto points = random_points(2000, {300, 2, 3}, 4);  // more cells along x than a digit of the sort holds
+  const CellGrid grid(points, 1.0);
+  std::set<std::uint32_t> seen;
+  double previous = 0;
+  for (std::size_t cell = 0; cell < grid.cells(); ++cell) {
+    const auto inside = grid.points_of(cell);
+    ASSERT_FALSE(inside.empty());
+    EXPECT_TRUE(std::is_sorted(inside.begin(), inside.end()));
+    seen.insert(inside.begin(), inside.end());
+    for (const std::uint32_t j : inside) EXPECT_LT(std::abs(points[j].x - points[inside.front()].x), 1.0);
+    previous = points[inside.front()].x;
+  }
+  EXPECT_GT(previous, 290);
+  EXPECT_EQ(seen.size(), points.size());
 }
 
 TEST(SpatialOrder, IsAPermutationThatKeepsNeighboursNear) {

@@ -79,14 +79,20 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
 void Sweep::find_groups() {
   const auto ghosts = neighbourhood_.ghosts();
   const std::size_t count = neighbourhood_.particles();
+  std::vector<std::size_t> end(neighbourhood_.images().size());  // of the ghosts of each image, which follow each other
+  for (std::size_t g = 0; g < ghosts.size(); ++g) end[ghosts[g].image] = count + g + 1;
   groups_.clear();
   first_group_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto neighbours = neighbourhood_.of(i);
     groups_.push_back({static_cast<std::uint32_t>(neighbourhood_.first_ghost_of(i)), -1});
+    std::size_t group_end = count;
     for (std::size_t n = neighbourhood_.first_ghost_of(i); n < neighbours.size(); ++n) {
-      const auto image = static_cast<std::int32_t>(ghosts[neighbours[n] - count].image);
-      if (groups_.back().image != image) groups_.push_back({0, image});
+      if (neighbours[n] >= group_end) {
+        const std::uint32_t image = ghosts[neighbours[n] - count].image;
+        groups_.push_back({0, static_cast<std::int32_t>(image)});
+        group_end = end[image];
+      }
       groups_.back().end = static_cast<std::uint32_t>(n + 1);
     }
     first_group_.push_back(static_cast<std::uint32_t>(groups_.size()));

@@ -169,17 +169,17 @@ std::vector<Image> Domain::images(double reach) const {
 }
 
 bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int copy = image.copy[static_cast<std::size_t>(axis)];
+    if (copy < 0 && !(x[axis] >= box_.low[axis] - reach)) return false;
+    if (copy > 0 && !(x[axis] <= box_.high[axis] + reach)) return false;
+  }
   Vector3 place = x;
   for (const std::int8_t number : image.mirrors) {
     if (number < 0) break;
     const Mirror& mirror = mirrors_[static_cast<std::size_t>(number)];
     if (!(distance_to_segment(place, mirror.from, mirror.to) <= reach)) return false;
     place = mirrored(Image{}, mirror).source(place);
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const int copy = image.copy[static_cast<std::size_t>(axis)];
-    if (copy < 0 && !(x[axis] >= box_.low[axis] - reach)) return false;
-    if (copy > 0 && !(x[axis] <= box_.high[axis] + reach)) return false;
   }
   return true;
 }

@@ -92,8 +92,8 @@ class Domain {
   /// The largest reach for which the images are complete: the distance between layers and faces of the same axis.
   double largest_reach() const;
 
-  /// All images that can stand within `reach` of the box or of a wall, in a fixed order; the identity is not among
-  /// them. \param reach m, at most largest_reach()
+  /// All images that can stand within `reach` of the box or of a wall, in a fixed order, those in walls last; the
+  /// identity is not among them. \param reach m, at most largest_reach()
   std::vector<Image> images(double reach) const;
 
   /// Whether an image at x lies within `reach` of what made it.
