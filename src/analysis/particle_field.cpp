@@ -70,7 +70,7 @@ void ParticleField::for_each_near(const Vector3& x, double reach, Visit&& visit)
     if (!within) continue;
     grid_.for_each_candidate(source, [&](std::uint32_t j) {
       const Vector3 place = image.position(particles_.position[j]), d = place - x;
-      if (dot(d, d) < reach * reach && domain_.sees(x, place, image)) visit(j, image, d);
+      if (dot(d, d) < reach * reach && domain_.is_visible(x, place, image)) visit(j, image, d);
     });
   }
 }

@@ -71,7 +71,7 @@ ExitStatus analyze_file(const AnalyzeOptions& options) {
 
   const Measured measured = measure->of(PointsToMeasure(options.file, points.view(), radius), options.column,
                                         static_cast<std::size_t>(options.bins));
-  say("{}", options.json ? to_json(measured, options.file, measure->name) : to_text(measured));
+  print("{}", options.json ? to_json(measured, options.file, measure->name) : to_text(measured));
   return ExitStatus::done;
 }
 
@@ -94,7 +94,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   summary.quantities.insert(summary.quantities.begin(), quantities.begin(), quantities.end());
   write_summary(folder.summary(), summary);
   const Measured measured{.quantities = quantities, .columns = {}, .rows = {}};
-  say("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
+  print("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
   return ExitStatus::done;
 }
 

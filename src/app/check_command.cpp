@@ -46,7 +46,7 @@ void print_case(const PreparedCase& prepared, const CaseFile& file, std::size_t&
         fmt::format("  {:{}}  {:{}}  {:8} ", line.key, key, line.value + " " + line.unit, value, line.origin);
     const std::size_t indent = 4 + key + value + 2 + 9;
     const std::size_t width = std::max(terminal_width(), indent + 24);
-    say("{}{}\n", head, wrapped(line.text, width, indent, head.size()));
+    print("{}{}\n", head, wrapped(line.text, width, indent, head.size()));
   }
 }
 
@@ -54,30 +54,30 @@ void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) 
   const Forecast& f = prepared.forecast;
   ThreadTeam team(threads);
   const double each = prepared.measure_evaluation(team);
-  say("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", threads,
-      threads == 1 ? "" : "s");
+  print("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", threads,
+        threads == 1 ? "" : "s");
   double seconds = 0, most_seconds = 0;
   for (const Forecast::Phase& phase : f.phases) {
     const double least = phase.evaluations * each, most = least * phase.most;
     seconds += least, most_seconds += most;
     if (phase.most > 1) {
-      say("  {:{}}  {} to {} steps of {:.3g} ms: {} to {}\n", phase.name, key, count_text(phase.steps),
-          count_text(phase.most * phase.steps), 1e3 * each, run::format_seconds(least), run::format_seconds(most));
-      say("  {:{}}  (without settle.damping_time, when a bed comes to rest is not known)\n", "", key);
+      print("  {:{}}  {} to {} steps of {:.3g} ms: {} to {}\n", phase.name, key, count_text(phase.steps),
+            count_text(phase.most * phase.steps), 1e3 * each, run::format_seconds(least), run::format_seconds(most));
+      print("  {:{}}  (without settle.damping_time, when a bed comes to rest is not known)\n", "", key);
       continue;
     }
     const std::string evaluations =
         phase.evaluations == phase.steps ? "" : fmt::format(", {} evaluations", count_text(phase.evaluations));
-    say("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, key, count_text(phase.steps), evaluations,
-        1e3 * each, run::format_seconds(least));
+    print("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, key, count_text(phase.steps), evaluations,
+          1e3 * each, run::format_seconds(least));
   }
-  say("  {:{}}  {}{}\n", "time", key, run::format_seconds(seconds),
-      most_seconds > seconds ? " to " + run::format_seconds(most_seconds) : "");
+  print("  {:{}}  {}{}\n", "time", key, run::format_seconds(seconds),
+        most_seconds > seconds ? " to " + run::format_seconds(most_seconds) : "");
   const std::optional<double> available = available_memory();
-  say("  {:{}}  {:.0f} MB{}\n", "memory", key, f.memory_bytes / 1e6,
-      available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
-  say("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
-  if (seconds > month) say("! Such a run takes more than a month: fewer particles, or an earlier run.end.\n");
+  print("  {:{}}  {:.0f} MB{}\n", "memory", key, f.memory_bytes / 1e6,
+        available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
+  print("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
+  if (seconds > month) print("! Such a run takes more than a month: fewer particles, or an earlier run.end.\n");
 }
 
 ExitStatus check(const CaseOptions& options, int threads) {
@@ -86,15 +86,15 @@ ExitStatus check(const CaseOptions& options, int threads) {
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
 
-  say("{}: valid. In SI, with every default:\n\n", options.path);
+  print("{}: valid. In SI, with every default:\n\n", options.path);
   std::size_t key = 0;
   print_case(prepared, file, key);
-  say("\nScales and groups:\n");
+  print("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
-    say("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
+    print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
   if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
-    say("\nWarnings: the case leaves what its laws and the method assume:\n");
-    for (const Warning& warning : warnings) say("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
+    print("\nWarnings: the case leaves what its laws and the method assume:\n");
+    for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
   }
   print_forecast(prepared, threads, key);
   return ExitStatus::done;

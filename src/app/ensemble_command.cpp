@@ -37,12 +37,12 @@ ExitStatus ensemble(const EnsembleRequest& request) {
     pictures.insert(pictures.end(), drawn.begin(), drawn.end());
     groups.push_back({&group, quantity_spreads(group)});
   }
-  say("{}", sweep_text(groups));
+  print("{}", sweep_text(groups));
   if (!request.vary.empty()) write_sweep(groups, request.folder);
   for (const FailedRun& failed : result.failed)
-    say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
-  say("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(), request.folder.string());
-  if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());
+    print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+  print("{} of {} runs done. Results: {}\n", result.found_done + result.done, runs.size(), request.folder.string());
+  if (!pictures.empty()) print("Picture: {}\n", pictures.front().string());
   if (result.interrupted) return ExitStatus::interrupted;
   return result.failed.empty() ? ExitStatus::done : ExitStatus::numerical;
 }

@@ -89,8 +89,8 @@ ExitStatus follow(const LawOptions& options) {
   if (fits) draw_functions(*fits, folder / "functions.png");
 
   for (const NamedValue& quantity : quantities_of(path))
-    say("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
-  say("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
+    print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
+  print("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
   return ExitStatus::done;
 }
 

@@ -42,8 +42,8 @@ std::optional<talus::Problem> check_command(const CLI::App& app, const std::vect
 int answer(const CLI::App& app, const CLI::ParseError& error) {
   std::ostringstream out, fault;
   const int status = app.exit(error, out, fault);
-  talus::say("{}", out.str());
-  talus::complain("{}", fault.str());
+  talus::print("{}", out.str());
+  talus::print_error("{}", fault.str());
   return static_cast<int>(status == 0 ? talus::ExitStatus::done : talus::ExitStatus::bad_input);
 }
 
@@ -71,12 +71,12 @@ int main(int argc, char** argv) {
   talus::app::add_schema_command(app, action);
 
   auto fail = [](ExitStatus status, const std::string& message) {
-    talus::complain("talus: {}\n", message);
+    talus::print_error("talus: {}\n", message);
     return static_cast<int>(status);
   };
   try {
     if (const auto problem = check_command(app, {argv + 1, argv + argc})) {
-      talus::complain("{}\n", talus::to_string(*problem));
+      talus::print_error("{}\n", talus::to_string(*problem));
       return static_cast<int>(ExitStatus::bad_input);
     }
     app.parse(argc, argv);
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return answer(app, error);
   } catch (const talus::InputError& error) {
-    for (const talus::Problem& problem : error.problems()) talus::complain("{}\n", talus::to_string(problem));
+    for (const talus::Problem& problem : error.problems()) talus::print_error("{}\n", talus::to_string(problem));
     const std::size_t count = error.problems().size();
     return fail(ExitStatus::bad_input, fmt::format("{} problem{} in the input", count, count == 1 ? "" : "s"));
   } catch (const talus::NumericalError& error) {

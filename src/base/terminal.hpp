@@ -22,13 +22,13 @@ std::string printable(std::string_view text, Controls kept = Controls::none);
 
 /// Prints to stdout; lines end where `format` or an argument ends them, other control characters are escaped.
 template <class... Arguments>
-void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   fmt::print(stdout, "{}", printable(fmt::format(format, std::forward<Arguments>(arguments)...), Controls::line_ends));
 }
 
 /// The same to stderr.
 template <class... Arguments>
-void complain(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+void print_error(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   fmt::print(stderr, "{}", printable(fmt::format(format, std::forward<Arguments>(arguments)...), Controls::line_ends));
 }
 

@@ -96,10 +96,10 @@ void ParameterReader::check(std::vector<Problem> contradictions) {
 void ParameterReader::finish() {
   report_unknown_keys();
   std::erase_if(found_, [&](const Found& found) { return found.is_missing && meant_.contains(found.problem.key); });
-  raise();
+  throw_problems();
 }
 
-void ParameterReader::raise() const {
+void ParameterReader::throw_problems() const {
   if (found_.empty()) return;
   std::vector<Found> sorted = found_;
   const auto rank = [](const Found& found) { return found.is_option ? 2 : found.problem.line == 0 ? 1 : 0; };

@@ -45,7 +45,7 @@ class ParameterReader {
   void finish();
 
   /// As finish(), but keys not visited may be there: for what must be known before the lists are, such as the model.
-  void raise() const;
+  void throw_problems() const;
 
  private:
   struct Found {

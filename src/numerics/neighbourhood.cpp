@@ -38,7 +38,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
     const auto end = !near_wall_[i] ? seldom : std::remove_if(seldom, near.end(), [&](std::uint32_t j) {
-      return !domain_.may_see(points[i], points[j], image(ghosts_[j - count]), skin);
+      return !domain_.may_be_visible(points[i], points[j], image(ghosts_[j - count]), skin);
     });
     return static_cast<std::size_t>(end - near.begin());
   };

@@ -140,7 +140,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   Parameters& p = read.model;
   if (auto problem = cloud::check_steps(p, read.run.end)) {
     reader.check({std::move(*problem)});
-    reader.raise();
+    reader.throw_problems();
   }
 
   std::optional<Grains> given;
@@ -151,7 +151,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
     for_each_parameter(points, p);
     points.check(problems);
     points.check(cloud::check_grains(p, *given));
-    points.raise();
+    points.throw_problems();
     p.particles.count = static_cast<std::int64_t>(given->radius.size());
   }
 

@@ -20,7 +20,7 @@ void print_different_keys(const Manifest& a, const Manifest& b) {
   for (const auto& [key, value] : second) first.try_emplace(key);
   for (const auto& [key, value] : first)
     if (value != second[key])
-      say("  {}: {}   |   {}\n", key, value.empty() ? "-" : value, second[key].empty() ? "-" : second[key]);
+      print("  {}: {}   |   {}\n", key, value.empty() ? "-" : value, second[key].empty() ? "-" : second[key]);
 }
 
 /// The last part of a path, also of one that ends in '/'.
@@ -33,15 +33,15 @@ std::string name_of(const std::filesystem::path& path) {
 ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::path& b,
                         const std::filesystem::path& picture) {
   const RunFolder first(a), second(b);
-  say("Keys that differ:\n");
+  print("Keys that differ:\n");
   print_different_keys(read_manifest(first.manifest()), read_manifest(second.manifest()));
 
   const Summary one = read_summary(first.summary()), two = read_summary(second.summary());
-  say("{:32} {:>14} {:>14} {:>12}\n", "quantity", name_of(a), name_of(b), "difference");
+  print("{:32} {:>14} {:>14} {:>12}\n", "quantity", name_of(a), name_of(b), "difference");
   for (const NamedValue& value : one.quantities)
     if (const NamedValue* other = two.find(value.name))
-      say("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value, other->value - value.value,
-          value.unit == "1" ? "" : value.unit);
+      print("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value,
+            other->value - value.value, value.unit == "1" ? "" : value.unit);
 
   if (picture.empty()) return ExitStatus::done;
   const Series s = read_series(first.series()), t = read_series(second.series());
@@ -60,7 +60,7 @@ ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::p
   }
   if (!figure.panels.empty()) {
     figure::write_png(figure, picture);
-    say("Picture: {}\n", picture.string());
+    print("Picture: {}\n", picture.string());
   }
   return ExitStatus::done;
 }

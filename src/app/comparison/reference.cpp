@@ -50,7 +50,7 @@ class Reader {
   }
   std::string text(const toml::table& table, const char* key) { return get<std::string>(table, key, "text"); }
 
-  void raise() const {
+  void throw_problems() const {
     if (!problems_.empty()) throw InputError(problems_);
   }
 
@@ -280,7 +280,7 @@ Reference read_reference(const std::string& path) {
       if (row.variants.empty()) reader.fault(node, "variant", "missing", "labels of the case's variants");
     }
   if (reference.rows.empty()) reader.fault(file, "row", "there are no rows", "[[row]] tables");
-  reader.raise();
+  reader.throw_problems();
   return reference;
 }
 

@@ -88,7 +88,7 @@ ModelCase<Parameters> read_continuum(const CaseFile& file) {
   ParameterReader reader(file, continuum::renamed_keys);
   ModelCase<Parameters> read = read_case(reader, std::move(defaults));
   reader.check(continuum::check_steps(read.model, read.run.end));
-  reader.raise();
+  reader.throw_problems();
   return read;
 }
 

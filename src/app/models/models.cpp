@@ -91,7 +91,7 @@ void check_memory(const PreparedCase& prepared, const CaseFile& file) {
                               prepared.forecast.memory_bytes / 1e9, *available / 1e9);
   ParameterReader reader(file);
   reader.check({std::move(problem)});
-  reader.raise();
+  reader.throw_problems();
 }
 
 }  // namespace talus::app

@@ -101,7 +101,7 @@ bool draw_page(const std::filesystem::path& project, const StudyRequest& request
                read_whole_file(request.folder / "figures.txt"));
     return false;
   }
-  say("{}", read_whole_file(request.folder / "figures.txt"));
+  print("{}", read_whole_file(request.folder / "figures.txt"));
   return true;
 }
 
@@ -116,13 +116,13 @@ ExitStatus reproduce(const StudyRequest& request) {
   const int members = request.members ? request.members : request.quick ? reference.quick.members : reference.members;
   const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
   begin_output(request.folder, request.resume ? Existing::resume : Existing::refuse, "--resume", has_begun(runs));
-  say("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(), members,
-      request.jobs, request.folder.string());
+  print("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(),
+        members, request.jobs, request.folder.string());
   const ScheduleResult result = run_members(runs, request.jobs);
   for (const FailedRun& failed : result.failed)
-    say("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+    print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
   if (result.interrupted) {
-    say("Interrupted; --resume goes on: {}\n", request.folder.string());
+    print("Interrupted; --resume goes on: {}\n", request.folder.string());
     return ExitStatus::interrupted;
   }
 
@@ -131,7 +131,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   const std::string text = to_text(rows) + counts_text(rows) + "\n";
   write_atomically(request.folder / "comparison.txt", text);
   write_atomically(request.folder / "comparison.json", to_json(reference, rows, found, request.folder));
-  say("{}", text);
+  print("{}", text);
 
   if (!draw_page(project, request)) return ExitStatus::files;
   if (!result.failed.empty()) return ExitStatus::numerical;

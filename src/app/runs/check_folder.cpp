@@ -76,7 +76,7 @@ void check_resumable_files(const RunFolder& folder) {
                     fmt::format("cannot be resumed, {} of its files changed since they were written: {}; put back what "
                                 "was written, or --overwrite (a snapshot may also be removed: it is left out then)",
                                 found.changed.size(), fmt::join(found.changed, "; ")));
-  for (const std::string& path : found.missing) complain("talus: {} is missing and is left out\n", path);
+  for (const std::string& path : found.missing) print_error("talus: {} is missing and is left out\n", path);
 }
 
 ExitStatus check_folder(const fs::path& path) {
@@ -88,12 +88,12 @@ ExitStatus check_folder(const fs::path& path) {
   for (const fs::path& run : runs) {
     std::string found = "nothing was compared";
     const std::vector<std::string> faults = faults_of(RunFolder(run), found);
-    say("{}: {}{}\n", run.string(), found, faults.empty() ? "" : ":");
-    for (const std::string& fault : faults) say("  ! {}\n", fault);
+    print("{}: {}{}\n", run.string(), found, faults.empty() ? "" : ":");
+    for (const std::string& fault : faults) print("  ! {}\n", fault);
     if (!faults.empty()) ++bad;
   }
   if (bad == 0) return ExitStatus::done;
-  complain("talus: {} of {} runs are not as they were written\n", bad, runs.size());
+  print_error("talus: {} of {} runs are not as they were written\n", bad, runs.size());
   return ExitStatus::files;
 }
 

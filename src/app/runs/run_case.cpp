@@ -36,11 +36,11 @@ double peak_memory_bytes() {
 }
 
 void print_regime(const std::vector<RegimeLine>& regime, RunLog& log) {
-  say("Regime at the end:\n");
+  print("Regime at the end:\n");
   for (const RegimeLine& line : regime) {
     const std::string text =
         fmt::format("{} {} = {}: {}", line.warning ? "!" : " ", line.quantity, line.value, line.meaning);
-    say("  {}\n", text);
+    print("  {}\n", text);
     log.write("regime {}", text);
   }
 }
@@ -102,7 +102,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   const CheckpointFiles checkpoints(folder.path());
   for (const std::string& damage : checkpoints.damages()) {
     log.write("passed over: {}", damage);
-    complain("talus: passed over: {}\n", damage);
+    print_error("talus: passed over: {}\n", damage);
   }
 
   std::unique_ptr<run::AnyModel> model = prepared.make_model();
@@ -141,16 +141,16 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
 
   if (loop.interrupted) {
     log.write("interrupted by {} at t = {:.6g} s, step {}", loop.reason, model->time(), loop.steps);
-    say("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
-        folder.path().string());
+    print("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
+          folder.path().string());
     return ExitStatus::interrupted;
   }
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
-  say("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
-      folder.path().string());
-  if (!pictures.empty()) say("Picture: {}\n", pictures.front().string());
+  print("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
+        folder.path().string());
+  if (!pictures.empty()) print("Picture: {}\n", pictures.front().string());
   return ExitStatus::done;
 }
 
@@ -196,7 +196,7 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
     ThreadTeam team(request.threads);
     const auto model = prepared.make_model();
     model->begin(team);
-    say("The case is valid and its start can be built: {} grains. Nothing was written.\n", model->snapshot().size());
+    print("The case is valid and its start can be built: {} grains. Nothing was written.\n", model->snapshot().size());
     return ExitStatus::done;
   }
   run::catch_signals();

@@ -156,7 +156,7 @@ Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, s
       const Image& image =
           groups_[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(groups_[g].image)];
       for (; n < groups_[g].end; ++n)
-        if (neighbourhood_.domain().sees(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
+        if (neighbourhood_.domain().is_visible(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
       end.push_back(static_cast<std::uint32_t>(record.size()));
     } else {
       end.push_back(groups_[g].end);

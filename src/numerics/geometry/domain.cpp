@@ -189,7 +189,7 @@ bool Domain::is_near_wall(const Vector3& x, double reach) const {
                      [&](const Wall& wall) { return std::abs(wall.above(x)) <= reach && wall.distance(x) <= reach; });
 }
 
-bool Domain::may_see(const Vector3& from, const Vector3& to, const Image& image, double skin) const {
+bool Domain::may_be_visible(const Vector3& from, const Vector3& to, const Image& image, double skin) const {
   if (!layered_ || !image.is_in_walls()) return true;
   const Wall& wall = walls_[static_cast<std::size_t>(image.mirrors[0])];
   const double own = wall.above(from), other = wall.above(to);
@@ -232,7 +232,7 @@ std::optional<Domain::Bounce> Domain::bounce(const Vector3& from, const Vector3&
   std::optional<Bounce> first;
   double earliest = 2;
   for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const auto at = walls_[w].meets(from, to);
+    const auto at = walls_[w].intersection(from, to);
     if (!at || *at >= earliest) continue;
     earliest = *at;
     first = Bounce{wall_number(static_cast<int>(w)), mirrored(Image{}, mirrors_[w])};

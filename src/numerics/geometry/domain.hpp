@@ -104,7 +104,7 @@ class Domain {
 
   /// Whether a particle near a wall may come to see an image at `to` before both have moved by half the skin: what it
   /// never will needs not to be listed.
-  bool may_see(const Vector3& from, const Vector3& to, const Image& image, double skin) const;
+  bool may_be_visible(const Vector3& from, const Vector3& to, const Image& image, double skin) const;
 
   /// Whether the straight line between two places inside the box meets the solid part of a wall. The same from both
   /// ends.
@@ -113,7 +113,7 @@ class Domain {
   /// Whether a particle at `from` sees an image at `to`, or its source there through the identity: whether the line
   /// between them, turned where it meets walls and faces, ends at the source. Symmetric: `from` sees the image of `to`
   /// if and only if `to` sees that of `from`.
-  bool sees(const Vector3& from, const Vector3& to, const Image& image) const {
+  bool is_visible(const Vector3& from, const Vector3& to, const Image& image) const {
     return layered_ ? sees_past_layers(from, to, image.mirrors[0]) : sees_source(from, to, image);
   }
 

@@ -102,7 +102,7 @@ bool Domain::blocks(const Vector3& a, const Vector3& b) const {
   const bool in_order = a.x != b.x ? a.x < b.x : a.z < b.z;
   const Vector3 &first = in_order ? a : b, &second = in_order ? b : a;
   return std::any_of(walls_.begin(), walls_.end(),
-                     [&](const Wall& wall) { return wall.meets(first, second).has_value(); });
+                     [&](const Wall& wall) { return wall.intersection(first, second).has_value(); });
 }
 
 bool Domain::sees_source(const Vector3& from, const Vector3& to, const Image& image) const {
@@ -131,7 +131,7 @@ std::optional<Vector3> Domain::end_of_line(const Vector3& from, const Vector3& t
       if (m == last) continue;
       std::optional<double> at;
       if (m < walls_.size()) {
-        at = walls_[m].meets(a, b);
+        at = walls_[m].intersection(a, b);
       } else {
         const Mirror& face = mirrors_[m];
         const int axis = face.normal.x != 0 ? 0 : 2;

@@ -75,7 +75,7 @@ class Wall {
   }
 
   /// The fraction of the line from a to b at which it crosses the solid wall; nothing if it does not.
-  std::optional<double> meets(const Vector3& a, const Vector3& b) const {
+  std::optional<double> intersection(const Vector3& a, const Vector3& b) const {
     if (is_above(a) == is_above(b)) return std::nullopt;
     const double t = share_to_plane(a, b);
     if (!is_solid(a + t * (b - a))) return std::nullopt;

@@ -38,7 +38,7 @@ void close_faces(const FaceApertures& apertures, const Wall& wall, FaceField& op
     const auto faces = apertures.faces(axis);
     for_each_place({0, 0, 0}, {faces[0], faces[1], faces[2]}, [&](const Place& at) {
       const Vector3 after = grid.centre(at[0], at[1], at[2]);
-      if (wall.meets(after - step, after)) open[a][index(grid, at)] = 0;
+      if (wall.intersection(after - step, after)) open[a][index(grid, at)] = 0;
     });
   }
 }

@@ -88,33 +88,33 @@ TEST(Images, APlateMirrorsToBothSidesAndWithTheWalls) {
   EXPECT_THAT(found, testing::Contains(Vector3{-1, 7.5, 98}));
 }
 
-bool sees(const Domain& domain, const Vector3& from, const Vector3& to) {
-  return domain.sees(from, to, Image{});
+bool is_visible(const Domain& domain, const Vector3& from, const Vector3& to) {
+  return domain.is_visible(from, to, Image{});
 }
 /// The image in the plate that stands at `to`.
 bool sees_in_plate(const Domain& domain, const Vector3& from, const Vector3& to) {
   const std::vector<Image> images = domain.images(3);
-  return domain.sees(from, to, *std::find_if(images.begin(), images.end(), [](const Image& image) {
-                       return image.is_in_walls() && image.copy == std::array<std::int8_t, 3>{};
-                     }));
+  return domain.is_visible(from, to, *std::find_if(images.begin(), images.end(), [](const Image& image) {
+                             return image.is_in_walls() && image.copy == std::array<std::int8_t, 3>{};
+                           }));
 }
 
 TEST(Sees, ThroughTheSlitButNotThroughThePlate) {
   const Domain domain = hopper();
-  EXPECT_TRUE(sees(domain, {50, 2, 101}, {51, 2, 99}));
-  EXPECT_FALSE(sees(domain, {20, 2, 101}, {21, 2, 99}));
-  EXPECT_TRUE(sees(domain, {20, 2, 101}, {21, 2, 101.5}));
+  EXPECT_TRUE(is_visible(domain, {50, 2, 101}, {51, 2, 99}));
+  EXPECT_FALSE(is_visible(domain, {20, 2, 101}, {21, 2, 99}));
+  EXPECT_TRUE(is_visible(domain, {20, 2, 101}, {21, 2, 101.5}));
   Domain shut = hopper(true);
-  EXPECT_FALSE(sees(shut, {50, 2, 101}, {51, 2, 99}));
+  EXPECT_FALSE(is_visible(shut, {50, 2, 101}, {51, 2, 99}));
   EXPECT_TRUE(shut.has_gates_due(0));
   shut.open_gates(0);
   EXPECT_FALSE(shut.has_gates_due(0));
-  EXPECT_TRUE(sees(shut, {50, 2, 101}, {51, 2, 99}));
+  EXPECT_TRUE(is_visible(shut, {50, 2, 101}, {51, 2, 99}));
   // At the edge it is where the line between the two passes the plane that counts.
-  EXPECT_TRUE(sees(domain, {29.5, 2, 101}, {30.7, 2, 99}));
-  EXPECT_FALSE(sees(domain, {29.5, 2, 101}, {30.4, 2, 99}));
+  EXPECT_TRUE(is_visible(domain, {29.5, 2, 101}, {30.7, 2, 99}));
+  EXPECT_FALSE(is_visible(domain, {29.5, 2, 101}, {30.4, 2, 99}));
   // Beyond a side wall the plate goes on.
-  EXPECT_FALSE(sees(domain, {1, 2, 101}, {-1, 2, 99}));
+  EXPECT_FALSE(is_visible(domain, {1, 2, 101}, {-1, 2, 99}));
 }
 
 TEST(Sees, AnImageInThePlateWhereThePlateIs) {
@@ -135,15 +135,15 @@ TEST(Sees, EveryNeighbourEitherItselfOrItsImageAndAlikeFromBothEnds) {
     const Vector3 a{random.uniform(20, 40), random.uniform(0, 5), random.uniform(97, 103)};
     const Vector3 b{random.uniform(20, 40), random.uniform(0, 5), random.uniform(97, 103)};
     const Vector3 image_a{a.x, a.y, 200 - a.z}, image_b{b.x, b.y, 200 - b.z};
-    EXPECT_EQ(sees(domain, a, b), sees(domain, b, a));
+    EXPECT_EQ(is_visible(domain, a, b), is_visible(domain, b, a));
     EXPECT_EQ(sees_in_plate(domain, a, image_b), sees_in_plate(domain, b, image_a));
     const bool same_side = (a.z > 100) == (b.z > 100);
     if (same_side) {
-      EXPECT_TRUE(sees(domain, a, b));
+      EXPECT_TRUE(is_visible(domain, a, b));
       mirrored += sees_in_plate(domain, a, image_b);
     } else {
       EXPECT_FALSE(sees_in_plate(domain, a, image_b));
-      through += sees(domain, a, b);
+      through += is_visible(domain, a, b);
     }
   }
   EXPECT_GT(through, 2000);
@@ -162,10 +162,10 @@ TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {
     std::vector<std::array<double, 3>> places;
     for (const Image& image : domain.images(reach)) {
       const Vector3 x = image.position(source);
-      if (domain.is_near(image, x, reach) && norm(x - own) < reach && domain.sees(own, x, image))
+      if (domain.is_near(image, x, reach) && norm(x - own) < reach && domain.is_visible(own, x, image))
         places.push_back({std::round(x.x * 1e6), std::round(x.y * 1e6), std::round(x.z * 1e6)});
     }
-    if (domain.sees(own, source, Image{})) places.push_back({});
+    if (domain.is_visible(own, source, Image{})) places.push_back({});
     std::sort(places.begin(), places.end());
     return places;
   };

@@ -112,13 +112,13 @@ void expect_one_image_everywhere(double angle) {
     for (const Image& image : images) {
       if (image.copy[1] != 0) continue;
       const Vector3 source = image.source(place);
-      if (!domain.sees(own, place, image)) continue;
+      if (!domain.is_visible(own, place, image)) continue;
       ++held;
       EXPECT_TRUE(domain.is_near(image, place, reach));
       // The other way round: the source sees this particle's image, by the mirrors in opposite order.
       const bool seen_back = std::any_of(images.begin(), images.end(), [&](const Image& other) {
         const Vector3 x = other.position(own);
-        return other.copy[1] == 0 && std::abs(norm(x - source) - far) < 1e-9 && domain.sees(source, x, other);
+        return other.copy[1] == 0 && std::abs(norm(x - source) - far) < 1e-9 && domain.is_visible(source, x, other);
       });
       EXPECT_TRUE(seen_back);
     }
@@ -147,7 +147,7 @@ TEST(Walls, MeetTheFacesOfTheBox) {
     if (norm(place - own) > 6) continue;
     int held = place.x > 0 && !domain.blocks(own, place);
     for (const Image& image : images)
-      if (image.copy[1] == 0) held += domain.sees(own, place, image);
+      if (image.copy[1] == 0) held += domain.is_visible(own, place, image);
     EXPECT_EQ(held, 1);
     ++seen;
   }
@@ -160,8 +160,8 @@ TEST(Walls, HideTheirTwoSidesFromEachOther) {
   ASSERT_TRUE(domain.blocks(inside, outside));
   for (const Image& image : domain.images(12))
     EXPECT_FALSE(domain.is_near(image, image.position(outside), 12) &&
-                 domain.sees(inside, image.position(outside), image));
-  EXPECT_FALSE(domain.sees(inside, outside, Image{}));
+                 domain.is_visible(inside, image.position(outside), image));
+  EXPECT_FALSE(domain.is_visible(inside, outside, Image{}));
 }
 
 TEST(Walls, TurnBackWhatWouldPassButNotInTheOutlet) {
@@ -192,9 +192,9 @@ TEST(Wall, HasALengthAndItsOwnSidesWhereverItPoints) {
     EXPECT_NEAR(wall.distance(at(2, -0.5)), 0.5, 1e-14);
     EXPECT_NEAR(wall.distance(at(8, 4)), 5, 1e-11) << "beyond its end";
     EXPECT_TRUE(wall.is_solid(at(0.9, 0)) && !wall.is_solid(at(1.1, 1)) && !wall.is_solid(at(5.1, 0)));
-    ASSERT_TRUE(wall.meets(at(3, 1), at(3, -3)));
-    EXPECT_NEAR(*wall.meets(at(3, 1), at(3, -3)), 0.25, 1e-14);
-    EXPECT_FALSE(wall.meets(at(1.5, 1), at(1.5, -3)));
+    ASSERT_TRUE(wall.intersection(at(3, 1), at(3, -3)));
+    EXPECT_NEAR(*wall.intersection(at(3, 1), at(3, -3)), 0.25, 1e-14);
+    EXPECT_FALSE(wall.intersection(at(1.5, 1), at(1.5, -3)));
   }
 }
 
