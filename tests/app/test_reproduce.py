@@ -61,7 +61,8 @@ class Hopper(Study):
         self.assertIn("| 0 | hopper (vacuum, air) | `packing_max` |", text)
         self.assertIn("## Not met, and why", text)
         for link in re.findall(r"\]\(([^)]*\.md)\)", text):
-            self.assertTrue((page.parent / link).resolve().is_relative_to(self.folder.resolve() / "docs"), link)
+            place = (page.parent / link).resolve().relative_to(self.folder.resolve())
+            self.assertTrue((PROJECT / place).is_file(), f"{link}: moved with the page to {place}")
 
         first = (self.folder / "r/comparison.json").read_bytes()
         (self.folder / "r/comparison.json").unlink()
