@@ -20,6 +20,7 @@ sys.path.insert(0, str(SCRIPTS))
 import fields  # noqa: E402
 import frames as referee  # noqa: E402
 import numpy as np  # noqa: E402
+import paper_rows  # noqa: E402
 import surfaces  # noqa: E402
 import trend  # noqa: E402
 
@@ -143,6 +144,20 @@ class Trend(unittest.TestCase):
         k, rate = trend.beverloo(diameter, 2e-3 * (40 - 1.4 * diameter)**1.5)
         self.assertAlmostEqual(k, 1.4)
         self.assertAlmostEqual(rate, 2e-3 * (40 - 1.4 * 0.2)**1.5)
+
+
+class PaperRows(unittest.TestCase):
+    def test_a_swelling_on_a_valley_is_measured_above_its_flanks(self):
+        x = np.arange(0.001, 0.1, 0.002)
+        valley = 0.1 + 0.4 * abs(x - 0.05) + np.where(abs(x - 0.05) < 0.003, 0.002, 0)
+        above, middle = paper_rows.swelling(x, valley)
+        self.assertAlmostEqual(above, 0.002 + 0.4 * 0.001, delta=1e-9)
+        self.assertLess(middle, above)
+
+    def test_a_stream_has_the_width_between_its_twentieths(self):
+        x, z = (axis.ravel() for axis in np.meshgrid(np.arange(1.0, 100, 2), np.arange(41.0, 60, 2)))
+        packing = np.where(abs(x - 50) < 20, 0.5, 0)  # twenty columns of cells
+        self.assertAlmostEqual(paper_rows.stream_width(x, z, packing, 40, 60), 36, delta=1e-9)
 
 
 class Folder(unittest.TestCase):

@@ -5,7 +5,8 @@
 usage: coarse_grain.py RUN_FOLDER ... [--out data] [--pictures RUN ...]
 
 Rows of other runs in the files are kept. frames.py reads the runs; fields.py and surfaces.py say how packing, velocity,
-stress and surfaces are found; tables.py says which numbers there are. Everything is tested on beads at known places in tests/python/test_dem_hopper.py.
+stress and surfaces are found; tables.py says which numbers there are. Everything is tested on beads at known places in
+tests/python/test_dem_hopper.py.
 """
 import argparse
 import sys

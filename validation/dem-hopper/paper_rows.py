@@ -11,9 +11,11 @@ from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
+from frames import WIDTH
+from surfaces import band, outward_angle
 
 DATA = Path(__file__).resolve().parent / "data"
-MIDDLE = 50.0  # mm
+FLANKS = (0.005, 0.035), (0.065, 0.095)  # m
 SWELLING_AT, STRESS_AT = 0.2, 0.4  # s
 
 
@@ -27,31 +29,18 @@ def groups(name, *keys):
     return {key: np.array(rows) for key, rows in found.items()}
 
 
-def line(x, z, low, high):
-    there = (x >= low) & (x <= high) & np.isfinite(z)
-    return np.polyfit(x[there], z[there], 1) if there.sum() > 5 else (np.nan, np.nan)
-
-
-def inward_angle(x, z):
-    """Of the hopper's surface between 22 and 45 mm from its middle, degrees; positive where it falls towards it."""
-    left, right = line(x, z, MIDDLE - 45, MIDDLE - 22), line(x, z, MIDDLE + 22, MIDDLE + 45)
-    return np.degrees(np.arctan(0.5 * (right[0] - left[0])))
-
-
-def mean_height(x, z, at, half):
-    there = (abs(x - at) <= half) & np.isfinite(z)
-    return z[there].mean() if there.any() else np.nan
-
-
 def swelling(x, z):
-    """Height in the middle above lines through the flanks, and above what lies 5 mm beside it, mm."""
-    top = mean_height(x, z, MIDDLE, 2)
-    flanks = np.mean([np.polyval(line(x, z, *ends), MIDDLE) for ends in ((5, 35), (65, 95))])
-    return top - flanks, top - 0.5 * (mean_height(x, z, MIDDLE - 5, 2) + mean_height(x, z, MIDDLE + 5, 2))
+    """Height in the middle above lines through the flanks, and above what lies 5 mm beside it, m."""
+    top = band(x, z, 0, 2e-3)
+    flanks = []
+    for low, high in FLANKS:
+        there = (x >= low) & (x <= high) & np.isfinite(z)
+        flanks.append(np.polyval(np.polyfit(x[there], z[there], 1), WIDTH / 2))
+    return top - np.mean(flanks), top - band(x, z, 3e-3, 7e-3)
 
 
 def stream_width(x, z, packing, low, high):
-    """Between 5 and 95 % of what is there, mm."""
+    """Between 5 and 95 % of what is there; in the unit of the places."""
     there = (z > low) & (z < high)
     places = np.unique(x)
     share = np.cumsum([packing[there & (x == place)].sum() for place in places])
@@ -59,18 +48,19 @@ def stream_width(x, z, packing, low, high):
 
 
 def main():
-    surfaces, states = groups("surfaces.csv", "run", "time_s"), groups("states.csv", "run", "time_s", "place")
+    surfaces = {key: rows[:, :2].T * 1e-3 for key, rows in groups("surfaces.csv", "run", "time_s").items()}  # x and z, m
+    states = groups("states.csv", "run", "time_s", "place")
     print("| run | 11: sigma_xx/sigma_zz in the bin beside and below, 0.4 s | 21: swelling above flanks, in the middle, "
           "0.2 s, mm | 26: largest inward angle, and its largest fall, degrees | until, s |")
     print("|" + "---|" * 5)
     for run in sorted({run for run, _ in surfaces}):
         times = sorted((time for r, time in surfaces if r == run), key=float)
-        angles = np.array([inward_angle(*surfaces[run, time][:, :2].T) for time in times])
+        angles = np.array([-outward_angle(*surfaces[run, time], 0.022, 0.045) for time in times])
         angles = angles[np.isfinite(angles)]
         fall = (np.maximum.accumulate(angles) - angles).max()
         ratios = [f"{states[run, str(STRESS_AT), place][0, -1]:.2f}" if (run, str(STRESS_AT), place) in states else "-"
                   for place in ("bin, beside", "bin, below")]
-        above, middle = swelling(*surfaces[run, str(SWELLING_AT)][:, :2].T)
+        above, middle = 1e3 * np.array(swelling(*surfaces[run, str(SWELLING_AT)]))
         print(f"| {run} | {', '.join(ratios)} | {above:.1f}, {middle:.1f} | {angles.max():.1f}, {fall:.1f} | {times[-1]} |")
     print("\n| picture | t, s | 14: width of the stream at 40-60 over 90-98 mm |\n|---|---|---|")
     for path in sorted(DATA.glob("picture-*.csv")):

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Talus without resolution: each row of reference.toml from sections of several spacings, prolonged to a spacing of none.
 
-usage: resolution.py RUNS        a folder of runs, one a spacing
-       resolution.py RUNS --talus build/talus
+usage: resolution.py RUNS [--talus build/talus]        a folder of runs, one a spacing
 
 A particle of Talus is as wide as a bead: near the edges of the slit and at surfaces both act by their size. So the beads'
 trend in their diameter, prolonged to 0.2 mm, is set beside the particles' trend in their spacing, prolonged to 0.
@@ -21,6 +20,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "python"))
 
 import talus  # noqa: E402
+from trend import line_at  # noqa: E402
 
 
 def rows_of(program, run):
@@ -50,11 +50,10 @@ def main():
     for key in runs[0][1]:
         if any(key not in rows for _, rows in runs):
             continue
-        values = np.array([rows[key] for _, rows in runs])
-        line = np.polyfit(spacings, values, 1)
-        off = f"{abs(np.polyval(line, spacings) - values).max():.2g}" if len(runs) > 2 else ""
+        values = [rows[key] for _, rows in runs]
+        prolonged, off = line_at(spacings, values, at=0)
         print("| " + " | ".join([str(key[0]), f"`{key[1]}`", key[2], key[3], *(f"{v:.4g}" for v in values),
-                                 f"**{line[1]:.4g}**", off]) + " |")
+                                 f"**{prolonged:.4g}**", "" if np.isnan(off) else f"{off:.2g}"]) + " |")
 
 
 if __name__ == "__main__":

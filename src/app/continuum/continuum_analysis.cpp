@@ -114,8 +114,7 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
     setting.shape.plate = {*p.plate.height, p.plate.slit_left.value_or(0.5 * p.box.width),
                            p.plate.slit_right.value_or(0.5 * p.box.width)};
   if (p.sph.smoothing == continuum::Smoothing::fixed)
-    setting.smoothing_length =
-        p.sph.smoothing_ratio * sph::smoothing_length(lattice.mass, p.bed.packing * p.grains.density);
+    setting.smoothing_length = sph::smoothing_length(lattice.mass, p.bed.packing * p.grains.density);
   return setting;
 }
 
