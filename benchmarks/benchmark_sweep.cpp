@@ -61,7 +61,7 @@ struct Bed {
     evaluate(SweepTerms::all);
   }
   void evaluate(SweepTerms terms) {
-    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
+    sweep(team, {state.position, state.velocity, state.density, h, state.material}, terms, rates);
   }
 };
 

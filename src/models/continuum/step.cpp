@@ -28,8 +28,8 @@ struct Step {
 
   void air() const;
   void half() const;
-  void gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
-                SweepTerms terms) const;
+  void gradient(std::span<const Vector3> velocity, std::span<const double> density,
+                std::span<const double> smoothing_length, const MaterialColumns& material, SweepTerms terms) const;
   void momentum(double duration, double time) const;
   void drift(double duration, std::span<const Vector3> velocity) const;
   void density() const;
@@ -51,7 +51,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (p.integration.method == Method::runge_kutta) {
     // The explicit midpoint rule.
     step.half();
-    step.gradient(w.velocity, w.density, w.columns, SweepTerms::all);
+    step.gradient(w.velocity, w.density, w.half_length, w.columns, SweepTerms::all);
     step.drift(dt, w.velocity);
     step.momentum(dt, s.time + 0.5 * dt);
     step.density();
@@ -65,7 +65,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     w.position = s.position;
     step.walls(kick);
     for_each(team, s.position.size(), [&](std::size_t i) { w.position[i] += (0.5 * dt) * s.velocity[i]; });
-    step.gradient(s.velocity, s.density, s.material, SweepTerms::gradients);
+    step.gradient(s.velocity, s.density, w.smoothing_length, s.material, SweepTerms::gradients);
     step.drift(dt, s.velocity);
     step.density();
     step.stress();
@@ -127,6 +127,7 @@ void Step::half() const {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
     w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
+    w.half_length[i] = w.sweep.smoothing_length(w.density[i]);
   });
   measure_strain_at(team, s, w, w.position);
   w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, w.density, 0.5 * dt, w.columns,
@@ -134,9 +135,9 @@ void Step::half() const {
 }
 
 /// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
-void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density, const MaterialColumns& material,
-                    SweepTerms terms) const {
-  w.sweep(team, {w.position, velocity, density, material}, terms, w.rates);
+void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density,
+                    std::span<const double> smoothing_length, const MaterialColumns& material, SweepTerms terms) const {
+  w.sweep(team, {w.position, velocity, density, smoothing_length, material}, terms, w.rates);
 }
 
 /// Eq. 17. \param duration of the force of stress and gravity, that of the air's is dt, s; \param time of gravity, s

@@ -110,7 +110,7 @@ void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
         sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
     records_[i] = {{x.x, x.y, x.z},
                    {u.x, u.y, u.z},
-                   smoothing_length(density),
+                   particles.smoothing_length[i],
                    mass_ / density,
                    {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx},
                    density,

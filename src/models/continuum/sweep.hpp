@@ -36,6 +36,7 @@ struct ParticleView {
   std::span<const Vector3> position;
   std::span<const Vector3> velocity;
   std::span<const double> density;
+  std::span<const double> smoothing_length;  ///< of these densities (Sweep::smoothing_length)
   const MaterialColumns& material;
 };
 

@@ -25,6 +25,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       position(state.position.size()),
       velocity(state.position.size()),
       density(state.position.size()),
+      half_length(state.position.size()),
       columns(state.material),
       smoothing_length(state.position.size()) {}
 
@@ -51,7 +52,8 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const bool all = p.integration.method == Method::runge_kutta;
-  w.sweep(team, {s.position, s.velocity, s.density, s.material}, all ? SweepTerms::all : SweepTerms::forces, w.rates);
+  w.sweep(team, {s.position, s.velocity, s.density, w.smoothing_length, s.material},
+          all ? SweepTerms::all : SweepTerms::forces, w.rates);
   s.packing.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {

@@ -28,8 +28,9 @@ struct Workspace {
   /// The state at the midpoint of a step.
   std::vector<Vector3> position, velocity;
   std::vector<double> density;
+  std::vector<double> half_length;  ///< smoothing lengths of these densities, m
   MaterialColumns columns;
-  std::vector<double> smoothing_length;
+  std::vector<double> smoothing_length;  ///< of the densities of the state, m
 
   /// Only if the strain comes from displacements.
   std::vector<SymmetricTensor3<>> measured_strain;

@@ -61,7 +61,7 @@ struct Evaluation {
     std::vector<double> h;
     for (const double rho : state.density) h.push_back(sweep.smoothing_length(rho));
     sweep.find_neighbours(team, state.position, h);
-    sweep(team, {state.position, state.velocity, state.density, state.material}, terms, rates);
+    sweep(team, {state.position, state.velocity, state.density, h, state.material}, terms, rates);
   }
 };
 

@@ -25,6 +25,42 @@ TALUS_INLINE double total(const Number& x) {
   return sum_lanes(x, 0);
 }
 
+/// Sums a vector by group while registers of neighbours follow each other. A register may end one group and begin the
+/// next: none is padded but the last.
+class GroupedSum {
+ public:
+  /// \param total one per group, of three components
+  GroupedSum(const Neighbours& neighbours, double (*total)[3]) : neighbours_(neighbours), total_(total) {}
+
+  /// \param first place of the register's first lane in the list
+  TALUS_INLINE void add(std::uint32_t first, SimdVector3 a) {
+    while (group_ + 1 < neighbours_.groups && neighbours_.group_end[group_] < first + Number::lanes) {
+      const Number zero = 0.0;
+      const auto inside = Number::ramp(0) < Number(static_cast<double>(neighbours_.group_end[group_] - first));
+      sum_ = {sum_.x + select(inside, a.x, zero), sum_.y + select(inside, a.y, zero),
+              sum_.z + select(inside, a.z, zero)};
+      a = {select(inside, zero, a.x), select(inside, zero, a.y), select(inside, zero, a.z)};
+      end_group();
+    }
+    sum_ = {sum_.x + a.x, sum_.y + a.y, sum_.z + a.z};
+  }
+  void end() {
+    while (group_ < neighbours_.groups) end_group();
+  }
+
+ private:
+  TALUS_INLINE void end_group() {
+    double(&of_group)[3] = total_[group_++];
+    of_group[0] = total(sum_.x), of_group[1] = total(sum_.y), of_group[2] = total(sum_.z);
+    sum_ = {0.0, 0.0, 0.0};
+  }
+
+  const Neighbours& neighbours_;
+  double (*total_)[3];
+  int group_ = 0;
+  SimdVector3 sum_{0.0, 0.0, 0.0};
+};
+
 template <bool gradients, bool forces, Stabilisers stabilisers>
 void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, PairSums& sums, double (*acceleration)[3]) {
@@ -35,84 +71,77 @@ void sum_neighbours(const ParticleRecord* records, std::uint32_t self, const Nei
                                      {zero, zero, zero, zero, zero, zero, zero, zero, zero}};
   Number density_rate = zero, kernel_density = zero;
   SimdVector3 density_gradient{zero, zero, zero};
-  std::uint32_t begin = 0;
-  for (int group = 0; group < neighbours.groups; ++group) {
-    const std::uint32_t end = neighbours.group_end[group];
-    SimdVector3 sum{zero, zero, zero};
-    for (std::uint32_t first = begin; first < end; first += Number::lanes) {
-      Number other[16];
+  const std::uint32_t end = neighbours.group_end[neighbours.groups - 1];
+  GroupedSum sum(neighbours, acceleration);
+  for (std::uint32_t first = 0; first < end; first += Number::lanes) {
+    Number other[16];
+    load_columns(
+        [&](int lane) {
+          const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
+          return records[n < end ? neighbours.record[n] : neighbours.padding].position;
+        },
+        other);
+    const SimdVector3 d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
+                        other[2] - Number(own.position[2])};
+    const SimdVector3 du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
+                         other[5] - Number(own.velocity[2])};
+    const Number h = 0.5 * (Number(own.smoothing_length) + other[6]);
+    const Number square = d.x * d.x + d.y * d.y + d.z * d.z;
+    const Number inverse_h = 1.0 / h;
+    const Number inverse_distance = reciprocal_sqrt(square + 1e-30);
+    const Number q = square * inverse_distance * inverse_h;
+    const Number slope = sph::cubic_spline_slope_of(q, h * inverse_distance, inverse_h);
+    if constexpr (gradients) {
+      gradient.add(other[7], slope, d, du);
+      density_rate = density_rate + sph::density_rate(constants.mass, slope, d, du);
+    }
+    if constexpr (stabilisers == Stabilisers::prepared) {
+      const Number weight = -1.0 * other[7] * slope * (other[14] - Number(own.density));
+      density_gradient = {density_gradient.x + weight * d.x, density_gradient.y + weight * d.y,
+                          density_gradient.z + weight * d.z};
+    }
+    Number its[16];
+    if constexpr (stabilisers == Stabilisers::acting)
       load_columns(
           [&](int lane) {
             const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
-            return records[n < end ? neighbours.record[n] : neighbours.padding].position;
+            return constants.stabilisers[n < end ? neighbours.record[n] : neighbours.padding].density_gradient;
           },
-          other);
-      const SimdVector3 d{other[0] - Number(own.position[0]), other[1] - Number(own.position[1]),
-                          other[2] - Number(own.position[2])};
-      const SimdVector3 du{other[3] - Number(own.velocity[0]), other[4] - Number(own.velocity[1]),
-                           other[5] - Number(own.velocity[2])};
-      const Number h = 0.5 * (Number(own.smoothing_length) + other[6]);
-      const Number square = d.x * d.x + d.y * d.y + d.z * d.z;
-      const Number inverse_h = 1.0 / h;
-      const Number inverse_distance = reciprocal_sqrt(square + 1e-30);
-      const Number q = square * inverse_distance * inverse_h;
-      const Number slope = sph::cubic_spline_slope_of(q, h * inverse_distance, inverse_h);
-      if constexpr (gradients) {
-        gradient.add(other[7], slope, d, du);
-        density_rate = density_rate + sph::density_rate(constants.mass, slope, d, du);
-      }
-      if constexpr (stabilisers == Stabilisers::prepared) {
-        const Number weight = -1.0 * other[7] * slope * (other[14] - Number(own.density));
-        density_gradient = {density_gradient.x + weight * d.x, density_gradient.y + weight * d.y,
-                            density_gradient.z + weight * d.z};
-      }
-      Number its[16];
-      if constexpr (stabilisers == Stabilisers::acting)
-        load_columns(
-            [&](int lane) {
-              const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
-              return constants.stabilisers[n < end ? neighbours.record[n] : neighbours.padding].density_gradient;
-            },
-            its);
-      if constexpr (gradients && stabilisers == Stabilisers::acting) {
-        const double* g = constants.stabilisers[self].density_gradient;
-        const SimdVector3 both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
-        density_rate = density_rate + constants.stabilisers[self].dense * its[14] *
-                                          sph::density_diffusion(constants.density_diffusion, h, other[7], slope, d,
-                                                                 other[14] - Number(own.density), both);
-      }
-      if constexpr (forces) {
-        kernel_density = kernel_density + constants.mass * sph::cubic_spline_of(q, inverse_h);
-        const Number approach = du.x * d.x + du.y * d.y + du.z * d.z;
-        const Number mean_density = 0.5 * (Number(own.density) + other[14]);
-        Number viscosity;
-        if constexpr (stabilisers == Stabilisers::acting) {
-          const StabiliserRecord& mine = constants.stabilisers[self];
-          const double* l = mine.velocity_gradient;
-          const Tensor3<Number> both{its[3] + Number(l[0]), its[4] + Number(l[1]),  its[5] + Number(l[2]),
-                                     its[6] + Number(l[3]), its[7] + Number(l[4]),  its[8] + Number(l[5]),
-                                     its[9] + Number(l[6]), its[10] + Number(l[7]), its[11] + Number(l[8])};
-          viscosity =
-              sph::viscosity(viscous, approach, square, h, 0.5 * (Number(mine.sound_speed) + its[12]), mean_density) +
-              mine.loaded * its[13] *
-                  sph::hourglass_damping(constants.hourglass_damping, sph::unexplained_approach(approach, d, both),
-                                         square, h, mean_density);
-        } else {
-          viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed, mean_density);
-        }
-        const double* s = own.specific_stress;
-        const SymmetricTensor3<Number> stress{other[8] + Number(s[0]),  other[9] + Number(s[1]),
-                                              other[10] + Number(s[2]), other[11] + Number(s[3]),
-                                              other[12] + Number(s[4]), other[13] + Number(s[5])};
-        const SimdVector3 a = sph::acceleration(constants.mass, slope, d, stress, viscosity);
-        sum = {sum.x + a.x, sum.y + a.y, sum.z + a.z};
-      }
+          its);
+    if constexpr (gradients && stabilisers == Stabilisers::acting) {
+      const double* g = constants.stabilisers[self].density_gradient;
+      const SimdVector3 both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
+      density_rate = density_rate + constants.stabilisers[self].dense * its[14] *
+                                        sph::density_diffusion(constants.density_diffusion, h, other[7], slope, d,
+                                                               other[14] - Number(own.density), both);
     }
-    if constexpr (forces)
-      acceleration[group][0] = total(sum.x), acceleration[group][1] = total(sum.y),
-      acceleration[group][2] = total(sum.z);
-    begin = end;
+    if constexpr (forces) {
+      kernel_density = kernel_density + constants.mass * sph::cubic_spline_of(q, inverse_h);
+      const Number approach = du.x * d.x + du.y * d.y + du.z * d.z;
+      const Number mean_density = 0.5 * (Number(own.density) + other[14]);
+      Number viscosity;
+      if constexpr (stabilisers == Stabilisers::acting) {
+        const StabiliserRecord& mine = constants.stabilisers[self];
+        const double* l = mine.velocity_gradient;
+        const Tensor3<Number> both{its[3] + Number(l[0]), its[4] + Number(l[1]),  its[5] + Number(l[2]),
+                                   its[6] + Number(l[3]), its[7] + Number(l[4]),  its[8] + Number(l[5]),
+                                   its[9] + Number(l[6]), its[10] + Number(l[7]), its[11] + Number(l[8])};
+        viscosity =
+            sph::viscosity(viscous, approach, square, h, 0.5 * (Number(mine.sound_speed) + its[12]), mean_density) +
+            mine.loaded * its[13] *
+                sph::hourglass_damping(constants.hourglass_damping, sph::unexplained_approach(approach, d, both),
+                                       square, h, mean_density);
+      } else {
+        viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed, mean_density);
+      }
+      const double* s = own.specific_stress;
+      const SymmetricTensor3<Number> stress{other[8] + Number(s[0]),  other[9] + Number(s[1]),
+                                            other[10] + Number(s[2]), other[11] + Number(s[3]),
+                                            other[12] + Number(s[4]), other[13] + Number(s[5])};
+      sum.add(first, sph::acceleration(constants.mass, slope, d, stress, viscosity));
+    }
   }
+  if constexpr (forces) sum.end();
   if constexpr (gradients) {
     const SymmetricTensor3<Number>& m = gradient.moment;
     const Tensor3<Number>& v = gradient.velocity;
