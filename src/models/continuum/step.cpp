@@ -12,6 +12,7 @@
 #include "models/continuum/loading.hpp"
 #include "models/continuum/phase.hpp"
 #include "models/continuum/walls.hpp"
+#include "physics/sph/pair_terms.hpp"
 
 namespace talus::continuum {
 
@@ -126,7 +127,7 @@ void Step::half() const {
   for_each(team, s.position.size(), [&](std::size_t i) {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
-    w.density[i] = s.density[i] + (0.5 * dt) * w.rates.density_rate[i];
+    w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
     w.half_length[i] = w.sweep.smoothing_length(w.density[i]);
   });
   measure_strain_at(team, s, w, w.position);
@@ -161,7 +162,8 @@ void Step::drift(double duration, std::span<const Vector3> velocity) const {
 
 /// Eq. 16.
 void Step::density() const {
-  for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += dt * w.rates.density_rate[i]; });
+  for_each(team, s.density.size(),
+           [&](std::size_t i) { s.density[i] = sph::density_after(s.density[i], dt * w.rates.density_rate[i]); });
 }
 
 /// The law over the whole step; the displacement of a particle whose strain is reset is counted from here.

@@ -15,6 +15,15 @@ constexpr Number density_rate(double mass, const Number& slope, const Vector& d,
   return mass * slope * (du.x * d.x + du.y * d.y + du.z * d.z);
 }
 
+/// The density after a change in a step: old + change; where it falls, old/(1 + x + x^2) with x = -change/old, which is
+/// old (1 - x + x^3 - ...) and positive for any x: a particle that a stream loses may thin by more than its density
+/// within one step. \param old, change kg/m^3
+constexpr double density_after(double old, double change) {
+  if (change >= 0) return old + change;
+  const double x = -change / old;
+  return old / (1 + x + x * x);
+}
+
 /// Eq. 17, du/dt = -div(tau)/rho_b, symmetric: the term of j is -m_j (tau_i/rho_i^2 + tau_j/rho_j^2 + Pi I) . grad
 /// W_ij, equal and opposite to that of i on j for equal masses. \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d
 /// x_j - x_i, m \param s tau_i/rho_i^2 + tau_j/rho_j^2, compression positive; \param viscosity Pi_ij, both m^5/(kg s^2)

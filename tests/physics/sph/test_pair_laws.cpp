@@ -36,6 +36,17 @@ TEST(Balance, ThePrintedFormCountsTheStressByThePackingFraction) {
   EXPECT_DOUBLE_EQ(specific_stress(tau, density, packing, StressForm::printed).zz, 300 / (1500.0 * 2500));
 }
 
+TEST(DensityAfter, IsTheSumToThirdOrderAndStaysPositive) {
+  EXPECT_EQ(density_after(1500, 30), 1530);
+  EXPECT_EQ(density_after(1500, 0), 1500);
+  for (const double x : {1e-1, 1e-2, 1e-3}) {
+    const double error = density_after(1500, -1500 * x) / 1500 - (1 - x);
+    EXPECT_NEAR(error / (x * x * x), 1, 2 * x);
+  }
+  EXPECT_GT(density_after(1500, -3000), 0);
+  EXPECT_LT(density_after(1500, -3000), density_after(1500, -1500));
+}
+
 TEST(Viscosity, HasMonaghansValueAndActsOnApproachOnly) {
   const ArtificialViscosity law{.alpha = 0.1, .beta = 2};
   const double h = 0.01, r2 = 1e-4, c = 50, rho = 1500, approach = -2e-3;
