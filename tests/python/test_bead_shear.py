@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What validation/bead-shear/shear.py makes of states with known parameters, and of the states that are kept.
+
+Usage: test_bead_shear.py TALUS
+"""
+import sys
+import unittest
+from pathlib import Path
+
+sys.argv.pop()
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "validation" / "bead-shear"))
+
+import numpy as np  # noqa: E402
+import shear  # noqa: E402
+
+
+class Fits(unittest.TestCase):
+    def test_the_friction_of_states_on_a_curve_is_that_curve(self):
+        inertial = np.geomspace(1e-3, 0.5, 9)
+        slow, fast, scale, left = shear.fit_friction(inertial, 0.4 + 0.3 / (1 + 0.2 / inertial))
+        self.assertAlmostEqual(slow, 0.4, delta=0.002)
+        self.assertAlmostEqual(fast, 0.7, delta=0.01)
+        self.assertAlmostEqual(scale, 0.2, delta=0.01)
+        self.assertLess(left, 1e-3)
+
+    def test_the_packing_of_states_on_a_line_is_that_line(self):
+        inertial = np.array([0.01, 0.1, 0.2, 0.4])
+        critical, fall, *errors = shear.fit_packing(inertial, 0.56 - 0.1 * inertial)
+        self.assertAlmostEqual(critical, 0.56)
+        self.assertAlmostEqual(fall, 0.1)
+        self.assertLess(max(errors), 1e-6)
+
+    def test_the_friction_of_a_state_is_that_of_mohrs_circle(self):
+        table = np.tile([0, 2.0, 1.2, 0.8, 0.7, -0.3], (5, 1))
+        table[0, 1:] = 0.5, 9, 9, 9, 9  # before the steady part
+        row = dict(zip(shear.COLUMNS, shear.state(0.2, 0.55, table)))
+        self.assertAlmostEqual(row["friction"], np.hypot(0.2, 0.3))
+        self.assertAlmostEqual(row["inertial_number"], shear.RATE / np.sqrt(0.9))
+        self.assertAlmostEqual(row["xy_over_yy"], 0.375)
+
+
+class States(unittest.TestCase):
+    def test_beads_that_hardly_roll_have_more_friction_and_a_looser_critical_state(self):
+        fits = {}
+        for rolling in shear.PACKINGS:
+            s = shear.states(rolling)
+            hard = s["pressure_over_stiffness"] < shear.SOFT
+            fits[rolling] = (shear.fit_friction(s["inertial_number"], s["friction"]),
+                             shear.fit_packing(s["inertial_number"][hard], s["packing"][hard]))
+        self.assertAlmostEqual(fits[0.2][0][0], 0.48, delta=0.02)
+        self.assertAlmostEqual(fits[0.2][1][0], 0.55, delta=0.005)
+        self.assertGreater(fits[0.2][0][0], fits[0.0][0][0] + 0.1)
+        self.assertLess(fits[0.2][1][0], fits[0.0][1][0] - 0.03)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Shears the referee's beads in a periodic box (shear.in), and fits the parameters of the law critical-state to them.
+
+usage: shear.py run FOLDER     runs every state with LAMMPS (about half an hour on one core), to data/states.csv
+       shear.py fit            data/states.csv to the parameters, with their standard errors
+"""
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+STATES = HERE / "data" / "states.csv"
+RATE = 2e-4  # shear rate times (rho_p d^3/k)^(1/2), as in shear.in
+#: Rolling friction and the packings that are sheared with it.
+PACKINGS = {0.2: (0.50, 0.51, 0.52, 0.53, 0.54, 0.545, 0.55, 0.555, 0.56, 0.58),
+            0.0: (0.56, 0.57, 0.58, 0.585, 0.59, 0.595)}
+COLUMNS = ("rolling", "packing", "inertial_number", "friction", "pressure_over_stiffness", "xx_over_yy", "zz_over_yy",
+           "xy_over_yy")
+#: Pressure times diameter over stiffness, beyond which overlaps fill more than 0.2 % of the volume: such states have
+#: the friction of hard beads, but not their packing.
+SOFT = 1e-3
+
+
+def state(rolling, packing, table):
+    """One row of the states from a run's means over the second half of its strain or more.
+
+    The friction is that of Mohr's circle in the plane of shear: radius over centre. The law has it in simple shear,
+    where its normal stresses are equal.
+    """
+    steady = table[table[:, 1] > 1.0]
+    xx, yy, zz, xy = steady[:, 2:6].mean(axis=0)
+    centre, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+    pressure = (xx + yy + zz) / 3
+    return rolling, packing, RATE / np.sqrt(pressure), radius / centre, pressure, xx / yy, zz / yy, abs(xy) / yy
+
+
+def run(folder):
+    rows = []
+    for rolling, packings in PACKINGS.items():
+        for packing in packings:
+            place = folder / f"r{rolling:g}-p{packing:g}"
+            if not (place / "done").exists():
+                place.mkdir(parents=True, exist_ok=True)
+                with open(place / "out.txt", "w", encoding="utf-8") as out:
+                    subprocess.run(["lmp", "-in", HERE / "shear.in", "-var", "rolling", f"{rolling:g}", "-var", "packing",
+                                    f"{packing:g}"], cwd=place, stdout=out, check=True)
+                (place / "done").touch()
+            rows.append(state(rolling, packing, np.loadtxt(place / "shear.txt")))
+    STATES.parent.mkdir(exist_ok=True)
+    with open(STATES, "w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        writer.writerows([f"{value:.4g}" for value in row] for row in rows)
+
+
+def fit_friction(inertial, friction):
+    """mu_s, mu_2 and I_0 of mu_s + (mu_2 - mu_s)/(1 + I_0/I) by least squares, I_0 by search. Returns them and the
+    root mean square of what is left."""
+    best = None
+    for scale in np.geomspace(0.05, 2, 400):
+        shape = np.column_stack([np.ones_like(inertial), inertial / (inertial + scale)])
+        (slow, rise), *_ = np.linalg.lstsq(shape, friction, rcond=None)
+        left = np.sqrt(np.mean((shape @ (slow, rise) - friction) ** 2))
+        if best is None or left < best[3]:
+            best = (slow, slow + rise, scale, left)
+    return best
+
+
+def fit_packing(inertial, packing):
+    """phi_c and Delta of phi_c - Delta I by least squares, with their standard errors."""
+    (slope, critical), covariance = np.polyfit(inertial, packing, 1, cov=True)
+    return critical, -slope, *np.sqrt(np.diag(covariance))[::-1]
+
+
+def states(rolling):
+    with open(STATES, encoding="utf-8") as lines:
+        rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)]
+    chosen = [row for row in rows if row["rolling"] == rolling]
+    return {name: np.array([row[name] for row in chosen]) for name in COLUMNS}
+
+
+def fit():
+    for rolling in PACKINGS:
+        s = states(rolling)
+        slow, fast, scale, left = fit_friction(s["inertial_number"], s["friction"])
+        hard = s["pressure_over_stiffness"] < SOFT
+        critical, fall, critical_error, fall_error = fit_packing(s["inertial_number"][hard], s["packing"][hard])
+        print(f"rolling friction {rolling:g}: friction {slow:.3f}, fast_friction {fast:.3f}, inertial_number {scale:.2f} "
+              f"(left {left:.3f}); critical_packing {critical:.4f} +- {critical_error:.4f}, "
+              f"loosening {fall:.3f} +- {fall_error:.3f}")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) == 3 and sys.argv[1] == "run":
+        run(Path(sys.argv[2]))
+    elif sys.argv[1:] == ["fit"]:
+        fit()
+    else:
+        sys.exit(__doc__)
