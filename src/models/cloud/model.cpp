@@ -27,7 +27,8 @@ double largest_overlap(const State& state) {
 std::optional<RegimeLine> sum_line(const Parameters& p, const State& state) {
   const SpectralAccuracy* const accuracy = spectral_accuracy_of(p, static_cast<double>(state.position.size()));
   if (!accuracy) return std::nullopt;
-  if (!(state.sum_cutoff > 0)) return RegimeLine{"sum over pairs", "direct", "cheaper at the end of the run, fluid.sum"};
+  if (!(state.sum_cutoff > 0))
+    return RegimeLine{"sum over pairs", "direct", "cheaper at the end of the run, fluid.sum"};
   return RegimeLine{
       "sum over pairs", fmt::format("spectral, error {:.0e}", accuracy->error),
       fmt::format("of the root mean square; of a pair at most {:.2g}/(8 pi mu max(r, r_c)); r_c {:.3g} a_p, grid "

@@ -119,11 +119,10 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "overlapping spheres, or none"},
         p.fluid.mobility);
   auto dragged = only_if(unless("fluid.mobility", p.fluid.mobility, hydrodynamics::Mobility::none), visit);
-  dragged(Parameter{"fluid.precision",
-                    {},
-                    {},
-                    "arithmetic of the direct sum over pairs; positions and overlaps are double"},
-          p.fluid.precision);
+  dragged(
+      Parameter{
+          "fluid.precision", {}, {}, "arithmetic of the direct sum over pairs; positions and overlaps are double"},
+      p.fluid.precision);
   dragged(Parameter{"fluid.sum",
                     {},
                     {},

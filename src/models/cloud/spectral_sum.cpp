@@ -51,8 +51,8 @@ void require(bool condition, const char* what) {
 }
 
 double nodes_of(const Lattice& lattice, const SpectralAccuracy& accuracy) {
-  const double nodes = 0.5 * accuracy.nodes, more = accuracy.points - 1;
-  return (static_cast<double>(lattice.columns) * nodes + more) * (static_cast<double>(lattice.rows) * nodes + more);
+  return static_cast<double>(nodes_along(lattice.columns, accuracy)) *
+         static_cast<double>(nodes_along(lattice.rows, accuracy));
 }
 
 }  // namespace
@@ -69,7 +69,13 @@ SpectralSum::SpectralSum(SpectralSum&&) noexcept = default;
 SpectralSum& SpectralSum::operator=(SpectralSum&&) noexcept = default;
 
 void SpectralSum::reorder(std::span<const std::uint32_t> order) {
-  require(order.size() == engine_->order.size(), "the order has not one entry a sphere");
+  std::vector<bool> seen(engine_->order.size(), false);
+  bool permutation = order.size() == seen.size();
+  for (std::size_t n = 0; permutation && n < order.size(); ++n) {
+    permutation = order[n] < seen.size() && !seen[order[n]];
+    if (permutation) seen[order[n]] = true;
+  }
+  require(permutation, "the order is no permutation of the spheres");
   engine_->order.assign(order.begin(), order.end());
 }
 
@@ -90,9 +96,9 @@ void SpectralSum::set_cutoff(double cutoff) {
 bool SpectralSum::velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                              std::span<Vector3> velocity) {
   Engine& engine = *engine_;
-  require(position.size() == engine.radius.size() && force.size() == position.size() &&
-              velocity.size() == position.size(),
-          "positions, forces and velocities have not one entry a sphere");
+  require(
+      position.size() == engine.radius.size() && force.size() == position.size() && velocity.size() == position.size(),
+      "positions, forces and velocities have not one entry a sphere");
   if (position.empty()) return true;
   const Extent extent = extent_of(team, position, engine.axis);
   if (!extent.finite) {

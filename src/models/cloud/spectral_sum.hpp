@@ -5,8 +5,9 @@
 /// Unequal radii, coplanar places and unbounded space are exact; what errs is the grid (and single precision). For
 /// every place of the spheres and all forces,
 ///     |error of velocity i| <= k/(8 pi mu) sum over j of |F_j| / max(r_ij, r_c),   j = i included,
-/// with k the `pair_error` of the accuracy and r_c the cut-off. Errors of pairs have no common sign: over clouds their
-/// root mean square is below `error` times that of the sums. Decision 0024.
+/// with k the `pair_error` of the accuracy and r_c the cut-off, and the rounding of near pairs, `pair_rounding`. Errors
+/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums. Decision
+/// 0024.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ namespace talus::cloud {
 /// A rectangle of cells over the spheres. Columns lie along the shorter side, rows along the longer one.
 struct Lattice {
   std::array<double Vector3::*, 2> axis = {&Vector3::x, &Vector3::y};  ///< across a row's cells, and from row to row
-  double per_length = 0;             ///< cells a metre
+  double per_length = 0;                                               ///< cells a metre
   std::array<double, 2> origin = {};  ///< number of the first cell along each axis: a whole number
   std::size_t columns = 0, rows = 0;
 

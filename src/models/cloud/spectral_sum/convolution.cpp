@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "models/cloud/spectral_sum/fourier.hpp"
-#include "models/cloud/spectral_sum/split.hpp"
 #include "models/cloud/spectral_sum/spline.hpp"
+#include "models/cloud/spectral_sum/split.hpp"
 
 namespace talus::cloud {
 
@@ -17,9 +17,9 @@ namespace {
 
 // The correction for the spline is felt a few nodes away; beyond this many its sources are where the kernel, sampled on
 // the doubled grid, has its seam.
-constexpr std::size_t seam = 16;
-constexpr std::size_t width = 8;      // columns transformed together
-constexpr int tables = 5;             // of the tensor: xx, xy, yy, and grad h along x and y
+constexpr std::size_t seam = 40;
+constexpr std::size_t width = 8;  // columns transformed together
+constexpr int tables = 5;         // of the tensor: xx, xy, yy, and grad h along x and y
 constexpr std::size_t aligned_to = 64;
 
 /// The least even number from `least` on without prime factors above 7.
@@ -42,8 +42,8 @@ struct Convolution<T>::Grid {
   Deviations deviations;
   Split split;
   double mean_size = -1;
-  std::size_t columns = 0, rows = 0;            // of the nodes that are in use
-  std::size_t all_columns = 0, all_rows = 0;    // of the doubled grid
+  std::size_t columns = 0, rows = 0;          // of the nodes that are in use
+  std::size_t all_columns = 0, all_rows = 0;  // of the doubled grid
   std::size_t pitch = 0, blocks = 0;
   AlignedArray<T> fields, table;
   std::vector<AlignedArray<Complex>> space;
@@ -97,8 +97,7 @@ void Convolution<T>::Grid::fill_table(ThreadTeam& team, int number, bool odd_x, 
   });
   transform_quarter(quarter.data(), count_x, count_y, odd_x, odd_y);
   const auto correction = [&](std::size_t k, std::size_t all) {
-    return spline_correction(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(all),
-                             accuracy.points);
+    return spline_correction(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(all), accuracy.points);
   };
   std::vector<double> across(half_x + 1);
   for (std::size_t k = 0; k <= half_x; ++k)
@@ -110,8 +109,7 @@ void Convolution<T>::Grid::fill_table(ThreadTeam& team, int number, bool odd_x, 
       for (std::size_t b = 0; b < width; ++b) {
         const std::size_t i = block * width + b;
         const bool inside = i >= first_x && i - first_x < count_x && j >= first_y && j - first_y < count_y;
-        const double value =
-            inside ? quarter[(j - first_y) * count_x + (i - first_x)] * across[i] * along : 0.0;
+        const double value = inside ? quarter[(j - first_y) * count_x + (i - first_x)] * across[i] * along : 0.0;
         table[((block * (half_y + 1) + j) * tables + static_cast<std::size_t>(number)) * width + b] =
             static_cast<T>(value);
       }
@@ -191,8 +189,7 @@ void Convolution<T>::Grid::transform_columns(std::size_t block, Complex* work) {
     Complex* const column = work + static_cast<std::size_t>(k) * field;
     column_backward.of_complex(column);
     for (std::size_t j = 0; j < rows; ++j)
-      std::copy(column + j * width, column + (j + 1) * width,
-                reinterpret_cast<Complex*>(row(k, j)) + block * width);
+      std::copy(column + j * width, column + (j + 1) * width, reinterpret_cast<Complex*>(row(k, j)) + block * width);
   }
 }
 

@@ -3,9 +3,9 @@
 /// transforms of twice its size that leave no images (Hockney & Eastwood 1981, section 6-5).
 ///
 /// Two sources are forces. Where the spheres' sizes differ, the tensor has the mean size s, and what the deviation ds
-/// of a sphere adds, -ds grad grad h . f, goes by a scalar: as a source f ds . grad of a point, of which the velocity is
-/// the field of grad h; as a target the velocity -ds grad of the scalar grad h . f. Exact for the source, for the target
-/// or for both.
+/// of a sphere adds, -ds grad grad h . f, goes by a scalar: as a source f ds . grad of a point, of which the velocity
+/// is the field of grad h; as a target the velocity -ds grad of the scalar grad h . f. Exact for the source, for the
+/// target or for both.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +33,8 @@ class Convolution {
   /// \param mean_size s, in units of the square of the cut-off
   void prepare(ThreadTeam& team, std::size_t columns, std::size_t rows, double mean_size);
 
-  /// The grid's rows, `pitch()` numbers apart: before `apply` of the sources (0 and 1 forces over 8 pi mu times the cut-off, 2 the deviations'
-  /// scalar), after it of the results (0 and 1 velocities, 2 the scalar for targets).
+  /// The grid's rows, `pitch()` numbers apart: before `apply` of the sources (0 and 1 forces over 8 pi mu times the
+  /// cut-off, 2 the deviations' scalar), after it of the results (0 and 1 velocities, 2 the scalar for targets).
   T* field(int number);
   const T* field(int number) const;
   std::size_t pitch() const;

@@ -48,7 +48,7 @@ SumNear<T> choose(InstructionSet set, Mobility mobility, int degree) {
   }
 }
 
-/// Lengths in units of the cut-off. A cell is half of it, and holds `points`/2 spacings of the grid.
+/// Lengths in units of the cut-off. A cell is half of it.
 template <class T, int points>
 class EngineOf final : public SpectralSum::Engine {
  public:
@@ -63,11 +63,10 @@ class EngineOf final : public SpectralSum::Engine {
   void velocities(ThreadTeam& team, const Lattice& lattice, std::span<const Vector3> position,
                   std::span<const Vector3> force, std::span<Vector3> velocity) override {
     cells_.sort(team, lattice, position, order);
-    const std::size_t nodes = static_cast<std::size_t>(accuracy.nodes) / 2;
-    convolution_.prepare(team, lattice.columns * nodes + points - 1, lattice.rows * nodes + points - 1,
+    convolution_.prepare(team, nodes_along(lattice.columns, accuracy), nodes_along(lattice.rows, accuracy),
                          mean_size / (cutoff * cutoff));
     pack(team, position, force);
-    // Strips of cells reach into the next ones by less than a strip: every other one at a time.
+    // What a strip of cells is spread over reaches into the next ones by less than a strip: every other one at a time.
     const std::size_t strips = (lattice.rows + strip - 1) / strip;
     for (const std::size_t parity : {0, 1})
       team.run((strips + 1 - parity) / 2, [&](std::size_t n) { spread(2 * n + parity); });
@@ -114,17 +113,16 @@ void EngineOf<T, points>::pack(ThreadTeam& team, std::span<const Vector3> positi
   columns_.resize(all * padded_), place_.resize(padded_);
   const double per_force = 1 / (8 * std::numbers::pi * options.viscosity * cutoff);
   const double per_area = 1 / (cutoff * cutoff), per_cutoff = 1 / cutoff;
-  const auto nodes = static_cast<std::uint32_t>(accuracy.nodes / 2);
+  const double nodes = 0.5 * accuracy.nodes;  // of the grid in a cell
   for_each(team, padded_, [&](std::size_t n) {
     const std::uint32_t i = cells_.sphere()[n];
     Place& place = place_[n];
     for (std::size_t k = 0; k < 2; ++k) {
       const double x = lattice.cells_along(k, position[i]);
       const auto number = static_cast<std::uint32_t>(x);
-      const double inside = x - number, beyond = inside * nodes;
-      const auto node = std::min(static_cast<std::uint32_t>(beyond), nodes - 1);
-      place.node[k] = number * nodes + node;
-      place.beyond[k] = static_cast<T>(beyond - node);
+      const double inside = x - number, along = x * nodes;
+      place.node[k] = static_cast<std::uint32_t>(along);
+      place.beyond[k] = static_cast<T>(along - place.node[k]);
       column(position_x + k)[n] = static_cast<T>(0.5 * inside);
       if (k == 0) column(cell)[n] = static_cast<T>(number);
       column(force_x + k)[n] = static_cast<T>(force[i].*lattice.axis[k] * per_force);
@@ -190,7 +188,8 @@ void EngineOf<T, points>::interpolate(std::size_t row, std::span<Vector3> veloci
     for (int k = 0; k < points; ++k) v_x += x.value[k] * sum_x[k], v_y += x.value[k] * sum_y[k];
     if (deviations.targets) {
       const T deviation = (s[n] - mean) * per_spacing;
-      for (int k = 0; k < points; ++k) v_x -= deviation * x.slope[k] * value[k], v_y -= deviation * x.value[k] * slope[k];
+      for (int k = 0; k < points; ++k)
+        v_x -= deviation * x.slope[k] * value[k], v_y -= deviation * x.value[k] * slope[k];
     }
     Vector3& v = velocity[cells_.sphere()[n]];
     v = Vector3{};
@@ -233,8 +232,7 @@ void EngineOf<T, points>::add_near(std::size_t row, AlignedArray<T>& space) {
 
 }  // namespace
 
-SpectralSum::Engine::Engine(const Options& options_, const SpectralAccuracy& accuracy_,
-                            std::span<const double> radius_)
+SpectralSum::Engine::Engine(const Options& options_, const SpectralAccuracy& accuracy_, std::span<const double> radius_)
     : options(options_),
       accuracy(accuracy_),
       axis({&Vector3::x, options_.motion == Motion::xz ? &Vector3::z : &Vector3::y}),

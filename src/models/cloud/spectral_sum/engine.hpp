@@ -31,6 +31,12 @@ class SpectralSum::Engine {
   double cutoff = 0;
 };
 
+/// Nodes of the grid over some cells, with those that the splines of spheres at the rim reach.
+inline std::size_t nodes_along(std::size_t cells, const SpectralAccuracy& accuracy) {
+  return static_cast<std::size_t>(0.5 * accuracy.nodes * static_cast<double>(cells)) +
+         static_cast<std::size_t>(accuracy.points);
+}
+
 std::unique_ptr<SpectralSum::Engine> make_engine(const SpectralSum::Options& options, const SpectralAccuracy& accuracy,
                                                  std::span<const double> radius);
 

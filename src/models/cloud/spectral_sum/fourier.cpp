@@ -14,18 +14,18 @@ namespace {
 // FFTW's functions under one name for both precisions.
 template <class T>
 struct Fftw;
-#define TALUS_FFTW(T, prefix)                                                    \
-  template <>                                                                    \
-  struct Fftw<T> {                                                               \
-    using Plan = prefix##_plan;                                                  \
-    using Complex = prefix##_complex;                                            \
-    static constexpr auto plan_to_spectrum = prefix##_plan_dft_r2c_1d;           \
-    static constexpr auto plan_from_spectrum = prefix##_plan_dft_c2r_1d;         \
-    static constexpr auto plan_many = prefix##_plan_many_dft;                    \
-    static constexpr auto execute_to_spectrum = prefix##_execute_dft_r2c;        \
-    static constexpr auto execute_from_spectrum = prefix##_execute_dft_c2r;      \
-    static constexpr auto execute_complex = prefix##_execute_dft;                \
-    static constexpr auto destroy = prefix##_destroy_plan;                       \
+#define TALUS_FFTW(T, prefix)                                               \
+  template <>                                                               \
+  struct Fftw<T> {                                                          \
+    using Plan = prefix##_plan;                                             \
+    using Complex = prefix##_complex;                                       \
+    static constexpr auto plan_to_spectrum = prefix##_plan_dft_r2c_1d;      \
+    static constexpr auto plan_from_spectrum = prefix##_plan_dft_c2r_1d;    \
+    static constexpr auto plan_many = prefix##_plan_many_dft;               \
+    static constexpr auto execute_to_spectrum = prefix##_execute_dft_r2c;   \
+    static constexpr auto execute_from_spectrum = prefix##_execute_dft_c2r; \
+    static constexpr auto execute_complex = prefix##_execute_dft;           \
+    static constexpr auto destroy = prefix##_destroy_plan;                  \
   };
 TALUS_FFTW(float, fftwf)
 TALUS_FFTW(double, fftw)
@@ -62,15 +62,13 @@ void Transform<T>::Release::operator()(void* plan) const {
 template <class T>
 Transform<T> Transform<T>::to_spectrum(std::size_t size, T* row) {
   const std::lock_guard lock(planner());
-  return Transform(
-      made(Fftw<T>::plan_to_spectrum(static_cast<int>(size), row, complex_of(row), FFTW_ESTIMATE)));
+  return Transform(made(Fftw<T>::plan_to_spectrum(static_cast<int>(size), row, complex_of(row), FFTW_ESTIMATE)));
 }
 
 template <class T>
 Transform<T> Transform<T>::from_spectrum(std::size_t size, T* row) {
   const std::lock_guard lock(planner());
-  return Transform(
-      made(Fftw<T>::plan_from_spectrum(static_cast<int>(size), complex_of(row), row, FFTW_ESTIMATE)));
+  return Transform(made(Fftw<T>::plan_from_spectrum(static_cast<int>(size), complex_of(row), row, FFTW_ESTIMATE)));
 }
 
 template <class T>

@@ -21,7 +21,7 @@ struct SortedSpheres {
   const T* position[2] = {};  ///< from the corner of the sphere's cell
   const T* cell = nullptr;    ///< number of the cell in its row
   const T* force[2] = {};
-  const T* size = nullptr;    ///< share in the law's finite size (source_size or shared_size)
+  const T* size = nullptr;  ///< share in the law's finite size (source_size or shared_size)
   const T* radius = nullptr;
 };
 

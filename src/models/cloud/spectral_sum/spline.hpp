@@ -25,7 +25,8 @@ struct SplineWeights {
       }
       const T scale = T(1) / T(n - 1);
       value[n - 1] = scale * t * value[n - 2];
-      for (int k = n - 2; k > 0; --k) value[k] = scale * ((t + T(n - 1 - k)) * value[k - 1] + (T(k + 1) - t) * value[k]);
+      for (int k = n - 2; k > 0; --k)
+        value[k] = scale * ((t + T(n - 1 - k)) * value[k - 1] + (T(k + 1) - t) * value[k]);
       value[0] *= scale * (1 - t);
     }
   }
@@ -37,9 +38,7 @@ struct SplineWeights {
 /// Source: Hockney & Eastwood, Computer Simulation Using Particles (1981), section 8-3.
 /// \param k wave number times the spacing, at most pi
 inline double spline_correction(double k, int order) {
-  const auto spectrum = [&](double x) {
-    return x == 0 ? 1.0 : std::pow(std::sin(0.5 * x) / (0.5 * x), order);
-  };
+  const auto spectrum = [&](double x) { return x == 0 ? 1.0 : std::pow(std::sin(0.5 * x) / (0.5 * x), order); };
   double sum = 0;
   for (int m = -8; m <= 8; ++m) sum += std::pow(spectrum(k + 2 * std::numbers::pi * m), 2);
   return std::pow(spectrum(k) / sum, 2);

@@ -40,7 +40,7 @@ class Split {
   double mean(double square, int derivative) const;
 
   int order_;
-  std::vector<double> series_;        // of phi in y, the first power being y^m
+  std::vector<double> series_;         // of phi in y, the first power being y^m
   std::vector<double> node_, weight_;  // quadrature on [0, 1]
 };
 
