@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 #include "analysis/fronts.hpp"
@@ -16,6 +17,7 @@
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
 #include "models/cloud/forecast.hpp"
+#include "models/cloud/mobility_sum.hpp"
 #include "models/cloud/model.hpp"
 #include "models/cloud/stability.hpp"
 
@@ -94,12 +96,19 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
 /// Of all velocities. The pairs are the work, unless there are none to be summed.
 double measure_evaluation(const Parameters& p, ThreadTeam& team) {
   const auto count = static_cast<double>(p.particles.count);
-  const double measured = std::min(count, 3000.0);
+  // Of the spectral sum, whose cost is in proportion to the grains, enough for its grid to weigh as it will.
+  const bool spectral = cloud::spectral_accuracy_of(p, count) != nullptr;
+  const double measured = std::min(count, spectral ? 20000.0 : 3000.0);
   const Grains grains = cloud::sample(p, static_cast<std::size_t>(measured));
   cloud::Velocities velocities(p, grains.radius);
   std::vector<Vector3> velocity(grains.radius.size());
+  if (spectral) {
+    std::vector<std::int64_t> order(grains.radius.size());
+    std::iota(order.begin(), order.end(), std::int64_t{0});
+    velocities.arrange_sum(order, velocities.choose_sum(grains.position));
+  }
   const double seconds = seconds_of(0.1, [&] { velocities(team, grains.position, velocity); });
-  const int power = p.fluid.mobility == hydrodynamics::Mobility::none ? 1 : 2;
+  const int power = spectral || p.fluid.mobility == hydrodynamics::Mobility::none ? 1 : 2;
   return seconds * std::pow(count / measured, power);
 }
 

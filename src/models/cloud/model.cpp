@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "models/cloud/mobility_sum.hpp"
 
 namespace talus::cloud {
 
@@ -18,6 +21,21 @@ double largest_speed(const State& state) {
 
 double largest_overlap(const State& state) {
   return state.overlap.empty() ? 0 : *std::max_element(state.overlap.begin(), state.overlap.end());
+}
+
+/// How the sum over pairs was computed at the end of the run, where there was a choice.
+std::optional<RegimeLine> sum_line(const Parameters& p, const State& state) {
+  const SpectralAccuracy* const accuracy = spectral_accuracy_of(p, static_cast<double>(state.position.size()));
+  if (!accuracy) return std::nullopt;
+  if (!(state.sum_cutoff > 0))
+    return RegimeLine{"sum over pairs", "direct", "cheaper at the end of the run, fluid.sum"};
+  return RegimeLine{
+      "sum over pairs", fmt::format("spectral, error {:.0e}", accuracy->error),
+      fmt::format("of the root mean square; of a pair at most {:.2g}/(8 pi mu max(r, r_c)); r_c {:.3g} a_p, grid "
+                  "{:.3g} a_p, splines over {} points, {}",
+                  accuracy->pair_error, state.sum_cutoff / p.particles.radius,
+                  state.sum_cutoff / accuracy->nodes / p.particles.radius, accuracy->points,
+                  accuracy->single ? "single precision" : "double precision")};
 }
 
 }  // namespace
@@ -63,6 +81,7 @@ std::vector<RegimeLine> Cloud::regime(const RunRecord& record) const {
   const double fastest = record.largest("speed_max") * parameters_.fluid.density * a / parameters_.fluid.viscosity;
   const double overlap = record.largest("overlap_max") / a;
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  if (const auto line = sum_line(parameters_, state_)) lines.push_back(*line);
   lines.push_back({"Reynolds number of the fastest grain", fmt::format("{:.3g}", fastest),
                    "the same at the largest speed of the run", fastest > 0.1});
   lines.push_back({"largest overlap", fmt::format("{:.3g} a_p", overlap),

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
+#include "models/cloud/spectral_sum/accuracy.hpp"
 #include "physics/hydrodynamics/buoyant_weight.hpp"
 
 namespace talus::cloud {
@@ -120,6 +122,14 @@ std::vector<Problem> check(const Parameters& p) {
                       "particles.width, particles.radius)",
                       fraction),
           fmt::format("at most {}: random packing without overlap jams", jamming));
+  }
+  if (p.fluid.sum == Sum::spectral && p.fluid.mobility != hydrodynamics::Mobility::none) {
+    if (p.motion == Motion::xyz)
+      add("fluid.sum", "\"spectral\" with motion \"xyz\": its grid lies in a plane",
+          "\"automatic\" or \"direct\"; or motion \"xy\" or \"xz\"");
+    if (!spectral_accuracy(p.fluid.sum_error))
+      add("fluid.sum_error", fmt::format("{:g} is less than the spectral sum reaches", p.fluid.sum_error),
+          fmt::format("at least {:g}; or fluid.sum = \"direct\"", std::rbegin(spectral_accuracies)->error));
   }
   if (grains.density == p.fluid.density)
     add("particles.density", "equals fluid.density: nothing would move", "any other density");

@@ -21,6 +21,8 @@ namespace talus::cloud {
 enum class Shape { circle, rectangle, triangle, wedge, ball, dome, file };
 enum class RadiusDistribution { uniform, normal };
 enum class Boundary { centres, whole };
+/// How the sum over pairs is computed.
+enum class Sum { automatic, direct, spectral };
 enum class Method { chebyshev, dormand_prince, euler };
 
 struct Parameters {
@@ -41,6 +43,8 @@ struct Parameters {
     double viscosity = 1.82e-5;
     hydrodynamics::Mobility mobility = hydrodynamics::Mobility::rotne_prager_1969;
     Precision precision = Precision::double_precision;
+    Sum sum = Sum::automatic;
+    double sum_error = 1e-3;
   } fluid;
   struct Contact {
     bool enabled = true;
@@ -115,8 +119,22 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "overlapping spheres, or none"},
         p.fluid.mobility);
   auto dragged = only_if(unless("fluid.mobility", p.fluid.mobility, hydrodynamics::Mobility::none), visit);
-  dragged(Parameter{"fluid.precision", {}, {}, "arithmetic of the sum over pairs; positions and overlaps are double"},
-          p.fluid.precision);
+  dragged(
+      Parameter{
+          "fluid.precision", {}, {}, "arithmetic of the direct sum over pairs; positions and overlaps are double"},
+      p.fluid.precision);
+  dragged(Parameter{"fluid.sum",
+                    {},
+                    {},
+                    "how the sum over pairs is computed: direct; spectral, in a plane, by a grid and Fourier "
+                    "transforms at a cost of N log N; or automatic, spectral for 5000 grains and more in a plane "
+                    "where it is cheaper and reaches fluid.sum_error"},
+          p.fluid.sum);
+  auto split = only_if(unless("fluid.sum", p.fluid.sum, Sum::direct), dragged);
+  split(Parameter{"fluid.sum_error", dimension::none, between(1e-15, 0.1),
+                  "allowed error of the spectral sum: root mean square over that of the sums; steps of 1e-3, 1e-4 "
+                  "and 1e-5"},
+        p.fluid.sum_error);
 
   visit(Parameter{"contact.enabled", {}, {}, "whether grains that overlap repel each other and the slope"},
         p.contact.enabled);
@@ -195,6 +213,8 @@ template <>
 inline constexpr auto choices<cloud::RadiusDistribution> = std::to_array<std::string_view>({"uniform", "normal"});
 template <>
 inline constexpr auto choices<cloud::Boundary> = std::to_array<std::string_view>({"centres", "whole"});
+template <>
+inline constexpr auto choices<cloud::Sum> = std::to_array<std::string_view>({"automatic", "direct", "spectral"});
 template <>
 inline constexpr auto choices<cloud::Method> = std::to_array<std::string_view>({"chebyshev", "dormand-prince",
                                                                                 "euler"});

@@ -26,6 +26,7 @@ struct State {
   std::vector<Vector3> increment;           ///< m, the last step's displacement
   std::vector<Vector3> stiff_mode;          ///< unit vector of the stiffest motion found so far
   std::vector<std::int64_t> spatial_order;  ///< order in which the pair sum stores the grains
+  double sum_cutoff = 0;                    ///< m, of the spectral sum; 0: the sum is direct
   double last_step = 0;                     ///< s, length of the last step; 0 before the first
   double next_step = 0;                     ///< s, proposed by the error control
   double spectral_radius = 0;               ///< 1/s, estimate of the stiffest rate
@@ -46,6 +47,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"increment", "m", FieldRole::kept, false}, s.increment);
   visit(FieldInfo{"stiff_mode", "1", FieldRole::kept, false}, s.stiff_mode);
   visit(FieldInfo{"spatial_order", "1", FieldRole::kept, false}, s.spatial_order);
+  visit(FieldInfo{"sum_cutoff", "m"}, s.sum_cutoff);
   visit(FieldInfo{"last_step", "s"}, s.last_step);
   visit(FieldInfo{"next_step", "s"}, s.next_step);
   visit(FieldInfo{"spectral_radius", "1/s"}, s.spectral_radius);

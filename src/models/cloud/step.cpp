@@ -65,7 +65,8 @@ void keep_derived(State& state, Workspace& work) {
 void sort_for_packing(const Parameters& p, State& state, Workspace& work) {
   const auto order = spatial_order(state.position, 4 * p.particles.radius);
   state.spatial_order.assign(order.begin(), order.end());
-  work.velocities.reorder(state.spatial_order);
+  state.sum_cutoff = work.velocities.choose_sum(state.position);
+  work.velocities.arrange_sum(state.spatial_order, state.sum_cutoff);
 }
 
 void sort_at_intervals(ThreadTeam& team, const Parameters& p, State& state, Workspace& work) {
@@ -204,7 +205,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
 
 void derive(ThreadTeam& team, State& state, Workspace& work) {
   state.velocity.resize(state.position.size());
-  work.velocities.reorder(state.spatial_order);
+  work.velocities.arrange_sum(state.spatial_order, state.sum_cutoff);
   work.velocities(team, state.position, work.trial_velocity);
   keep_derived(state, work);
 }

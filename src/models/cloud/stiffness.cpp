@@ -21,8 +21,9 @@ double length(ThreadTeam& team, const std::vector<Vector3>& v) {
 void estimate_stiffness(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, int sweeps) {
   const std::size_t count = state.position.size();
   // Root mean square displacement of the trial: far below an overlap, far above the rounding of the velocities.
-  const double amplitude =
-      (p.fluid.precision == Precision::single_precision ? 1e-5 : 1e-6) * p.particles.radius * std::sqrt(double(count));
+  const bool single = state.sum_cutoff > 0 ? work.velocities.sum().accuracy()->single
+                                           : p.fluid.precision == Precision::single_precision;
+  const double amplitude = (single ? 1e-5 : 1e-6) * p.particles.radius * std::sqrt(double(count));
   if (state.spectral_radius < contact_rate(p) || state.stiff_mode.size() != count) {
     Random random(1);
     state.stiff_mode.resize(count);

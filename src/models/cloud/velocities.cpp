@@ -33,12 +33,7 @@ Velocities::Velocities(const Parameters& p, std::span<const double> radius)
     : parameters_(p),
       touches_slope_(p.slope.enabled && p.contact.enabled && p.motion != Motion::xy),
       radius_(radius.begin(), radius.end()),
-      pair_sum_({.mobility = p.fluid.mobility,
-                 .motion = p.motion,
-                 .precision = p.fluid.precision,
-                 .instruction_set = p.integration.instruction_set,
-                 .viscosity = p.fluid.viscosity},
-                radius_),
+      sum_(p, radius_),
       force_(radius.size()),
       contact_force_(radius.size()),
       overlap_(radius.size(), 0.0) {
@@ -49,9 +44,8 @@ Velocities::Velocities(const Parameters& p, std::span<const double> radius)
         p.motion));
 }
 
-void Velocities::reorder(std::span<const std::int64_t> order) {
-  std::vector<std::uint32_t> packed(order.begin(), order.end());
-  pair_sum_.reorder(packed);
+void Velocities::arrange_sum(std::span<const std::int64_t> order, double cutoff) {
+  sum_.arrange({order.begin(), order.end()}, cutoff);
 }
 
 void Velocities::find_contacts(ThreadTeam& team, std::span<const Vector3> position) {
@@ -85,7 +79,7 @@ void Velocities::operator()(ThreadTeam& team, std::span<const Vector3> position,
       team, position.size(), 0.0, [&](std::size_t i) { return overlap_[i]; },
       [](double a, double b) { return std::max(a, b); });
   for_each(team, position.size(), [&](std::size_t i) { force_[i] = weight_[i] + contact_force_[i]; });
-  pair_sum_.velocities(team, position, force_, velocity);
+  sum_.velocities(team, position, force_, velocity);
   for_each(team, position.size(),
            [&](std::size_t i) { velocity[i] += hydrodynamics::stokes_mobility(radius_[i], viscosity) * force_[i]; });
 }

@@ -9,7 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/vector.hpp"
-#include "models/cloud/pair_sum.hpp"
+#include "models/cloud/mobility_sum.hpp"
 #include "models/cloud/parameters.hpp"
 #include "numerics/neighbour_list.hpp"
 
@@ -20,8 +20,11 @@ class Velocities {
   /// \param radius m, one per grain; copied
   Velocities(const Parameters& parameters, std::span<const double> radius);
 
-  /// Sets the order in which the pair sum stores the grains (on which the bits of the sum depend).
-  void reorder(std::span<const std::int64_t> order);
+  /// Chooses how the sum over pairs is computed from here on. \returns the cut-off of the spectral sum, m; 0: direct
+  double choose_sum(std::span<const Vector3> position) const { return sum_.choose(position); }
+
+  /// Sets what the bits of the sum depend on: the order in which it stores the grains, and what choose_sum returned.
+  void arrange_sum(std::span<const std::int64_t> order, double cutoff);
 
   /// Evaluates Eq. 4a. \param position m; \param velocity m/s, overwritten
   void operator()(ThreadTeam& team, std::span<const Vector3> position, std::span<Vector3> velocity);
@@ -31,6 +34,8 @@ class Velocities {
   std::span<const double> overlap() const { return overlap_; }
   double largest_overlap() const { return largest_overlap_; }
 
+  const MobilitySum& sum() const { return sum_; }
+
  private:
   void find_contacts(ThreadTeam& team, std::span<const Vector3> position);
 
@@ -39,7 +44,7 @@ class Velocities {
   std::vector<double> radius_;
   std::vector<Vector3> weight_;  // less buoyancy, its part in the plane of motion
   NeighbourList neighbours_;
-  PairSum pair_sum_;
+  MobilitySum sum_;
   std::vector<Vector3> force_, contact_force_;
   std::vector<double> overlap_;
   double largest_overlap_ = 0;

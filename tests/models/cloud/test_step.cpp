@@ -186,7 +186,7 @@ TEST(Stiffness, PowerIterationFindsTheRateOfTwoTouchingGrains) {
   Cloud cloud(p, two_grains(p, 1.9));
   cloud.begin(team);
   Workspace work(p, cloud.state());
-  work.velocities.reorder(cloud.state().spatial_order);
+  work.velocities.arrange_sum(cloud.state().spatial_order, cloud.state().sum_cutoff);
   estimate_stiffness(team, p, cloud.mutable_state(), work, 30);
   const double exact = 2 * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
   EXPECT_NEAR(cloud.state().spectral_radius, exact, 0.01 * exact);

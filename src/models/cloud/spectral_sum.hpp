@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The sum over all pairs of spheres in a plane at a cost of N log N: the tensor is split (spectral_sum/split.hpp) into
+/// a smooth part, summed on a grid by Fourier transforms, and a rest that near pairs alone have, summed directly.
+///
+/// Unequal radii, coplanar places and unbounded space are exact; what errs is the grid (and single precision). For
+/// every place of the spheres and all forces,
+///     |error of velocity i| <= k/(8 pi mu) sum over j of |F_j| / max(r_ij, r_c),   j = i included,
+/// with k the `pair_error` of the accuracy and r_c the cut-off, and the rounding of near pairs, `pair_rounding`. Errors
+/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums. Decision
+/// 0024.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "base/vector.hpp"
+#include "models/cloud/pair_sum.hpp"
+#include "models/cloud/spectral_sum/accuracy.hpp"
+
+namespace talus::cloud {
+
+/// What a sum by the split costs at some places of spheres, and by pairs; in units of about a second of a core.
+struct SpectralPlan {
+  double cutoff = 0;  ///< m, the cheapest
+  double cost = 0;
+  double direct_cost = 0;
+};
+
+class SpectralSum {
+ public:
+  using Options = PairSum::Options;
+
+  /// \param options motion in a plane and a mobility other than `none`; the precision follows from the accuracy
+  /// \param radius one per sphere, m, > 0
+  /// \throws std::invalid_argument for motion in space or no mobility; InputError as PairSum
+  SpectralSum(const Options& options, const SpectralAccuracy& accuracy, std::span<const double> radius);
+  ~SpectralSum();
+  SpectralSum(SpectralSum&&) noexcept;
+  SpectralSum& operator=(SpectralSum&&) noexcept;
+
+  /// The order in which the spheres are gone through, as PairSum's.
+  void reorder(std::span<const std::uint32_t> order);
+
+  /// The cheapest cut-off for these places, of those whose grid has room; nothing if the places are not finite.
+  std::optional<SpectralPlan> plan(std::span<const Vector3> position) const;
+
+  /// The distance beyond which pairs go by the grid alone. The lattice of the grid is fixed in space by it: the bits
+  /// depend on the cut-off, the places and the order, and on no other history.
+  /// \param cutoff m, > 0, at least least_cutoff()
+  void set_cutoff(double cutoff);
+  double cutoff() const;
+  double least_cutoff() const;
+
+  /// As PairSum's, within the error above, and the same bits for any number of threads.
+  /// \returns false, with velocities left as they were, if the spheres are so far apart that a grid over them would
+  ///          have more than `most_nodes`
+  bool velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
+                  std::span<Vector3> velocity);
+
+  static constexpr double most_nodes = 8e6;
+
+  class Engine;
+
+ private:
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace talus::cloud

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Fourier transforms by FFTW. Plans are made without measurement (FFTW_ESTIMATE) and for one thread: they follow from
+/// size, alignment and processor alone, and so do the bits. Planning is serialised; plans may be executed by several
+/// threads at once, each on arrays of its own that are aligned as AlignedArray.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace talus::cloud {
+
+/// Numbers aligned to 64 bytes; those of a new array are 0.
+template <class T>
+class AlignedArray {
+ public:
+  AlignedArray() = default;
+  explicit AlignedArray(std::size_t count)
+      : data_(static_cast<T*>(::operator new(count * sizeof(T), alignment))), size_(count) {
+    std::uninitialized_value_construct_n(data_.get(), count);
+  }
+  T* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+  T& operator[](std::size_t n) const { return data_.get()[n]; }
+
+ private:
+  static constexpr std::align_val_t alignment{64};
+  struct Release {
+    void operator()(T* p) const { ::operator delete(p, alignment); }
+  };
+  std::unique_ptr<T, Release> data_;
+  std::size_t size_ = 0;
+};
+
+/// A plan, without a factor: forth and back multiplies by the size.
+template <class T>
+class Transform {
+ public:
+  Transform() = default;
+  /// Of a row of numbers, in place: size + 2 of them.
+  static Transform to_spectrum(std::size_t size, T* row);
+  static Transform from_spectrum(std::size_t size, T* row);
+  /// Of `width` columns side by side, in place.
+  static Transform of_columns(std::size_t size, std::size_t width, std::complex<T>* columns, bool backward);
+
+  void to_complex(T* row) const;
+  void to_real(T* row) const;
+  void of_complex(std::complex<T>* columns) const;
+
+ private:
+  struct Release {
+    void operator()(void* plan) const;
+  };
+  explicit Transform(void* plan) : plan_(plan) {}
+  std::unique_ptr<void, Release> plan_;
+};
+
+/// In place, the cosine or (odd) sine transforms along both directions of a quarter of a function on a doubled grid:
+/// what its Fourier transform is, up to -i for each odd direction. Even: from the middle to the seam, both included;
+/// odd: both, where the function is 0, left out. \param columns of the quarter, along which its numbers follow
+void transform_quarter(double* quarter, std::size_t columns, std::size_t rows, bool odd_x, bool odd_y);
+
+}  // namespace talus::cloud
