@@ -37,8 +37,7 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
       viscosity_(apertures_),
       solver_(grid, periodic_axes(parameters.boundaries)),
       drag_(grid.cell_field()),
-      source_(drag_),
-      guess_(drag_) {
+      source_(drag_) {
   for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_, &rate_,
                            &viscous_, &conductance_, &stream_.velocity, &stream_.mass})
     *field = grid.face_field();
@@ -56,23 +55,36 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   iterations_ = 0;
   set_solids(team, solids);
 
-  stream_.velocity = state.velocity, stream_.mass = state.momentum;
+  extrapolate(team, dt, state);
   measure_drag(team, solids, stream_.velocity);
-  guess_ = state.pressure;
   if (parameters_.compressibility == Compressibility::isothermal) {
     start_pressure_ = state.pressure;
     cell_void_fraction_.resize(solids.fraction.size());
     for (std::size_t c = 0; c < solids.fraction.size(); ++c) cell_void_fraction_[c] = 1 - solids.fraction[c];
   }
-  stage(team, 0.5 * dt, stream_, state, guess_);
-  for (std::size_t a = 0; a < 3; ++a) apertures_.wrap(stream_.velocity[a]);
-  measure_drag(team, solids, stream_.velocity);
-  state.pressure = guess_;
-  stage(team, dt, stream_, state, state.pressure);
+  move(team, dt, state);
   exchange_momentum(team, dt, stream_.velocity, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
     apertures_.wrap(stream_.velocity[a]), apertures_.wrap(stream_.mass[a]);
-    std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);
+    std::swap(state.velocity[a], stream_.velocity[a]);
+    std::swap(state.momentum_before[a], state.momentum[a]), std::swap(state.momentum[a], stream_.mass[a]);
+  }
+  state.last_step = dt;
+}
+
+/// Momentum in the middle of the step, from that at its start and at the start of the step before, and the velocity
+/// that it has in the new void fraction.
+void AirFlow::extrapolate(ThreadTeam& team, double dt, const AirState& state) {
+  const double share = state.last_step > 0 ? 0.5 * dt / state.last_step : 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    for_each_row(team, apertures_.grid, apertures_.faces(axis),
+                 [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   extrapolate_row(end - begin, share, parameters_.density(), void_fraction_[a].data() + begin,
+                                   state.momentum[a].data() + begin, state.momentum_before[a].data() + begin,
+                                   stream_.mass[a].data() + begin, stream_.velocity[a].data() + begin);
+                 });
+    apertures_.wrap(stream_.velocity[a]);
   }
 }
 
@@ -87,11 +99,14 @@ void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirS
       impulse[a][c] = s > 0 ? dt * state.drag[a][c] / s : 0;
     }
   });
+  state.last_step = dt;
 }
 
-/// From the momentum at the start of the step: velocity and pressure after dt, under the convection and viscosity of
-/// `stream`, which is overwritten.
-void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure) {
+/// From the momentum at the start of the step: velocity, momentum and pressure after dt, under the convection and
+/// viscosity of `stream_`, which they replace.
+void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
+  Stream& stream = stream_;
+  CellField& pressure = state.pressure;
   const Grid& grid = apertures_.grid;
   const double rho = parameters_.density();
   convection_.fill_ghosts(stream);
@@ -118,7 +133,7 @@ void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState&
                   (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
                   {.open = from(apertures_.open),
                    .void_fraction = from(void_fraction_),
-                   .momentum = from(start.momentum),
+                   .momentum = from(state.momentum),
                    .grain_velocity = from(grain_velocity_),
                    .convection = from(rate_),
                    .viscous = from(viscous_),
@@ -211,6 +226,7 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
     });
     apertures_.wrap(state.velocity[a]);
     apertures_.wrap(state.momentum[a]);
+    state.momentum_before[a] = state.momentum[a];
   }
 }
 

@@ -7,6 +7,16 @@
 
 namespace talus::air {
 
+TALUS_CLONES void extrapolate_row(std::ptrdiff_t count, double share, double rho, const double* void_fraction,
+                                  const double* momentum, const double* before, double* __restrict mass,
+                                  double* __restrict velocity) {
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double middle = momentum[f] + share * (momentum[f] - before[f]);
+    mass[f] = middle;
+    velocity[f] = middle / (rho * void_fraction[f]);
+  }
+}
+
 TALUS_CLONES void predict_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
                               double per_pressure, const StageRow& given, double* __restrict after_drag,
                               double* __restrict velocity, double* __restrict conductance) {

@@ -10,7 +10,13 @@
 
 namespace talus::air {
 
-/// Input of a stage on a row of faces, except for the pressure.
+/// Momentum in the middle of a step, and its velocity. \param share of the last change of momentum, that this half step
+/// brings again \param before momentum at the start of the last step
+void extrapolate_row(std::ptrdiff_t count, double share, double rho, const double* void_fraction,
+                     const double* momentum, const double* before, double* __restrict mass,
+                     double* __restrict velocity);
+
+/// Input of a step on a row of faces, except for the pressure.
 struct StageRow {
   const double* open;            ///< 1 where air can pass, else 0
   const double* void_fraction;   ///< Phi
@@ -21,7 +27,7 @@ struct StageRow {
   const double *decay, *mean;    ///< coupling::SlipDecay
 };
 
-/// Velocity of a stage without the pressure; `after_drag` is the initial velocity after the drag alone, `conductance`
+/// Velocity of a step without the pressure; `after_drag` is the initial velocity after the drag alone, `conductance`
 /// the volume flow per pressure difference. \param grains_share 1 if the pressure gradient acts on the grains by their
 /// volume fraction (model A), else 0 \param per_pressure dt / density * face area / distance of the cell centres
 void predict_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
