@@ -94,9 +94,12 @@ struct AirNames {
   const char *velocity, *momentum, *momentum_before, *drag, *solid_flux, *force, *impulse;
 };
 inline constexpr std::array<AirNames, 3> air_names{
-    {{"air_velocity_x", "air_momentum_x", "air_momentum_before_x", "air_drag_x", "air_solid_flux_x", "air_force_x", "impulse_air_x"},
-     {"air_velocity_y", "air_momentum_y", "air_momentum_before_y", "air_drag_y", "air_solid_flux_y", "air_force_y", "impulse_air_y"},
-     {"air_velocity_z", "air_momentum_z", "air_momentum_before_z", "air_drag_z", "air_solid_flux_z", "air_force_z", "impulse_air_z"}}};
+    {{"air_velocity_x", "air_momentum_x", "air_momentum_before_x", "air_drag_x", "air_solid_flux_x", "air_force_x",
+      "impulse_air_x"},
+     {"air_velocity_y", "air_momentum_y", "air_momentum_before_y", "air_drag_y", "air_solid_flux_y", "air_force_y",
+      "impulse_air_y"},
+     {"air_velocity_z", "air_momentum_z", "air_momentum_before_z", "air_drag_z", "air_solid_flux_z", "air_force_z",
+      "impulse_air_z"}}};
 inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
   std::array<std::array<std::string, 3>, most_walls> names;
   for (std::size_t wall = 0; wall < most_walls; ++wall)
