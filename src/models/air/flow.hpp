@@ -72,9 +72,10 @@ class AirFlow {
   void drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
   void extrapolate(ThreadTeam& team, double dt, const AirState& state);
   void move(ThreadTeam& team, double dt, AirState& state);
-  void exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
-  void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;
-  void project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure);
+  void add_pressure(ThreadTeam& team, double dt, CellField& pressure);
+  void finish(ThreadTeam& team, double dt, AirState& state, FaceField& impulse);
+  double find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity);
+  void project(ThreadTeam& team, double dt, CellField& pressure);
   void find_storage(ThreadTeam& team, double dt);
   void fill_ghosts(CellField& pressure) const;
   /// 1 if the pressure gradient acts on the grains by their volume fraction, 0 in model B.
@@ -91,9 +92,10 @@ class AirFlow {
   FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
   CellField drag_;                                             // beta of cells, kg/(m^3 s)
   FaceField decay_, mean_, after_drag_, rate_, viscous_;       // of a stage, on faces
-  FaceField before_;                                           // velocity before a stage, where viscosity is implicit
+  FaceField predicted_;  // velocity before the pressure; then that of the midpoint
   FaceField conductance_;
   CellField source_;
+  std::vector<double> largest_flow_;                         // of each row of cells
   CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
 };

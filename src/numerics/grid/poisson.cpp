@@ -173,8 +173,8 @@ struct PoissonSolver::System {
   }
   void advance(double step) {
     square = s.sum(team, [&](std::size_t c, std::size_t length) {
-      return run_loops::advance(length, static_cast<float>(step), s.direction_.data() + c, s.applied_.data() + c,
-                                s.change_.data() + c, s.multigrid_.residual().data() + c);
+      return run_loops::advance(static_cast<int>(length), static_cast<float>(step), s.direction_.data() + c,
+                                s.applied_.data() + c, s.change_.data() + c, s.multigrid_.residual().data() + c);
     });
   }
 };
@@ -187,7 +187,8 @@ struct PoissonSolver::MultigridCycle {
   double apply(double) {
     s.multigrid_.precondition(team);
     return s.sum(team, [&](std::size_t c, std::size_t length) {
-      return run_loops::product(length, s.multigrid_.residual().data() + c, s.multigrid_.correction().data() + c);
+      return run_loops::product(static_cast<int>(length), s.multigrid_.residual().data() + c,
+                                s.multigrid_.correction().data() + c);
     });
   }
   void update_direction(double beta) {
@@ -222,8 +223,9 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
     run_loops::take(length, source.data() + from, source_.data() + own);
     run_loops::take(length, value.data() + from, value_.data() + own);
   });
-  const double source_square =
-      sum(team, [&](std::size_t c, std::size_t length) { return run_loops::square(length, source_.data() + c); });
+  const double source_square = sum(team, [&](std::size_t c, std::size_t length) {
+    return run_loops::square(static_cast<int>(length), source_.data() + c);
+  });
   const double enough = std::max(stop.tolerance * std::sqrt(source_square), stop.absolute);
   if (!closed_.empty()) {
     residual_ = source_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "numerics/grid/run_loops.hpp"
 
+#include <cstring>
+
 #include "base/clones.hpp"
 
 namespace talus::run_loops {
@@ -8,16 +10,19 @@ namespace talus::run_loops {
 namespace {
 
 /// Calls body(place, lane) along a run, lanes in turn.
-template <int lanes, class Length, class Body>
-TALUS_INLINE void for_each_interleaved(Length length, Body&& body) {
-  Length m = 0;
+template <int lanes, class Body>
+TALUS_INLINE void for_each_interleaved(int length, Body&& body) {
+  int m = 0;
   for (; m + lanes <= length; m += lanes)
-    for (int l = 0; l < lanes; ++l) body(m + static_cast<Length>(l), l);
+    for (int l = 0; l < lanes; ++l) body(m + l, l);
   for (int l = 0; m < length; ++m, ++l) body(m, l);
 }
 
+// Eight numbers that are computed together; the compiler finds no vectors in a sum of floats by itself.
+using Floats [[gnu::vector_size(8 * sizeof(float))]] = float;
+
 template <class Number>
-TALUS_INLINE double total(const Number (&lane)[8]) {
+TALUS_INLINE double total(const Number& lane) {
   return static_cast<double>(((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7])));
 }
 
@@ -127,15 +132,21 @@ TALUS_CLONES void add_inflow(int length, const Runs<float>& around, float* __res
   for (int m = 0; m < length; ++m) to[m] += runs.inflow(m);
 }
 
-TALUS_CLONES double product(std::size_t length, const float* a, const float* b) {
-  float lane[8] = {};
-  for_each_interleaved<8>(length, [&](std::size_t m, int l) { lane[l] += a[m] * b[m]; });
-  return total(lane);
+TALUS_CLONES double product(int length, const float* a, const float* b) {
+  Floats sum{};
+  int m = 0;
+  for (; m + 8 <= length; m += 8) {
+    Floats x, y;
+    std::memcpy(&x, a + m, sizeof x), std::memcpy(&y, b + m, sizeof y);
+    sum += x * y;
+  }
+  for (int l = 0; m < length; ++m, ++l) sum[l] += a[m] * b[m];
+  return total(sum);
 }
 
-TALUS_CLONES double square(std::size_t length, const double* a) {
+TALUS_CLONES double square(int length, const double* a) {
   double lane[8] = {};
-  for_each_interleaved<8>(length, [&](std::size_t m, int l) { lane[l] += a[m] * a[m]; });
+  for_each_interleaved<8>(length, [&](int m, int l) { lane[l] += a[m] * a[m]; });
   return total(lane);
 }
 
@@ -144,16 +155,13 @@ TALUS_CLONES void update_direction(std::size_t length, float beta, const float* 
   for (std::size_t m = 0; m < length; ++m) direction[m] = correction[m] + beta * direction[m];
 }
 
-TALUS_CLONES double advance(std::size_t length, float step, const float* direction, const float* applied,
-                            float* __restrict x, float* __restrict residual) {
-  float lane[8] = {};
-  for_each_interleaved<8>(length, [&](std::size_t m, int l) {
+TALUS_CLONES double advance(int length, float step, const float* direction, const float* applied, float* __restrict x,
+                            float* __restrict residual) {
+  for (int m = 0; m < length; ++m) {
     x[m] += step * direction[m];
-    const float left = residual[m] - step * applied[m];
-    residual[m] = left;
-    lane[l] += left * left;
-  });
-  return total(lane);
+    residual[m] -= step * applied[m];
+  }
+  return product(length, residual, residual);
 }
 
 }  // namespace talus::run_loops

@@ -48,12 +48,12 @@ void relax(int length, const Runs<float>& around, const float* source, const flo
 /// to[m] += inflow.
 void add_inflow(int length, const Runs<float>& around, float* __restrict to);
 
-double product(std::size_t length, const float* a, const float* b);
-double square(std::size_t length, const double* a);
+double product(int length, const float* a, const float* b);
+double square(int length, const double* a);
 /// direction := correction + beta direction.
 void update_direction(std::size_t length, float beta, const float* correction, float* __restrict direction);
 /// x += step direction, residual -= step applied; \returns the square of the residual
-double advance(std::size_t length, float step, const float* direction, const float* applied, float* __restrict x,
+double advance(int length, float step, const float* direction, const float* applied, float* __restrict x,
                float* __restrict residual);
 
 }  // namespace talus::run_loops

@@ -7,8 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "base/clones.hpp"
 #include "numerics/sph/cubic_spline.hpp"
+#include "physics/coupling/deposition_rows.hpp"
 
 namespace talus::coupling {
 
@@ -19,72 +19,6 @@ int fold(int place, int count, bool is_periodic) {
   if (is_periodic) return ((place % count) + count) % count;
   while (place < 0 || place >= count) place = place < 0 ? -1 - place : 2 * count - 1 - place;
   return place;
-}
-
-// Cells of a row that are computed together.
-constexpr std::size_t lanes = 8;
-
-/// Input of the weights of a particle in cells whose places along x are their columns.
-struct Reach {
-  std::size_t columns;
-  const double* square_x;  ///< of the distance along x, m^2
-  std::size_t many_y, many_z;
-  const double *square_y, *square_z;
-  const std::size_t *row_y, *row_z;  ///< of the sum, for each place along y and z
-  double square;                     ///< of the reach, m^2
-  double per_width;                  ///< over the smoothing length, 1/m
-};
-
-/// Adds the kernel at all cells to the rows of `sum`.
-TALUS_CLONES void weigh(const Reach& given, std::size_t rows_y, double* __restrict sum) {
-  const Reach r = given;
-  for (std::size_t k = 0; k < r.many_z; ++k)
-    for (std::size_t j = 0; j < r.many_y; ++j) {
-      const double beside = r.square_y[j] + r.square_z[k];
-      if (beside >= r.square) continue;
-      double* row = sum + r.columns * (r.row_y[j] + rows_y * r.row_z[k]);
-      for (std::size_t i = 0; i < r.columns; i += lanes)
-        for (std::size_t l = 0; l < lanes; ++l)
-          row[i + l] += sph::cubic_spline_of(std::sqrt(beside + r.square_x[i + l]) * r.per_width, r.per_width);
-    }
-}
-
-/// Adds two amounts to two fields by weight.
-TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
-                           double amount, double other_amount, double* __restrict field, double* __restrict other) {
-  for (std::size_t r = 0; r < rows; ++r)
-    for (std::size_t i = 0; i < columns; i += lanes, weight += lanes) {
-      double *a = field + first[r] + i, *b = other + first[r] + i;
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const double share = static_cast<double>(weight[l]);
-        a[l] += amount * share;
-        b[l] += other_amount * share;
-      }
-    }
-}
-
-struct Sums {
-  double x, y, z;
-};
-
-/// Sums of three fields by weight.
-TALUS_CLONES Sums sum_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
-                           const double* x, const double* y, const double* z) {
-  double sum[3][lanes] = {};
-  for (std::size_t r = 0; r < rows; ++r)
-    for (std::size_t i = 0; i < columns; i += lanes, weight += lanes) {
-      const std::size_t from = first[r] + i;
-      for (std::size_t l = 0; l < lanes; ++l) {
-        const double share = static_cast<double>(weight[l]);
-        sum[0][l] += share * x[from + l];
-        sum[1][l] += share * y[from + l];
-        sum[2][l] += share * z[from + l];
-      }
-    }
-  const auto total = [](const double(&s)[lanes]) {
-    return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-  };
-  return {total(sum[0]), total(sum[1]), total(sum[2])};
 }
 
 }  // namespace
@@ -127,6 +61,11 @@ void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis
   square.clear(), slot.clear(), cell.clear();
   for (int n = from; n <= to; ++n) {
     square.push_back((n - place) * (n - place) * width * width);
+    if (n >= 0 && n < count && from >= 0) {  // none is folded onto it yet
+      slot.push_back(cell.size());
+      cell.push_back(n);
+      continue;
+    }
     const int within = has_left(n) ? left : fold(n, count, is_periodic);
     const auto found = std::find(cell.begin(), cell.end(), within);
     slot.push_back(static_cast<std::size_t>(found - cell.begin()));
@@ -134,7 +73,7 @@ void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis
   }
   is_plain = from >= 0 && cell.size() == slot.size() && cell.front() == from;
   for (std::size_t n = 1; n < cell.size(); ++n) is_plain = is_plain && cell[n] == cell[n - 1] + 1;
-  square.resize((square.size() + lanes - 1) / lanes * lanes, 4 * reach * reach);
+  square.resize((square.size() + row_lanes - 1) / row_lanes * row_lanes, 4 * reach * reach);
 }
 
 void Deposition::Scratch::Along::sort() {
@@ -198,22 +137,22 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
     scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
   const Scratch::Along &along_x = scratch.along[0], &along_y = scratch.along[1], &along_z = scratch.along[2];
   scratch.along[0].sort();
-  const std::size_t columns = (along_x.cell.size() + lanes - 1) / lanes * lanes, rows = along_y.cell.size();
+  const std::size_t columns = (along_x.cell.size() + row_lanes - 1) / row_lanes * row_lanes, rows = along_y.cell.size();
   scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
   double* sum = scratch.sum.data();
   const auto add_weights = [&](bool beside_wall) {
     if (!beside_wall && along_x.is_plain)
-      return weigh({.columns = columns,
-                    .square_x = along_x.square.data(),
-                    .many_y = along_y.slot.size(),
-                    .many_z = along_z.slot.size(),
-                    .square_y = along_y.square.data(),
-                    .square_z = along_z.square.data(),
-                    .row_y = along_y.slot.data(),
-                    .row_z = along_z.slot.data(),
-                    .square = reach * reach,
-                    .per_width = per_width},
-                   rows, sum);
+      return weigh_rows({.columns = columns,
+                         .square_x = along_x.square.data(),
+                         .many_y = along_y.slot.size(),
+                         .many_z = along_z.slot.size(),
+                         .square_y = along_y.square.data(),
+                         .square_z = along_z.square.data(),
+                         .row_y = along_y.slot.data(),
+                         .row_z = along_z.slot.data(),
+                         .square = reach * reach,
+                         .per_width = per_width},
+                        rows, sum);
     if (beside_wall) find_seen(x, scratch);
     for (std::size_t k = 0; k < along_z.slot.size(); ++k)
       for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
@@ -242,13 +181,8 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   double total = 0;
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
     for (std::size_t j = 0; j < rows; ++j) {
-      const double* row = sum + columns * (j + rows * k);
       float* kept = block.weight.data() + block.weights;
-      double of_row = 0;
-      for (std::size_t i = 0; i < columns; ++i) {
-        kept[i] = static_cast<float>(row[i]);
-        of_row += static_cast<double>(kept[i]);
-      }
+      const double of_row = round_row(columns, sum + columns * (j + rows * k), kept);
       total += of_row;
       if (!(of_row > 0) || along_y.cell[j] == Scratch::Along::left || along_z.cell[k] == Scratch::Along::left) continue;
       if (loses) kept[along_x.cell.size() - 1] = 0;
@@ -315,8 +249,9 @@ void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceFie
     for_each_particle(blocks_[b], b * block_size,
                       [&](std::size_t i, const Particle& particle, std::size_t rows, const std::uint32_t* first,
                           const float* weight) {
-                        const Sums sum = sum_rows(rows, particle.columns, first, weight, x.data(), y.data(), z.data());
-                        received[i] = solid_volume * particle.per_total * Vector3{sum.x, sum.y, sum.z};
+                        const Vector3 sum =
+                            sum_rows(rows, particle.columns, first, weight, x.data(), y.data(), z.data());
+                        received[i] = solid_volume * particle.per_total * sum;
                       });
   });
 }
