@@ -44,7 +44,7 @@ class Multigrid {
   void precondition(ThreadTeam& team) { cycle(team, 0); }
   /// To be set, in the order of the checkerboard; zero at its pads.
   std::vector<float>& residual() { return levels_.front().source; }
-  const std::vector<float>& correction() const { return levels_.front().value; }
+  std::vector<float>& correction() { return levels_.front().value; }
 
  private:
   struct Level {

@@ -186,6 +186,7 @@ struct PoissonSolver::MultigridCycle {
 
   double apply(double) {
     s.multigrid_.precondition(team);
+    if (!s.closed_.empty()) s.remove_constants(s.multigrid_.correction());
     return s.sum(team, [&](std::size_t c, std::size_t length) {
       return run_loops::product(static_cast<int>(length), s.multigrid_.residual().data() + c,
                                 s.multigrid_.correction().data() + c);
@@ -199,9 +200,19 @@ struct PoissonSolver::MultigridCycle {
   }
 };
 
+/// A region's constant, which no equation bounds, would take the digits of single precision from the rest.
+void PoissonSolver::remove_constants(std::vector<float>& column) const {
+  remove_means(column);
+  if (!board_.is_periodic(0)) return;
+  for (int colour = 0; colour < 2; ++colour)
+    for (std::size_t r = 0; r < board_.rows(); ++r)
+      board_.fill_ghosts(column.data() + board_.run(colour, r), board_.length(colour, r));
+}
+
 /// Adds to value_ what it lacks for the residual, of size `norm`, to fall to `enough`, or as far as single precision
 /// reaches.
 ConjugateGradients PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most_iterations) {
+  remove_means(residual_);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::scale(end - begin, 1 / norm, residual_.data() + begin, multigrid_.residual().data() + begin);
     std::fill(direction_.data() + begin, direction_.data() + end, 0.0f);

@@ -63,7 +63,9 @@ class PoissonSolver {
   ConjugateGradients refine(ThreadTeam& team, double norm, double enough, int most_iterations);
   void find_closed_regions();
   double unbalanced() const;
-  void remove_means(std::vector<double>& column) const;
+  template <class Number>
+  void remove_means(std::vector<Number>& column) const;
+  void remove_constants(std::vector<float>& column) const;
   [[noreturn]] void fail(const char* what, const char* advice) const;
 
   Grid grid_;

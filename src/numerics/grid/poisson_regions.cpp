@@ -66,14 +66,17 @@ double PoissonSolver::unbalanced() const {
   return std::sqrt(square);
 }
 
-void PoissonSolver::remove_means(std::vector<double>& column) const {
+template <class Number>
+void PoissonSolver::remove_means(std::vector<Number>& column) const {
   for (const auto& region : closed_) {
     double total = 0;
-    for (const std::size_t c : region) total += column[c];
-    const double mean = total / static_cast<double>(region.size());
+    for (const std::size_t c : region) total += static_cast<double>(column[c]);
+    const auto mean = static_cast<Number>(total / static_cast<double>(region.size()));
     for (const std::size_t c : region) column[c] -= mean;
   }
 }
+template void PoissonSolver::remove_means(std::vector<double>&) const;
+template void PoissonSolver::remove_means(std::vector<float>&) const;
 
 void PoissonSolver::fail(const char* what, const char* advice) const {
   std::array<int, 3> worst{};
