@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/air/convection.hpp"
 
+#include <algorithm>
+
 #include "base/clones.hpp"
 #include "numerics/grid/loops.hpp"
 #include "physics/air/momentum.hpp"
@@ -25,34 +27,35 @@ std::size_t plus(std::size_t index, std::ptrdiff_t by) {
 
 // Loops over rows of faces: separate functions so that the compiler vectorises them.
 
-/// A row of faces and what flows between them and those before them along a second axis.
-struct FluxRow {
+/// A row of faces and what flows between them and those beside them along a second axis.
+struct ForceRow {
   const double* velocity;        ///< m/s
   const double* mass;            ///< through the faces of the second axis, kg/(m^2 s)
   const double* wide;            ///< 1 where four velocities may be used
   std::ptrdiff_t along, across;  ///< to the next face along the axis of the velocity, and along the second
 };
 
-/// What flows carry between the faces of a row and those before them.
-TALUS_CLONES void find_fluxes_of_row(int count, double upwind, const FluxRow& given, double* __restrict flux) {
-  const FluxRow row = given;
-  const double* u = row.velocity;
-  const std::ptrdiff_t across = row.across;
-  for (int f = 0; f < count; ++f) {
-    const double mass = 0.5 * (row.mass[f] + row.mass[f - row.along]);
-    flux[f] = convected_momentum(mass, advected_velocity(u[f - 2 * across], u[f - across], u[f], u[f + across],
-                                                         row.wide[f], mass > 0 ? 1.0 : -1.0, upwind));
+/// force -= per_width times the difference of what flows carry to the next face and from the one before.
+TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double per_width, double upwind, const ForceRow& given,
+                                      double* __restrict force) {
+  const ForceRow row = given;
+  const std::ptrdiff_t along = row.along, across = row.across;
+  const double *u = row.velocity, *u_ll = u - 2 * across, *u_l = u - across, *u_r = u + across, *u_rr = u + 2 * across;
+  const double *mass = row.mass, *mass_low = mass - along, *mass_r = mass + across, *mass_low_r = mass_r - along;
+  const double *wide = row.wide, *wide_r = wide + across;
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double in = 0.5 * (mass[f] + mass_low[f]), out = 0.5 * (mass_r[f] + mass_low_r[f]);
+    const double low =
+        convected_momentum(in, advected_velocity(u_ll[f], u_l[f], u[f], u_r[f], wide[f], in > 0 ? 1.0 : -1.0, upwind));
+    const double high = convected_momentum(
+        out, advected_velocity(u_l[f], u[f], u_r[f], u_rr[f], wide_r[f], out > 0 ? 1.0 : -1.0, upwind));
+    force[f] -= per_width * (high - low);
   }
-}
-
-TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double factor, const double* low, const double* high,
-                                      double* __restrict out) {
-  for (std::ptrdiff_t f = 0; f < count; ++f) out[f] -= factor * (high[f] - low[f]);
 }
 
 }  // namespace
 
-Convection::Convection(const FaceApertures& apertures) : apertures_(apertures), flux_(apertures.grid.cell_field()) {}
+Convection::Convection(const FaceApertures& apertures) : apertures_(apertures) {}
 
 void Convection::fill_ghosts(Stream& stream) const {
   const Grid& grid = apertures_.grid;
@@ -79,50 +82,52 @@ void Convection::fill_ghosts(Stream& stream) const {
   for (std::size_t a = 0; a < 3; ++a) apertures_.wrap(stream.velocity[a]), apertures_.wrap(stream.mass[a]);
 }
 
-void Convection::find_force(ThreadTeam& team, const Stream& stream, double upwind, FaceField& force) {
+void Convection::find_force_of_row(const Stream& stream, int axis, int j, int k, std::ptrdiff_t begin, double upwind,
+                                   FaceField& force) const {
   const Grid& grid = apertures_.grid;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const double* u = stream.velocity[a].data();
+  const auto a = static_cast<std::size_t>(axis);
+  const int count = apertures_.faces(axis)[0];
+  const double* u = stream.velocity[a].data();
+  const std::ptrdiff_t along = grid.stride(axis);
+  const auto find = [&](std::ptrdiff_t from, std::ptrdiff_t to, bool at_end) {
     double* out = force[a].data();
-    for_each_face(team, apertures_, axis, [&](std::ptrdiff_t f) { out[f] = 0; });
+    std::fill(out + from, out + to, 0.0);
     for (int second = 0; second < 3; ++second) {
+      if (second == axis && at_end) continue;
       const auto b = static_cast<std::size_t>(second);
-      const std::ptrdiff_t across = grid.stride(second);
-      const double* mass = stream.mass[b].data();
-      find_fluxes(team, stream, axis, second, upwind);
-      const double* flux = flux_.data();
-      const double per_width = 1 / grid.spacing[second];
-      for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
-        if (second != axis || !run.is_end)
-          return subtract_difference(run.end - run.begin, per_width, flux + run.begin, flux + run.begin + across,
-                                     out + run.begin);
-        // The volume of a face at an open end is half a cell, from the end inwards.
-        const std::ptrdiff_t outward = run.place == 0 ? -across : across, inward = run.place == 0 ? across : 0;
-        const double factor = (run.place == 0 ? 2 : -2) * per_width;
-        for (auto f = run.begin; f < run.end; ++f)
-          out[f] -= factor * (flux[f + inward] - convected_momentum(mass[f], 0.5 * (u[f] + u[f + outward])));
-      });
+      subtract_difference(to - from, 1 / grid.spacing[second], upwind,
+                          {.velocity = u + from,
+                           .mass = stream.mass[b].data() + from,
+                           .wide = apertures_.wide[a][b].data() + from,
+                           .along = along,
+                           .across = grid.stride(second)},
+                          out + from);
     }
+  };
+  // The volume of a face at an open end is half a cell, from the end inwards.
+  const auto find_at_end = [&](std::ptrdiff_t from, std::ptrdiff_t to, int place) {
+    find(from, to, true);
+    const std::ptrdiff_t outward = place == 0 ? -along : along, inward = place == 0 ? along : 0;
+    const double factor = (place == 0 ? 2 : -2) / grid.spacing[axis];
+    const double *mass = stream.mass[a].data(), *wide = apertures_.wide[a][a].data();
+    double* out = force[a].data();
+    for (auto f = from; f < to; ++f) {
+      const auto at = f + inward;
+      const double through = 0.5 * (mass[at] + mass[at - along]);
+      const double flux =
+          convected_momentum(through, advected_velocity(u[at - 2 * along], u[at - along], u[at], u[at + along],
+                                                        wide[at], through > 0 ? 1.0 : -1.0, upwind));
+      out[f] -= factor * (flux - convected_momentum(mass[f], 0.5 * (u[f] + u[f + outward])));
+    }
+  };
+  if (axis > 0) {
+    const int place = axis == 1 ? j : k;
+    return apertures_.is_end(axis, place) ? find_at_end(begin, begin + count, place)
+                                          : find(begin, begin + count, false);
   }
-}
-
-/// The flow of momentum along an axis between each of its faces and the one before it along a second axis; for the
-/// last within the box that to the one beyond, too.
-void Convection::find_fluxes(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind) {
-  const auto a = static_cast<std::size_t>(axis), b = static_cast<std::size_t>(second);
-  const Grid& grid = apertures_.grid;
-  std::array<int, 3> count = apertures_.faces(axis);
-  count[b] = grid.count[b] + 1;
-  for_each_row(team, grid, count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
-    find_fluxes_of_row(count[0], upwind,
-                       {.velocity = stream.velocity[a].data() + begin,
-                        .mass = stream.mass[b].data() + begin,
-                        .wide = apertures_.wide[a][b].data() + begin,
-                        .along = grid.stride(axis),
-                        .across = grid.stride(second)},
-                       flux_.data() + begin);
-  });
+  const std::ptrdiff_t end = begin + count, skipped = apertures_.is_end(0, 0) ? 1 : 0;
+  if (skipped == 1) find_at_end(begin, begin + 1, 0), find_at_end(end - 1, end, count - 1);
+  find(begin + skipped, end - skipped, false);
 }
 
 }  // namespace talus::air

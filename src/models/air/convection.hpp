@@ -21,15 +21,13 @@ class Convection {
   /// enters.
   void fill_ghosts(Stream& stream) const;
 
-  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3; conservative. Ghosts must be filled.
-  /// \param upwind 0 central, 1 third-order upwind-biased
-  void find_force(ThreadTeam& team, const Stream& stream, double upwind, FaceField& force);
+  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3, on the faces of an axis from `begin` on, a row along x;
+  /// conservative. Ghosts must be filled. \param j, k of the row \param upwind 0 central, 1 third-order upwind-biased
+  void find_force_of_row(const Stream& stream, int axis, int j, int k, std::ptrdiff_t begin, double upwind,
+                         FaceField& force) const;
 
  private:
-  void find_fluxes(ThreadTeam& team, const Stream& stream, int axis, int second, double upwind);
-
   const FaceApertures& apertures_;
-  CellField flux_;
 };
 
 }  // namespace talus::air

@@ -37,10 +37,9 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
       viscosity_(apertures_),
       solver_(grid, periodic_axes(parameters.boundaries)),
       drag_(grid.cell_field()),
-      source_(drag_),
-      guess_(drag_) {
+      source_(drag_) {
   for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_, &rate_,
-                           &viscous_, &conductance_, &stream_.velocity, &stream_.mass})
+                           &viscous_, &conductance_, &predicted_, &stream_.velocity, &stream_.mass})
     *field = grid.face_field();
 }
 
@@ -56,23 +55,36 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   iterations_ = 0;
   set_solids(team, solids);
 
-  stream_.velocity = state.velocity, stream_.mass = state.momentum;
+  extrapolate(team, dt, state);
   measure_drag(team, solids, stream_.velocity);
-  guess_ = state.pressure;
   if (parameters_.compressibility == Compressibility::isothermal) {
     start_pressure_ = state.pressure;
     cell_void_fraction_.resize(solids.fraction.size());
     for (std::size_t c = 0; c < solids.fraction.size(); ++c) cell_void_fraction_[c] = 1 - solids.fraction[c];
   }
-  stage(team, 0.5 * dt, stream_, state, guess_);
-  for (std::size_t a = 0; a < 3; ++a) apertures_.wrap(stream_.velocity[a]);
-  measure_drag(team, solids, stream_.velocity);
-  state.pressure = guess_;
-  stage(team, dt, stream_, state, state.pressure);
-  exchange_momentum(team, dt, stream_.velocity, state, impulse);
+  move(team, dt, state);
+  finish(team, dt, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
     apertures_.wrap(stream_.velocity[a]), apertures_.wrap(stream_.mass[a]);
-    std::swap(state.velocity[a], stream_.velocity[a]), std::swap(state.momentum[a], stream_.mass[a]);
+    std::swap(state.velocity[a], stream_.velocity[a]);
+    std::swap(state.momentum_before[a], state.momentum[a]), std::swap(state.momentum[a], stream_.mass[a]);
+  }
+  state.last_step = dt;
+}
+
+/// Momentum in the middle of the step, from that at its start and at the start of the step before, and the velocity
+/// that it has in the new void fraction.
+void AirFlow::extrapolate(ThreadTeam& team, double dt, const AirState& state) {
+  const double share = state.last_step > 0 ? 0.5 * dt / state.last_step : 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    for_each_row(team, apertures_.grid, apertures_.faces(axis),
+                 [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   extrapolate_row(end - begin, share, parameters_.density(), void_fraction_[a].data() + begin,
+                                   state.momentum[a].data() + begin, state.momentum_before[a].data() + begin,
+                                   stream_.mass[a].data() + begin, stream_.velocity[a].data() + begin);
+                 });
+    apertures_.wrap(stream_.velocity[a]);
   }
 }
 
@@ -87,108 +99,103 @@ void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirS
       impulse[a][c] = s > 0 ? dt * state.drag[a][c] / s : 0;
     }
   });
+  state.last_step = dt;
 }
 
-/// From the momentum at the start of the step: velocity and pressure after dt, under the convection and viscosity of
-/// `stream`, which is overwritten.
-void AirFlow::stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure) {
+/// From the momentum at the start of the step: pressure, and velocity before the pressure acts, after dt under the
+/// convection and viscosity of `stream_`, whose velocity it replaces.
+void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
   const Grid& grid = apertures_.grid;
-  const double rho = parameters_.density();
-  convection_.fill_ghosts(stream);
-  convection_.find_force(team, stream, parameters_.upwind, rate_);
-  if (implicit_)
-    before_ = stream.velocity;
-  else
-    viscosity_.find_divergence(team, stream.velocity, viscous_);
+  const double rho = parameters_.density(), viscosity = implicit_ ? 0 : parameters_.viscosity;
+  convection_.fill_ghosts(stream_);
+  if (!implicit_) viscosity_.begin(team, stream_.velocity);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double area_over_distance = grid.face_area(axis) / grid.spacing[axis];
-    const double viscosity = implicit_ ? 0 : parameters_.viscosity;
-    const double *phi = void_fraction_[a].data(), *drag = drag_.data();
-    double *decay = decay_[a].data(), *mean = mean_[a].data();
-    for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
-      for (auto f = run.begin; f < run.end; ++f) {
-        const double between = 0.5 * (drag[f + run.before] + drag[f + run.here]);
-        const coupling::SlipDecay slip =
-            between > 0 ? coupling::slip_decay(between * dt / (rho * phi[f])) : coupling::SlipDecay{1, 1};
-        decay[f] = slip.decay, mean[f] = slip.mean;
-      }
+    const auto move_run = [&](const FaceRun& run) {
       const auto from = [&](auto& field) { return field[a].data() + run.begin; };
+      const double* drag = drag_.data() + run.begin;
+      find_decay_of_row(run.end - run.begin, dt / rho, drag + run.before, drag + run.here, from(void_fraction_),
+                        from(decay_), from(mean_));
       predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
                   (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
                   {.open = from(apertures_.open),
                    .void_fraction = from(void_fraction_),
-                   .momentum = from(start.momentum),
+                   .momentum = from(state.momentum),
                    .grain_velocity = from(grain_velocity_),
                    .convection = from(rate_),
                    .viscous = from(viscous_),
                    .decay = from(decay_),
                    .mean = from(mean_)},
-                  from(after_drag_), from(stream.velocity), from(conductance_));
+                  from(after_drag_), from(predicted_), from(conductance_));
+    };
+    // Row by row, so that what one loop finds is at hand for the next.
+    for_each_row(team, grid, apertures_.faces(axis), [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      convection_.find_force_of_row(stream_, axis, j, k, begin, parameters_.upwind, rate_);
+      if (!implicit_)
+        viscosity_.find_divergence_of_row(axis, begin, static_cast<int>(end - begin), stream_.velocity, viscous_);
+      for_each_run_of_row(apertures_, axis, j, k, begin, end, move_run);
     });
   }
-  // Adds the share of the pressure term over dt to the velocity.
-  const auto add_pressure = [&](double share) {
-    fill_ghosts(pressure);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      const double factor = share * dt / (rho * grid.spacing[axis]);
-      for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-        const double* high = pressure.data() + begin;
-        add_pressure_row(end - begin, factor, grains_share(),
-                         {.open = apertures_.open[a].data() + begin,
-                          .void_fraction = void_fraction_[a].data() + begin,
-                          .mean = mean_[a].data() + begin,
-                          .low = high - grid.stride(axis),
-                          .high = high},
-                         stream.velocity[a].data() + begin);
-      });
-    }
-  };
+  std::swap(stream_.velocity, predicted_);
   if (implicit_) {
     // Includes the guessed pressure: viscosity then acts on the final velocity, and a steady flow is exact.
-    add_pressure(1);
-    viscous_ = stream.velocity;
-    stream.velocity = before_;  // a better first guess than the velocity without viscosity
-    viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream.velocity);
-    add_pressure(-1);
+    add_pressure(team, dt, state.pressure);
+    viscous_ = stream_.velocity;
+    stream_.velocity = predicted_;  // at the midpoint: a better first guess than the velocity without viscosity
+    viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream_.velocity);
+    add_pressure(team, -dt, state.pressure);
   }
-  project(team, dt, stream, pressure);
-  add_pressure(1);
+  project(team, dt, state.pressure);
+  fill_ghosts(state.pressure);
+}
+
+/// Adds the pressure term over dt to the velocity.
+void AirFlow::add_pressure(ThreadTeam& team, double dt, CellField& pressure) {
+  const Grid& grid = apertures_.grid;
+  fill_ghosts(pressure);
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    const double *phi = void_fraction_[a].data(), *velocity = stream.velocity[a].data();
-    double* mass = stream.mass[a].data();
-    for_each_face(team, apertures_, axis, [&](std::ptrdiff_t f) { mass[f] = rho * phi[f] * velocity[f]; });
+    const double factor = dt / (parameters_.density() * grid.spacing[axis]);
+    for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const double* high = pressure.data() + begin;
+      add_pressure_row(end - begin, factor, grains_share(),
+                       {.open = apertures_.open[a].data() + begin,
+                        .void_fraction = void_fraction_[a].data() + begin,
+                        .mean = mean_[a].data() + begin,
+                        .low = high - grid.stride(axis),
+                        .high = high},
+                       stream_.velocity[a].data() + begin);
+    });
   }
 }
 
-/// Impulse of the drag, and in model A of the pressure, on the solid, per solid volume: first on faces, then as the
-/// mean in cells, so that it is distributed to the particles with the weights by which their volume was deposited.
-/// \param velocity at the end of the step; state.momentum is that of the start, state.pressure that of the step
-void AirFlow::exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state,
-                                FaceField& impulse) {
+/// The pressure acts on the velocity; its momentum; and the impulse of the drag, and in model A of the pressure, on the
+/// solid, per solid volume: first on faces, then as the mean in cells, so that it is distributed to the particles with
+/// the weights by which their volume was deposited.
+/// \param state its momentum is that of the start of the step, its pressure that of the step, with ghosts
+void AirFlow::finish(ThreadTeam& team, double dt, AirState& state, FaceField& impulse) {
   const Grid& grid = apertures_.grid;
   const double rho = parameters_.density();
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const std::ptrdiff_t stride = grid.stride(axis);
     for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
+      const auto from = [&](auto& field) { return field[a].data() + begin; };
       const double* high = state.pressure.data() + begin;
-      exchange_row(end - begin, dt, rho, grains_share() / grid.spacing[axis],
-                   {.open = from(apertures_.open),
-                    .void_fraction = from(void_fraction_),
-                    .solid_fraction = from(solid_fraction_),
-                    .grain_velocity = from(grain_velocity_),
-                    .velocity = from(velocity),
-                    .momentum = from(state.momentum),
-                    .decay = from(decay_),
-                    .mean = from(mean_),
-                    .after_drag = from(after_drag_),
-                    .low = high - stride,
-                    .high = high},
-                   rate_[a].data() + begin, viscous_[a].data() + begin);
+      finish_row(end - begin, dt, rho, dt / (rho * grid.spacing[axis]), grains_share(),
+                 grains_share() / grid.spacing[axis],
+                 {.open = from(apertures_.open),
+                  .void_fraction = from(void_fraction_),
+                  .solid_fraction = from(solid_fraction_),
+                  .grain_velocity = from(grain_velocity_),
+                  .momentum = from(state.momentum),
+                  .decay = from(decay_),
+                  .mean = from(mean_),
+                  .after_drag = from(after_drag_),
+                  .low = high - stride,
+                  .high = high},
+                 from(stream_.velocity), from(stream_.mass), from(rate_), from(viscous_));
     });
     apertures_.wrap(rate_[a]);
     apertures_.wrap(viscous_[a]);
@@ -211,6 +218,7 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
     });
     apertures_.wrap(state.velocity[a]);
     apertures_.wrap(state.momentum[a]);
+    state.momentum_before[a] = state.momentum[a];
   }
 }
 

@@ -3,12 +3,13 @@
 /// every cell, its output the impulse per solid volume in every cell.
 ///
 /// A step. The momentum rho Phi u of every face is that of the previous step; the void fraction is the new one.
-/// Convection and viscosity are evaluated at the start for half a step, then at the midpoint for the whole step
-/// (second-order Runge-Kutta). In each of the two stages, drag is the exact solution of the linear decay of the slip,
-/// and the pressure makes the volume flow of the mixture divergence-free, div(Phi u + (1 - Phi) u_p) = 0: Eq. 19 with
-/// the continuity of the grains, and without the noisy dPhi/dt. Where the viscous time limit is shorter than the step,
-/// viscosity is implicit and of first order. The momentum that drag and, in model A, the pressure remove from the air
-/// is transferred to the grains, to round-off.
+/// Convection, viscosity and the coefficient of the drag are evaluated once, at the midpoint of the step, with the
+/// momentum extrapolated there from the starts of this step and the last (of second order as Adams and Bashforth's
+/// method, for steps of any length; the first step is of first order). Drag is the exact solution of the linear decay
+/// of the slip, and the pressure makes the volume flow of the mixture divergence-free, div(Phi u + (1 - Phi) u_p) = 0:
+/// Eq. 19 with the continuity of the grains, and without the noisy dPhi/dt. Where the viscous time limit is shorter
+/// than the step, viscosity is implicit and of first order. The momentum that drag and, in model A, the pressure remove
+/// from the air is transferred to the grains, to round-off.
 ///
 /// completed: Eq. 18 does not say how the void fraction is taken at a face (mean of the two cells), what the boundaries
 /// are (FlowBoundary), and how grains move within the step (with constant velocity; time_step() keeps the step short
@@ -59,7 +60,7 @@ class AirFlow {
   /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver.
   double largest_divergence(const Solids& solids, const AirState& state);
 
-  /// Of the last step: iterations of both pressure solutions; whether viscosity was implicit.
+  /// Of the last step: iterations of the pressure; whether viscosity was implicit.
   int iterations() const { return iterations_; }
   bool is_viscosity_implicit() const { return implicit_; }
   const FaceApertures& apertures() const { return apertures_; }
@@ -69,10 +70,12 @@ class AirFlow {
   void set_solids(ThreadTeam& team, const Solids& solids);
   void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
   void drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
-  void stage(ThreadTeam& team, double dt, Stream& stream, const AirState& start, CellField& pressure);
-  void exchange_momentum(ThreadTeam& team, double dt, const FaceField& velocity, AirState& state, FaceField& impulse);
-  void find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const;
-  void project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure);
+  void extrapolate(ThreadTeam& team, double dt, const AirState& state);
+  void move(ThreadTeam& team, double dt, AirState& state);
+  void add_pressure(ThreadTeam& team, double dt, CellField& pressure);
+  void finish(ThreadTeam& team, double dt, AirState& state, FaceField& impulse);
+  double find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity);
+  void project(ThreadTeam& team, double dt, CellField& pressure);
   void find_storage(ThreadTeam& team, double dt);
   void fill_ghosts(CellField& pressure) const;
   /// 1 if the pressure gradient acts on the grains by their volume fraction, 0 in model B.
@@ -89,9 +92,10 @@ class AirFlow {
   FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
   CellField drag_;                                             // beta of cells, kg/(m^3 s)
   FaceField decay_, mean_, after_drag_, rate_, viscous_;       // of a stage, on faces
-  FaceField before_;                                           // velocity before a stage, where viscosity is implicit
+  FaceField predicted_;  // velocity before the pressure; then that of the midpoint
   FaceField conductance_;
-  CellField source_, guess_;
+  CellField source_;
+  std::vector<double> largest_flow_;                         // of each row of cells
   CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
 };

@@ -36,24 +36,27 @@ void AirFlow::fill_ghosts(CellField& pressure) const {
   }
 }
 
-/// The volume flow through every face, of air and grains or of the air.
-void AirFlow::find_volume_flow(ThreadTeam& team, bool with_grains, const FaceField& velocity, FaceField& flow) const {
-  const double mixture = with_grains ? 1 : 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    for_each_row(team, apertures_.grid, apertures_.faces(axis),
-                 [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-                   const auto from = [&](const FaceField& field) { return field[a].data() + begin; };
-                   find_volume_flow_of_row(end - begin, mixture,
-                                           {.open = from(apertures_.open),
-                                            .void_fraction = from(void_fraction_),
-                                            .velocity = from(velocity),
-                                            .solid_fraction = from(solid_fraction_),
-                                            .grain_velocity = from(grain_velocity_)},
-                                           flow[a].data() + begin);
-                 });
-    apertures_.wrap(flow[a]);
-  }
+/// source_ := the volume flow into every cell, of air and grains or of the air. \returns the largest sum of the sizes
+/// of the flows through the low faces of a cell
+double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity) {
+  const Grid& grid = apertures_.grid;
+  largest_flow_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
+  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
+    VolumeFlowRow row{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto from = [&](const FaceField& field) { return field[static_cast<std::size_t>(axis)].data() + begin; };
+      row.axis[axis] = {.open = from(apertures_.open),
+                        .void_fraction = from(void_fraction_),
+                        .velocity = from(velocity),
+                        .solid_fraction = from(solid_fraction_),
+                        .grain_velocity = from(grain_velocity_),
+                        .next = grid.stride(axis),
+                        .area = grid.face_area(axis)};
+    }
+    largest_flow_[static_cast<std::size_t>(k * grid.count[1] + j)] =
+        find_source_of_row(grid.count[0], with_grains, row, source_.data() + begin);
+  });
+  return *std::max_element(largest_flow_.begin(), largest_flow_.end());
 }
 
 /// What an ideal gas takes in for each Pa, over the time, and adds to the source: the pressure at the start of the step
@@ -77,33 +80,26 @@ void AirFlow::find_storage(ThreadTeam& team, double dt) {
   });
 }
 
-/// The pressure that takes the divergence from the volume flow of a stream that has not felt it yet.
-void AirFlow::project(ThreadTeam& team, double dt, const Stream& stream, CellField& pressure) {
-  const Grid& grid = apertures_.grid;
-  find_volume_flow(team, parameters_.continuity == Continuity::mixture, stream.velocity, rate_);
+/// The pressure that takes the divergence from the volume flow of the velocity that has not felt it yet.
+void AirFlow::project(ThreadTeam& team, double dt, CellField& pressure) {
   for (auto& conductance : conductance_) apertures_.wrap(conductance);
-  const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
-  const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
+  for (auto& velocity : stream_.velocity) apertures_.wrap(velocity);
+  const double flow = find_source(team, parameters_.continuity == Continuity::mixture, stream_.velocity);
   double* source = source_.data();
-  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
-    find_source_of_row(grid.count[0], grid.stride(1), grid.stride(2), area, x + begin, y + begin, z + begin,
-                       source + begin);
-  });
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!apertures_.boundaries.is_open(axis, 0) && !apertures_.boundaries.is_open(axis, 1)) continue;
     for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
       if (!run.is_end) return;
       const auto a = static_cast<std::size_t>(axis);
       const double outside = apertures_.boundaries.pressure[2 * a + (run.place == 0 ? 0 : 1)];
       for (auto f = run.begin; f < run.end; ++f) source[f + run.here] += conductance_[a][f] * outside;
     });
+  }
   const bool stores = parameters_.compressibility == Compressibility::isothermal;
   if (stores) find_storage(team, dt);
   solver_.set_conductance(team, conductance_, stores ? &storage_ : nullptr);
   // No smaller than what rounding leaves of the flows that the sources are differences of.
-  const double flow = largest_of_cells(team, grid, [&](std::ptrdiff_t c) {
-    return std::abs(x[c]) * area.x + std::abs(y[c]) * area.y + std::abs(z[c]) * area.z;
-  });
-  const double rounding = 1e-15 * flow * std::sqrt(static_cast<double>(grid.cells()));
+  const double rounding = 1e-15 * flow * std::sqrt(static_cast<double>(apertures_.grid.cells()));
   iterations_ += solver_
                      .solve(team, source_, pressure,
                             {.tolerance = parameters_.tolerance,
@@ -114,14 +110,10 @@ void AirFlow::project(ThreadTeam& team, double dt, const Stream& stream, CellFie
 
 void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum) {
   const Grid& grid = apertures_.grid;
-  find_volume_flow(team, false, state.velocity, rate_);
-  const double *x = rate_[0].data(), *y = rate_[1].data(), *z = rate_[2].data();
-  const Vector3 area{grid.face_area(0), grid.face_area(1), grid.face_area(2)};
+  find_source(team, false, state.velocity);
   const double* pressure = state.pressure.data();
   const bool stores = parameters_.compressibility == Compressibility::isothermal;
   for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-    find_source_of_row(grid.count[0], grid.stride(1), grid.stride(2), area, x + begin, y + begin, z + begin,
-                       source_.data() + begin);
     for (auto place = begin; place < end; ++place) {
       const auto c = static_cast<std::size_t>(place);
       sum[c] -= source_[c] * dt / grid.volume();
@@ -134,15 +126,9 @@ double AirFlow::largest_divergence(const Solids& solids, const AirState& state) 
   ThreadTeam alone;
   const Grid& grid = apertures_.grid;
   set_solids(alone, solids);
-  find_volume_flow(alone, parameters_.continuity == Continuity::mixture, state.velocity, rate_);
-  return largest_of_cells(alone, grid, [&](std::ptrdiff_t c) {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double* flow = rate_[static_cast<std::size_t>(axis)].data();
-      sum += (flow[c + grid.stride(axis)] - flow[c]) / grid.spacing[axis];
-    }
-    return std::abs(sum);
-  });
+  find_source(alone, parameters_.continuity == Continuity::mixture, state.velocity);
+  return largest_of_cells(
+      alone, grid, [&](std::ptrdiff_t c) { return std::abs(source_[static_cast<std::size_t>(c)]) / grid.volume(); });
 }
 
 }  // namespace talus::air

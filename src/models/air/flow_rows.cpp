@@ -1,11 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/air/flow_rows.hpp"
 
+#include <cmath>
+
 #include "base/clones.hpp"
+#include "base/registers.hpp"
 #include "physics/air/momentum.hpp"
 #include "physics/coupling/drag.hpp"
 
 namespace talus::air {
+
+TALUS_CLONES void extrapolate_row(std::ptrdiff_t count, double share, double rho, const double* void_fraction,
+                                  const double* momentum, const double* before, double* __restrict mass,
+                                  double* __restrict velocity) {
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double middle = momentum[f] + share * (momentum[f] - before[f]);
+    mass[f] = middle;
+    velocity[f] = middle / (rho * void_fraction[f]);
+  }
+}
 
 TALUS_CLONES void predict_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
                               double per_pressure, const StageRow& given, double* __restrict after_drag,
@@ -31,33 +44,86 @@ TALUS_CLONES void add_pressure_row(std::ptrdiff_t count, double factor, double g
   }
 }
 
-TALUS_CLONES void find_volume_flow_of_row(std::ptrdiff_t count, double mixture, const VolumeFlowRow& given,
-                                          double* __restrict flow) {
+namespace {
+
+template <bool with_grains>
+TALUS_INLINE double find_source(int count, const VolumeFlowRow& given, double* __restrict source) {
   const VolumeFlowRow row = given;
-  for (std::ptrdiff_t f = 0; f < count; ++f)
-    flow[f] = row.open[f] *
-              (row.void_fraction[f] * row.velocity[f] + mixture * row.solid_fraction[f] * row.grain_velocity[f]);
+  constexpr int lanes = 8;
+  double most[lanes] = {};
+  const auto at = [&](int c, double& largest) {
+    const auto flow = [&](const VolumeFlowRow::Axis& axis, std::ptrdiff_t f) {
+      const double of_air = axis.void_fraction[f] * axis.velocity[f];
+      return axis.open[f] * (with_grains ? of_air + axis.solid_fraction[f] * axis.grain_velocity[f] : of_air);
+    };
+    const auto& [x, y, z] = row.axis;
+    const double low_x = flow(x, c), low_y = flow(y, c), low_z = flow(z, c);
+    source[c] = -((flow(x, c + x.next) - low_x) * x.area + (flow(y, c + y.next) - low_y) * y.area +
+                  (flow(z, c + z.next) - low_z) * z.area);
+    const double sum = std::abs(low_x) * x.area + std::abs(low_y) * y.area + std::abs(low_z) * z.area;
+    largest = sum > largest ? sum : largest;
+  };
+  int c = 0;
+  for (; c + lanes <= count; c += lanes)
+    for (int l = 0; l < lanes; ++l) at(c + l, most[l]);
+  for (; c < count; ++c) at(c, most[0]);
+  double largest = 0;
+  for (const double x : most) largest = x > largest ? x : largest;
+  return largest;
 }
 
-TALUS_CLONES void find_source_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& area,
-                                     const double* x, const double* y, const double* z, double* __restrict source) {
-  for (int c = 0; c < count; ++c)
-    source[c] = -((x[c + 1] - x[c]) * area.x + (y[c + dy] - y[c]) * area.y + (z[c + dz] - z[c]) * area.z);
+}  // namespace
+
+TALUS_CLONES double find_source_of_row(int count, bool with_grains, const VolumeFlowRow& row,
+                                       double* __restrict source) {
+  return with_grains ? find_source<true>(count, row, source) : find_source<false>(count, row, source);
 }
 
-TALUS_CLONES void exchange_row(std::ptrdiff_t count, double dt, double rho, double grains_pressure,
-                               const ExchangeRow& given, double* __restrict received, double* __restrict drag) {
+TALUS_CLONES void finish_row(std::ptrdiff_t count, double dt, double rho, double factor, double grains_share,
+                             double grains_pressure, const ExchangeRow& given, double* __restrict velocity,
+                             double* __restrict momentum, double* __restrict received, double* __restrict drag) {
   const ExchangeRow row = given;
+  const double per_time = 1 / dt;
   for (std::ptrdiff_t f = 0; f < count; ++f) {
-    const double mass = rho * row.void_fraction[f], solid = row.solid_fraction[f];
+    const double phi = row.void_fraction[f], solid = row.solid_fraction[f], difference = row.high[f] - row.low[f];
+    const double u =
+        velocity[f] - factor * row.open[f] * row.mean[f] * (pressure_share(phi, grains_share) / phi) * difference;
+    const double mass = rho * phi;
+    velocity[f] = u, momentum[f] = mass * u;
     // All but drag, as an acceleration times dt: what makes the slip's decay end at the velocity found.
-    const double gained = (row.velocity[f] - row.after_drag[f]) / row.mean[f];
+    const double gained = (u - row.after_drag[f]) / row.mean[f];
     const double slip = row.momentum[f] / mass - row.grain_velocity[f];
     const double lost = coupling::drag_impulse(row.decay[f], row.mean[f], mass, slip, gained);
     const double is_solid = solid > 0 ? 1.0 : 0.0;
-    const double by_pressure = grains_pressure * dt * (row.high[f] - row.low[f]);
-    received[f] = row.open[f] * (is_solid * lost / (solid + (1 - is_solid)) - by_pressure);
-    drag[f] = row.open[f] * is_solid * lost / dt;
+    received[f] = row.open[f] * (is_solid * lost / (solid + (1 - is_solid)) - grains_pressure * dt * difference);
+    drag[f] = row.open[f] * is_solid * lost * per_time;
+  }
+}
+
+TALUS_CLONES void find_solids_of_row(std::ptrdiff_t count, const SolidsRow& given, double* __restrict solid,
+                                     double* __restrict gap, double* __restrict velocity) {
+  const SolidsRow row = given;
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double s = 0.5 * (row.fraction_before[f] + row.fraction_here[f]), is_solid = s > 0 ? 1.0 : 0.0;
+    solid[f] = s, gap[f] = 1 - s;
+    velocity[f] = is_solid * (0.5 * (row.flux_before[f] + row.flux_here[f])) / (s + (1 - is_solid));
+  }
+}
+
+TALUS_CLONES bool are_fractions(std::ptrdiff_t count, const double* fraction) {
+  std::ptrdiff_t good = 0;
+  for (std::ptrdiff_t c = 0; c < count; ++c)
+    good += static_cast<std::ptrdiff_t>(fraction[c] >= 0) & static_cast<std::ptrdiff_t>(fraction[c] < 1);
+  return good == count;
+}
+
+TALUS_CLONES void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before,
+                                    const double* drag_here, const double* void_fraction, double* __restrict decay,
+                                    double* __restrict mean) {
+  for (std::ptrdiff_t f = 0; f < count; ++f) {
+    const double between = 0.5 * (drag_before[f] + drag_here[f]);
+    const coupling::SlipDecay slip = coupling::slip_decay(between * per_density / void_fraction[f]);
+    decay[f] = slip.decay, mean[f] = slip.mean;
   }
 }
 

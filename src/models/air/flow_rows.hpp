@@ -10,7 +10,13 @@
 
 namespace talus::air {
 
-/// Input of a stage on a row of faces, except for the pressure.
+/// Momentum in the middle of a step, and its velocity. \param share of the last change of momentum, that this half step
+/// brings again \param before momentum at the start of the last step
+void extrapolate_row(std::ptrdiff_t count, double share, double rho, const double* void_fraction,
+                     const double* momentum, const double* before, double* __restrict mass,
+                     double* __restrict velocity);
+
+/// Input of a step on a row of faces, except for the pressure.
 struct StageRow {
   const double* open;            ///< 1 where air can pass, else 0
   const double* void_fraction;   ///< Phi
@@ -21,7 +27,7 @@ struct StageRow {
   const double *decay, *mean;    ///< coupling::SlipDecay
 };
 
-/// Velocity of a stage without the pressure; `after_drag` is the initial velocity after the drag alone, `conductance`
+/// Velocity of a step without the pressure; `after_drag` is the initial velocity after the drag alone, `conductance`
 /// the volume flow per pressure difference. \param grains_share 1 if the pressure gradient acts on the grains by their
 /// volume fraction (model A), else 0 \param per_pressure dt / density * face area / distance of the cell centres
 void predict_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
@@ -41,33 +47,52 @@ struct PressureRow {
 void add_pressure_row(std::ptrdiff_t count, double factor, double grains_share, const PressureRow& row,
                       double* __restrict velocity);
 
-/// Input of the volume flow through a row of faces.
+/// Input of the volume flow through the faces of a row of cells, by axis, from the low face of the first cell on.
 struct VolumeFlowRow {
-  const double *open, *void_fraction, *velocity, *solid_fraction, *grain_velocity;
+  struct Axis {
+    const double *open, *void_fraction, *velocity, *solid_fraction, *grain_velocity;
+    std::ptrdiff_t next;  ///< to the high face of a cell
+    double area;          ///< m^2
+  };
+  Axis axis[3];
 };
 
-/// \param mixture 1: volume flow of air and grains; 0: of the air alone
-void find_volume_flow_of_row(std::ptrdiff_t count, double mixture, const VolumeFlowRow& row, double* __restrict flow);
-
-/// Net volume flow into each cell of a row.
-void find_source_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, const Vector3& area, const double* x,
-                        const double* y, const double* z, double* __restrict source);
+/// Net volume flow into each cell of a row, of air and grains or of the air alone, m^3/s. \returns the largest sum of
+/// the sizes of the flows through the low faces of a cell
+double find_source_of_row(int count, bool with_grains, const VolumeFlowRow& row, double* __restrict source);
 
 /// Input of the momentum exchange on a row of faces.
 struct ExchangeRow {
   const double *open, *void_fraction, *solid_fraction;
   const double* grain_velocity;
-  const double* velocity;      ///< of the air at the end of the step, m/s
-  const double* momentum;      ///< at its start
+  const double* momentum;      ///< at the start of the step, kg/(m^2 s)
   const double *decay, *mean;  ///< coupling::SlipDecay
   const double* after_drag;    ///< of predict_row
   const double *low, *high;    ///< pressure of the cells on either side, Pa
 };
 
-/// \param grains_pressure grains_share / distance of the cell centres
-/// \param received out: impulse of drag and pressure per solid volume; \param drag out: N/m^3
-void exchange_row(std::ptrdiff_t count, double dt, double rho, double grains_pressure, const ExchangeRow& row,
-                  double* __restrict received, double* __restrict drag);
+/// What the pressure does in add_pressure_row(), the momentum that follows, and what the grains receive.
+/// \param grains_pressure grains_share / distance of the cell centres \param velocity of the air, in: without pressure
+/// \param momentum out: rho Phi u, kg/(m^2 s); \param received out: impulse of drag and pressure per solid volume;
+/// \param drag out: N/m^3
+void finish_row(std::ptrdiff_t count, double dt, double rho, double factor, double grains_share, double grains_pressure,
+                const ExchangeRow& row, double* __restrict velocity, double* __restrict momentum,
+                double* __restrict received, double* __restrict drag);
+
+/// What a row of faces has of the two cells beside each, by place of the cells: mean solid and void fractions, velocity
+/// of the grains.
+struct SolidsRow {
+  const double *fraction_before, *fraction_here, *flux_before, *flux_here;
+};
+void find_solids_of_row(std::ptrdiff_t count, const SolidsRow& row, double* __restrict solid, double* __restrict gap,
+                        double* __restrict velocity);
+
+/// Whether all are at least 0 and below 1.
+bool are_fractions(std::ptrdiff_t count, const double* fraction);
+
+/// coupling::SlipDecay on a row of faces, from the drag of the cells beside each. \param per_density dt/rho
+void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before, const double* drag_here,
+                       const double* void_fraction, double* __restrict decay, double* __restrict mean);
 
 /// mean := (first + second)/2.
 void average_row(std::ptrdiff_t count, const double* first, const double* second, double* __restrict mean);

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "models/air/flow.hpp"
+#include "models/air/flow_rows.hpp"
 #include "numerics/grid/loops.hpp"
 
 namespace talus::air {
@@ -16,12 +17,13 @@ namespace talus::air {
 void AirFlow::set_solids(ThreadTeam& team, const Solids& solids) {
   const Grid& grid = apertures_.grid;
   const double* fraction = solids.fraction.data();
-  for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t c) {
-    const double s = fraction[c];
-    if (s >= 0 && s < 1) return;
+  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    if (are_fractions(end - begin, fraction + begin)) return;
+    const double* wrong = std::find_if(fraction + begin, fraction + end, [](double s) { return !(s >= 0 && s < 1); });
+    const int i = static_cast<int>(wrong - (fraction + begin));
     const Vector3 x = grid.centre(i, j, k);
     throw NumericalError(
-        {.what = fmt::format("the solid fraction is {:.4g}", s),
+        {.what = fmt::format("the solid fraction is {:.4g}", *wrong),
          .term = "void fraction of Eq. 18",
          .place = fmt::format("cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m", i, j, k, x.x, x.y, x.z),
          .advice = "a stiffer law of the grains, or air cells no smaller than the grains' spacing"});
@@ -29,15 +31,16 @@ void AirFlow::set_solids(ThreadTeam& team, const Solids& solids) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double* flux = solids.flux[a].data();
-    double *solid = solid_fraction_[a].data(), *gap = void_fraction_[a].data(), *velocity = grain_velocity_[a].data();
     for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
-      for (auto f = run.begin; f < run.end; ++f) {
-        const double s = 0.5 * (fraction[f + run.before] + fraction[f + run.here]);
-        const double through = 0.5 * (flux[f + run.before] + flux[f + run.here]);
-        solid[f] = s, gap[f] = 1 - s;
-        velocity[f] = s > 0 ? through / s : 0;
-      }
+      const auto f = run.begin;
+      find_solids_of_row(run.end - f,
+                         {.fraction_before = fraction + f + run.before,
+                          .fraction_here = fraction + f + run.here,
+                          .flux_before = flux + f + run.before,
+                          .flux_here = flux + f + run.here},
+                         solid_fraction_[a].data() + f, void_fraction_[a].data() + f, grain_velocity_[a].data() + f);
     });
+    for (FaceField* field : {&solid_fraction_, &void_fraction_, &grain_velocity_}) apertures_.wrap((*field)[a]);
   }
 }
 

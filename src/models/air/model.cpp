@@ -132,7 +132,7 @@ void AirModel::advance(ThreadTeam& team) {
     report.step = state_.step, report.time = state_.time;
     throw NumericalError(report);
   }
-  state_.time += dt, state_.last_step = dt, ++state_.step;
+  state_.time += dt, ++state_.step;
   state_.iterations = static_cast<std::uint64_t>(flow_->iterations());
 }
 
@@ -157,7 +157,7 @@ std::vector<NamedValue> AirModel::totals() const {
     pressure.take(s.pressure[c]);
   });
   const Extremes u = on_middle_line(grid_, s, 0, 2), w = on_middle_line(grid_, s, 2, 0);
-  std::vector<NamedValue> values = {{"step_size", "s", state_.last_step},
+  std::vector<NamedValue> values = {{"step_size", "s", state_.flow.last_step},
                                     {"kinetic_energy", "J", 0.5 * parameters_.gas.density() * energy * grid_.volume()},
                                     {"air_speed_max", "m/s", speed},
                                     {"air_pressure_min", "Pa", pressure.least},

@@ -72,7 +72,6 @@ struct ModelState {
   double time = 0;         ///< s
   std::uint64_t step = 0;  ///< steps taken
   AirState flow;
-  double last_step = 0;          ///< s
   std::uint64_t iterations = 0;  ///< of the pressure, last step
 };
 
@@ -83,6 +82,8 @@ requires requires(S& s) {
 void for_each_field(Visit&& visit, S& s) {
   constexpr std::array<std::string_view, 3> velocity{"air_velocity_x", "air_velocity_y", "air_velocity_z"};
   constexpr std::array<std::string_view, 3> momentum{"air_momentum_x", "air_momentum_y", "air_momentum_z"};
+  constexpr std::array<std::string_view, 3> before{"air_momentum_before_x", "air_momentum_before_y",
+                                                   "air_momentum_before_z"};
   const auto grid = [&](std::string_view name, std::string_view unit, auto& field) {
     visit(FieldInfo{name, unit, FieldRole::kept, false, false}, field);
   };
@@ -92,8 +93,9 @@ void for_each_field(Visit&& visit, S& s) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     grid(velocity[axis], "m/s", s.flow.velocity[axis]);
     grid(momentum[axis], "kg/(m2 s)", s.flow.momentum[axis]);
+    grid(before[axis], "kg/(m2 s)", s.flow.momentum_before[axis]);
   }
-  visit(FieldInfo{"last_step", "s"}, s.last_step);
+  visit(FieldInfo{"last_step", "s"}, s.flow.last_step);
   visit(FieldInfo{"air_iterations", "1"}, s.iterations);
 }
 

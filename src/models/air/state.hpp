@@ -17,15 +17,18 @@ struct Solids {
 
 /// The fields of the air.
 struct AirState {
-  FaceField velocity;  ///< m/s
-  FaceField momentum;  ///< rho Phi u, kg/(m^2 s)
-  CellField pressure;  ///< relative to that of the surroundings, Pa; mean of the last step
-  FaceField drag;      ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
+  FaceField velocity;         ///< m/s
+  FaceField momentum;         ///< rho Phi u, kg/(m^2 s)
+  FaceField momentum_before;  ///< at the start of the last step
+  CellField pressure;         ///< relative to that of the surroundings, Pa; mean of the last step
+  FaceField drag;             ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
+  double last_step = 0;       ///< s; 0 before the first
 
   AirState() = default;
   explicit AirState(const Grid& grid)
       : velocity(grid.face_field()),
         momentum(grid.face_field()),
+        momentum_before(grid.face_field()),
         pressure(grid.cell_field()),
         drag(grid.face_field()) {}
 

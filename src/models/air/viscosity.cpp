@@ -52,35 +52,47 @@ TwoSums Viscosity::sum_over_rows(ThreadTeam& team, Body&& body) {
   return total;
 }
 
-void Viscosity::find_divergence(ThreadTeam& team, const FaceField& velocity, FaceField& divergence) {
-  find_divergence(team, Walls::moving, velocity, divergence);
+void Viscosity::begin(ThreadTeam& team, const FaceField& velocity) {
+  const Grid& grid = apertures_.grid;
+  const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
+  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t first, std::ptrdiff_t) {
+    air::find_divergence_of_row(grid.count[0], grid.stride(1), grid.stride(2), per_width, velocity[0].data() + first,
+                                velocity[1].data() + first, velocity[2].data() + first, apertures_.inner.data() + first,
+                                divergence_.data() + first);
+  });
+  apertures_.wrap(divergence_);
+}
+
+void Viscosity::find_divergence_of_row(int axis, std::ptrdiff_t begin, int count, const FaceField& velocity,
+                                       FaceField& divergence) const {
+  find_divergence_of_row(Walls::moving, axis, begin, count, velocity, divergence);
+}
+
+void Viscosity::find_divergence_of_row(Walls walls, int axis, std::ptrdiff_t begin, int count,
+                                       const FaceField& velocity, FaceField& divergence) const {
+  const Grid& grid = apertures_.grid;
+  const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
+  const auto a = static_cast<std::size_t>(axis);
+  const auto from = [&](const CellField& field) { return field.data() + begin; };
+  const auto& link = apertures_.link[a];
+  find_viscous_divergence_of_row(count, walls == Walls::moving ? 1 : 0, grid.stride(1), grid.stride(2), per_width,
+                                 {.velocity = from(velocity[a]),
+                                  .link_x = from(link[0]),
+                                  .link_y = from(link[1]),
+                                  .link_z = from(link[2]),
+                                  .wall = from(apertures_.wall[a]),
+                                  .drive = from(apertures_.drive[a]),
+                                  .open = from(apertures_.open[a]),
+                                  .divergence = from(divergence_),
+                                  .along = grid.stride(axis),
+                                  .third = per_width[axis] / 3},
+                                 divergence[a].data() + begin);
 }
 
 void Viscosity::find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence) {
-  const Grid& grid = apertures_.grid;
-  const std::ptrdiff_t dy = grid.stride(1), dz = grid.stride(2);
-  const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
-  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
-    find_divergence_of_row(grid.count[0], dy, dz, per_width, velocity[0].data() + begin, velocity[1].data() + begin,
-                           velocity[2].data() + begin, apertures_.inner.data() + begin, divergence_.data() + begin);
-  });
-  apertures_.wrap(divergence_);
-  for_all_rows(team, [&](std::size_t a, std::ptrdiff_t begin, int count) {
-    const auto from = [&](const CellField& field) { return field.data() + begin; };
-    const auto& link = apertures_.link[a];
-    const int axis = static_cast<int>(a);
-    find_viscous_divergence_of_row(count, walls == Walls::moving ? 1 : 0, dy, dz, per_width,
-                                   {.velocity = from(velocity[a]),
-                                    .link_x = from(link[0]),
-                                    .link_y = from(link[1]),
-                                    .link_z = from(link[2]),
-                                    .wall = from(apertures_.wall[a]),
-                                    .drive = from(apertures_.drive[a]),
-                                    .open = from(apertures_.open[a]),
-                                    .divergence = from(divergence_),
-                                    .along = grid.stride(axis),
-                                    .third = per_width[axis] / 3},
-                                   divergence[a].data() + begin);
+  begin(team, velocity);
+  for_all_rows(team, [&](std::size_t a, std::ptrdiff_t first, int count) {
+    find_divergence_of_row(walls, static_cast<int>(a), first, count, velocity, divergence);
   });
 }
 

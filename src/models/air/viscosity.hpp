@@ -15,9 +15,12 @@ class Viscosity {
  public:
   explicit Viscosity(const FaceApertures& apertures);
 
-  /// divergence := laplacian u + grad(div u)/3 (viscous_divergence()), with rough walls, 1/(m s); ghosts of the
-  /// velocity filled.
-  void find_divergence(ThreadTeam& team, const FaceField& velocity, FaceField& divergence);
+  /// What find_divergence_of_row() needs first. Ghosts of the velocity filled.
+  void begin(ThreadTeam& team, const FaceField& velocity);
+  /// divergence := laplacian u + grad(div u)/3 (viscous_divergence()), with rough walls, 1/(m s), on `count` faces of
+  /// an axis from `begin` on, in a row along x.
+  void find_divergence_of_row(int axis, std::ptrdiff_t begin, int count, const FaceField& velocity,
+                              FaceField& divergence) const;
 
   /// Solves (u - start)/weight = amount (laplacian u + grad(div u)/3) for u, from a first guess; conjugate gradients,
   /// preconditioned by the diagonal.
@@ -30,6 +33,8 @@ class Viscosity {
   struct System;
   struct Diagonal;
   enum class Walls { moving, at_rest };
+  void find_divergence_of_row(Walls walls, int axis, std::ptrdiff_t begin, int count, const FaceField& velocity,
+                              FaceField& divergence) const;
   void find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence);
   template <class Body>
   void for_all_rows(ThreadTeam& team, Body&& body) const;

@@ -72,7 +72,6 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
                          team, received_.size(), Vector3{}, [&](std::size_t i) { return a.acceleration[i]; },
                          [](const Vector3& x, const Vector3& y) { return x + y; });
   ++a.steps;
-  a.last_step = duration;
   a.iterations = static_cast<std::uint64_t>(flow_.iterations());
   measure_slip(team, s);
 }

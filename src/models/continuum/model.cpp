@@ -200,7 +200,7 @@ std::vector<NamedValue> Continuum::totals() const {
                                  {"air_speed_max", "m/s", largest_air_speed(air)},
                                  {"air_pressure_min", "Pa", pressure.least},
                                  {"air_pressure_max", "Pa", pressure.most},
-                                 {"air_step_size", "s", air.last_step},
+                                 {"air_step_size", "s", air.flow.last_step},
                                  {"air_steps", "1", static_cast<double>(air.steps)},
                                  {"air_iterations", "1", static_cast<double>(air.iterations)},
                                  {"particle_reynolds_max", "1", air.reynolds_max},

@@ -41,7 +41,6 @@ struct AirAround {
   std::uint64_t steps = 0;            ///< of the air
   std::uint64_t steps_left = 0;       ///< of the particles until the air's next
   std::uint64_t iterations = 0;       ///< of the pressure, last step
-  double last_step = 0;               ///< s
   double reynolds_max = 0;            ///< largest Reynolds number of a grain since the start
   double swing_max = 0;               ///< largest difference of a cell's pressure from air.pressure since then, Pa
 };
@@ -92,12 +91,15 @@ inline constexpr std::array<const char*, 6> collisional_names = {"collisional_st
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 struct AirNames {
-  const char *velocity, *momentum, *drag, *solid_flux, *force, *impulse;
+  const char *velocity, *momentum, *momentum_before, *drag, *solid_flux, *force, *impulse;
 };
 inline constexpr std::array<AirNames, 3> air_names{
-    {{"air_velocity_x", "air_momentum_x", "air_drag_x", "air_solid_flux_x", "air_force_x", "impulse_air_x"},
-     {"air_velocity_y", "air_momentum_y", "air_drag_y", "air_solid_flux_y", "air_force_y", "impulse_air_y"},
-     {"air_velocity_z", "air_momentum_z", "air_drag_z", "air_solid_flux_z", "air_force_z", "impulse_air_z"}}};
+    {{"air_velocity_x", "air_momentum_x", "air_momentum_before_x", "air_drag_x", "air_solid_flux_x", "air_force_x",
+      "impulse_air_x"},
+     {"air_velocity_y", "air_momentum_y", "air_momentum_before_y", "air_drag_y", "air_solid_flux_y", "air_force_y",
+      "impulse_air_y"},
+     {"air_velocity_z", "air_momentum_z", "air_momentum_before_z", "air_drag_z", "air_solid_flux_z", "air_force_z",
+      "impulse_air_z"}}};
 inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
   std::array<std::array<std::string, 3>, most_walls> names;
   for (std::size_t wall = 0; wall < most_walls; ++wall)
@@ -120,6 +122,7 @@ void for_each_field_of_air(Visit&& visit, A& a) {
     const auto& names = detail::air_names[axis];
     grid(names.velocity, "m/s", a.flow.velocity[axis]);
     grid(names.momentum, "kg/(m2 s)", a.flow.momentum[axis]);
+    grid(names.momentum_before, "kg/(m2 s)", a.flow.momentum_before[axis]);
     grid(names.drag, "N/m3", a.flow.drag[axis]);
     grid(names.solid_flux, "m/s", a.solids.flux[axis]);
     visit(FieldInfo{names.force, "N"}, a.force[static_cast<int>(axis)]);
@@ -128,7 +131,7 @@ void for_each_field_of_air(Visit&& visit, A& a) {
   visit(FieldInfo{"air_steps", "1"}, a.steps);
   visit(FieldInfo{"air_steps_left", "1"}, a.steps_left);
   visit(FieldInfo{"air_iterations", "1"}, a.iterations);
-  visit(FieldInfo{"air_last_step", "s"}, a.last_step);
+  visit(FieldInfo{"air_last_step", "s"}, a.flow.last_step);
   visit(FieldInfo{"air_reynolds_max", "1"}, a.reynolds_max);
   visit(FieldInfo{"air_swing_max", "Pa"}, a.swing_max);
 }

@@ -60,22 +60,29 @@ struct FaceRun {
   bool is_end;            ///< the faces lie in an end of the box, which is not periodic
 };
 
-/// Calls body(run) for all faces of an axis.
+/// Calls body(run) for the faces of an axis in the row (j, k).
 template <class Body>
-void for_each_run(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
+void for_each_run_of_row(const FaceApertures& apertures, int axis, int j, int k, std::ptrdiff_t begin,
+                         std::ptrdiff_t end, Body&& body) {
   const int n = apertures.grid.count[static_cast<std::size_t>(axis)];
   const std::ptrdiff_t stride = apertures.grid.stride(axis);
   const bool ring = apertures.boundaries.is_periodic(axis);
-  const auto run = [&](std::ptrdiff_t begin, std::ptrdiff_t end, int place) {
+  const auto run = [&](std::ptrdiff_t from, std::ptrdiff_t to, int place) {
     const std::ptrdiff_t before = place > 0 ? -stride : ring ? stride * (n - 1) : 0;
-    body(FaceRun{begin, end, place, before, place < n ? 0 : before, apertures.is_end(axis, place)});
+    body(FaceRun{from, to, place, before, place < n ? 0 : before, apertures.is_end(axis, place)});
   };
+  if (axis > 0) return run(begin, end, axis == 1 ? j : k);
+  run(begin, begin + 1, 0);
+  run(begin + 1, begin + n, 1);
+  run(begin + n, end, n);
+}
+
+/// Calls body(run) for all faces of an axis.
+template <class Body>
+void for_each_run(ThreadTeam& team, const FaceApertures& apertures, int axis, Body&& body) {
   for_each_row(team, apertures.grid, apertures.faces(axis),
                [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-                 if (axis > 0) return run(begin, end, axis == 1 ? j : k);
-                 run(begin, begin + 1, 0);
-                 run(begin + 1, begin + n, 1);
-                 run(begin + n, end, n);
+                 for_each_run_of_row(apertures, axis, j, k, begin, end, body);
                });
 }
 

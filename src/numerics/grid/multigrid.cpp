@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/clones.hpp"
-#include "numerics/grid/runs.hpp"
+#include "numerics/grid/run_loops.hpp"
 
 namespace talus {
 
@@ -42,24 +41,16 @@ void for_each_joined_row(const Checkerboard& fine, const Checkerboard& coarse, c
     for (int j = J * factor[1]; j < j_end; ++j) body(fine.row(j, k), j == J * factor[1], k == K * factor[2]);
 }
 
+/// run[I] += the sums of joined cells.
+void add_joined(const Checkerboard& fine, int factor, int colour, std::size_t r, const float* run, float* row) {
+  if (factor == 2) return run_loops::add(fine.length(colour, r), run, row);
+  for_each_joined(fine, factor, colour, r, [&](int m, int I) { row[I] += run[m]; });
+}
+
 /// Hands a row in the order of x to the runs of both colours.
-template <class Body>
-void for_each_in_row(const Checkerboard& board, std::size_t r, Body&& body) {
-  for (int colour = 0; colour < 2; ++colour) {
-    const std::size_t own = board.run(colour, r);
-    const int length = board.length(colour, r), first = board.first(colour, r);
-    for (int m = 0; m < length; ++m) body(own + static_cast<std::size_t>(m), 2 * m + first);
-  }
-}
-
-std::array<const float*, 3> pointers(const std::array<std::vector<float>, 3>& columns) {
-  return {columns[0].data(), columns[1].data(), columns[2].data()};
-}
-
-TALUS_CLONES void relax(int length, const Runs<float>& around, const float* source, const float* inverse,
-                        float* __restrict x) {
-  const Runs<float> runs = around;
-  for (int m = 0; m < length; ++m) x[m] = inverse[m] * (source[m] + runs.inflow(m));
+void take_row(const Checkerboard& board, std::size_t r, const float* row, float* column) {
+  for (int colour = 0; colour < 2; ++colour)
+    run_loops::take(board.length(colour, r), row + board.first(colour, r), column + board.run(colour, r));
 }
 
 }  // namespace
@@ -77,16 +68,16 @@ void Multigrid::Level::complete(ThreadTeam& team) {
         for (auto& low : matrix.low) board.fill_ghosts(low.data() + board.run(colour, r), board.length(colour, r));
   });
   board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (int colour = 0; colour < 2; ++colour)
+    for (int colour = 0; colour < 2; ++colour) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::size_t own = board.run(colour, r);
-        const Runs<float> runs(board, pointers(matrix.low), value.data(), colour, r);
-        for (int m = 0; m < board.length(colour, r); ++m) {
-          const std::size_t c = own + static_cast<std::size_t>(m);
-          matrix.diagonal[c] = runs.conductance(m) + matrix.outside[c];
-          inverse[c] = matrix.diagonal[c] > 0 ? 1 / matrix.diagonal[c] : 0.0f;
-        }
+        const Runs<float> runs(board, low(), value.data(), colour, r);
+        run_loops::find_diagonal(board.length(colour, r), runs, matrix.outside.data() + own,
+                                 matrix.diagonal.data() + own);
       }
+      const std::size_t first = board.run(colour, begin) - 1;
+      run_loops::invert(board.run(colour, end) - 1 - first, matrix.diagonal.data() + first, inverse.data() + first);
+    }
   });
 }
 
@@ -96,13 +87,12 @@ void Multigrid::Level::smooth(ThreadTeam& team, int colour, bool from_zero) {
     for (std::size_t r = begin; r < end; ++r) {
       const std::size_t own = board.run(colour, r);
       const int length = board.length(colour, r);
-      float* __restrict x = value.data() + own;
+      float* x = value.data() + own;
       const float *b = source.data() + own, *d = inverse.data() + own;
-      const Runs<float> runs(board, pointers(matrix.low), value.data(), colour, r);
       if (from_zero)
-        for (int m = 0; m < length; ++m) x[m] = d[m] * b[m];
+        run_loops::relax_from_zero(length, b, d, x);
       else
-        relax(length, runs, b, d, x);
+        run_loops::relax(length, Runs<float>(board, low(), value.data(), colour, r), b, d, x);
       board.fill_ghosts(x, length);
     }
   });
@@ -131,15 +121,14 @@ Multigrid::Multigrid(const Checkerboard& finest) {
 void Multigrid::set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale) {
   Level& top = levels_.front();
   const Checkerboard& board = top.board;
-  const auto convert = [&](const std::vector<double>& from, std::vector<float>& to) {
-    board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (int colour = 0; colour < 2; ++colour)
-        for (std::size_t c = board.run(colour, begin) - 1; c < board.run(colour, end) - 1; ++c)
-          to[c] = static_cast<float>(scale * from[c]);
-    });
-  };
-  for (std::size_t a = 0; a < 3; ++a) convert(finest.low[a], top.matrix.low[a]);
-  convert(finest.outside, top.matrix.outside);
+  board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (int colour = 0; colour < 2; ++colour) {
+      const std::size_t first = board.run(colour, begin) - 1, length = board.run(colour, end) - 1 - first;
+      for (std::size_t a = 0; a < 3; ++a)
+        run_loops::scale(length, scale, finest.low[a].data() + first, top.matrix.low[a].data() + first);
+      run_loops::scale(length, scale, finest.outside.data() + first, top.matrix.outside.data() + first);
+    }
+  });
   top.complete(team);
   for (std::size_t l = 1; l < levels_.size(); ++l) coarsen(team, levels_[l - 1], levels_[l]);
 }
@@ -155,15 +144,14 @@ void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse) {
       for_each_joined_row(fine.board, coarse.board, fine.factor, r, [&](std::size_t f, bool lowest_y, bool lowest_z) {
         for (int colour = 0; colour < 2; ++colour) {
           const std::size_t own = fine.board.run(colour, f);
-          const float *x = fine.matrix.low[0].data() + own, *y = fine.matrix.low[1].data() + own,
-                      *z = fine.matrix.low[2].data() + own, *outside = fine.matrix.outside.data() + own;
           const bool lowest_x = fine.factor[0] == 1 || fine.board.first(colour, f) == 0;
-          for_each_joined(fine.board, fine.factor[0], colour, f, [&](int m, int I) {
-            if (lowest_x) sum[0][I] += x[m];
-            if (lowest_y) sum[1][I] += y[m];
-            if (lowest_z) sum[2][I] += z[m];
-            sum[3][I] += outside[m];
-          });
+          const auto join = [&](const std::vector<float>& from, std::vector<float>& to) {
+            add_joined(fine.board, fine.factor[0], colour, f, from.data() + own, to.data());
+          };
+          if (lowest_x) join(fine.matrix.low[0], sum[0]);
+          if (lowest_y) join(fine.matrix.low[1], sum[1]);
+          if (lowest_z) join(fine.matrix.low[2], sum[2]);
+          join(fine.matrix.outside, sum[3]);
         }
       });
       const std::size_t J = r % coarse.extent[1].size(), K = r / coarse.extent[1].size();
@@ -177,38 +165,38 @@ void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse) {
         return (narrow[2 * I] + narrow[fine_below]) / (wide[I] + wide[below]);
       };
       const float way_y = shorter(1, J), way_z = shorter(2, K);
-      for_each_in_row(coarse.board, r, [&](std::size_t c, int I) {
-        const auto i = static_cast<std::size_t>(I);
-        coarse.matrix.low[0][c] = sum[0][i] * shorter(0, i);
-        coarse.matrix.low[1][c] = sum[1][i] * way_y;
-        coarse.matrix.low[2][c] = sum[2][i] * way_z;
-        coarse.matrix.outside[c] = to_outside * sum[3][i];
-      });
+      for (std::size_t i = 0; i < nx; ++i) {
+        sum[0][i] *= shorter(0, i), sum[1][i] *= way_y, sum[2][i] *= way_z;
+        sum[3][i] *= to_outside;
+      }
+      for (std::size_t a = 0; a < 3; ++a) take_row(coarse.board, r, sum[a].data(), coarse.matrix.low[a].data());
+      take_row(coarse.board, r, sum[3].data(), coarse.matrix.outside.data());
     }
   });
   coarse.complete(team);
 }
 
-/// After a sweep that ended with black, only red cells have a residual left.
+/// After one sweep from zero only red cells have a residual left: what flows to them from black ones, which were zero
+/// when the red ones were relaxed.
 void Multigrid::restrict_residual(ThreadTeam& team, const Level& fine, Level& coarse) {
   coarse.board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    std::vector<float> sum(coarse.extent[0].size());
+    std::vector<float> sum(coarse.extent[0].size()), inflow(fine.extent[0].size());
     for (std::size_t r = begin; r < end; ++r) {
       std::fill(sum.begin(), sum.end(), 0.0f);
       for_each_joined_row(fine.board, coarse.board, fine.factor, r, [&](std::size_t f, bool, bool) {
-        const std::size_t own = fine.board.run(0, f);
-        const float *x = fine.value.data() + own, *b = fine.source.data() + own, *d = fine.matrix.diagonal.data() + own;
-        const Runs<float> runs(fine.board, pointers(fine.matrix.low), fine.value.data(), 0, f);
-        float* __restrict row = sum.data();
-        for_each_joined(fine.board, fine.factor[0], 0, f,
-                        [&](int m, int I) { row[I] += (b[m] - d[m] * x[m]) + runs.inflow(m); });
+        const Runs<float> runs(fine.board, fine.low(), fine.value.data(), 0, f);
+        const int length = fine.board.length(0, f);
+        if (fine.factor[0] == 2) return run_loops::add_inflow(length, runs, sum.data());
+        std::fill(inflow.begin(), inflow.end(), 0.0f);
+        run_loops::add_inflow(length, runs, inflow.data());
+        for_each_joined(fine.board, 1, 0, f, [&](int m, int I) { sum[I] += inflow[m]; });
       });
-      for_each_in_row(coarse.board, r,
-                      [&](std::size_t c, int I) { coarse.source[c] = sum[static_cast<std::size_t>(I)]; });
+      take_row(coarse.board, r, sum.data(), coarse.source.data());
     }
   });
 }
 
+/// To the red cells: the sweep that follows begins with the black ones, from the red.
 void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fine) {
   fine.board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<float> correction(coarse.extent[0].size());
@@ -216,15 +204,17 @@ void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fin
     for (std::size_t r = begin; r < end; ++r) {
       const int j = static_cast<int>(r) % fine.board.count()[1], k = static_cast<int>(r) / fine.board.count()[1];
       const std::size_t from = coarse.board.row(j / fine.factor[1], k / fine.factor[2]);
-      if (from != held)
-        for_each_in_row(coarse.board, held = from,
-                        [&](std::size_t c, int I) { correction[static_cast<std::size_t>(I)] = coarse.value[c]; });
-      for (int colour = 0; colour < 2; ++colour) {
-        float* __restrict x = fine.value.data() + fine.board.run(colour, r);
-        const float* e = correction.data();
-        for_each_joined(fine.board, fine.factor[0], colour, r, [&](int m, int I) { x[m] += e[I]; });
-        fine.board.fill_ghosts(x, fine.board.length(colour, r));
-      }
+      for (int colour = 0; colour < 2 && from != held; ++colour)
+        run_loops::put(coarse.board.length(colour, from), coarse.value.data() + coarse.board.run(colour, from),
+                       correction.data() + coarse.board.first(colour, from));
+      held = from;
+      float* x = fine.value.data() + fine.board.run(0, r);
+      const int length = fine.board.length(0, r);
+      if (fine.factor[0] == 2)
+        run_loops::add(length, correction.data(), x);
+      else
+        for_each_joined(fine.board, 1, 0, r, [&](int m, int I) { x[m] += correction[I]; });
+      fine.board.fill_ghosts(x, length);
     }
   });
 }
@@ -242,21 +232,6 @@ void Multigrid::cycle(ThreadTeam& team, std::size_t l) {
     level.smooth(team, 1);
   }
   level.smooth(team, 0);
-}
-
-void Multigrid::precondition(ThreadTeam& team, const std::vector<double>& residual, double residual_scale,
-                             double correction_scale, std::vector<double>& correction) {
-  Level& top = levels_.front();
-  const Checkerboard& board = top.board;
-  const auto for_each_cell = [&](auto&& body) {
-    board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (int colour = 0; colour < 2; ++colour)
-        for (std::size_t c = board.run(colour, begin) - 1; c < board.run(colour, end) - 1; ++c) body(c);
-    });
-  };
-  for_each_cell([&](std::size_t c) { top.source[c] = static_cast<float>(residual_scale * residual[c]); });
-  cycle(team, 0);
-  for_each_cell([&](std::size_t c) { correction[c] = correction_scale * top.value[c]; });
 }
 
 }  // namespace talus

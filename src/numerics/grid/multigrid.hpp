@@ -35,13 +35,16 @@ class Multigrid {
 
   explicit Multigrid(const Checkerboard& finest);
 
-  /// Sets the matrix of the finest grid, times `scale`, and computes those of the coarser ones.
+  /// Sets the matrix of the finest grid, times `scale`, which keeps single precision within its range, and computes
+  /// those of the coarser ones.
   void set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale);
+  const Matrix<float>& matrix() const { return levels_.front().matrix; }  ///< of the finest grid
 
-  /// One cycle from zero: correction := correction_scale * cycle(residual_scale * residual). The scales keep single
-  /// precision within its range.
-  void precondition(ThreadTeam& team, const std::vector<double>& residual, double residual_scale,
-                    double correction_scale, std::vector<double>& correction);
+  /// One cycle from zero: correction() := M residual().
+  void precondition(ThreadTeam& team) { cycle(team, 0); }
+  /// To be set, in the order of the checkerboard; zero at its pads.
+  std::vector<float>& residual() { return levels_.front().source; }
+  std::vector<float>& correction() { return levels_.front().value; }
 
  private:
   struct Level {
@@ -56,6 +59,10 @@ class Multigrid {
     /// Ghosts, diagonal and its inverse from the conductances.
     void complete(ThreadTeam& team);
     void smooth(ThreadTeam& team, int colour, bool from_zero = false);
+    /// Pointers to the conductances of the low faces.
+    std::array<const float*, 3> low() const {
+      return {matrix.low[0].data(), matrix.low[1].data(), matrix.low[2].data()};
+    }
   };
 
   static void coarsen(ThreadTeam& team, const Level& fine, Level& coarse);

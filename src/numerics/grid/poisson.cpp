@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "numerics/grid/poisson.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
-#include "base/clones.hpp"
-#include "base/error.hpp"
-#include "numerics/grid/conjugate_gradients.hpp"
-#include "numerics/grid/runs.hpp"
+#include "numerics/grid/run_loops.hpp"
 
 namespace talus {
 
@@ -29,11 +25,8 @@ std::array<const double*, 3> pointers(const std::array<std::vector<double>, 3>& 
   return {columns[0].data(), columns[1].data(), columns[2].data()};
 }
 
-TALUS_CLONES void find_outflow(int length, const Runs<double>& around, const double* diagonal, const double* value,
-                               double* __restrict out) {
-  const Runs<double> runs = around;
-  for (int m = 0; m < length; ++m) out[m] = diagonal[m] * value[m] - runs.inflow(m);
-}
+// What a refinement in single precision may be asked for: less would be lost in rounding, and is left to the next one.
+constexpr double least_reduction = 1e-4;
 
 }  // namespace
 
@@ -42,14 +35,10 @@ PoissonSolver::PoissonSolver(const Grid& grid, std::array<bool, 3> periodic)
       to_itself_{periodic[0] && grid.count[0] == 1, periodic[1] && grid.count[1] == 1,
                  periodic[2] && grid.count[2] == 1},
       board_(board_of(grid, periodic)),
-      index_(board_.size(), pad),
       matrix_(board_.size()),
-      multigrid_(board_),
-      pattern_(board_.size(), 0xff) {
-  for (int k = 0; k < grid.count[2]; ++k)
-    for (int j = 0; j < grid.count[1]; ++j)
-      for (int i = 0; i < grid.count[0]; ++i) index_[board_.at(i, j, k)] = grid.index(i, j, k);
-  for (auto* column : {&value_, &residual_, &direction_, &applied_, &correction_}) column->assign(board_.size(), 0);
+      multigrid_(board_) {
+  for (auto* column : {&source_, &value_, &residual_}) column->assign(board_.size(), 0);
+  for (auto* column : {&direction_, &applied_, &change_}) column->assign(board_.size(), 0);
 }
 
 /// Calls body(block, begin, end) for ranges in the board's order, pads among them.
@@ -60,248 +49,217 @@ void PoissonSolver::for_each_range(ThreadTeam& team, Body&& body) const {
   });
 }
 
-/// Sum of term(c) over all cells: in eight interleaved sums a range, then the blocks in order.
+/// Sum of term(begin, length) over ranges, in order.
 template <class Term>
 double PoissonSolver::sum(ThreadTeam& team, Term&& term) {
   partial_.assign(board_.blocks(), 0);
   for_each_range(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
-    constexpr std::size_t lanes = 8;
-    double lane[lanes] = {};
-    std::size_t c = begin;
-    for (; c + lanes <= end; c += lanes)
-      for (std::size_t l = 0; l < lanes; ++l) lane[l] += term(c + l);
-    for (; c < end; ++c) lane[0] += term(c);
-    partial_[block] += ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+    partial_[block] += term(begin, end - begin);
   });
   double total = 0;
   for (const double part : partial_) total += part;
   return total;
 }
 
-void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
-  const std::array<int, 3> count = grid_.count;
-  board_.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+/// Sum of body(colour, row, first cell of the run, length) over runs, in order.
+template <class Body>
+double PoissonSolver::sum_over_runs(ThreadTeam& team, Body&& body) {
+  partial_.assign(board_.blocks(), 0);
+  board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (int colour = 0; colour < 2; ++colour)
+      for (std::size_t r = begin; r < end; ++r)
+        partial_[block] += body(colour, r, board_.run(colour, r), board_.length(colour, r));
+  });
+  double total = 0;
+  for (const double part : partial_) total += part;
+  return total;
+}
+
+/// Calls body(block, first cell of the run, length, first cell in the grid's order, row) for all runs; the cells of a
+/// run are every second one of a row along x.
+template <class Body>
+void PoissonSolver::for_each_run(ThreadTeam& team, Body&& body) const {
+  board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
-      const int j = static_cast<int>(r) % count[1], k = static_cast<int>(r) / count[1];
-      for (int colour = 0; colour < 2; ++colour) {
-        const std::size_t own = board_.run(colour, r);
-        const int length = board_.length(colour, r), first = board_.first(colour, r);
-        for (int m = 0; m < length; ++m) {
-          const std::array<int, 3> place{2 * m + first, j, k};
-          const std::size_t c = own + static_cast<std::size_t>(m);
-          const auto n = static_cast<std::ptrdiff_t>(index_[c]);
-          double outside = storage ? (*storage)[static_cast<std::size_t>(n)] : 0;
-          for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            const double low = conductance[a][static_cast<std::size_t>(n)];
-            const double high = conductance[a][static_cast<std::size_t>(n + grid_.stride(axis))];
-            const bool ends = !board_.is_periodic(axis);
-            matrix_.low[a][c] = place[a] == 0 && ends ? 0 : low;
-            if (place[a] == 0 && ends && !to_itself_[a]) outside += low;
-            if (place[a] == count[a] - 1 && ends && !to_itself_[a]) outside += high;
-          }
-          matrix_.outside[c] = outside;
-        }
-        for (auto& low : matrix_.low) board_.fill_ghosts(low.data() + own, length);
-      }
+      const int j = static_cast<int>(r) % grid_.count[1], k = static_cast<int>(r) / grid_.count[1];
+      for (int colour = 0; colour < 2; ++colour)
+        body(block, board_.run(colour, r), board_.length(colour, r), grid_.index(board_.first(colour, r), j, k),
+             std::array{board_.first(colour, r), j, k});
     }
   });
+}
+
+void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
   std::vector<unsigned char> changed(board_.blocks(), 0);
+  std::vector<double> outside_before = matrix_.outside;
+  for_each_run(team, [&](std::size_t block, std::size_t own, int length, std::size_t from, std::array<int, 3> place) {
+    double* outside = matrix_.outside.data() + own;
+    if (storage)
+      run_loops::take(length, storage->data() + from, outside);
+    else
+      std::fill_n(outside, length, 0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      const double *low = conductance[a].data() + from, *high = low + grid_.stride(axis);
+      double* own_low = matrix_.low[a].data() + own;
+      const int n = grid_.count[a];
+      const bool ends = !board_.is_periodic(axis), leaves = ends && !to_itself_[a];
+      if (axis == 0) {
+        const int skipped = place[0] == 0 && ends ? 1 : 0;
+        const bool ends_high = place[0] + 2 * (length - 1) == n - 1;
+        if (run_loops::take(length - skipped, low + 2 * skipped, own_low + skipped)) changed[block] = 1;
+        if (skipped == 1) own_low[0] = 0;
+        if (skipped == 1 && leaves) outside[0] += low[0];
+        if (ends_high && leaves && length > 0) outside[length - 1] += high[2 * (length - 1)];
+        board_.fill_ghosts(own_low, length);
+        continue;
+      }
+      if (place[a] == 0 && ends)
+        std::fill_n(own_low, length, 0.0);
+      else if (run_loops::take(length, low, own_low))
+        changed[block] = 1;
+      if (place[a] == 0 && leaves) run_loops::add_strided(length, low, outside);
+      if (place[a] == n - 1 && leaves) run_loops::add_strided(length, high, outside);
+    }
+    for (int m = 0; m < length; ++m)
+      if ((outside[m] > 0) != (outside_before[own + static_cast<std::size_t>(m)] > 0)) changed[block] = 1;
+  });
   std::vector<double> largest(board_.blocks(), 0);
   board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
     for (int colour = 0; colour < 2; ++colour)
       for (std::size_t r = begin; r < end; ++r) {
         const std::size_t own = board_.run(colour, r);
         const Runs<double> runs(board_, pointers(matrix_.low), value_.data(), colour, r);
-        for (int m = 0; m < board_.length(colour, r); ++m) {
-          const std::size_t c = own + static_cast<std::size_t>(m);
-          matrix_.diagonal[c] = runs.conductance(m) + matrix_.outside[c];
-          largest[block] = std::max(largest[block], matrix_.diagonal[c]);
-          unsigned char open = matrix_.outside[c] > 0;
-          for (std::size_t a = 0; a < 3; ++a) open = static_cast<unsigned char>(2 * open + (matrix_.low[a][c] > 0));
-          if (open != pattern_[c]) pattern_[c] = open, changed[block] = 1;
-        }
+        largest[block] = std::max(largest[block],
+                                  run_loops::find_diagonal(board_.length(colour, r), runs, matrix_.outside.data() + own,
+                                                           matrix_.diagonal.data() + own));
       }
   });
   const double top = *std::max_element(largest.begin(), largest.end());
   scale_ = top > 0 ? 1 / top : 1;
-  if (std::count(changed.begin(), changed.end(), 1) > 0) find_closed_regions();
+  if (is_new_ || std::count(changed.begin(), changed.end(), 1) > 0) find_closed_regions();
+  is_new_ = false;
   multigrid_.set_matrix(team, matrix_, scale_);
 }
 
-/// Regions by flooding through open faces.
-void PoissonSolver::find_closed_regions() {
-  closed_.clear();
-  std::vector<bool> seen(board_.size(), false);
-  const auto [nx, ny, nz] = grid_.count;
-  struct Place {
-    int i, j, k;
-  };
-  std::vector<Place> front;
-  std::vector<std::size_t> region;
-  for (int k0 = 0; k0 < nz; ++k0)
-    for (int j0 = 0; j0 < ny; ++j0)
-      for (int i0 = 0; i0 < nx; ++i0) {
-        if (seen[board_.at(i0, j0, k0)]) continue;
-        seen[board_.at(i0, j0, k0)] = true;
-        front.assign(1, {i0, j0, k0});
-        region.clear();
-        bool is_closed = true;
-        while (!front.empty()) {
-          const Place at = front.back();
-          front.pop_back();
-          const std::size_t here = board_.at(at.i, at.j, at.k);
-          region.push_back(here);
-          is_closed = is_closed && matrix_.outside[here] <= 0;
-          for (int axis = 0; axis < 3; ++axis)
-            for (const int step : {-1, 1}) {
-              Place to = at;
-              int& moved = axis == 0 ? to.i : axis == 1 ? to.j : to.k;
-              const int n = grid_.count[static_cast<std::size_t>(axis)];
-              moved += step;
-              if (moved < 0 || moved >= n) {
-                if (!board_.is_periodic(axis)) continue;
-                moved = (moved + n) % n;
-              }
-              const std::size_t there = board_.at(to.i, to.j, to.k);
-              const double through = matrix_.low[static_cast<std::size_t>(axis)][step < 0 ? here : there];
-              if (through > 0 && !seen[there]) seen[there] = true, front.push_back(to);
-            }
-        }
-        if (!is_closed) continue;
-        std::sort(region.begin(), region.end());
-        closed_.push_back(region);
-      }
-}
-
-/// Size of the part of the residual that no value can balance.
-double PoissonSolver::unbalanced() const {
-  double square = 0;
-  for (const auto& region : closed_) {
-    double total = 0;
-    for (const std::size_t c : region) total += residual_[c];
-    square += total * total / static_cast<double>(region.size());
-  }
-  return std::sqrt(square);
-}
-
-void PoissonSolver::remove_means(std::vector<double>& column) const {
-  for (const auto& region : closed_) {
-    double total = 0;
-    for (const std::size_t c : region) total += column[c];
-    const double mean = total / static_cast<double>(region.size());
-    for (const std::size_t c : region) column[c] -= mean;
-  }
-}
-
-/// applied := matrix x; \returns x . applied
-double PoissonSolver::apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& applied) {
-  board_.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+/// residual_ := source_ - matrix value_; \returns its square
+double PoissonSolver::find_residual(ThreadTeam& team) {
+  if (board_.is_periodic(0))
     for (int colour = 0; colour < 2; ++colour)
-      for (std::size_t r = begin; r < end; ++r) {
-        const std::size_t own = board_.run(colour, r);
-        const int length = board_.length(colour, r);
-        const Runs<double> runs(board_, pointers(matrix_.low), x.data(), colour, r);
-        find_outflow(length, runs, matrix_.diagonal.data() + own, x.data() + own, applied.data() + own);
-      }
+      for (std::size_t r = 0; r < board_.rows(); ++r)
+        board_.fill_ghosts(value_.data() + board_.run(colour, r), board_.length(colour, r));
+  return sum_over_runs(team, [&](int colour, std::size_t r, std::size_t own, int length) {
+    const Runs<double> runs(board_, pointers(matrix_.low), value_.data(), colour, r);
+    return run_loops::find_residual(length, runs, matrix_.diagonal.data() + own, value_.data() + own,
+                                    source_.data() + own, residual_.data() + own);
   });
-  return sum(team, [&](std::size_t c) { return x[c] * applied[c]; });
 }
 
-double PoissonSolver::residual_square(ThreadTeam& team) {
-  return sum(team, [&](std::size_t c) { return residual_[c] * residual_[c]; });
-}
-
-/// The pressure's equation for the conjugate gradients.
+/// What the value lacks, for the conjugate gradients: the residual over its norm, the matrix times scale_.
 struct PoissonSolver::System {
-  PoissonSolver& solver;
+  PoissonSolver& s;
   ThreadTeam& team;
+  double square;  ///< of the residual
 
-  double residual_square() { return solver.residual_square(team); }
-  double apply_to_direction() { return solver.apply(team, solver.direction_, solver.applied_); }
+  double residual_square() { return square; }
+  double apply_to_direction() {
+    return s.sum_over_runs(team, [&](int colour, std::size_t r, std::size_t own, int length) {
+      const auto& matrix = s.multigrid_.matrix();
+      const Runs<float> runs(s.board_, {matrix.low[0].data(), matrix.low[1].data(), matrix.low[2].data()},
+                             s.direction_.data(), colour, r);
+      return run_loops::apply(length, runs, matrix.diagonal.data() + own, s.direction_.data() + own,
+                              s.applied_.data() + own);
+    });
+  }
   void advance(double step) {
-    PoissonSolver& s = solver;
-    s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) {
-        s.value_[c] += step * s.direction_[c];
-        s.residual_[c] -= step * s.applied_[c];
-      }
+    square = s.sum(team, [&](std::size_t c, std::size_t length) {
+      return run_loops::advance(static_cast<int>(length), static_cast<float>(step), s.direction_.data() + c,
+                                s.applied_.data() + c, s.change_.data() + c, s.multigrid_.residual().data() + c);
     });
   }
 };
 
 /// One cycle of the multigrid as the preconditioner.
 struct PoissonSolver::MultigridCycle {
-  PoissonSolver& solver;
+  PoissonSolver& s;
   ThreadTeam& team;
 
-  double apply(double norm) {
-    PoissonSolver& s = solver;
-    s.multigrid_.precondition(team, s.residual_, 1 / norm, norm * s.scale_, s.correction_);
-    return s.sum(team, [&](std::size_t c) { return s.residual_[c] * s.correction_[c]; });
+  double apply(double) {
+    s.multigrid_.precondition(team);
+    if (!s.closed_.empty()) s.remove_constants(s.multigrid_.correction());
+    return s.sum(team, [&](std::size_t c, std::size_t length) {
+      return run_loops::product(static_cast<int>(length), s.multigrid_.residual().data() + c,
+                                s.multigrid_.correction().data() + c);
+    });
   }
   void update_direction(double beta) {
-    PoissonSolver& s = solver;
     s.for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) s.direction_[c] = s.correction_[c] + beta * s.direction_[c];
+      run_loops::update_direction(end - begin, static_cast<float>(beta), s.multigrid_.correction().data() + begin,
+                                  s.direction_.data() + begin);
     });
   }
 };
 
-PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& source, CellField& value,
-                                            const Stop& stop) {
-  for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      const bool is_cell = index_[c] != pad;
-      residual_[c] = is_cell ? source[index_[c]] : 0;
-      value_[c] = is_cell ? value[index_[c]] : 0;
-      direction_[c] = 0;
-    }
-  });
-  const double enough = std::max(stop.tolerance * std::sqrt(residual_square(team)), stop.absolute);
-  if (!(unbalanced() <= enough))
-    fail("the sources of a region without an opening do not balance",
-         "an open face for every region that grains enter or leave");
-  remove_means(residual_);
-  if (board_.is_periodic(0))
-    for (int colour = 0; colour < 2; ++colour)
-      for (std::size_t r = 0; r < board_.rows(); ++r)
-        board_.fill_ghosts(value_.data() + board_.run(colour, r), board_.length(colour, r));
-  apply(team, value_, applied_);
-  for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) residual_[c] -= applied_[c];
-  });
-
-  System system{*this, team};
-  MultigridCycle cycle{*this, team};
-  const ConjugateGradients found = solve_by_conjugate_gradients(system, cycle, enough, stop.most_iterations);
-  if (found.convergence == Convergence::not_finite)
-    fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
-  if (found.convergence == Convergence::too_slow)
-    fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
-  remove_means(value_);
-  for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c)
-      if (index_[c] != pad) value[index_[c]] = value_[c];
-  });
-  return {found.iterations, found.residual};
+/// A region's constant, which no equation bounds, would take the digits of single precision from the rest.
+void PoissonSolver::remove_constants(std::vector<float>& column) const {
+  remove_means(column);
+  if (!board_.is_periodic(0)) return;
+  for (int colour = 0; colour < 2; ++colour)
+    for (std::size_t r = 0; r < board_.rows(); ++r)
+      board_.fill_ghosts(column.data() + board_.run(colour, r), board_.length(colour, r));
 }
 
-void PoissonSolver::fail(const char* what, const char* advice) const {
-  std::array<int, 3> worst{};
-  double most = -1;
-  for (int k = 0; k < grid_.count[2]; ++k)
-    for (int j = 0; j < grid_.count[1]; ++j)
-      for (int i = 0; i < grid_.count[0]; ++i) {
-        const double size = std::abs(residual_[board_.at(i, j, k)]);
-        if (size > most || (std::isnan(size) && !std::isnan(most))) most = size, worst = {i, j, k};
-      }
-  const auto [i, j, k] = worst;
-  const Vector3 x = grid_.centre(i, j, k);
-  throw NumericalError({.what = what,
-                        .term = fmt::format("largest residual of a cell {:.3g}", most),
-                        .place = fmt::format("cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m", i, j, k, x.x, x.y, x.z),
-                        .advice = advice});
+/// Adds to value_ what it lacks for the residual, of size `norm`, to fall to `enough`, or as far as single precision
+/// reaches.
+ConjugateGradients PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most_iterations) {
+  remove_means(residual_);
+  for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+    run_loops::scale(end - begin, 1 / norm, residual_.data() + begin, multigrid_.residual().data() + begin);
+    std::fill(direction_.data() + begin, direction_.data() + end, 0.0f);
+    std::fill(change_.data() + begin, change_.data() + end, 0.0f);
+  });
+  System system{*this, team, 1};
+  MultigridCycle cycle{*this, team};
+  const ConjugateGradients found =
+      solve_by_conjugate_gradients(system, cycle, std::max(0.9 * enough / norm, least_reduction), most_iterations);
+  for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
+    run_loops::add(end - begin, norm * scale_, change_.data() + begin, value_.data() + begin);
+  });
+  return found;
+}
+
+PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& source, CellField& value,
+                                            const Stop& stop) {
+  for_each_run(team, [&](std::size_t, std::size_t own, int length, std::size_t from, const std::array<int, 3>&) {
+    run_loops::take(length, source.data() + from, source_.data() + own);
+    run_loops::take(length, value.data() + from, value_.data() + own);
+  });
+  const double source_square = sum(team, [&](std::size_t c, std::size_t length) {
+    return run_loops::square(static_cast<int>(length), source_.data() + c);
+  });
+  const double enough = std::max(stop.tolerance * std::sqrt(source_square), stop.absolute);
+  if (!closed_.empty()) {
+    residual_ = source_;
+    if (!(unbalanced() <= enough))
+      fail("the sources of a region without an opening do not balance",
+           "an open face for every region that grains enter or leave");
+    remove_means(source_);
+  }
+  int iterations = 0;
+  double norm = std::sqrt(find_residual(team));
+  while (!(norm <= enough)) {
+    if (!(norm <= std::numeric_limits<double>::max()))
+      fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
+    if (iterations >= stop.most_iterations)
+      fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
+    iterations += refine(team, norm, enough, stop.most_iterations - iterations).iterations;
+    norm = std::sqrt(find_residual(team));
+  }
+  remove_means(value_);
+  for_each_run(team, [&](std::size_t, std::size_t own, int length, std::size_t to, const std::array<int, 3>&) {
+    run_loops::put(length, value_.data() + own, value.data() + to);
+  });
+  return {iterations, norm};
 }
 
 }  // namespace talus

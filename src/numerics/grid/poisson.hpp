@@ -3,8 +3,10 @@
 /// equals its source,
 ///   sum over faces of conductance * (value - value of the neighbour) + storage * value = source,
 /// where the storage is zero unless given and the value outside an open boundary is zero (add conductance * outside
-/// value to the source for another one). Conjugate gradients in double precision, preconditioned by a multigrid cycle;
-/// the bits do not depend on the number of threads. Faces of zero conductance may divide the grid into regions; the
+/// value to the source for another one). Conjugate gradients in single precision, preconditioned by a multigrid cycle,
+/// solve for what the value lacks; the residual is then found in double precision, and what is left of it solved for
+/// again (iterative refinement, Wilkinson 1963), so that the precision of the value is that of doubles. The bits do not
+/// depend on the number of threads. Faces of zero conductance may divide the grid into regions; the
 /// value in a region without an open boundary is determined up to a constant, chosen so that its mean is zero, and its
 /// sources must balance.
 #pragma once
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "numerics/grid/conjugate_gradients.hpp"
 #include "numerics/grid/grid.hpp"
 #include "numerics/grid/multigrid.hpp"
 
@@ -52,26 +55,30 @@ class PoissonSolver {
   void for_each_range(ThreadTeam& team, Body&& body) const;
   template <class Term>
   double sum(ThreadTeam& team, Term&& term);
-  double apply(ThreadTeam& team, const std::vector<double>& x, std::vector<double>& applied);
-  double residual_square(ThreadTeam& team);
+  template <class Body>
+  double sum_over_runs(ThreadTeam& team, Body&& body);
+  template <class Body>
+  void for_each_run(ThreadTeam& team, Body&& body) const;
+  double find_residual(ThreadTeam& team);
+  ConjugateGradients refine(ThreadTeam& team, double norm, double enough, int most_iterations);
   void find_closed_regions();
   double unbalanced() const;
-  void remove_means(std::vector<double>& column) const;
+  template <class Number>
+  void remove_means(std::vector<Number>& column) const;
+  void remove_constants(std::vector<float>& column) const;
   [[noreturn]] void fail(const char* what, const char* advice) const;
-
-  static constexpr std::size_t pad = static_cast<std::size_t>(-1);
 
   Grid grid_;
   std::array<bool, 3> to_itself_;  // periodic axes of one cell
   Checkerboard board_;
-  std::vector<std::size_t> index_;  // in the grid's order, of every cell in the board's order; or `pad`
   Multigrid::Matrix<double> matrix_;
   Multigrid multigrid_;
   double scale_ = 1;                              // scales the conductances to about 1
-  std::vector<unsigned char> pattern_;            // which faces of a cell are open
   std::vector<std::vector<std::size_t>> closed_;  // cells of each closed region, in the board's order
-  // In the board's order. Pads of residual_ and applied_ are zero, so that they do not contribute to sums.
-  std::vector<double> value_, residual_, direction_, applied_, correction_;
+  bool is_new_ = true;                            // no conductances yet
+  // In the board's order. Pads of source_, residual_ and applied_ are zero, so that they do not contribute to sums.
+  std::vector<double> source_, value_, residual_;
+  std::vector<float> direction_, applied_, change_;  // of the refinement, scaled
   std::vector<double> partial_;
 };
 

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
-#include "base/clones.hpp"
 #include "numerics/sph/cubic_spline.hpp"
+#include "physics/coupling/deposition_rows.hpp"
 
 namespace talus::coupling {
 
@@ -20,13 +21,6 @@ int fold(int place, int count, bool is_periodic) {
   return place;
 }
 
-/// The kernel where the square of the distance is square[i] + beside. \param per_width over the smoothing length
-TALUS_CLONES void weigh_row(std::size_t count, const double* square, double beside, double per_width,
-                            double* __restrict weight) {
-  for (std::size_t i = 0; i < count; ++i)
-    weight[i] = sph::cubic_spline_of(std::sqrt(beside + square[i]) * per_width, per_width);
-}
-
 }  // namespace
 
 /// The cells within reach of a particle, and their weights.
@@ -36,10 +30,13 @@ struct Deposition::Scratch {
     std::vector<double> square;     // of the distance of each one's centre, m^2; then far ones, to a whole vector
     std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for
     std::vector<int> cell;          // each once; `left` for all beyond an open face
+    bool is_plain = false;          // the cells are those from `from` on
 
     static constexpr int left = -1;
 
     void find(const Grid& grid, const Box& box, int axis, double x, double reach);
+    /// In order, all from the lowest to the highest; then `left`, if it is among them.
+    void sort();
     /// The slot of the cell whose centre is at x, if it is one of these.
     std::optional<std::size_t> slot_at(const Grid& grid, int axis, double x) const;
   };
@@ -48,9 +45,8 @@ struct Deposition::Scratch {
   };
   using Seen = std::optional<Slots>;
   std::array<Along, 3> along;
-  std::vector<double> weight;  // of a row along x
-  std::vector<double> sum;     // by slots along x, y, z
-  std::vector<Seen> seen;      // by cells along x and z: whose share each one's is
+  std::vector<double> sum;  // by slots along x, y, z
+  std::vector<Seen> seen;   // by cells along x and z: whose share each one's is
 };
 
 void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, double x, double reach) {
@@ -65,12 +61,39 @@ void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis
   square.clear(), slot.clear(), cell.clear();
   for (int n = from; n <= to; ++n) {
     square.push_back((n - place) * (n - place) * width * width);
+    if (n >= 0 && n < count && from >= 0) {  // none is folded onto it yet
+      slot.push_back(cell.size());
+      cell.push_back(n);
+      continue;
+    }
     const int within = has_left(n) ? left : fold(n, count, is_periodic);
     const auto found = std::find(cell.begin(), cell.end(), within);
     slot.push_back(static_cast<std::size_t>(found - cell.begin()));
     if (found == cell.end()) cell.push_back(within);
   }
-  square.resize((square.size() + 7) / 8 * 8, 4 * reach * reach);
+  is_plain = from >= 0 && cell.size() == slot.size() && cell.front() == from;
+  for (std::size_t n = 1; n < cell.size(); ++n) is_plain = is_plain && cell[n] == cell[n - 1] + 1;
+  square.resize((square.size() + row_lanes - 1) / row_lanes * row_lanes, 4 * reach * reach);
+}
+
+void Deposition::Scratch::Along::sort() {
+  if (is_plain) return;
+  int lowest = std::numeric_limits<int>::max(), highest = lowest;
+  bool has_left = false;
+  for (const int n : cell) {
+    if (n == left) {
+      has_left = true;
+    } else {
+      highest = lowest == std::numeric_limits<int>::max() ? n : std::max(highest, n);
+      lowest = std::min(lowest, n);
+    }
+  }
+  const bool has_cells = lowest != std::numeric_limits<int>::max();
+  const std::size_t many = has_cells ? static_cast<std::size_t>(highest - lowest + 1) : 0;
+  for (std::size_t& s : slot) s = cell[s] == left ? many : static_cast<std::size_t>(cell[s] - lowest);
+  cell.resize(many);
+  for (std::size_t n = 0; n < many; ++n) cell[n] = lowest + static_cast<int>(n);
+  if (has_left) cell.push_back(left);
 }
 
 std::optional<std::size_t> Deposition::Scratch::Along::slot_at(const Grid& grid, int axis, double x) const {
@@ -100,7 +123,7 @@ void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> positio
   team.run(blocks_.size(), [&](std::size_t b) {
     Block& block = blocks_[b];
     Scratch scratch;
-    block.end.clear();
+    block.particle.clear(), block.rows = block.weights = 0;
     for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, count_); ++i)
       find_weights(position[i], smoothing_length[i], scratch, block);
   });
@@ -113,24 +136,34 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   for (int axis = 0; axis < 3; ++axis)
     scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
   const Scratch::Along &along_x = scratch.along[0], &along_y = scratch.along[1], &along_z = scratch.along[2];
-  const std::size_t columns = along_x.cell.size(), rows = along_y.cell.size();
+  scratch.along[0].sort();
+  const std::size_t columns = (along_x.cell.size() + row_lanes - 1) / row_lanes * row_lanes, rows = along_y.cell.size();
   scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
-  scratch.weight.resize(along_x.square.size());
-  double *sum = scratch.sum.data(), *weight = scratch.weight.data();
+  double* sum = scratch.sum.data();
   const auto add_weights = [&](bool beside_wall) {
+    if (!beside_wall && along_x.is_plain)
+      return weigh_rows({.columns = columns,
+                         .square_x = along_x.square.data(),
+                         .many_y = along_y.slot.size(),
+                         .many_z = along_z.slot.size(),
+                         .square_y = along_y.square.data(),
+                         .square_z = along_z.square.data(),
+                         .row_y = along_y.slot.data(),
+                         .row_z = along_z.slot.data(),
+                         .square = reach * reach,
+                         .per_width = per_width},
+                        rows, sum);
     if (beside_wall) find_seen(x, scratch);
     for (std::size_t k = 0; k < along_z.slot.size(); ++k)
       for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
         const double beside = along_y.square[j] + along_z.square[k];
         if (beside >= reach * reach) continue;
-        weigh_row(along_x.square.size(), along_x.square.data(), beside, per_width, weight);
-        if (beside_wall) {
-          const Scratch::Seen* seen = scratch.seen.data() + k * along_x.slot.size();
-          for (std::size_t i = 0; i < along_x.slot.size(); ++i)
-            if (seen[i]) sum[seen[i]->x + columns * (along_y.slot[j] + rows * seen[i]->z)] += weight[i];
-        } else {
-          double* row = sum + columns * (along_y.slot[j] + rows * along_z.slot[k]);
-          for (std::size_t i = 0; i < along_x.slot.size(); ++i) row[along_x.slot[i]] += weight[i];
+        const Scratch::Seen* seen = beside_wall ? scratch.seen.data() + k * along_x.slot.size() : nullptr;
+        for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
+          if (seen && !seen[i]) continue;
+          const std::size_t column = seen ? seen[i]->x : along_x.slot[i], row = seen ? seen[i]->z : along_z.slot[k];
+          sum[column + columns * (along_y.slot[j] + rows * row)] +=
+              sph::cubic_spline_of(std::sqrt(beside + along_x.square[i]) * per_width, per_width);
         }
       }
   };
@@ -140,24 +173,24 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   if (beside_wall && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
     add_weights(false);
 
-  const std::size_t begin = block.end.empty() ? 0 : block.end.back(), most = begin + scratch.sum.size();
-  if (block.cell.size() < most) block.cell.resize(2 * most), block.weight.resize(2 * most);
-  std::uint32_t* cell = block.cell.data();
-  double *kept = block.weight.data(), total = 0;
-  std::size_t end = begin;
+  if (block.first.size() < block.rows + rows * along_z.cell.size())
+    block.first.resize(2 * (block.rows + rows * along_z.cell.size()));
+  if (block.weight.size() < block.weights + scratch.sum.size())
+    block.weight.resize(2 * (block.weights + scratch.sum.size()));
+  const bool loses = along_x.cell.back() == Scratch::Along::left;
+  double total = 0;
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
-    for (std::size_t j = 0; j < along_y.cell.size(); ++j) {
-      const double* row = sum + columns * (j + rows * k);
-      const bool row_has_left = along_y.cell[j] == Scratch::Along::left || along_z.cell[k] == Scratch::Along::left;
-      const auto first = static_cast<std::uint32_t>(grid_.index(0, along_y.cell[j], along_z.cell[k]));
-      for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
-        cell[end] = first + static_cast<std::uint32_t>(along_x.cell[i]);
-        kept[end] = row[i], total += row[i];
-        end += row[i] > 0 && !row_has_left && along_x.cell[i] != Scratch::Along::left;
-      }
+    for (std::size_t j = 0; j < rows; ++j) {
+      float* kept = block.weight.data() + block.weights;
+      const double of_row = round_row(columns, sum + columns * (j + rows * k), kept);
+      total += of_row;
+      if (!(of_row > 0) || along_y.cell[j] == Scratch::Along::left || along_z.cell[k] == Scratch::Along::left) continue;
+      if (loses) kept[along_x.cell.size() - 1] = 0;
+      block.first[block.rows++] =
+          static_cast<std::uint32_t>(grid_.index(along_x.cell.front(), along_y.cell[j], along_z.cell[k]));
+      block.weights += columns;
     }
-  for (std::size_t n = begin; n < end; ++n) kept[n] /= total;
-  block.end.push_back(end);
+  block.particle.push_back({.rows = block.rows, .columns = columns, .per_total = 1 / total});
 }
 
 /// For each cell within reach, that which has its share: where the line to its centre ends, turned at walls and faces.
@@ -177,42 +210,49 @@ void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
     }
 }
 
-/// Calls body(particle, begin, end) with the range of each particle's cells.
+/// Calls body(particle, what it has, rows, cells of its rows, their weights).
 template <class Body>
 void Deposition::for_each_particle(const Block& block, std::size_t first, Body&& body) const {
-  std::size_t begin = 0;
-  for (std::size_t n = 0; n < block.end.size(); begin = block.end[n++]) body(first + n, begin, block.end[n]);
+  std::size_t row = 0, weight = 0;
+  for (std::size_t n = 0; n < block.particle.size(); ++n) {
+    const Particle& particle = block.particle[n];
+    const std::size_t rows = particle.rows - row;
+    body(first + n, particle, rows, block.first.data() + row, block.weight.data() + weight);
+    row = particle.rows, weight += rows * particle.columns;
+  }
 }
 
 void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
                          FaceField& flux) const {
-  // Cells are shared by particles of several blocks, so the four sums are the tasks; each adds the particles in order.
+  // Cells are shared by particles of several blocks, so pairs of the four sums are the tasks; each adds the particles
+  // in order.
   const double share = solid_volume / grid_.volume();
-  team.run(4, [&](std::size_t task) {
-    CellField& sum = task == 3 ? fraction : flux[task];
-    std::fill(sum.begin(), sum.end(), 0.0);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const Block& block = blocks_[b];
-      for_each_particle(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {
-        const double amount = task == 3 ? share : share * velocity[i][static_cast<int>(task)];
-        for (std::size_t n = begin; n < end; ++n) sum[block.cell[n]] += amount * block.weight[n];
-      });
-    }
+  team.run(2, [&](std::size_t task) {
+    CellField &one = task == 0 ? fraction : flux[1], &two = task == 0 ? flux[0] : flux[2];
+    std::fill(one.begin(), one.end(), 0.0), std::fill(two.begin(), two.end(), 0.0);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      for_each_particle(blocks_[b], b * block_size,
+                        [&](std::size_t i, const Particle& particle, std::size_t rows, const std::uint32_t* first,
+                            const float* weight) {
+                          const double amount = share * particle.per_total;
+                          const Vector3& v = velocity[i];
+                          add_rows(rows, particle.columns, first, weight, task == 0 ? amount : amount * v.y,
+                                   amount * (task == 0 ? v.x : v.z), one.data(), two.data());
+                        });
   });
 }
 
 void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
                             std::span<Vector3> received) const {
+  const auto& [x, y, z] = per_solid_volume;
   team.run(blocks_.size(), [&](std::size_t b) {
-    const Block& block = blocks_[b];
-    for_each_particle(block, b * block_size, [&](std::size_t i, std::size_t begin, std::size_t end) {
-      Vector3 sum;
-      for (std::size_t n = begin; n < end; ++n) {
-        const std::size_t c = block.cell[n];
-        sum += block.weight[n] * Vector3{per_solid_volume[0][c], per_solid_volume[1][c], per_solid_volume[2][c]};
-      }
-      received[i] = solid_volume * sum;
-    });
+    for_each_particle(blocks_[b], b * block_size,
+                      [&](std::size_t i, const Particle& particle, std::size_t rows, const std::uint32_t* first,
+                          const float* weight) {
+                        const Vector3 sum =
+                            sum_rows(rows, particle.columns, first, weight, x.data(), y.data(), z.data());
+                        received[i] = solid_volume * particle.per_total * sum;
+                      });
   });
 }
 

@@ -3,11 +3,12 @@
 /// SPH kernel, and interpolation from cells with the same weights ("averaged in an air cell", Yuu & Umekage 2011).
 ///
 /// The weights of a particle are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
-/// round-off. Contributions beyond a face of the box or a wall are folded back, as those of the image of the particle,
-/// so that the packing next to a wall is not underestimated; those beyond a periodic face enter at the opposite one.
-/// Contributions beyond an open face are lost, so that the weights of a leaving particle vanish continuously and a
-/// stream is as dense at the face as inside. Behind a wall that is not aligned with the cells there are no cells for
-/// the images: their contributions go to the visible cells.
+/// round-off. The kernel is rounded to single precision, the sum is not. Contributions beyond a face of the box or a
+/// wall are folded back, as those of the image of the particle, so that the packing next to a wall is not
+/// underestimated; those beyond a periodic face enter at the opposite one. Contributions beyond an open face are lost,
+/// so that the weights of a leaving particle vanish continuously and a stream is as dense at the face as inside. Behind
+/// a wall that is not aligned with the cells there are no cells for the images: their contributions go to the visible
+/// cells.
 #pragma once
 
 #include <array>
@@ -43,10 +44,16 @@ class Deposition {
 
  private:
   static constexpr std::size_t block_size = 64;
+  struct Particle {
+    std::size_t rows = 0;     // of cells along x, those before it in the block included
+    std::size_t columns = 0;  // of each row: a whole number of vectors
+    double per_total = 0;     // of its weights, those of cells beyond open faces included
+  };
   struct Block {
-    std::vector<std::size_t> end;     // of each particle's cells
-    std::vector<std::uint32_t> cell;  // longer than needed
-    std::vector<double> weight;
+    std::vector<Particle> particle;
+    std::vector<std::uint32_t> first;  // cell of each row
+    std::vector<float> weight;         // of its cells, not normalised; 0 beyond reach
+    std::size_t rows = 0, weights = 0;
   };
   struct Scratch;
   void find_weights(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/exponential.hpp"
+
 namespace talus::coupling {
 
 enum class DragLaw : std::uint8_t {
@@ -75,10 +77,12 @@ struct SlipDecay {
   double mean;   ///< of the decay over dt: (1 - exp(-dt/T)) T/dt
 };
 /// \param steps dt/T >= 0
-inline SlipDecay slip_decay(double steps) {
-  // expm1 is slow, and more accurate only for small steps.
-  const double lost = steps < 0.5 ? -std::expm1(-steps) : 1 - std::exp(-steps);
-  return {1 - lost, steps > 0 ? lost / steps : 1};
+TALUS_INLINE SlipDecay slip_decay(double steps) {
+  // 1 - exp(-steps) is inaccurate for small steps; mean_of_short_decay() holds only for those.
+  const bool is_short = steps < 0.5;
+  const double mean_of_short = mean_of_short_decay(is_short ? steps : 0), decay_of_long = exp_of_negative(steps);
+  const double decay = is_short ? 1 - steps * mean_of_short : decay_of_long;
+  return {decay, is_short ? mean_of_short : (1 - decay_of_long) / (is_short ? 1 : steps)};
 }
 
 /// Velocity of the air after dt with drag alone, u_p + decay (u - u_p), m/s.

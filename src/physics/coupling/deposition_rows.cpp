@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/coupling/deposition_rows.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include "base/clones.hpp"
+#include "base/registers.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+
+namespace talus::coupling {
+
+namespace {
+
+// The numbers of a row that are computed together.
+using Doubles [[gnu::vector_size(row_lanes * sizeof(double))]] = double;
+using Floats [[gnu::vector_size(row_lanes * sizeof(float))]] = float;
+
+template <class Vector, class Number>
+TALUS_INLINE void load(const Number* from, Vector& x) {
+  std::memcpy(&x, from, sizeof(Vector));
+}
+
+template <class Vector, class Number>
+TALUS_INLINE void store(const Vector& x, Number* to) {
+  std::memcpy(to, &x, sizeof(Vector));
+}
+
+template <class Row>
+TALUS_INLINE double total_of(const Row& s) {
+  return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+}
+
+}  // namespace
+
+TALUS_CLONES void weigh_rows(const Reach& given, std::size_t rows_y, double* __restrict sum) {
+  const Reach r = given;
+  for (std::size_t k = 0; k < r.many_z; ++k)
+    for (std::size_t j = 0; j < r.many_y; ++j) {
+      const double beside = r.square_y[j] + r.square_z[k];
+      if (beside >= r.square) continue;
+      double* row = sum + r.columns * (r.row_y[j] + rows_y * r.row_z[k]);
+      for (std::size_t i = 0; i < r.columns; i += row_lanes)
+        for (std::size_t l = 0; l < row_lanes; ++l)
+          row[i + l] += sph::cubic_spline_of(std::sqrt(beside + r.square_x[i + l]) * r.per_width, r.per_width);
+    }
+}
+
+TALUS_CLONES double round_row(std::size_t columns, const double* row, float* __restrict kept) {
+  double sum[row_lanes] = {};
+  for (std::size_t i = 0; i < columns; i += row_lanes)
+    for (std::size_t l = 0; l < row_lanes; ++l) {
+      kept[i + l] = static_cast<float>(row[i + l]);
+      sum[l] += static_cast<double>(kept[i + l]);
+    }
+  return total_of(sum);
+}
+
+TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
+                           double amount, double other_amount, double* __restrict field, double* __restrict other) {
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t i = first[r]; i < first[r] + columns; i += row_lanes, weight += row_lanes) {
+      Floats kept;
+      Doubles one, two;
+      load(weight, kept), load(field + i, one), load(other + i, two);
+      const Doubles share = __builtin_convertvector(kept, Doubles);
+      one += amount * share, two += other_amount * share;
+      store(one, field + i), store(two, other + i);
+    }
+}
+
+TALUS_CLONES Vector3 sum_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
+                              const double* x, const double* y, const double* z) {
+  Doubles sum_x{}, sum_y{}, sum_z{};
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t i = first[r]; i < first[r] + columns; i += row_lanes, weight += row_lanes) {
+      Floats kept;
+      Doubles u, v, w;
+      load(weight, kept), load(x + i, u), load(y + i, v), load(z + i, w);
+      const Doubles share = __builtin_convertvector(kept, Doubles);
+      sum_x += share * u, sum_y += share * v, sum_z += share * w;
+    }
+  return {total_of(sum_x), total_of(sum_y), total_of(sum_z)};
+}
+
+}  // namespace talus::coupling
