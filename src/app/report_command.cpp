@@ -33,8 +33,10 @@ ExitStatus report(const ReportOptions& options) {
   }
   std::vector<std::string> names;
   for (const ReportEntry& entry : request.runs) names.push_back(entry.name);
-  request.title = fmt::format("{}", fmt::join(names, ", "));
   const bool one = options.folders.size() == 1;
+  request.title = request.runs.size() == 1 && request.runs.front().members == 1
+                      ? title_of_run(request.runs.front().folder)
+                      : fmt::format("{}", fmt::join(names, ", "));
   const std::filesystem::path path = !options.out.empty() ? std::filesystem::path(options.out)
                                      : one ? options.folders.front() / std::filesystem::path("report.html")
                                            : std::filesystem::path("report.html");

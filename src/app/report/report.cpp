@@ -175,15 +175,17 @@ ReportEntry entry_of_run(const std::filesystem::path& folder) {
 }
 
 void write_run_report(const std::filesystem::path& folder) {
-  const ReportEntry entry = entry_of_run(folder);
-  const auto keys = resolved_values(read_manifest(RunFolder(folder).manifest()).case_text);
-  const auto title = keys.find("title");
   write_report(
-      {.title = title == keys.end() || title->second.size() < 3 ? entry.name
-                                                                : title->second.substr(1, title->second.size() - 2),
-       .runs = {entry},
-       .comparisons = published_comparisons(folder)},
+      {.title = title_of_run(folder), .runs = {entry_of_run(folder)}, .comparisons = published_comparisons(folder)},
       RunFolder(folder).report());
+}
+
+std::string title_of_run(const std::filesystem::path& folder) {
+  const RunFolder run(folder);
+  const CaseFile resolved = CaseFile::from_text(read_manifest(run.manifest()).case_text, run.manifest().string());
+  const CaseEntry* const title = resolved.find("title");
+  const auto* const text = title ? std::get_if<std::string>(&title->value.value) : nullptr;
+  return text && !text->empty() ? *text : entry_of_run(folder).name;
 }
 
 std::vector<std::string> published_comparisons(const std::filesystem::path& folder) {

@@ -92,7 +92,8 @@ void write_report(const std::filesystem::path& path, const ReportContent& conten
   rest = copy_until("<!--talus:pictures-->", rest, out);
   for (const std::filesystem::path& picture : content.pictures)
     out += fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
+        "<figure><img loading=\"lazy\" alt=\"{0}\" "
+        "src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
         escaped(picture.stem().string()), base64(read_whole_file(picture)));
   rest = copy_until("<!--talus:data-->", rest, out);
   out +=

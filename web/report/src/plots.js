@@ -99,7 +99,7 @@ export class Plots {
     if (!curve || this.shown.has(key)) return this.shown.get(key);
     const style = this.style();
     const tables = [];
-    const series = [{}];
+    const series = [{ label: "time", value: (_, v) => number(v) }];
     const bands = [];
     const alone = header.runs.length === 1;
     for (const part of curve.of) {
@@ -162,6 +162,7 @@ export class Plots {
               u.ctx.strokeStyle = this.style().cursor;
               u.ctx.globalAlpha = 0.55;
               u.ctx.lineWidth = devicePixelRatio;
+              u.ctx.setLineDash([]);
               u.ctx.beginPath();
               u.ctx.moveTo(x, u.bbox.top);
               u.ctx.lineTo(x, u.bbox.top + u.bbox.height);
@@ -194,7 +195,12 @@ export class Plots {
   }
 
   /** Draws all again, in the colours that hold now. */
-  async redraw() {
+  redraw() {
+    this.drawing = (this.drawing ?? Promise.resolve()).then(() => this.drawAnew());
+    return this.drawing;
+  }
+
+  async drawAnew() {
     const keys = [...this.shown.keys()];
     for (const { chart, figure } of this.shown.values()) {
       chart.destroy();
