@@ -12,6 +12,7 @@
 #include "app/comparison/found_runs.hpp"
 #include "app/comparison/project.hpp"
 #include "app/models/models.hpp"
+#include "app/models/symbols.hpp"
 #include "app/report/curves.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
@@ -105,6 +106,8 @@ Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& 
     run["regime"].push_back(
         {{"quantity", line.quantity}, {"value", line.value}, {"meaning", line.meaning}, {"warning", line.warning}});
   run["quantities"] = quantities_of(entry, summary);
+  if (model.name == "continuum") run["symbols"] = symbols_of_hopper_measures;
+  if (model.name == "cloud") run["symbols"] = symbols_of_avalanche_measures;
   run["scene"] = json_of(model.scene(resolved));
   if (with_particles) run["frames"] = pack_run(entry.folder, origin, limits, blocks);
   if (entry.bands.empty()) {

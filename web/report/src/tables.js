@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is read: summary, regime cards, published numbers, cases.
 import { header } from "./data.js";
-import { element, name, number, quantity, unit } from "./text.js";
+import { element, markdown, name, number, quantity, unit } from "./text.js";
 
 const { runs, definitions } = header;
 
@@ -9,7 +9,7 @@ function table(head, rows, className = "") {
   return element(
     "div",
     { className: "wide" },
-    element("table", { className }, element("thead", {}, element("tr", {}, ...head.map((cell) => element("th", { scope: "col" }, cell)))), element("tbody", {}, ...rows)),
+    element("table", { className }, element("thead", {}, element("tr", {}, ...head.map((cell) => (cell instanceof Node ? cell : element("th", { scope: "col" }, cell))))), element("tbody", {}, ...rows)),
   );
 }
 
@@ -17,6 +17,7 @@ function row(...cells) {
   return element("tr", {}, ...cells.map((cell) => (cell instanceof HTMLTableCellElement ? cell : element("td", {}, cell))));
 }
 
+const numericHead = (text) => element("th", { scope: "col", className: "number" }, text);
 const numeric = (...content) => element("td", { className: "number" }, ...content);
 
 /** One value, or mean ± standard deviation of members. */
@@ -39,11 +40,12 @@ export function drawSummary(place) {
       const found = run.quantities.find((q) => q.name === quantityName);
       return numeric(found ? spread(found.values, found.unit) : "–");
     });
-    return row(element("th", { scope: "row" }, name(quantityName)), ...values, element("td", { className: "meaning" }, definitions[quantityName] ?? ""));
+    return row(element("th", { scope: "row" }, name(quantityName)), ...values, element("td", { className: "meaning" }, ...markdown(definitions[quantityName] ?? "")));
   });
   place.append(
-    table(["Quantity", ...runs.map((run) => (runs.length > 1 || run.members > 1 ? run.name : "Value")), "Meaning"], rows),
+    table(["Quantity", ...runs.map((run) => numericHead(runs.length > 1 || run.members > 1 ? run.name : "Value")), "Meaning"], rows),
     element("p", { className: "quiet" }, runs.some((run) => run.members > 1) ? "Ensembles: mean ± standard deviation of the members." : ""),
+    ...[...new Set(runs.map((run) => run.symbols).filter(Boolean))].map((symbols) => element("p", { className: "quiet symbols" }, ...markdown(symbols))),
   );
 }
 
@@ -61,7 +63,7 @@ export function drawRegime(place) {
       if (line.warning) made.className = "outside";
       return made;
     });
-    place.append(table(["Group", "Value", "Meaning"], rows));
+    place.append(table(["Group", numericHead("Value"), "Meaning"], rows));
   }
 }
 
@@ -82,16 +84,16 @@ export function drawPublished(section, place) {
     const rows = evaluated.map((r) => {
       const values = r.values.map((v, n) => (v === null ? null : `${r.values.length > 1 ? `${r.variants[n] ?? ""}: ` : ""}${quantity(v, r.unit)}`)).filter(Boolean);
       const made = row(
-        numeric(r.number === undefined ? "" : String(r.number)),
+        numeric(r.number ? String(r.number) : ""),
         element("th", { scope: "row" }, name(r.quantity), r.statistic && r.statistic !== "mean" ? element("span", { className: "quiet" }, `, ${r.statistic}`) : null),
-        element("td", { className: "meaning" }, r.printed || "", element("span", { className: "quiet" }, ` ${r.source || ""}`)),
-        r.criterion === "reported" ? "" : `${r.criterion} ${unit(r.unit)}`,
+        element("td", { className: "meaning" }, r.printed === "-" ? "" : r.printed || "", element("span", { className: "source" }, r.source ? ` [${r.source}]` : "")),
+        r.criterion === "reported" ? "" : `${r.criterion}${unit(r.unit) === "°" ? "" : " "}${unit(r.unit)}`.replace(/(^|\s)-(?=\d)/g, "$1−"),
         numeric(values.join(", ")),
         element("td", { className: `verdict ${r.verdict.replace(" ", "-")}` }, { met: "✓ met", "not met": "✗ not met" }[r.verdict] ?? r.verdict),
       );
       return made;
     });
-    place.append(table(["Row", "Quantity", "The paper", "Met if", "Here", ""], rows));
+    place.append(table([numericHead("Row"), "Quantity", "The paper", "Met if", numericHead("Here"), ""], rows));
   }
 }
 

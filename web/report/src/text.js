@@ -41,6 +41,14 @@ export function name(text) {
   return text.replaceAll("_", " ");
 }
 
+/** `code` and *stress* of one paragraph, as nodes. */
+export function markdown(text) {
+  return text
+    .replaceAll("\n", " ")
+    .split(/(`[^`]+`|\*[^*]+\*)/)
+    .map((part) => (/^[`*]/.test(part) ? element(part[0] === "`" ? "code" : "em", {}, part.slice(1, -1)) : part));
+}
+
 /** What a column of a table is: "force_floor_z" has no definition of its own. */
 export function meaning(definitions, column) {
   if (definitions[column]) return definitions[column];

@@ -19,7 +19,7 @@ const vertexShader = `
   void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(low + code.xyz * step - centre, 1.0);
     if (code.x > 65534.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    gl_PointSize = max(2.0 * radius * pixels, 1.5);
+    gl_PointSize = max(2.0 * radius * pixels, 2.5);
     place = code.w > none - 0.5 ? -1.0 : clamp((field.x + code.w * field.y - range.x) / (range.y - range.x), 0.0, 1.0);
   }`;
 
@@ -277,6 +277,7 @@ export class Viewer {
     const longest = this.panels.reduce((a, b) => (b.frames.time.length > a.frames.time.length ? b : a));
     this.times = longest.frames.time;
     document.documentElement.classList.toggle("beside", this.aspect() < 1.1);
+    if (this.aspect() > 2) this.canvas.parentElement.style.height = `${Math.max(360, 100 + this.canvas.clientWidth / this.aspect())}px`;
     this.resize();
     this.look(this.runs[0].scene.view);
   }
