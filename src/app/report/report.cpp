@@ -198,15 +198,14 @@ std::vector<std::string> published_comparisons(const std::filesystem::path& fold
     const auto project = find_project(file);
     if (!project) continue;
     const Reference reference = read_reference((*project / file).string());
-    std::vector<FoundEnsemble> found;
     try {
-      found = find_ensembles(folder, reference);
-    } catch (const InputError&) {  // no run of this paper's cases
+      const std::vector<FoundEnsemble> found = find_ensembles(folder, reference);
+      const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
+      if (count(rows, Verdict::not_evaluated) < rows.size())
+        comparisons.push_back(to_json(reference, rows, found, folder));
+    } catch (const InputError&) {  // no run of this paper's cases, or one too short for its rows
       continue;
     }
-    const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
-    if (count(rows, Verdict::not_evaluated) < rows.size())
-      comparisons.push_back(to_json(reference, rows, found, folder));
   }
   return comparisons;
 }

@@ -179,6 +179,7 @@ export class Plots {
       chart.over.addEventListener("click", () => {
         if (chart.select.width < 2 && chart.cursor.left >= 0) this.onTime(chart.posToVal(chart.cursor.left, "x"));
       });
+    chart.root.querySelectorAll(".u-legend .u-series").forEach((row, n) => (row.hidden = series[n].stroke === "transparent"));
     const plot = { chart, figure, body };
     this.shown.set(key, plot);
     close.addEventListener("click", () => {

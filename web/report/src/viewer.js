@@ -336,7 +336,7 @@ export class Viewer {
     let best = { size: 0 };
     for (let columns = 1; columns <= count; ++columns) {
       const rows = Math.ceil(count / columns);
-      const size = Math.min(this.width / columns / (2.1 * width), (this.height / rows - 26) / (2.08 * height));
+      const size = Math.min(this.width / columns / (2.1 * width), (this.height / rows - 58) / (2.08 * height));
       if (size > best.size) best = { size, columns, rows };
     }
     this.layout = best;
