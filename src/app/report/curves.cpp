@@ -7,6 +7,7 @@
 
 #include "analysis/discharge.hpp"
 #include "analysis/wall_loads.hpp"
+#include "io/file_list.hpp"
 #include "io/report/packed.hpp"
 #include "io/series.hpp"
 
@@ -75,6 +76,18 @@ Series forces_on_walls(const Series& series) {
   return forces;
 }
 
+std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder, const std::string& part,
+                                                const std::string& ending) {
+  std::vector<std::filesystem::path> paths;
+  if (!std::filesystem::exists(folder / part)) return paths;
+  const std::optional<FileList> list = FileList::read(folder);
+  for (const auto& entry : std::filesystem::directory_iterator(folder / part))
+    if (entry.path().extension() == ending && (!list || list->holds(part + "/" + entry.path().filename().string())))
+      paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
 nlohmann::ordered_json pack_table(const std::string& name, const Series& table, double origin,
                                   std::vector<std::string>& blocks) {
   Series thin = thinned(table, most_rows);
@@ -93,12 +106,7 @@ nlohmann::ordered_json pack_table(const std::string& name, const Series& table, 
 nlohmann::ordered_json pack_tables(const std::filesystem::path& folder, const Series& series, double origin,
                                    std::vector<std::string>& blocks) {
   auto tables = nlohmann::ordered_json::array();
-  std::vector<std::filesystem::path> paths;
-  if (std::filesystem::exists(folder / "analysis"))
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "analysis"))
-      if (entry.path().extension() == ".csv") paths.push_back(entry.path());
-  std::sort(paths.begin(), paths.end());
-  for (const auto& path : paths)
+  for (const auto& path : files_of_run(folder, "analysis", ".csv"))
     if (const Series table = read_series(path); table.rows() > 0 && table.names.front() == "time")
       tables.push_back(pack_table(path.stem().string(), table, 0, blocks));
   if (const Series forces = forces_on_walls(series); forces.rows() > 0)

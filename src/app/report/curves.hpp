@@ -20,6 +20,11 @@ Series thinned(const Series& table, std::size_t most);
 /// force_WALL_x ..., N. No columns where there are no walls.
 Series forces_on_walls(const Series& series);
 
+/// The files of a part of a run's folder with this ending, such as "analysis" and ".csv", sorted; where the folder
+/// keeps a list of what Talus wrote, of those in it. \throws FileError
+std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder, const std::string& part,
+                                                const std::string& ending);
+
 /// Appends the columns as blocks of numbers and describes them, those without a number left out:
 /// {"name", "rows", "of_rows", "columns": [{"name", "unit", "block"}...]}, the time first.
 /// \param origin from which the time counts, in its unit

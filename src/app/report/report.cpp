@@ -140,13 +140,9 @@ Json definitions_of(const Json& runs) {
 
 /// Those of the first run, as many as there is room for.
 std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> found, kept;
-  if (std::filesystem::exists(folder / "pictures"))
-    for (const auto& entry : std::filesystem::directory_iterator(folder / "pictures"))
-      if (entry.path().extension() == ".png") found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
+  std::vector<std::filesystem::path> kept;
   std::uintmax_t bytes = 0;
-  for (const auto& path : found)
+  for (const auto& path : files_of_run(folder, "pictures", ".png"))
     if (bytes + std::filesystem::file_size(path) <= most_bytes_of_pictures) {
       bytes += std::filesystem::file_size(path);
       kept.push_back(path);
