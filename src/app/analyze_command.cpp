@@ -10,12 +10,14 @@
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
 #include "app/points/measures.hpp"
+#include "app/report/report.hpp"
 #include "base/nearest.hpp"
 #include "base/terminal.hpp"
 #include "base/unit.hpp"
 #include "io/case_file.hpp"
 #include "io/manifest.hpp"
 #include "io/points_csv.hpp"
+#include "io/report/page.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 #include "io/vtkhdf.hpp"
@@ -93,6 +95,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   });
   summary.quantities.insert(summary.quantities.begin(), quantities.begin(), quantities.end());
   write_summary(folder.summary(), summary);
+  if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(folder.path());
   const Measured measured{.quantities = quantities, .columns = {}, .rows = {}};
   print("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
   return ExitStatus::done;

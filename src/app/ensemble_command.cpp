@@ -10,11 +10,14 @@
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/ensemble/plan.hpp"
+#include "app/ensemble/report_entries.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "app/ensemble/statistics.hpp"
 #include "app/ensemble/sweep.hpp"
+#include "app/report/report.hpp"
 #include "base/terminal.hpp"
 #include "io/file_list.hpp"
+#include "io/report/page.hpp"
 #include "run/interrupt.hpp"
 
 namespace talus::app {
@@ -37,6 +40,9 @@ ExitStatus ensemble(const EnsembleRequest& request) {
     pictures.insert(pictures.end(), drawn.begin(), drawn.end());
     groups.push_back({&group, quantity_spreads(group)});
   }
+  if (has_report_page())
+    write_report({.title = request.folder.stem().string(), .runs = entries_of(plan.groups), .comparisons = {}},
+                 request.folder / "report.html");
   print("{}", sweep_text(groups));
   if (!request.vary.empty()) write_sweep(groups, request.folder);
   for (const FailedRun& failed : result.failed)

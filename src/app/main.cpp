@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
   talus::app::add_analyze_command(app, action);
   talus::app::add_law_command(app, action);
   talus::app::add_reproduce_command(app, action);
+  talus::app::add_report_command(app, action);
   talus::app::add_schema_command(app, action);
 
   auto fail = [](ExitStatus status, const std::string& message) {

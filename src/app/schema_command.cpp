@@ -10,6 +10,7 @@
 #include "analysis/measure.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
+#include "app/models/symbols.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_schema.hpp"
 
@@ -53,21 +54,8 @@ std::string page_of_quantities() {
     page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}\n### In comparisons\n\n{3}", title, symbols,
                         table_of(measures, true), table_of(measures, false));
   };
-  add("Grains in a vessel: continuum",
-      "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass\nof all "
-      "particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The\n*hopper* is what "
-      "is above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is\nbelow it; without an outlet the "
-      "box is a bin. Q is the mass that passes the outlet's plane per\ntime, of particles smoothed along z by the "
-      "kernel. *While it flows*: from when a tenth of the mass\nthat passes the outlet in total has passed until half "
-      "of it has, or half-way between the two; where\nnothing passes, half of the run. Packing is the kernel sum, "
-      "including images behind the walls; a\nvalue at a place is interpolated by the kernel to the centre of the 1.25 "
-      "mm cell that contains it.",
-      texts_of_hopper_measures());
-  add("Avalanches and falling clouds: cloud",
-      "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"
-      "points down the slope, y to its left, z away from it. `head_aspect_ratio` is the mean over the\n"
-      "second half of a run.",
-      texts_of_avalanche_measures());
+  add("Grains in a vessel: continuum", symbols_of_hopper_measures, texts_of_hopper_measures());
+  add("Avalanches and falling clouds: cloud", symbols_of_avalanche_measures, texts_of_avalanche_measures());
   return page;
 }
 

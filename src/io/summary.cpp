@@ -41,10 +41,15 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
       entry["reason"] = std::isnan(quantity.value) ? not_a_number : quantity.value > 0 ? infinite : minus_infinity;
     quantities[quantity.name] = std::move(entry);
   }
+  Json regime = Json::array();
+  for (const RegimeLine& line : summary.regime)
+    regime.push_back(
+        {{"quantity", line.quantity}, {"value", line.value}, {"meaning", line.meaning}, {"warning", line.warning}});
   write_json(path, {{"status", summary.status},
                     {"wall_seconds", summary.wall_seconds},
                     {"instruction_set", summary.instruction_set},
                     {"warnings", summary.warnings},
+                    {"regime", regime},
                     {"quantities", quantities}});
 }
 
@@ -54,10 +59,14 @@ Summary read_summary(const std::filesystem::path& path) {
                     .wall_seconds = json.at("wall_seconds"),
                     .instruction_set = json.value("instruction_set", ""),
                     .quantities = {},
-                    .warnings = {}};
+                    .warnings = {},
+                    .regime = {}};
     for (const auto& [name, entry] : json.at("quantities").items())
       summary.quantities.push_back({name, entry.at("unit"), value_of(entry)});
     summary.warnings = json.value("warnings", std::vector<std::string>());
+    for (const Json& line : json.value("regime", Json::array()))
+      summary.regime.push_back(
+          {line.at("quantity"), line.at("value"), line.at("meaning"), line.at("warning").get<bool>()});
     return summary;
   });
 }

@@ -15,6 +15,7 @@ struct RunParameters {
   double snapshots = 0;
   double series = 0;
   bool pictures = true;
+  bool report = true;
   double checkpoint_interval = 30;
 };
 
@@ -34,6 +35,7 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "per step"},
         p.series);
   visit(Parameter{"output.pictures", {}, {}, "whether pictures are drawn at the end"}, p.pictures);
+  visit(Parameter{"output.report", {}, {}, "whether report.html is written at the end"}, p.report);
   visit(Parameter{"output.checkpoint_interval", dimension::time, above(0), "wall time between checkpoints"},
         p.checkpoint_interval);
 }

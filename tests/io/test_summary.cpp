@@ -26,10 +26,12 @@ TEST(Summary, StandsInTheDocumentedForm) {
                                           .wall_seconds = 1.5,
                                           .instruction_set = "avx2",
                                           .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}},
-                                          .warnings = {"mach-number: Mach number = 0.4: too fast"}});
+                                          .warnings = {"mach-number: Mach number = 0.4: too fast"},
+                                          .regime = {{"Mach number", "0.4", "too fast", true}}});
   EXPECT_EQ(nlohmann::json::parse(content_of(folder / "summary.json")), nlohmann::json::parse(R"({
     "status": "done", "wall_seconds": 1.5, "instruction_set": "avx2",
-    "warnings": ["mach-number: Mach number = 0.4: too fast"], "quantities": {
+    "warnings": ["mach-number: Mach number = 0.4: too fast"],
+    "regime": [{"quantity": "Mach number", "value": "0.4", "meaning": "too fast", "warning": true}], "quantities": {
       "front_speed_max": {"value": 0.1, "unit": "1"},
       "angle": {"value": null, "unit": "deg", "reason": "not a number"}}})"));
 }
@@ -39,10 +41,14 @@ TEST(Summary, ReadsBackEveryValueInOrder) {
   const std::vector<double> values{1.0 / 3, -0.0, 0x1.0p-1074, 1.7976931348623157e308, infinity, -infinity, NAN, 1e22};
   Summary written{
       .status = "stopped: \"walltime\"", .wall_seconds = 0.1, .instruction_set = "avx512", .warnings = {"a: b", "c"}};
+  written.regime = {{"a", "1", "b", true}, {"d", "2", "e", false}};
   for (std::size_t i = 0; i < values.size(); ++i)
     written.quantities.push_back({fmt::format("z{}", 10 - i), "m/s", values[i]});
   write_summary(folder / "summary.json", written);
   const Summary read = read_summary(folder / "summary.json");
+  ASSERT_EQ(read.regime.size(), 2);
+  EXPECT_EQ(read.regime[1].meaning, "e");
+  EXPECT_TRUE(read.regime[0].warning && !read.regime[1].warning);
   EXPECT_EQ(read.status, written.status);
   EXPECT_EQ(read.wall_seconds, 0.1);
   EXPECT_EQ(read.instruction_set, "avx512");

@@ -67,6 +67,17 @@ Problem too_large(const ModelParameters& p, double available) {
 
 }  // namespace
 
+Scene scene_of_air(const CaseFile& resolved) {
+  ParameterReader reader(resolved);
+  const auto& box = read_case<ModelParameters>(reader).model.box;
+  const Vector3 high{box.width, box.depth, box.height};
+  return {.walls = {{{0, 0, 0}, {high.x, 0, 0}},
+                    {{0, 0, high.z}, {high.x, 0, high.z}},
+                    {{0, 0, 0}, {0, 0, high.z}},
+                    {{high.x, 0, 0}, {high.x, 0, high.z}}},
+          .box = {{{0, 0, 0}, high}}};
+}
+
 std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std::filesystem::path& folder) {
   const Series series = read_series(RunFolder(folder).series());
   std::vector<NamedValue> quantities;

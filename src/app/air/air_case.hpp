@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/case/prepared_case.hpp"
+#include "app/case/scene.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {
@@ -14,6 +15,8 @@ namespace talus::app {
 PreparedCase prepare_air(const CaseFile& file);
 
 /// As ModelEntry (models.hpp) has it: the last row of the series.
+/// The box.
+Scene scene_of_air(const CaseFile& resolved);
 std::vector<NamedValue> analyse_air_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 }  // namespace talus::app

@@ -134,6 +134,15 @@ CloudStudy study_of(const CaseFile& file) {
   return {run.title, frame_of(p), cloud::scales(p).contact_ratio};
 }
 
+Scene scene_of_cloud(const CaseFile& resolved) {
+  const CloudFrame frame = study_of(resolved).frame;
+  const std::string_view view = !frame.has_slope                     ? "xz"
+                                : frame.motion == cloud::Motion::xy  ? "xy"
+                                : frame.motion == cloud::Motion::xyz ? "free"
+                                                                     : "xz";
+  return {.walls = {}, .box = {}, .slope = frame.has_slope, .radius = frame.scales.mean_radius, .view = view};
+}
+
 std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder) {
   return analyze_cloud(folder, study_of(resolved).frame);
 }

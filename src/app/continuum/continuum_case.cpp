@@ -120,6 +120,11 @@ HopperSetting hopper_setting_of(const CaseFile& resolved) {
   return hopper_setting(read_continuum(resolved).model);
 }
 
+Scene scene_of_continuum(const CaseFile& resolved) {
+  const Parameters p = read_continuum(resolved).model;
+  return scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
+}
+
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
   return analyze_continuum(folder, hopper_setting_of(resolved));
 }

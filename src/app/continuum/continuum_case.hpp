@@ -7,6 +7,7 @@
 
 #include "analysis/hopper.hpp"
 #include "app/case/prepared_case.hpp"
+#include "app/case/scene.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {
@@ -23,6 +24,8 @@ HopperSetting hopper_setting_of(const CaseFile& resolved);
 
 /// As ModelEntry (models.hpp) has them. \param resolved the manifest's case
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
+/// Box, walls and gates.
+Scene scene_of_continuum(const CaseFile& resolved);
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
 
 }  // namespace talus::app

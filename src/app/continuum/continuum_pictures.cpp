@@ -8,6 +8,7 @@
 
 #include "analysis/curve.hpp"
 #include "app/case/run_tables.hpp"
+#include "app/case/scene.hpp"
 #include "app/continuum/air_pictures.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
@@ -72,20 +73,8 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
   add(2, 0, {0, 0, 0}, {s.width, 0, 0});
   add(0, 0, {0, 0, 0}, {0, 0, top});
   add(0, 1, {s.width, 0, 0}, {s.width, 0, top});
-  for (const Wall& wall : setting.domain.walls()) {
-    double begin = 0;
-    const auto draw = [&](double end) {
-      if (end > begin)
-        lines.push_back({.from = wall.from() + begin * wall.direction(),
-                         .to = wall.from() + end * wall.direction(),
-                         .colour = colour});
-    };
-    for (const auto& opening : wall.openings()) {
-      draw(opening.begin);
-      begin = opening.end;
-    }
-    draw(wall.length());
-  }
+  for (const WallLine& line : wall_lines(setting.domain))
+    if (std::isinf(line.until)) lines.push_back({.from = line.from, .to = line.to, .colour = colour});
   return lines;
 }
 

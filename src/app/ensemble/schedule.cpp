@@ -32,7 +32,7 @@ std::filesystem::path output_of(const EnsembleMember& member) {
 
 run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
   run::Job job{.arguments = {run::own_program(), "run", run.case_path, "--out", run.member.folder.string(), "--threads",
-                             "1", "--set", "output.pictures=false"},
+                             "1", "--set", "output.pictures=false", "--set", "output.report=false"},
                .output = output};
   for (const std::string& setting : run.member.settings) {
     job.arguments.push_back("--set");

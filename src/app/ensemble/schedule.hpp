@@ -37,9 +37,8 @@ bool is_done(const EnsembleMember& member);
 /// Whether one of the runs has been begun in its folder.
 bool has_begun(const std::vector<ScheduledRun>& runs);
 
-/// Runs what is not done yet, `jobs` at a time, each on one thread and without pictures; a run that was interrupted is
-/// resumed. Shows one line of progress with an ETA for the whole.
-/// \throws FileError, InputError
+/// Runs what is not done yet, `jobs` at a time, each on one thread, without pictures and reports; a run that was
+/// interrupted is resumed. Shows one line of progress with an ETA for the whole. \throws FileError, InputError
 ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs);
 
 }  // namespace talus::app

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/case/prepared_case.hpp"
+#include "app/case/scene.hpp"
 #include "app/comparison/studied_runs.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
@@ -24,6 +25,8 @@ struct ModelEntry {
   std::vector<NamedValue> (*analyse)(const CaseFile& resolved, const std::filesystem::path& folder);
   /// Draws the pictures of a run and returns their paths, the most important one first. Null: none.
   std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder);
+  /// What stands around the particles, for a viewer.
+  Scene (*scene)(const CaseFile& resolved);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
   ParameterList (*parameters)();
   /// Reads runs that a reference is about. Null: no study is of this model. \throws FileError

@@ -6,14 +6,18 @@
 #include <algorithm>
 
 #include "app/comparison/evaluation.hpp"
+#include "app/comparison/project.hpp"
 #include "app/ensemble/plan.hpp"
+#include "app/ensemble/report_entries.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "app/models/models.hpp"
+#include "app/report/report.hpp"
 #include "app/reproduction/figures_script.hpp"
 #include "base/nearest.hpp"
 #include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
 #include "io/file_list.hpp"
+#include "io/report/page.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 
@@ -21,12 +25,10 @@ namespace talus::app {
 
 namespace {
 
-/// The folder with cases/ and validation/: here, or where the program was built.
+/// The folder with cases/ and validation/.
 std::filesystem::path project_folder(const std::string& study) {
-  const std::filesystem::path program = run::own_program();
-  for (const auto& candidate : {std::filesystem::path("."), program.parent_path().parent_path(),
-                                program.parent_path().parent_path() / "share" / "talus"})
-    if (std::filesystem::exists(candidate / "validation" / study / "reference.toml")) return candidate;
+  if (const auto project = find_project(std::filesystem::path("validation") / study / "reference.toml"))
+    return *project;
   throw FileError("validation/" + study + "/reference.toml",
                   "is neither here nor beside the program's build folder; run the command in the project's folder");
 }
@@ -63,9 +65,14 @@ void check_variants(const Reference& reference, const StudyRequest& request) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyRequest& request,
-                                   const std::filesystem::path& project, int members) {
+struct StudyRuns {
   std::vector<ScheduledRun> runs;
+  std::vector<EnsembleGroup> groups;  ///< a case and variant each
+};
+
+StudyRuns all_runs(const Reference& reference, const StudyRequest& request, const std::filesystem::path& project,
+                   int members) {
+  StudyRuns all;
   for (const ReferenceCase& c : reference.cases)
     for (const ReferenceCase::Variant& variant : c.variants) {
       if (!is_wanted(reference, request, variant.label)) continue;
@@ -79,10 +86,12 @@ std::vector<ScheduledRun> all_runs(const Reference& reference, const StudyReques
                                      .members = members,
                                      .folder = request.folder / folder_of(c.name, variant.label),
                                      .resume = request.resume};
-      const EnsemblePlan plan = plan_ensemble(ensemble);
-      for (EnsembleMember member : plan.groups.front().members) runs.push_back({ensemble.case_path, std::move(member)});
+      EnsembleGroup group = plan_ensemble(ensemble).groups.front();
+      group.name = c.name + ", " + variant.label;
+      for (const EnsembleMember& member : group.members) all.runs.push_back({ensemble.case_path, member});
+      all.groups.push_back(std::move(group));
     }
-  return runs;
+  return all;
 }
 
 /// The figures and the page, or a word on what they need. \returns false if the script failed
@@ -114,7 +123,7 @@ ExitStatus reproduce(const StudyRequest& request) {
       read_reference((project / "validation" / request.study / "reference.toml").lexically_normal().string());
   check_variants(reference, request);
   const int members = request.members ? request.members : request.quick ? reference.quick.members : reference.members;
-  const std::vector<ScheduledRun> runs = all_runs(reference, request, project, members);
+  const auto [runs, groups] = all_runs(reference, request, project, members);
   begin_output(request.folder, request.resume ? Existing::resume : Existing::refuse, "--resume", has_begun(runs));
   print("{}\n{} runs ({} members of each case and radius), {} at a time, in {}\n", reference.source, runs.size(),
         members, request.jobs, request.folder.string());
@@ -130,8 +139,12 @@ ExitStatus reproduce(const StudyRequest& request) {
   const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
   const std::string text = to_text(rows) + counts_text(rows) + "\n";
   write_atomically(request.folder / "comparison.txt", text);
-  write_atomically(request.folder / "comparison.json", to_json(reference, rows, found, request.folder));
+  const std::string json = to_json(reference, rows, found, request.folder);
+  write_atomically(request.folder / "comparison.json", json);
   print("{}", text);
+  if (has_report_page())
+    write_report({.title = reference.title, .runs = entries_of(groups), .comparisons = {json}},
+                 request.folder / "report.html");
 
   if (!draw_page(project, request)) return ExitStatus::files;
   if (!result.failed.empty()) return ExitStatus::numerical;

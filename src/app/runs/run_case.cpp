@@ -8,6 +8,7 @@
 #include <array>
 
 #include "app/models/models.hpp"
+#include "app/report/report.hpp"
 #include "app/runs/check_folder.hpp"
 #include "app/runs/run_log.hpp"
 #include "base/terminal.hpp"
@@ -15,6 +16,7 @@
 #include "io/checkpoint.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
+#include "io/report/page.hpp"
 #include "io/series.hpp"
 #include "io/summary.hpp"
 #include "numerics/warning.hpp"
@@ -26,8 +28,12 @@ namespace talus::app {
 namespace {
 
 // Not the choice of an instruction set counts but the set it resolves to: case_fingerprint.
-constexpr std::array<std::string_view, 5> not_in_fingerprint{
-    "run.end", "title", "output.pictures", "output.checkpoint_interval", "integration.instruction_set"};
+constexpr std::array<std::string_view, 6> not_in_fingerprint{"run.end",
+                                                             "title",
+                                                             "output.pictures",
+                                                             "output.report",
+                                                             "output.checkpoint_interval",
+                                                             "integration.instruction_set"};
 
 double peak_memory_bytes() {
   rusage usage{};
@@ -131,6 +137,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
   summary.warnings = texts_of(regime);
+  summary.regime = regime;
   for (const NamedValue& value : {NamedValue{"wall_seconds", "s", loop.wall_seconds},
                                   {"cpu_seconds", "s", loop.cpu_seconds},
                                   {"peak_memory", "B", peak_memory_bytes()},
@@ -148,6 +155,10 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
+  if (prepared.run.report && has_report_page())
+    write_run_report(folder.path());
+  else if (prepared.run.report)
+    log.write("no report.html: {}", without_report_page());
   print("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
         folder.path().string());
   if (!pictures.empty()) print("Picture: {}\n", pictures.front().string());

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/report/report.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/hopper.hpp"
+#include "analysis/measure.hpp"
+#include "app/comparison/evaluation.hpp"
+#include "app/comparison/found_runs.hpp"
+#include "app/comparison/project.hpp"
+#include "app/models/models.hpp"
+#include "app/models/symbols.hpp"
+#include "app/report/curves.hpp"
+#include "base/error.hpp"
+#include "base/version.hpp"
+#include "io/manifest.hpp"
+#include "io/parameter_writer.hpp"
+#include "io/report/page.hpp"
+#include "io/run_folder.hpp"
+#include "io/series.hpp"
+#include "io/summary.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Viewers side by side; a report of more runs shows the particles of the first ones.
+constexpr std::size_t most_viewers = 4;
+constexpr std::uintmax_t most_bytes_of_pictures = 4'000'000;
+constexpr std::array<std::string_view, 2> papers{"niiya2020", "yuu2011"};
+
+/// What is no measure of the run but of the machine that it ran on.
+struct MachineText {
+  std::string_view name, text;
+};
+constexpr std::array<MachineText, 5> machine_texts{{{"wall_seconds", "wall time of the time loop"},
+                                                    {"cpu_seconds", "processor time of the time loop, all threads"},
+                                                    {"peak_memory", "largest resident memory of the program"},
+                                                    {"threads", "threads used; the results do not depend on them"},
+                                                    {"steps", "time steps"}}};
+
+Json numbers(const Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Json json_of(const Scene& scene) {
+  Json json{{"walls", Json::array()}, {"slope", scene.slope}, {"radius", scene.radius}, {"view", scene.view}};
+  for (const WallLine& wall : scene.walls) {
+    Json line{{"from", numbers(wall.from)}, {"to", numbers(wall.to)}};
+    if (std::isfinite(wall.until)) line["until"] = wall.until;
+    json["walls"].push_back(std::move(line));
+  }
+  if (scene.box) json["box"] = {numbers(scene.box->first), numbers(scene.box->second)};
+  return json;
+}
+
+Json json_of(const Manifest& m) {
+  return {{"version", m.version},
+          {"revision", m.revision},
+          {"compiler", m.compiler},
+          {"seed", m.seed},
+          {"instruction_set", m.instruction_set},
+          {"threads", m.threads},
+          {"processor", m.processor},
+          {"cores", m.cores},
+          {"system", m.system},
+          {"started", m.started},
+          {"fingerprint", m.fingerprint}};
+}
+
+/// Numbers that are not finite are null.
+Json quantities_of(const ReportEntry& entry, const Summary& summary) {
+  Json quantities = Json::array();
+  if (entry.quantities.empty())
+    for (const NamedValue& q : summary.quantities)
+      quantities.push_back({{"name", q.name}, {"unit", q.unit}, {"values", {q.value}}});
+  for (const ReportEntry::Quantity& q : entry.quantities)
+    quantities.push_back({{"name", q.name}, {"unit", q.unit}, {"values", q.values}});
+  return quantities;
+}
+
+Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& limits,
+             std::vector<std::string>& blocks) {
+  const RunFolder folder(entry.folder);
+  const Manifest manifest = read_manifest(folder.manifest());
+  const Summary summary = read_summary(folder.summary());
+  const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
+  const ModelEntry& model = model_of(resolved);
+  const Series series = read_series(folder.series());
+  const bool has_gate = series.has("gate_time") && series.rows() > 0;
+  const double origin = has_gate ? gate_time_of(series) : 0;
+
+  Json run{{"name", entry.name}, {"members", entry.members}, {"model", model.name}, {"status", summary.status}};
+  run["from_gate"] = has_gate;
+  run["manifest"] = json_of(manifest);
+  run["case"] = manifest.case_text;
+  run["keys"] = resolved_values(manifest.case_text);
+  run["warnings"] = summary.warnings;
+  run["regime"] = Json::array();
+  for (const RegimeLine& line : summary.regime)
+    run["regime"].push_back(
+        {{"quantity", line.quantity}, {"value", line.value}, {"meaning", line.meaning}, {"warning", line.warning}});
+  run["quantities"] = quantities_of(entry, summary);
+  if (model.name == "continuum") run["symbols"] = symbols_of_hopper_measures;
+  if (model.name == "cloud") run["symbols"] = symbols_of_avalanche_measures;
+  run["scene"] = json_of(model.scene(resolved));
+  if (with_particles) run["frames"] = pack_run(entry.folder, origin, limits, blocks);
+  if (entry.bands.empty()) {
+    run["tables"] = pack_tables(entry.folder, series, origin, blocks);
+  } else {
+    run["tables"] = Json::array();
+    for (const auto& [name, table] : entry.bands)
+      if (table.rows() > 0) run["tables"].push_back(pack_table(name, table, 0, blocks));
+  }
+  return run;
+}
+
+/// The texts of all names that the runs' quantities and tables have.
+Json definitions_of(const Json& runs) {
+  Json definitions = Json::object();
+  const auto add = [&](std::string name) {
+    for (const std::string_view ending : {"_mean", "_deviation"})
+      if (!find_measure(name) && name.ends_with(ending)) name.resize(name.size() - ending.size());
+    if (const auto measure = find_measure(name)) definitions[name] = measure->text;
+    for (const MachineText& machine : machine_texts)
+      if (machine.name == name) definitions[name] = machine.text;
+  };
+  for (const Json& run : runs) {
+    for (const Json& quantity : run["quantities"]) add(quantity["name"]);
+    for (const Json& table : run["tables"])
+      for (const Json& column : table["columns"]) add(column["name"]);
+  }
+  return definitions;
+}
+
+/// Those of the first run, as many as there is room for.
+std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> kept;
+  std::uintmax_t bytes = 0;
+  for (const auto& path : files_of_run(folder, "pictures", ".png"))
+    if (bytes + std::filesystem::file_size(path) <= most_bytes_of_pictures) {
+      bytes += std::filesystem::file_size(path);
+      kept.push_back(path);
+    }
+  return kept;
+}
+
+}  // namespace
+
+void write_report(const ReportRequest& request, const std::filesystem::path& path) {
+  ReportContent content{.title = request.title, .header = {}, .blocks = {}, .pictures = {}};
+  Json header{{"title", request.title}, {"version", program_version()}, {"revision", program_revision()}};
+  header["runs"] = Json::array();
+  for (const ReportEntry& entry : request.runs)
+    header["runs"].push_back(json_of(entry, header["runs"].size() < most_viewers, request.limits, content.blocks));
+  header["definitions"] = definitions_of(header["runs"]);
+  header["comparisons"] = Json::array();
+  for (const std::string& comparison : request.comparisons) header["comparisons"].push_back(Json::parse(comparison));
+  content.header = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+  content.pictures = pictures_of(request.runs.front().folder);
+  write_report(path, content);
+}
+
+ReportEntry entry_of_run(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
+  if (!std::filesystem::exists(RunFolder(path).manifest()) || !std::filesystem::exists(RunFolder(path).summary()))
+    throw FileError(path.string(), "holds no run of Talus (no manifest.json or no summary.json)");
+  return {.folder = path, .name = path.filename().string()};
+}
+
+void write_run_report(const std::filesystem::path& folder) {
+  write_report(
+      {.title = title_of_run(folder), .runs = {entry_of_run(folder)}, .comparisons = published_comparisons(folder)},
+      RunFolder(folder).report());
+}
+
+std::string title_of_run(const std::filesystem::path& folder) {
+  const RunFolder run(folder);
+  const CaseFile resolved = CaseFile::from_text(read_manifest(run.manifest()).case_text, run.manifest().string());
+  const CaseEntry* const title = resolved.find("title");
+  const auto* const text = title ? std::get_if<std::string>(&title->value.value) : nullptr;
+  return text && !text->empty() ? *text : entry_of_run(folder).name;
+}
+
+std::vector<std::string> published_comparisons(const std::filesystem::path& folder) {
+  std::vector<std::string> comparisons;
+  for (const std::string_view paper : papers) {
+    const std::filesystem::path file = std::filesystem::path("validation") / paper / "reference.toml";
+    const auto project = find_project(file);
+    if (!project) continue;
+    const Reference reference = read_reference((*project / file).string());
+    try {
+      const std::vector<FoundEnsemble> found = find_ensembles(folder, reference);
+      const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
+      if (count(rows, Verdict::not_evaluated) < rows.size())
+        comparisons.push_back(to_json(reference, rows, found, folder));
+    } catch (const InputError&) {  // no run of this paper's cases, or one too short for its rows
+      continue;
+    }
+  }
+  return comparisons;
+}
+
+}  // namespace talus::app

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is read: summary, regime cards, published numbers, cases.
+import { header } from "./data.js";
+import { element, markdown, name, number, quantity, unit } from "./text.js";
+
+const { runs, definitions } = header;
+
+function table(head, rows, className = "") {
+  return element(
+    "div",
+    { className: "wide" },
+    element("table", { className }, element("thead", {}, element("tr", {}, ...head.map((cell) => (cell instanceof Node ? cell : element("th", { scope: "col" }, cell))))), element("tbody", {}, ...rows)),
+  );
+}
+
+function row(...cells) {
+  return element("tr", {}, ...cells.map((cell) => (cell instanceof HTMLTableCellElement ? cell : element("td", {}, cell))));
+}
+
+const numericHead = (text) => element("th", { scope: "col", className: "number" }, text);
+const numeric = (...content) => element("td", { className: "number" }, ...content);
+
+/** One value, or mean ± standard deviation of members. */
+function spread(values, itsUnit) {
+  const finite = values.filter((v) => v !== null && Number.isFinite(v));
+  if (finite.length < 2) return quantity(finite.length ? finite[0] : null, itsUnit);
+  const mean = finite.reduce((a, b) => a + b) / finite.length;
+  const deviation = Math.sqrt(finite.reduce((a, v) => a + (v - mean) ** 2, 0) / (finite.length - 1));
+  const suffix = unit(itsUnit);
+  return `${number(mean)} ± ${number(deviation, 2)}${suffix ? (suffix === "°" ? "°" : ` ${suffix}`) : ""}`;
+}
+
+export function drawSummary(place) {
+  const ofMachine = ["wall_seconds", "cpu_seconds", "peak_memory", "threads", "steps"];
+  const names = [];
+  for (const run of runs) for (const q of run.quantities) if (!names.includes(q.name)) names.push(q.name);
+  names.sort((a, b) => ofMachine.includes(a) - ofMachine.includes(b));
+  const rows = names.map((quantityName) => {
+    const values = runs.map((run) => {
+      const found = run.quantities.find((q) => q.name === quantityName);
+      return numeric(found ? spread(found.values, found.unit) : "–");
+    });
+    return row(element("th", { scope: "row" }, name(quantityName)), ...values, element("td", { className: "meaning" }, ...markdown(definitions[quantityName] ?? "")));
+  });
+  place.append(
+    table(["Quantity", ...runs.map((run) => numericHead(runs.length > 1 || run.members > 1 ? run.name : "Value")), "Meaning"], rows),
+    element("p", { className: "quiet" }, runs.some((run) => run.members > 1) ? "Ensembles: mean ± standard deviation of the members." : ""),
+    ...[...new Set(runs.map((run) => run.symbols).filter(Boolean))].map((symbols) => element("p", { className: "quiet symbols" }, ...markdown(symbols))),
+  );
+}
+
+export function drawRegime(place) {
+  for (const run of runs) {
+    if (runs.length > 1) place.append(element("h3", {}, run.name));
+    for (const warning of run.warnings) {
+      const [, id, text] = /^([a-z0-9-]+): ([\s\S]*)$/.exec(warning) ?? [null, "", warning];
+      place.append(element("p", { className: "warning", id: undefined }, element("strong", {}, "Warning. "), text, id ? element("span", { className: "quiet" }, ` (${id})`) : null));
+    }
+    if (run.regime.length === 0 && run.warnings.length === 0) place.append(element("p", { className: "quiet" }, "No warning."));
+    if (run.regime.length === 0) continue;
+    const rows = run.regime.map((line) => {
+      const made = row(element("th", { scope: "row" }, line.quantity), numeric(line.value), element("td", { className: "meaning" }, line.warning ? "Outside: " : "", line.meaning));
+      if (line.warning) made.className = "outside";
+      return made;
+    });
+    place.append(table(["Group", numericHead("Value"), "Meaning"], rows));
+  }
+}
+
+export function drawPublished(section, place) {
+  if (header.comparisons.length === 0) {
+    section.hidden = true;
+    document.querySelector('a[href="#published"]').hidden = true;
+    return;
+  }
+  for (const comparison of header.comparisons) {
+    const evaluated = comparison.rows.filter((r) => r.values.some((v) => v !== null));
+    const counts = new Map();
+    for (const r of evaluated) counts.set(r.verdict, (counts.get(r.verdict) ?? 0) + 1);
+    place.append(
+      element("h3", {}, comparison.title),
+      element("p", { className: "quiet" }, `${comparison.source}. `, [...counts].map(([verdict, count]) => `${count} ${verdict}`).join(", "), `; ${comparison.rows.length - evaluated.length} rows need other runs.`),
+    );
+    const rows = evaluated.map((r) => {
+      const values = r.values.map((v, n) => (v === null ? null : `${r.values.length > 1 ? `${r.variants[n] ?? ""}: ` : ""}${quantity(v, r.unit)}`)).filter(Boolean);
+      const made = row(
+        numeric(r.number ? String(r.number) : ""),
+        element("th", { scope: "row" }, name(r.quantity), r.statistic && r.statistic !== "mean" ? element("span", { className: "quiet" }, `, ${r.statistic}`) : null),
+        element("td", { className: "meaning" }, r.printed === "-" ? "" : r.printed || "", element("span", { className: "source" }, r.source ? ` [${r.source}]` : "")),
+        r.criterion === "reported" ? "" : `${r.criterion}${unit(r.unit) === "°" ? "" : " "}${unit(r.unit)}`.replace(/(^|\s)-(?=\d)/g, "$1−"),
+        numeric(values.join(", ")),
+        element("td", { className: `verdict ${r.verdict.replace(" ", "-")}` }, { met: "✓ met", "not met": "✗ not met" }[r.verdict] ?? r.verdict),
+      );
+      return made;
+    });
+    place.append(table([numericHead("Row"), "Quantity", "The paper", "Met if", numericHead("Here"), ""], rows));
+  }
+}
+
+function download(text, file) {
+  const link = element("a", { href: URL.createObjectURL(new Blob([text], { type: "text/plain" })), download: file });
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+export function drawCase(place) {
+  if (runs.length > 1) {
+    const keys = [...new Set(runs.flatMap((run) => Object.keys(run.keys)))].filter((key) => new Set(runs.map((run) => run.keys[key])).size > 1);
+    const rows = keys.map((key) => row(element("th", { scope: "row" }, element("code", {}, key)), ...runs.map((run) => element("code", {}, run.keys[key] ?? "not given"))));
+    place.append(element("h3", {}, "Keys that differ"), table(["Key", ...runs.map((run) => run.name)], rows));
+  }
+  for (const run of runs) {
+    const m = run.manifest;
+    const file = `${run.name.replace(/[^\w.-]+/g, "-")}.toml`;
+    const members = run.members > 1 ? `talus ensemble ${file} --members ${run.members}` : `talus run ${file}`;
+    const save = element("button", { type: "button" }, `Save ${file}`);
+    save.addEventListener("click", () => download(run.case, file));
+    place.append(
+      element("h3", {}, runs.length > 1 ? run.name : "Run"),
+      element(
+        "dl",
+        {},
+        ...[
+          ["Talus", `${m.version} (${m.revision}), ${m.compiler}`],
+          ["Seed", run.members > 1 ? `${m.seed} and on, ${run.members} members` : String(m.seed)],
+          ["Instruction set", `${m.instruction_set}: the same case, seed and instruction set give the same bits`],
+          ["Status", run.status],
+          ["Begun", `${m.started}, ${m.threads} thread${m.threads === 1 ? "" : "s"}, ${m.processor}, ${m.system}`],
+          ["Fingerprint", m.fingerprint],
+        ].flatMap(([term, text]) => [element("dt", {}, term), element("dd", {}, text)]),
+        element("dt", {}, "Again"),
+        element("dd", {}, save, " and ", element("code", { className: "command" }, members)),
+      ),
+      element("details", {}, element("summary", {}, "The case as resolved: every key, in SI"), element("pre", {}, run.case)),
+    );
+  }
+}
