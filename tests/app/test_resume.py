@@ -76,8 +76,8 @@ class Resumed(ProgramTest):
 
 
 class Hopper(ProgramTest):
-    """Grains that have just begun to leave a hopper: particles of 5 mm, settled, 20 ms after the opening."""
-    settings = ("--set", "bed.spacing=5 mm", "--set", "run.end=20 ms", "--set", "output.snapshots=5 ms", "--set",
+    """Grains that have just begun to leave a hopper: particles of 5 mm, settled, 200 ms after the opening."""
+    settings = ("--set", "bed.spacing=5 mm", "--set", "run.end=200 ms", "--set", "output.snapshots=50 ms", "--set",
                 "output.pictures=false")
     case = PROJECT / "cases/yuu2011-hopper-vacuum.toml"
 

@@ -119,11 +119,11 @@ def state_of_newest(folder):
 
 
 def bits(folder):
-    """Of every file below a folder, without times; a run's two checkpoints as the state of the newer one."""
+    """Of every file below a folder, without times (a report tells them, and else what the other files say); a run's two checkpoints as the state of the newer one."""
     folder, found = Path(folder), {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
-        if not path.is_file() or path.name in ("log.txt", "files.txt", "figures.txt"):
+        if not path.is_file() or path.name in ("log.txt", "files.txt", "figures.txt", "report.html"):
             continue
         require(not name.endswith(".part"), f"{name} is left behind")
         if path.suffix == ".json":

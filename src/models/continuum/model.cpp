@@ -252,8 +252,8 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const std::vector<RegimeLine> of_run = {
       {"Courant number", fmt::format("{:.3g}", courant),
        "time step times the speed of pressure waves over the least smoothing length; stable below about 0.5 "
-       "(Runge-Kutta), 1 (leapfrog)",
-       courant > (parameters_.integration.method == Method::runge_kutta ? 0.5 : 1.0)},
+       "(Runge-Kutta), 1.5 (leapfrog)",
+       courant > (parameters_.integration.method == Method::runge_kutta ? 0.5 : 1.5)},
       {"speed of pressure waves", fmt::format("{:.4g} m/s", c), "bound over the law's own table"},
       {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over that of pressure waves", mach > 0.3},
       {"largest packing", fmt::format("{:.3f}", packing),

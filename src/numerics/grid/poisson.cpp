@@ -27,6 +27,10 @@ std::array<const double*, 3> pointers(const std::array<std::vector<double>, 3>& 
 
 // What a refinement in single precision may be asked for: less would be lost in rounding, and is left to the next one.
 constexpr double least_reduction = 1e-4;
+// A refinement that leaves more than this share of the residual, or needs more iterations, meets a part of the value
+// that single precision does not see: the level of a region behind a bed that hardly lets air through. Doubles go on.
+constexpr double least_gain = 0.1;
+constexpr int most_iterations_of_floats = 50;
 
 }  // namespace
 
@@ -210,8 +214,8 @@ void PoissonSolver::remove_constants(std::vector<float>& column) const {
 }
 
 /// Adds to value_ what it lacks for the residual, of size `norm`, to fall to `enough`, or as far as single precision
-/// reaches.
-ConjugateGradients PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most_iterations) {
+/// reaches. \returns iterations
+int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most_iterations) {
   remove_means(residual_);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::scale(end - begin, 1 / norm, residual_.data() + begin, multigrid_.residual().data() + begin);
@@ -225,7 +229,7 @@ ConjugateGradients PoissonSolver::refine(ThreadTeam& team, double norm, double e
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::add(end - begin, norm * scale_, change_.data() + begin, value_.data() + begin);
   });
-  return found;
+  return found.iterations;
 }
 
 PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& source, CellField& value,
@@ -252,8 +256,16 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
       fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
     if (iterations >= stop.most_iterations)
       fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
-    iterations += refine(team, norm, enough, stop.most_iterations - iterations).iterations;
-    norm = std::sqrt(find_residual(team));
+    iterations += refine(team, norm, enough, std::min(stop.most_iterations - iterations, most_iterations_of_floats));
+    const double left = std::sqrt(find_residual(team));
+    if (left > least_gain * norm) {
+      const ConjugateGradients found = solve_in_doubles(team, enough, stop.most_iterations);
+      iterations += found.iterations;
+      norm = std::sqrt(find_residual(team));
+      if (norm > enough && found.convergence != Convergence::reached) iterations = stop.most_iterations;
+    } else {
+      norm = left;
+    }
   }
   remove_means(value_);
   for_each_run(team, [&](std::size_t, std::size_t own, int length, std::size_t to, const std::array<int, 3>&) {

@@ -5,10 +5,10 @@
 /// where the storage is zero unless given and the value outside an open boundary is zero (add conductance * outside
 /// value to the source for another one). Conjugate gradients in single precision, preconditioned by a multigrid cycle,
 /// solve for what the value lacks; the residual is then found in double precision, and what is left of it solved for
-/// again (iterative refinement, Wilkinson 1963), so that the precision of the value is that of doubles. The bits do not
-/// depend on the number of threads. Faces of zero conductance may divide the grid into regions; the
-/// value in a region without an open boundary is determined up to a constant, chosen so that its mean is zero, and its
-/// sources must balance.
+/// again (iterative refinement, Wilkinson 1963), so that the precision of the value is that of doubles; where single
+/// precision gains nothing more, conjugate gradients in doubles finish. The bits do not depend on the number of
+/// threads. Faces of zero conductance may divide the grid into regions; the value in a region without an open boundary
+/// is determined up to a constant, chosen so that its mean is zero, and its sources must balance.
 #pragma once
 
 #include <array>
@@ -51,6 +51,7 @@ class PoissonSolver {
  private:
   struct System;
   struct MultigridCycle;
+  struct SystemOfDoubles;
   template <class Body>
   void for_each_range(ThreadTeam& team, Body&& body) const;
   template <class Term>
@@ -60,7 +61,8 @@ class PoissonSolver {
   template <class Body>
   void for_each_run(ThreadTeam& team, Body&& body) const;
   double find_residual(ThreadTeam& team);
-  ConjugateGradients refine(ThreadTeam& team, double norm, double enough, int most_iterations);
+  int refine(ThreadTeam& team, double norm, double enough, int most_iterations);
+  ConjugateGradients solve_in_doubles(ThreadTeam& team, double enough, int most_iterations);
   void find_closed_regions();
   double unbalanced() const;
   template <class Number>
@@ -78,7 +80,8 @@ class PoissonSolver {
   bool is_new_ = true;                            // no conductances yet
   // In the board's order. Pads of source_, residual_ and applied_ are zero, so that they do not contribute to sums.
   std::vector<double> source_, value_, residual_;
-  std::vector<float> direction_, applied_, change_;  // of the refinement, scaled
+  std::vector<float> direction_, applied_, change_;                // of the refinement, scaled
+  std::vector<double> direction_of_doubles_, applied_of_doubles_;  // empty until they are needed
   std::vector<double> partial_;
 };
 

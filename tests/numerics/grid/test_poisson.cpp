@@ -208,6 +208,30 @@ TEST(PoissonSolver, RefusesSourcesThatDoNotBalanceInAClosedRegion) {
   }
 }
 
+TEST(PoissonSolver, FindsTheLevelOfARegionBehindABedThatHardlyLetsAirThrough) {
+  // All that the lower half emits leaves by the middle, whose conductance is 1e-8 of the others': less than single
+  // precision holds beside them.
+  const Grid grid{.count = {16, 1, 16}, .low = {}, .spacing = {1, 1, 1}};
+  FaceField faces = conductances(grid, false, not_periodic, [](const Vector3&) { return 1.0; });
+  for (int i = 0; i < 16; ++i) {
+    faces[2][grid.index(i, 0, 8)] = 1e-8;
+    faces[2][grid.index(i, 0, 16)] = 2;
+  }
+  ThreadTeam team;
+  PoissonSolver solver(grid, not_periodic);
+  solver.set_conductance(team, faces);
+  Random random(2);
+  CellField source = grid.cell_field(), value = grid.cell_field();
+  double emitted = 0, passed = 0;
+  for_each_cell(grid, [&](int, int, int k, std::size_t c) {
+    source[c] = random.uniform(0, 1);
+    if (k < 8) emitted += source[c];
+  });
+  solver.solve(team, source, value, {.tolerance = 1e-6});
+  for (int i = 0; i < 16; ++i) passed += 1e-8 * (value[grid.index(i, 0, 7)] - value[grid.index(i, 0, 8)]);
+  EXPECT_NEAR(passed, emitted, 1e-5 * emitted);
+}
+
 TEST(PoissonSolver, NamesTheWorstCellWhenItDoesNotConverge) {
   const Silo silo(true, true);
   ThreadTeam team;
