@@ -244,7 +244,7 @@ void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const 
 
 void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
                             std::span<Vector3> received) const {
-  const auto& [x, y, z] = per_solid_volume;
+  const CellField &x = per_solid_volume[0], &y = per_solid_volume[1], &z = per_solid_volume[2];
   team.run(blocks_.size(), [&](std::size_t b) {
     for_each_particle(blocks_[b], b * block_size,
                       [&](std::size_t i, const Particle& particle, std::size_t rows, const std::uint32_t* first,

@@ -27,9 +27,10 @@ struct Neighbours {
     capacity = (capacity + near_padding - 1) / near_padding * near_padding;
     T** const columns[] = {&x, &y, &force_x, &force_y, &size, &radius, &number};
     for (std::size_t k = 0; k < near_columns; ++k) *columns[k] = space + k * capacity;
+    constexpr int middle = near_rows / 2;
     for (int row = 0; row < near_rows; ++row) {
       const std::size_t begin = block.begin[row], run = block.end[row] - begin;
-      const T above = T(0.5) * static_cast<T>(row - near_rows / 2);
+      const T above = T(0.5) * static_cast<T>(row - middle);
       for (std::size_t n = 0; n < run; ++n)
         x[count + n] = spheres.position[0][begin + n] + T(0.5) * (spheres.cell[begin + n] - block.first_cell);
       for (std::size_t n = 0; n < run; ++n) y[count + n] = spheres.position[1][begin + n] + above;
