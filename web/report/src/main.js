@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joins the parts of the page: header, viewer with its controls, curves, tables, keys.
+// Joins the parts of the page: header, viewer with its controls, curves, tables, keys. Longer than 400 lines because
+// every control of the page is joined to its part here, once.
 import { mapNames, colours } from "./colour.js";
 import { decode, frames as unpackFrames, header } from "./data.js";
 import { Plots } from "./plots.js";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The particles of up to four runs side by side, at the same time and from the same direction.
+// The particles of up to four runs side by side, at the same time and from the same direction. Longer than 400 lines because
+// scene, camera and pointer share the state of one canvas.
 import * as three from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
