@@ -105,7 +105,8 @@ TALUS_INLINE void transpose(Register (&r)[sizeof(Register) / 8]) requires(sizeof
 // The few operations that the vector arithmetic of the compiler lacks: a b + c and c - a b, rounded once where the
 // instruction set can; an estimate of the reciprocal square root, good to `estimate_bits` bits; a > b; a choice lane by
 // lane; whether a mask holds in every lane, and its lanes as bits; those of eight numbers whose bit is set, one after
-// the other (the places behind them, up to eight in all, may be overwritten), and how many they are.
+// the other (the places behind them, up to eight in all, may be overwritten), and how many they are; the same of the
+// lanes of a register (as many places as it has lanes may be overwritten).
 #if defined(__AVX512F__)
 inline constexpr int estimate_bits = 14;
 TALUS_INLINE __m512d fused(__m512d a, __m512d b, __m512d c) {
@@ -147,11 +148,20 @@ TALUS_INLINE bool all(__mmask16 mask) {
 TALUS_INLINE unsigned bits(__mmask8 mask) {
   return mask;
 }
+TALUS_INLINE unsigned bits(__mmask16 mask) {
+  return mask;
+}
 TALUS_INLINE std::size_t pack(const std::uint32_t* numbers, unsigned bits, std::uint32_t* packed) {
   const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(packed),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), eight));
   return static_cast<std::size_t>(__builtin_popcount(bits));
+}
+TALUS_INLINE void pack(__m512d x, __mmask8 mask, double* packed) {
+  _mm512_storeu_pd(packed, _mm512_maskz_compress_pd(mask, x));
+}
+TALUS_INLINE void pack(__m512 x, __mmask16 mask, float* packed) {
+  _mm512_storeu_ps(packed, _mm512_maskz_compress_ps(mask, x));
 }
 #elif defined(__AVX2__)
 inline constexpr int estimate_bits = 11;
@@ -189,6 +199,10 @@ TALUS_INLINE bool all(Mask mask) {
 template <class Mask>
 TALUS_INLINE unsigned bits(Mask mask) requires(sizeof(mask[0]) == 8) {
   return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+}
+template <class Mask>
+TALUS_INLINE unsigned bits(Mask mask) requires(sizeof(mask[0]) == 4) {
+  return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
 }
 #else
 inline constexpr int estimate_bits = 53;  // not an estimate
@@ -231,6 +245,10 @@ TALUS_INLINE std::size_t pack(const std::uint32_t* numbers, unsigned bits, std::
   std::size_t count = 0;
   for (; bits != 0; bits &= bits - 1) packed[count++] = numbers[__builtin_ctz(bits)];
   return count;
+}
+template <class Register, class Mask, class T>
+TALUS_INLINE void pack(Register x, Mask mask, T* packed) {
+  for (unsigned set = bits(mask); set != 0; set &= set - 1) *packed++ = x[__builtin_ctz(set)];
 }
 #endif
 

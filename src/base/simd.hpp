@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 
 #include "base/registers.hpp"
@@ -97,6 +98,12 @@ struct SimdVector {
     return x;
   }
   TALUS_INLINE void store(T* values) const requires(rows == 1) { *reinterpret_cast<Register*>(values) = row[0]; }
+  /// One row from anywhere in memory.
+  TALUS_INLINE static SimdVector load_unaligned(const T* values) requires(rows == 1) {
+    SimdVector x;
+    std::memcpy(&x.row[0], values, sizeof(Register));
+    return x;
+  }
 };
 
 template <class T, int rows>
@@ -253,6 +260,13 @@ TALUS_INLINE bool all(SimdMask<T, rows> condition) {
 template <class T>
 TALUS_INLINE unsigned lane_bits(SimdMask<T, 1> condition) {
   return registers::bits(condition.row[0]);
+}
+
+/// Writes the lanes where the condition holds one after the other. \param packed `lanes` numbers, of which those behind
+/// the ones that were written may change
+template <class T>
+TALUS_INLINE void store_packed(SimdVector<T> x, SimdMask<T, 1> condition, T* packed) {
+  registers::pack(x.row[0], condition.row[0], packed);
 }
 
 /// 1/sqrt(x): the processor's estimate y, and with e = 1 - x y^2 as many terms of y (1 + e/2 + 3/8 e^2 + 5/16 e^3 ...)

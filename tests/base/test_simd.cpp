@@ -61,6 +61,24 @@ TYPED_TEST(SimdVectors, SelectWhateverStandsInTheOther) {
   EXPECT_FALSE(all(SimdVector<T>(static_cast<double>(nan)) > SimdVector<T>(0)));
 }
 
+TYPED_TEST(SimdVectors, PackTheLanesThatAreChosen) {
+  using T = TypeParam;
+  constexpr int lanes = SimdVector<T>::lanes;
+  for (unsigned wanted = 0; wanted<(1u << lanes); wanted += lanes> 8 ? 37 : 1) {
+    T flag[lanes + 1], packed[lanes];
+    for (int k = 0; k < lanes; ++k) flag[k + 1] = wanted >> k & 1u ? T(1) : T(-1);
+    const auto chosen = SimdVector<T>::load_unaligned(flag + 1) > SimdVector<T>(0);
+    EXPECT_EQ(lane_bits(chosen), wanted);
+    store_packed(ramp<T>(3), chosen, packed);
+    int count = 0;
+    for (int k = 0; k < lanes; ++k)
+      if (wanted >> k & 1u) {
+        EXPECT_EQ(packed[count], 3 + k) << wanted;
+        ++count;
+      }
+  }
+}
+
 TYPED_TEST(SimdVectors, ReciprocalSquareRootOverTheRangeOfDistances) {
   using T = TypeParam;
   for (double x = 1e-12; x < 1e12; x *= 1.37) {
