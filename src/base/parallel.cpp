@@ -7,6 +7,8 @@
 #include <mutex>
 #include <thread>
 
+#include "base/sharing.hpp"
+
 namespace talus {
 
 namespace {
@@ -30,6 +32,7 @@ struct ThreadTeam::Shared {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
   };
+  Sharing sharing;
   std::vector<Share> shares;
   std::atomic<unsigned> generation{0};  // of loops that threads were woken for
   // Twice the threads that have taken part in the loop and not yet left it, plus 1 while more may enter: for these the
@@ -70,6 +73,14 @@ struct ThreadTeam::Shared {
 
   void leave() {
     if (inside.fetch_sub(one, std::memory_order_acq_rel) == one) inside.notify_one();
+  }
+
+  // No tasks are left to take. Only threads that have entered can still be at work on one; a thread that has not finds
+  // the loop closed and is not waited for: on a busy machine it may not run for long.
+  void close() {
+    inside.fetch_and(~open, std::memory_order_acq_rel);
+    for (int look = 0; look < looks_before_sleep && inside.load(std::memory_order_acquire) > 0; ++look) relax();
+    for (int now; (now = inside.load(std::memory_order_acquire)) > 0;) inside.wait(now, std::memory_order_acquire);
   }
 
   void serve(std::size_t own) {
@@ -116,17 +127,18 @@ void ThreadTeam::run_tasks(std::size_t tasks, Call call, void* context) {
   }
   shared.error = nullptr;
   if (tasks > 1 && !shared.threads.empty()) {
-    shared.inside.store(Shared::open, std::memory_order_release);
-    shared.generation.fetch_add(1, std::memory_order_release);
-    shared.generation.notify_all();
+    const Sharing::Clock::time_point begin = Sharing::Clock::now();
+    if (shared.sharing.decide(begin)) {
+      shared.inside.store(Shared::open, std::memory_order_release);
+      shared.generation.fetch_add(1, std::memory_order_release);
+      shared.generation.notify_all();
+    }
+    shared.work(0);
+    shared.close();
+    shared.sharing.note(reinterpret_cast<const void*>(call), tasks, Sharing::Clock::now() - begin);
+  } else {
+    shared.work(0);
   }
-  shared.work(0);
-  // No tasks are left to take. Only threads that have entered can still be at work on one; a thread that has not
-  // finds the loop closed and is not waited for: on a busy machine it may not run for long.
-  shared.inside.fetch_and(~Shared::open, std::memory_order_acq_rel);
-  for (int look = 0; look < looks_before_sleep && shared.inside.load(std::memory_order_acquire) > 0; ++look) relax();
-  for (int inside; (inside = shared.inside.load(std::memory_order_acquire)) > 0;)
-    shared.inside.wait(inside, std::memory_order_acquire);
   if (shared.error) std::rethrow_exception(shared.error);
 }
 
