@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <type_traits>
 
 #include "base/registers.hpp"
@@ -101,7 +100,7 @@ struct SimdVector {
   /// One row from anywhere in memory.
   TALUS_INLINE static SimdVector load_unaligned(const T* values) requires(rows == 1) {
     SimdVector x;
-    std::memcpy(&x.row[0], values, sizeof(Register));
+    __builtin_memcpy(&x.row[0], values, sizeof(Register));
     return x;
   }
 };
