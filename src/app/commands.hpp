@@ -23,6 +23,8 @@ void add_analyze_command(CLI::App& app, Action& action);
 void add_law_command(CLI::App& app, Action& action);
 void add_reproduce_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
+void add_picture_command(CLI::App& app, Action& action);
+void add_movie_command(CLI::App& app, Action& action);
 void add_schema_command(CLI::App& app, Action& action);
 
 }  // namespace talus::app

@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
   talus::app::add_law_command(app, action);
   talus::app::add_reproduce_command(app, action);
   talus::app::add_report_command(app, action);
+  talus::app::add_picture_command(app, action);
+  talus::app::add_movie_command(app, action);
   talus::app::add_schema_command(app, action);
 
   auto fail = [](ExitStatus status, const std::string& message) {
