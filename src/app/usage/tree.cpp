@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace talus::app {
 
@@ -32,6 +33,7 @@ UsageOption described(const CLI::Option& option) {
     if (described.value.empty()) described.value = "VALUE";
     described.standard = option.get_default_str();
   }
+  described.takes_several = takes_value && option.get_items_expected_max() > 1;
   described.takes_folder = described.names.front() == "DIR";
   return described;
 }
@@ -51,6 +53,23 @@ std::vector<UsageCommand> usage_of(const CLI::App& app) {
   std::vector<UsageCommand> all;
   describe(app, "", all);
   return all;
+}
+
+std::string usage_json(const std::vector<UsageCommand>& usage) {
+  nlohmann::ordered_json json;
+  for (const UsageCommand& command : usage) {
+    auto& entry = json[command.name];
+    entry = {{"text", command.text}, {"commands", command.commands}, {"options", nlohmann::ordered_json::array()}};
+    for (const UsageOption& option : command.options)
+      entry["options"].push_back({{"names", option.names},
+                                  {"text", option.text},
+                                  {"value", option.value},
+                                  {"choices", option.choices},
+                                  {"place", option.is_place},
+                                  {"required", option.is_required},
+                                  {"several", option.takes_several}});
+  }
+  return json.dump(2) + "\n";
 }
 
 }  // namespace talus::app

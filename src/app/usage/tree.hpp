@@ -18,7 +18,7 @@ struct UsageOption {
   std::string standard = {};              ///< if not given; empty: none
   std::vector<std::string> choices = {};  ///< if only these are allowed
   bool is_place = false, is_required = false;
-  bool takes_folder = false;
+  bool takes_folder = false, takes_several = false;
 };
 
 struct UsageCommand {
@@ -30,6 +30,9 @@ struct UsageCommand {
 
 /// The program first, then every command, those below a command after it.
 std::vector<UsageCommand> usage_of(const CLI::App& app);
+
+/// An object per command, by its name: text, commands, options (names, text, value, choices, place, required).
+std::string usage_json(const std::vector<UsageCommand>& usage);
 
 /// Scripts that complete commands, options, choices and file names. \param shell bash, zsh or fish
 std::string completion_for(const std::string& shell, const std::vector<UsageCommand>& usage);
