@@ -9,7 +9,7 @@
 
 #include "app/picture/artist.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): the library has named it
 class App;
 }
 
