@@ -2,6 +2,7 @@
 #include "models/continuum/sweep.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/instruction_set.hpp"
@@ -33,7 +34,6 @@ void Rates::resize(std::size_t count) {
   density_rate.resize(count);
   velocity_gradient.resize(count);
   kernel_density.resize(count);
-  wall_acceleration.resize(count);
 }
 
 Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
@@ -71,7 +71,13 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   neighbourhood_.build(team, position, smoothing_length, skin_);
   loads_.clear();
-  for (const Image& image : neighbourhood_.images()) loads_.push_back(neighbourhood_.domain().loads(image));
+  for (const Image& image : neighbourhood_.images()) {
+    ImageLoads loads{};
+    const auto found = neighbourhood_.domain().loads(image);
+    for (std::size_t n = 0; n < found.size(); ++n)
+      loads.load[n] = {found[n].wall, {found[n].part.x, found[n].part.y, found[n].part.z}};
+    loads_.push_back(loads);
+  }
   find_groups();
 }
 
@@ -82,104 +88,115 @@ void Sweep::find_groups() {
   std::vector<std::size_t> end(neighbourhood_.images().size());  // of the ghosts of each image, which follow each other
   for (std::size_t g = 0; g < ghosts.size(); ++g) end[ghosts[g].image] = count + g + 1;
   groups_.clear();
+  longest_ = 1;
   first_group_.assign(1, 0);
+  walls_.clear();
+  first_wall_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto neighbours = neighbourhood_.of(i);
+    longest_ = std::max(longest_, neighbours.size());
     groups_.push_back({static_cast<std::uint32_t>(neighbourhood_.first_ghost_of(i)), -1});
+    std::uint32_t walls = 0;
     std::size_t group_end = count;
     for (std::size_t n = neighbourhood_.first_ghost_of(i); n < neighbours.size(); ++n) {
       if (neighbours[n] >= group_end) {
         const std::uint32_t image = ghosts[neighbours[n] - count].image;
         groups_.push_back({0, static_cast<std::int32_t>(image)});
         group_end = end[image];
+        for (const ImageLoad& load : loads_[image].load)
+          if (load.wall >= 0) walls |= 1u << load.wall;
       }
       groups_.back().end = static_cast<std::uint32_t>(n + 1);
     }
     first_group_.push_back(static_cast<std::uint32_t>(groups_.size()));
+    walls_.push_back(walls);
+    first_wall_.push_back(first_wall_.back() + static_cast<std::uint32_t>(std::popcount(walls)));
   }
 }
 
-void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
+/// Records of images are made from those of their sources. What only forces read is packed for them only.
+void Sweep::pack(ThreadTeam& team, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
   const auto ghosts = neighbourhood_.ghosts();
-  records_.resize(count + ghosts.size() + 1);
+  motion_.resize(count + ghosts.size() + 1);
+  stress_.resize(motion_.size());
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
+    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, mass_ / density};
+    if (!stresses) return;
     const SymmetricTensor3<> s =
         sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
-    records_[i] = {{x.x, x.y, x.z},
-                   {u.x, u.y, u.z},
-                   particles.smoothing_length[i],
-                   mass_ / density,
-                   {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx},
-                   density,
-                   0};
+    stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
   });
   for_each(team, ghosts.size(), [&](std::size_t g) {
     const Image& image = neighbourhood_.image(ghosts[g]);
-    ParticleRecord ghost = records_[ghosts[g].source];
-    const Vector3 x = image.position({ghost.position[0], ghost.position[1], ghost.position[2]});
-    const Vector3 u = image.vector({ghost.velocity[0], ghost.velocity[1], ghost.velocity[2]});
-    for (int axis = 0; axis < 3; ++axis) ghost.position[axis] = x[axis], ghost.velocity[axis] = u[axis];
-    const double* s = ghost.specific_stress;
-    const SymmetricTensor3<> stress = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
-    const double turned[6] = {stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.zx};
-    std::copy(turned, turned + 6, ghost.specific_stress);
-    records_[count + g] = ghost;
+    const MotionRecord& source = motion_[ghosts[g].source];
+    const Vector3 x = image.position({source.position[0], source.position[1], source.position[2]});
+    const Vector3 u = image.vector({source.velocity[0], source.velocity[1], source.velocity[2]});
+    motion_[count + g] = {{x.x, x.y, x.z}, source.half_length, {u.x, u.y, u.z}, source.volume};
+    if (!stresses) return;
+    const double* s = stress_[ghosts[g].source].specific_stress;
+    const SymmetricTensor3<> t = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
+    stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, stress_[ghosts[g].source].half_density, 0};
   });
   constexpr double far_away = 1e3;  // m
-  records_.back() = {.position = {far_away, far_away, far_away},
-                     .velocity = {},
-                     .smoothing_length = records_.front().smoothing_length,
-                     .volume = 0,
-                     .specific_stress = {},
-                     .density = records_.front().density,
-                     .unused = 0};
+  motion_.back() = {{far_away, far_away, far_away}, motion_.front().half_length, {}, 0};
+  stress_.back() = {{}, 0.5 * particles.density.front(), 0};
 }
 
-/// The neighbours of a particle that it sees. Near a wall they are picked into `record` and `end`.
-Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
+Records Sweep::records() const {
+  return {motion_.data(), stress_.data(), stabilisers_.data(), loads_.data()};
+}
+
+/// The neighbours of a particle that it sees. Near a wall they are picked into `seen`.
+Neighbours Sweep::seen_from(std::size_t i, Seen& seen) const {
   static constexpr Image identity;
   const auto neighbours = neighbourhood_.of(i);
-  const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
-  const bool near_wall = neighbourhood_.is_near_wall(i);
+  const NeighbourGroup* const group = groups_.data() + first_group_[i];
+  const auto count = static_cast<int>(first_group_[i + 1] - first_group_[i]);
+  seen.scratch.resize(3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to));
+  Neighbours found{neighbours.data(), group, count, walls_[i], seen.scratch.front().number,
+                   static_cast<std::uint32_t>(Neighbours::padded_to * seen.scratch.size())};
+  if (!neighbourhood_.is_near_wall(i)) return found;
   const auto place = [this](std::size_t r) {
-    const double* x = records_[r].position;
+    const double* x = motion_[r].position;
     return Vector3{x[0], x[1], x[2]};
   };
-  record.clear();
-  end.clear();
+  seen.record.clear();
+  seen.group.clear();
   std::uint32_t n = 0;
-  for (std::uint32_t g = first; g < last; ++g) {
-    if (near_wall) {
-      const Image& image =
-          groups_[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(groups_[g].image)];
-      for (; n < groups_[g].end; ++n)
-        if (neighbourhood_.domain().is_visible(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
-      end.push_back(static_cast<std::uint32_t>(record.size()));
-    } else {
-      end.push_back(groups_[g].end);
-    }
+  for (int g = 0; g < count; ++g) {
+    const Image& image =
+        group[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(group[g].image)];
+    for (; n < group[g].end; ++n)
+      if (neighbourhood_.domain().is_visible(place(i), place(neighbours[n]), image))
+        seen.record.push_back(neighbours[n]);
+    seen.group.push_back({static_cast<std::uint32_t>(seen.record.size()), group[g].image});
   }
-  return {near_wall ? record.data() : neighbours.data(), end.data(), static_cast<int>(end.size()),
-          static_cast<std::uint32_t>(records_.size() - 1)};
+  while (seen.record.size() % Neighbours::padded_to != 0)
+    seen.record.push_back(static_cast<std::uint32_t>(motion_.size() - 1));
+  found.record = seen.record.data();
+  found.group = seen.group.data();
+  return found;
 }
 
 void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
   rates.resize(count);
-  pack(team, particles);
+  pack(team, particles, terms != SweepTerms::gradients || prepare_sum_);
   if (prepare_sum_) prepare_stabilisers(team, particles);
+  if (terms != SweepTerms::gradients) {
+    rates.by_walls.walls = walls_;
+    rates.by_walls.first = first_wall_;
+    rates.by_walls.value.resize(first_wall_.back());
+  }
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
+  const Records all = records();
   for_each(team, count, [&](std::size_t i) {
-    thread_local std::vector<std::uint32_t> record, end;
-    thread_local std::vector<std::array<double, 3>> acceleration;
-    const Neighbours neighbours = seen_from(i, record, end);
-    acceleration.resize(static_cast<std::size_t>(neighbours.groups));
+    thread_local Seen seen;
     PairSums sums;
-    sum(records_.data(), static_cast<std::uint32_t>(i), neighbours, constants_, sums,
-        reinterpret_cast<double(*)[3]>(acceleration.data()));
+    sum(all, static_cast<std::uint32_t>(i), seen_from(i, seen), constants_, sums);
     if (terms != SweepTerms::forces) {
       const double *m = sums.moment, *v = sums.velocity;
       const Tensor3<> gradient = sph::velocity_gradient(
@@ -188,21 +205,10 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
     }
     if (terms == SweepTerms::gradients) return;
-    Vector3 all;
-    std::array<double, most_walls> by_wall{};
-    for (std::size_t g = 0; g < acceleration.size(); ++g) {
-      all += Vector3{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
-      const std::int32_t image = groups_[first_group_[i] + g].image;
-      if (image < 0) continue;
-      const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
-      for (const Domain::Load& load : loads_[static_cast<std::size_t>(image)]) {
-        if (load.wall < 0) break;
-        by_wall[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
-      }
-    }
-    rates.acceleration[i] = all;
-    rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
-    rates.wall_acceleration[i] = by_wall;
+    rates.acceleration[i] = {sums.acceleration[0], sums.acceleration[1], sums.acceleration[2]};
+    rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
+    std::copy_n(sums.wall_acceleration, first_wall_[i + 1] - first_wall_[i],
+                rates.by_walls.value.data() + first_wall_[i]);
   });
 }
 

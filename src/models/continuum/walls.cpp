@@ -47,10 +47,12 @@ void apply_wall_friction(ThreadTeam& team, const Parameters& p, const Domain& do
                          std::span<const Vector3> position, double duration, State& state) {
   const bool rough = has_wall_friction(p, state);
   const auto meet = [&](std::size_t i, Impulses& received) {
-    const std::array<double, most_walls>& normal_acceleration = rates.wall_acceleration[i];
-    for (int wall = 0; wall < domain.wall_count(); ++wall)
-      if (const auto w = static_cast<std::size_t>(wall); normal_acceleration[w] != 0)
-        received[w] -= (state.mass * duration * normal_acceleration[w]) * domain.normal(wall);
+    std::array<double, most_walls> normal_acceleration{};
+    rates.by_walls.of(i, [&](int wall, double acceleration) {
+      const auto w = static_cast<std::size_t>(wall);
+      normal_acceleration[w] = acceleration;
+      received[w] -= (state.mass * duration * acceleration) * domain.normal(wall);
+    });
     if (!rough) return;
     for (int wall = 0; wall < domain.wall_count(); ++wall) {
       const auto w = static_cast<std::size_t>(wall);

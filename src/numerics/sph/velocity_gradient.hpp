@@ -20,18 +20,16 @@ struct GradientSums {
   /// \param volume V_j, m^3; \param slope F_ij, 1/m^5; \param d x_j - x_i, m; \param du u_j - u_i, m/s
   template <class Vector = Vector3>
   constexpr void add(const Number& volume, const Number& slope, const Vector& d, const Vector& du) {
-    const Number weight = -1.0 * volume * slope;
+    const Number weight = volume * slope;  // -w
     const Number x = weight * d.x, y = weight * d.y, z = weight * d.z;
-    moment.xx = multiply_add(x, d.x, moment.xx), moment.yy = multiply_add(y, d.y, moment.yy),
-    moment.zz = multiply_add(z, d.z, moment.zz);
-    moment.xy = multiply_add(x, d.y, moment.xy), moment.yz = multiply_add(y, d.z, moment.yz),
-    moment.zx = multiply_add(z, d.x, moment.zx);
-    velocity.xx = multiply_add(x, du.x, velocity.xx), velocity.xy = multiply_add(y, du.x, velocity.xy),
-    velocity.xz = multiply_add(z, du.x, velocity.xz);
-    velocity.yx = multiply_add(x, du.y, velocity.yx), velocity.yy = multiply_add(y, du.y, velocity.yy),
-    velocity.yz = multiply_add(z, du.y, velocity.yz);
-    velocity.zx = multiply_add(x, du.z, velocity.zx), velocity.zy = multiply_add(y, du.z, velocity.zy),
-    velocity.zz = multiply_add(z, du.z, velocity.zz);
+    const auto subtract = [](Number& sum, const Number& a, const Number& b) {
+      sum = negative_multiply_add(a, b, sum);
+    };
+    subtract(moment.xx, x, d.x), subtract(moment.yy, y, d.y), subtract(moment.zz, z, d.z);
+    subtract(moment.xy, x, d.y), subtract(moment.yz, y, d.z), subtract(moment.zx, z, d.x);
+    subtract(velocity.xx, x, du.x), subtract(velocity.xy, y, du.x), subtract(velocity.xz, z, du.x);
+    subtract(velocity.yx, x, du.y), subtract(velocity.yy, y, du.y), subtract(velocity.yz, z, du.y);
+    subtract(velocity.zx, x, du.z), subtract(velocity.zy, y, du.z), subtract(velocity.zz, z, du.z);
   }
 };
 
