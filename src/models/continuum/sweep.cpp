@@ -158,7 +158,7 @@ Neighbours Sweep::seen_from(std::size_t i, Seen& seen) const {
   seen.scratch.resize(3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to));
   Neighbours found{neighbours.data(), group, count, walls_[i], seen.scratch.front().number,
                    static_cast<std::uint32_t>(Neighbours::padded_to * seen.scratch.size())};
-  if (!neighbourhood_.is_near_wall(i)) return found;
+  if (!neighbourhood_.sight_may_change(i)) return found;
   const auto place = [this](std::size_t r) {
     const double* x = motion_[r].position;
     return Vector3{x[0], x[1], x[2]};
