@@ -38,15 +38,14 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     static constexpr Image identity;
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
-    const auto end =
-        !domain_.is_near_wall(position[i], reach_ + skin)
-            ? seldom
-            : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
-                const auto sight =
-                    domain_.sight(points[i], points[j], j < count ? identity : image(ghosts_[j - count]), skin);
-                if (sight == Domain::Sight::may_change) sight_may_change_[i] = 1;
-                return sight == Domain::Sight::never;
-              });
+    const auto end = !domain_.is_near_wall(position[i], reach_ + skin)
+                         ? seldom
+                         : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
+                             const auto sight = domain_.sight(points[i], points[j],
+                                                              j < count ? identity : image(ghosts_[j - count]), skin);
+                             if (sight == Domain::Sight::may_change) sight_may_change_[i] = 1;
+                             return sight == Domain::Sight::never;
+                           });
     return static_cast<std::size_t>(end - near.begin());
   };
   list_.build(team, points, radii, skin, count, domain_.walls().empty() ? nullptr : keep_visible);

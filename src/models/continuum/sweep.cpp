@@ -27,6 +27,19 @@ SumNeighbours choose(InstructionSet set, SweepTerms terms, Stabilisers stabilise
   }
 }
 
+VelocityGradients* choose_velocity_gradients(InstructionSet set) {
+  switch (set) {
+#if defined(__x86_64__)
+    case InstructionSet::avx512:
+      return velocity_gradients_avx512;
+    case InstructionSet::avx2:
+      return velocity_gradients_avx2;
+#endif
+    default:
+      return velocity_gradients_portable;
+  }
+}
+
 }  // namespace
 
 void Rates::resize(std::size_t count) {
@@ -58,6 +71,7 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
     sum_[static_cast<std::size_t>(terms)] = choose(set, terms, stabilised ? Stabilisers::acting : Stabilisers::none);
+  velocity_gradients_ = choose_velocity_gradients(set);
   if (stabilised) prepare_sum_ = choose(set, SweepTerms::gradients, Stabilisers::prepared);
 }
 
@@ -156,7 +170,11 @@ Neighbours Sweep::seen_from(std::size_t i, Seen& seen) const {
   const NeighbourGroup* const group = groups_.data() + first_group_[i];
   const auto count = static_cast<int>(first_group_[i + 1] - first_group_[i]);
   seen.scratch.resize(3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to));
-  Neighbours found{neighbours.data(), group, count, walls_[i], seen.scratch.front().number,
+  Neighbours found{neighbours.data(),
+                   group,
+                   count,
+                   walls_[i],
+                   seen.scratch.front().number,
                    static_cast<std::uint32_t>(Neighbours::padded_to * seen.scratch.size())};
   if (!neighbourhood_.sight_may_change(i)) return found;
   const auto place = [this](std::size_t r) {
@@ -193,22 +211,41 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   }
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   const Records all = records();
-  for_each(team, count, [&](std::size_t i) {
-    thread_local Seen seen;
-    PairSums sums;
-    sum(all, static_cast<std::uint32_t>(i), seen_from(i, seen), constants_, sums);
+  constexpr std::size_t together = Neighbours::padded_to, blocks_at_once = 16;
+  const auto compute = [&](std::size_t first) {
+    thread_local Seen of_thread;
+    Seen& seen = of_thread;
+    PairSums sums[together];
+    const std::size_t size = std::min(together, count - first);
+    for (std::size_t n = 0; n < together; ++n) {
+      if (n < size)
+        sum(all, static_cast<std::uint32_t>(first + n), seen_from(first + n, seen), constants_, sums[n]);
+      else
+        sums[n] = {};
+    }
     if (terms != SweepTerms::forces) {
-      const double *m = sums.moment, *v = sums.velocity;
-      const Tensor3<> gradient = sph::velocity_gradient(
-          {{m[0], m[1], m[2], m[3], m[4], m[5]}, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
-      rates.velocity_gradient[i] = gradient;
-      rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
+      alignas(64) double gradient[9][together];
+      velocity_gradients_(sums, gradient);
+      for (std::size_t c = 0; c < 9; ++c)
+        std::copy_n(gradient[c], size, rates.velocity_gradient.component[c].data() + first);
+      for (std::size_t n = 0; n < size; ++n)
+        rates.density_rate[first + n] =
+            corrected_continuity_ ? -particles.density[first + n] * (gradient[0][n] + gradient[4][n] + gradient[8][n])
+                                  : sums[n].density_rate;
     }
     if (terms == SweepTerms::gradients) return;
-    rates.acceleration[i] = {sums.acceleration[0], sums.acceleration[1], sums.acceleration[2]};
-    rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
-    std::copy_n(sums.wall_acceleration, first_wall_[i + 1] - first_wall_[i],
-                rates.by_walls.value.data() + first_wall_[i]);
+    for (std::size_t n = 0; n < size; ++n) {
+      const std::size_t i = first + n;
+      rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
+      rates.kernel_density[i] = sums[n].kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
+      std::copy_n(sums[n].wall_acceleration, first_wall_[i + 1] - first_wall_[i],
+                  rates.by_walls.value.data() + first_wall_[i]);
+    }
+  };
+  const std::size_t blocks = (count + together - 1) / together;
+  team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
+    for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
+      compute(b * together);
   });
 }
 

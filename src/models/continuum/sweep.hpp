@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "base/tensor.hpp"
+#include "models/continuum/gradient_columns.hpp"
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
@@ -19,8 +19,8 @@
 
 namespace talus::continuum {
 
-/// Acceleration of each particle by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel in
-/// the sum over all particles. Only walls that images of the particle's neighbour list load have a value.
+/// Acceleration of each particle by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel
+/// in the sum over all particles. Only walls that images of the particle's neighbour list load have a value.
 struct WallAccelerations {
   std::vector<std::uint32_t> walls;  ///< of a particle, a bit each
   std::vector<std::uint32_t> first;  ///< where its values begin; one more than particles
@@ -36,10 +36,10 @@ struct WallAccelerations {
 
 /// Rates of change of every particle, of one evaluation.
 struct Rates {
-  std::vector<Vector3> acceleration;         ///< from stress and viscosity, without gravity, m/s^2
-  std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
-  std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
-  std::vector<double> kernel_density;        ///< sum of m W over particles and images, kg/m^3
+  std::vector<Vector3> acceleration;  ///< from stress and viscosity, without gravity, m/s^2
+  std::vector<double> density_rate;   ///< Eq. 16, kg/(m^3 s)
+  GradientColumns velocity_gradient;
+  std::vector<double> kernel_density;  ///< sum of m W over particles and images, kg/m^3
   WallAccelerations by_walls;
 
   void resize(std::size_t count);
@@ -95,12 +95,13 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;     // by SweepTerms
+  std::array<SumNeighbours, 3> sum_;  // by SweepTerms
+  VelocityGradients* velocity_gradients_;
   SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
   bool local_sound_speed_;
   std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood neighbourhood_;
-  std::vector<ImageLoads> loads_;  // by image
+  std::vector<ImageLoads> loads_;     // by image
   std::vector<MotionRecord> motion_;  // particles, images, padding
   std::vector<StressRecord> stress_;
   std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other

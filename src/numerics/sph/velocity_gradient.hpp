@@ -22,9 +22,7 @@ struct GradientSums {
   constexpr void add(const Number& volume, const Number& slope, const Vector& d, const Vector& du) {
     const Number weight = volume * slope;  // -w
     const Number x = weight * d.x, y = weight * d.y, z = weight * d.z;
-    const auto subtract = [](Number& sum, const Number& a, const Number& b) {
-      sum = negative_multiply_add(a, b, sum);
-    };
+    const auto subtract = [](Number& sum, const Number& a, const Number& b) { sum = negative_multiply_add(a, b, sum); };
     subtract(moment.xx, x, d.x), subtract(moment.yy, y, d.y), subtract(moment.zz, z, d.z);
     subtract(moment.xy, x, d.y), subtract(moment.yz, y, d.z), subtract(moment.zx, z, d.x);
     subtract(velocity.xx, x, du.x), subtract(velocity.xy, y, du.x), subtract(velocity.xz, z, du.x);
@@ -39,9 +37,13 @@ struct GradientSums {
 inline constexpr double least_moment = 0.01;
 
 /// L = velocity . moment^-1, L_ij = du_i/dx_j, 1/s; without the correction where the neighbours do not span the space.
-inline Tensor3<> velocity_gradient(const GradientSums<>& sums) {
-  const Tensor3<> moment = full(sums.moment);
-  return determinant(moment) > least_moment ? sums.velocity * inverse(moment) : sums.velocity;
+template <class Number>
+Tensor3<Number> velocity_gradient(const GradientSums<Number>& sums) {
+  const Tensor3<Number> moment = full(sums.moment), raw = sums.velocity, l = raw * inverse(moment);
+  const auto spanned = determinant(moment) > Number(least_moment);
+  return {select(spanned, l.xx, raw.xx), select(spanned, l.xy, raw.xy), select(spanned, l.xz, raw.xz),
+          select(spanned, l.yx, raw.yx), select(spanned, l.yy, raw.yy), select(spanned, l.yz, raw.yz),
+          select(spanned, l.zx, raw.zx), select(spanned, l.zy, raw.zy), select(spanned, l.zz, raw.zz)};
 }
 
 }  // namespace talus::sph

@@ -79,13 +79,13 @@ struct Neighbours {
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
 struct alignas(64) PairSums {
-  double moment[6];             ///< GradientSums::moment: xx yy zz xy yz zx
-  double velocity[9];           ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
-  double density_rate;          ///< Eq. 16, kg/(m^3 s)
-  double density_gradient[8];   ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared; 3 of them
-  double acceleration[3];       ///< Eq. 17 without gravity, m/s^2
-  double kernel_density;        ///< sum of m W without the particle itself, kg/m^3
-  double wall_acceleration[20]; ///< that by images, along the normals of the walls that they load, these in order
+  double moment[6];            ///< GradientSums::moment: xx yy zz xy yz zx
+  double velocity[9];          ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
+  double density_rate;         ///< Eq. 16, kg/(m^3 s)
+  double density_gradient[8];  ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared; 3 of them
+  double acceleration[3];      ///< Eq. 17 without gravity, m/s^2
+  double kernel_density;       ///< sum of m W without the particle itself, kg/m^3
+  double wall_acceleration[20];  ///< that by images, along the normals of the walls that they load, these in order
 };
 
 enum class SweepTerms { all, gradients, forces };
@@ -96,6 +96,12 @@ enum class Stabilisers { none, prepared, acting };
 /// Only the requested sums are written.
 using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums);
+
+/// The corrected velocity gradients (numerics/sph/velocity_gradient.hpp) of as many particles as there are sums.
+/// \param sums of Neighbours::padded_to particles \param gradient as many numbers for each component, 1/s: xx xy xz yx
+/// yy yz zx zy zz
+using VelocityGradients = void(const PairSums* sums, double (*gradient)[Neighbours::padded_to]);
+VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
 /// \param stabilisers prepared: of `gradients` only
 using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers);

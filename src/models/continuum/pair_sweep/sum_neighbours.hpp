@@ -178,6 +178,17 @@ void sum_neighbours(const Records& records, std::uint32_t self, const Neighbours
   }
 }
 
+TALUS_INLINE void velocity_gradients(const PairSums* sums, double (*gradient)[Neighbours::padded_to]) {
+  for (std::uint32_t n = 0; n < Neighbours::padded_to; n += Number::lanes) {
+    Number s[16];
+    load_columns([&](int lane) { return sums[n + static_cast<std::uint32_t>(lane)].moment; }, s);
+    const Tensor3<Number> l = sph::velocity_gradient<Number>(
+        {{s[0], s[1], s[2], s[3], s[4], s[5]}, {s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]}});
+    const Number component[9] = {l.xx, l.xy, l.xz, l.yx, l.yy, l.yz, l.zx, l.zy, l.zz};
+    TALUS_UNROLL for (int c = 0; c < 9; ++c) component[c].store(gradient[c] + n);
+  }
+}
+
 template <Stabilisers stabilisers>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
   return terms == SweepTerms::all         ? sum_neighbours<true, true, stabilisers>
