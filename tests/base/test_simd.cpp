@@ -90,5 +90,21 @@ TYPED_TEST(SimdVectors, ReciprocalSquareRootOverTheRangeOfDistances) {
   EXPECT_FALSE(std::isfinite(reciprocal_sqrt(SimdVector<T>(0)).row[0][0]));
 }
 
+TEST(SimdVectors, LoadColumnsOfRowsAndSumTheirLanes) {
+  using Number = SimdVector<double>;
+  constexpr int columns = 16;
+  alignas(64) double row[Number::lanes][columns];
+  for (int k = 0; k < Number::lanes; ++k)
+    for (int c = 0; c < columns; ++c) row[k][c] = 100 * k + c;
+  Number column[columns];
+  load_columns([&](int lane) { return row[Number::lanes - 1 - lane]; }, column);
+  alignas(64) double sum[columns];
+  store_sums(column, sum);
+  for (int c = 0; c < columns; ++c) {
+    for (int k = 0; k < Number::lanes; ++k) EXPECT_EQ(column[c].row[0][k], 100 * (Number::lanes - 1 - k) + c);
+    EXPECT_EQ(sum[c], Number::lanes * c + 50 * Number::lanes * (Number::lanes - 1));
+  }
+}
+
 }  // namespace
 }  // namespace talus
