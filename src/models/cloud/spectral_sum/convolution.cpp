@@ -2,6 +2,7 @@
 #include "models/cloud/spectral_sum/convolution.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <functional>
 #include <numbers>
@@ -15,12 +16,15 @@ namespace talus::cloud {
 
 namespace {
 
-// The correction for the spline is felt a few nodes away; beyond this many its sources are where the kernel, sampled on
-// the doubled grid, has its seam.
-constexpr std::size_t seam = 40;
+using Count = std::array<std::size_t, 3>;
+
 constexpr std::size_t width = 8;  // columns transformed together
-constexpr int tables = 5;         // of the tensor: xx, xy, yy, and grad h along x and y
-constexpr std::size_t aligned_to = 64;
+
+/// The correction for the spline is felt a few nodes away; beyond this many its sources are where the kernel, sampled
+/// on the doubled grid, has its seam.
+constexpr std::size_t seam(int dimensions) {
+  return dimensions == 2 ? 40 : 40;
+}
 
 /// The least even number from `least` on without prime factors above 7.
 std::size_t good_size(std::size_t least) {
@@ -32,234 +36,306 @@ std::size_t good_size(std::size_t least) {
   }
 }
 
+/// Of the spectrum of a symmetric tensor, xx, xy, (xz,) yy ..., and after it of grad h: one at some place, `width`
+/// numbers each.
+constexpr std::size_t tensor_parts(std::size_t dimensions) {
+  return dimensions * (dimensions + 1) / 2;
+}
+constexpr std::size_t tables(std::size_t dimensions) {
+  return tensor_parts(dimensions) + dimensions;
+}
+constexpr std::size_t part(std::size_t dimensions, std::size_t k, std::size_t l) {
+  const std::size_t low = k < l ? k : l, high = k < l ? l : k;
+  return low * dimensions - low * (low + 1) / 2 + high;
+}
+
+/// At `width` wave numbers the sources' spectra become those of the results.
+/// \param g parts of the table there; \param sign -1 along directions in which it is of the mirrored wave number
+/// \param field numbers between the spectra of one source and the next
+template <class T, std::size_t dimensions>
+void multiply(const T* g, const std::array<T, dimensions>& sign, const Deviations& deviations, T* spectra,
+              std::size_t field) {
+  for (std::size_t b = 0; b < width; ++b) {
+    T re[dimensions], im[dimensions], out[2][dimensions];
+    for (std::size_t k = 0; k < dimensions; ++k)
+      re[k] = spectra[k * field + 2 * b], im[k] = spectra[k * field + 2 * b + 1];
+    for (std::size_t k = 0; k < dimensions; ++k) {
+      const T first = sign[0] * sign[k] * g[part(dimensions, k, 0) * width + b];
+      out[0][k] = first * re[0], out[1][k] = first * im[0];
+      for (std::size_t l = 1; l < dimensions; ++l) {
+        const T factor = sign[k] * sign[l] * g[part(dimensions, k, l) * width + b];
+        out[0][k] += factor * re[l], out[1][k] += factor * im[l];
+      }
+    }
+    if (deviations.sources || deviations.targets) {
+      T* const scalar = spectra + dimensions * field + 2 * b;
+      const T scalar_re = scalar[0], scalar_im = scalar[1];
+      T sum_re = 0, sum_im = 0;
+      for (std::size_t k = 0; k < dimensions; ++k) {
+        const T gradient = sign[k] * g[(tensor_parts(dimensions) + k) * width + b];  // times -i
+        if (deviations.sources) out[0][k] += gradient * scalar_im, out[1][k] -= gradient * scalar_re;
+        sum_re += gradient * im[k], sum_im += gradient * re[k];
+      }
+      if (deviations.targets) scalar[0] = sum_re, scalar[1] = -sum_im;
+    }
+    for (std::size_t k = 0; k < dimensions; ++k)
+      spectra[k * field + 2 * b] = out[0][k], spectra[k * field + 2 * b + 1] = out[1][k];
+  }
+}
+
 }  // namespace
 
-template <class T>
-struct Convolution<T>::Grid {
+template <class T, int dimensions>
+struct Convolution<T, dimensions>::Grid {
   using Complex = std::complex<T>;
+  static constexpr std::size_t last = dimensions - 1;  // the direction that is transformed last
 
   SpectralAccuracy accuracy;
   Deviations deviations;
   Split split;
   double mean_size = -1;
-  std::size_t columns = 0, rows = 0;          // of the nodes that are in use
-  std::size_t all_columns = 0, all_rows = 0;  // of the doubled grid
+  Count count = {}, all = {};  // of the nodes that are in use, and of the doubled grid
   std::size_t pitch = 0, blocks = 0;
   AlignedArray<T> fields, table;
   std::vector<AlignedArray<Complex>> space;
-  Transform<T> row_forward, row_backward, column_forward, column_backward;
+  Transform<T> row_forward, row_backward;
+  std::array<Transform<T>, 3> forward, backward;  // across rows and layers
 
   Grid(const SpectralAccuracy& accuracy_, Deviations deviations_)
       : accuracy(accuracy_), deviations(deviations_), split(accuracy_.beta, accuracy_.order) {}
 
-  int sources() const { return deviations.sources ? 3 : 2; }
-  int results() const { return deviations.targets ? 3 : 2; }
-  int field_count() const { return std::max(sources(), results()); }
-  T* row(int field, std::size_t n) { return fields.data() + (static_cast<std::size_t>(field) * rows + n) * pitch; }
+  std::size_t sources() const { return dimensions + (deviations.sources ? 1 : 0); }
+  std::size_t results() const { return dimensions + (deviations.targets ? 1 : 0); }
+  std::size_t field_count() const { return std::max(sources(), results()); }
+  std::size_t rows() const { return count[1] * count[2]; }
+  T* row(std::size_t field, std::size_t n) { return fields.data() + (field * rows() + n) * pitch; }
+  const T* parts_at(std::size_t block, const Count& k) const {
+    return table.data() + ((block * (all[1] / 2 + 1) + k[1]) * (all[2] / 2 + 1) + k[2]) * tables(dimensions) * width;
+  }
+  std::size_t slab() const { return count[2] * all[1] * width; }  // numbers of a field in a block of columns
+  std::size_t room() const { return field_count() * (slab() + (dimensions == 3 ? all[2] * width : 0)); }
 
   void set_size();
   void sample(ThreadTeam& team);
-  void fill_table(ThreadTeam& team, int number, bool odd_x, bool odd_y,
-                  const std::function<double(double, double)>& kernel);
-  void transform_columns(std::size_t block, Complex* work);
-  void multiply(std::size_t block, Complex* work) const;
+  void fill_table(ThreadTeam& team, std::size_t number, const std::array<bool, 3>& odd,
+                  const std::function<double(const std::array<double, 3>&)>& kernel);
+  void transform_block(std::size_t block, Complex* work);
+  void transform_layers(std::size_t block, Complex* work, Complex* line);
+  void multiply_line(std::size_t block, Count at, T sign, Complex* line, std::size_t field) const;
 };
 
-template <class T>
-void Convolution<T>::Grid::set_size() {
-  all_columns = good_size(2 * columns + seam), all_rows = good_size(2 * rows + seam);
-  pitch = (all_columns + 2 + aligned_to - 1) / aligned_to * aligned_to;
-  blocks = (all_columns / 2 + width) / width;
-  fields = AlignedArray<T>(static_cast<std::size_t>(field_count()) * rows * pitch + 2 * width);
-  table = AlignedArray<T>(blocks * (all_rows / 2 + 1) * tables * width);
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::set_size() {
+  all = {1, 1, 1};
+  for (std::size_t k = 0; k <= last; ++k) all[k] = good_size(2 * count[k] + seam(dimensions));
+  blocks = (all[0] / 2 + width) / width;
+  pitch = 2 * width * blocks;
+  fields = AlignedArray<T>(field_count() * rows() * pitch);
+  table = AlignedArray<T>(blocks * (all[1] / 2 + 1) * (all[2] / 2 + 1) * tables(dimensions) * width);
   space.clear();
-  AlignedArray<Complex> columns_of_a_block(all_rows * width);
-  row_forward = Transform<T>::to_spectrum(all_columns, fields.data());
-  row_backward = Transform<T>::from_spectrum(all_columns, fields.data());
-  column_forward = Transform<T>::of_columns(all_rows, width, columns_of_a_block.data(), false);
-  column_backward = Transform<T>::of_columns(all_rows, width, columns_of_a_block.data(), true);
+  row_forward = Transform<T>::to_spectrum(all[0], fields.data());
+  row_backward = Transform<T>::from_spectrum(all[0], fields.data());
+  for (std::size_t k = 1; k <= last; ++k) {
+    const AlignedArray<Complex> columns(all[k] * width);
+    forward[k] = Transform<T>::of_columns(all[k], width, columns.data(), false);
+    backward[k] = Transform<T>::of_columns(all[k], width, columns.data(), true);
+  }
 }
 
-/// Samples a kernel on a quarter of the doubled grid, transforms it and stores it, corrected for the spline and scaled.
-/// \param odd_x, odd_y whether it changes its sign with a coordinate; it is even otherwise
-template <class T>
-void Convolution<T>::Grid::fill_table(ThreadTeam& team, int number, bool odd_x, bool odd_y,
-                                      const std::function<double(double, double)>& kernel) {
-  const std::size_t half_x = all_columns / 2, half_y = all_rows / 2;
-  const std::size_t first_x = odd_x ? 1 : 0, first_y = odd_y ? 1 : 0;
-  const std::size_t count_x = half_x + 1 - 2 * first_x, count_y = half_y + 1 - 2 * first_y;
-  AlignedArray<double> quarter(count_x * count_y);
+/// Samples a kernel where no coordinate on the doubled grid is negative, transforms it and stores it, corrected for the
+/// spline and scaled. \param odd whether it changes its sign with a coordinate; it is even otherwise
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::fill_table(ThreadTeam& team, std::size_t number, const std::array<bool, 3>& odd,
+                                                  const std::function<double(const std::array<double, 3>&)>& kernel) {
+  Count half{}, first{}, some{};
+  std::array<std::vector<double>, 3> correction;
+  for (std::size_t k = 0; k < 3; ++k) {
+    half[k] = all[k] / 2, first[k] = odd[k] ? 1 : 0;
+    some[k] = half[k] + 1 - 2 * first[k];
+    correction[k].assign(half[k] + 1, 1.0);
+    const auto size = static_cast<double>(all[k]);
+    for (std::size_t n = 0; n <= half[k] && k <= last; ++n)
+      correction[k][n] = spline_correction(2 * std::numbers::pi * static_cast<double>(n) / size, accuracy.points);
+  }
+  AlignedArray<double> samples(some[0] * some[1] * some[2]);
   const double spacing = 1.0 / accuracy.nodes;
-  team.run(count_y, [&](std::size_t j) {
-    for (std::size_t i = 0; i < count_x; ++i)
-      quarter[j * count_x + i] =
-          kernel(static_cast<double>(i + first_x) * spacing, static_cast<double>(j + first_y) * spacing);
+  team.run(some[1] * some[2], [&](std::size_t row) {
+    const std::size_t j = row % some[1], l = row / some[1];
+    for (std::size_t i = 0; i < some[0]; ++i)
+      samples[row * some[0] + i] =
+          kernel({static_cast<double>(i + first[0]) * spacing, static_cast<double>(j + first[1]) * spacing,
+                  static_cast<double>(l + first[2]) * spacing});
   });
-  transform_quarter(quarter.data(), count_x, count_y, odd_x, odd_y);
-  const auto correction = [&](std::size_t k, std::size_t all) {
-    return spline_correction(2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(all), accuracy.points);
-  };
-  std::vector<double> across(half_x + 1);
-  for (std::size_t k = 0; k <= half_x; ++k)
-    across[k] = correction(k, all_columns) / (static_cast<double>(all_columns) * static_cast<double>(all_rows));
-  const double sign = odd_x && odd_y ? -1 : 1;  // each odd direction gives -i; a single one is left to `multiply`
-  team.run(half_y + 1, [&](std::size_t j) {
-    const double along = sign * correction(j, all_rows);
-    for (std::size_t block = 0; block < blocks; ++block)
-      for (std::size_t b = 0; b < width; ++b) {
-        const std::size_t i = block * width + b;
-        const bool inside = i >= first_x && i - first_x < count_x && j >= first_y && j - first_y < count_y;
-        const double value = inside ? quarter[(j - first_y) * count_x + (i - first_x)] * across[i] * along : 0.0;
-        table[((block * (half_y + 1) + j) * tables + static_cast<std::size_t>(number)) * width + b] =
-            static_cast<T>(value);
-      }
+  transform_part(samples.data(), some, odd);
+  const double nodes = static_cast<double>(all[0]) * static_cast<double>(all[1]) * static_cast<double>(all[2]);
+  // Each odd direction gives -i; a single one is left to `multiply`.
+  const double sign = odd[0] + odd[1] + odd[2] == 2 ? -1 : 1;
+  team.run((half[1] + 1) * (half[2] + 1), [&](std::size_t row) {
+    const std::size_t j = row % (half[1] + 1), l = row / (half[1] + 1);
+    const double along = sign * correction[1][j] * correction[2][l];
+    const bool in = j >= first[1] && j - first[1] < some[1] && l >= first[2] && l - first[2] < some[2];
+    for (std::size_t i = 0; i < blocks * width; ++i) {
+      const bool inside = in && i >= first[0] && i - first[0] < some[0];
+      const double value =
+          inside ? samples[((l - first[2]) * some[1] + j - first[1]) * some[0] + (i - first[0])] *
+                       (correction[0][i] / nodes) * along
+                 : 0.0;
+      const_cast<T*>(parts_at(i / width, {0, j, l}))[number * width + i % width] = static_cast<T>(value);
+    }
   });
 }
 
-template <class T>
-void Convolution<T>::Grid::sample(ThreadTeam& team) {
-  const auto mobility = [&](double x, double y) {
-    const double r = std::hypot(x, y);
-    const auto s = split.stokeslet(r), d = split.dipole(r);
-    return hydrodynamics::PairMobility<double>{s.isotropic + mean_size * d.isotropic, s.radial + mean_size * d.radial};
-  };
-  fill_table(team, 0, false, false, [&](double x, double y) {
-    const auto m = mobility(x, y);
-    return m.isotropic + x * x * m.radial;
-  });
-  fill_table(team, 1, true, true, [&](double x, double y) { return x * y * mobility(x, y).radial; });
-  fill_table(team, 2, false, false, [&](double x, double y) {
-    const auto m = mobility(x, y);
-    return m.isotropic + y * y * m.radial;
-  });
-  if (field_count() == 2) return;
-  fill_table(team, 3, true, false, [&](double x, double y) { return -x * split.dipole(std::hypot(x, y)).isotropic; });
-  fill_table(team, 4, false, true, [&](double x, double y) { return -y * split.dipole(std::hypot(x, y)).isotropic; });
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::sample(ThreadTeam& team) {
+  using Place = std::array<double, 3>;
+  const auto distance = [](const Place& x) { return std::hypot(std::hypot(x[0], x[1]), x[2]); };
+  for (std::size_t k = 0; k <= last; ++k) {
+    for (std::size_t l = k; l <= last; ++l) {
+      std::array<bool, 3> odd{};
+      if (k != l) odd[k] = odd[l] = true;
+      fill_table(team, part(dimensions, k, l), odd, [&](const Place& x) {
+        const double r = distance(x);
+        const auto s = split.stokeslet(r), d = split.dipole(r);
+        const double radial = x[k] * x[l] * (s.radial + mean_size * d.radial);
+        return k == l ? s.isotropic + mean_size * d.isotropic + radial : radial;
+      });
+    }
+    if (field_count() == dimensions) continue;
+    std::array<bool, 3> odd{};
+    odd[k] = true;
+    fill_table(team, tensor_parts(dimensions) + k, odd,
+               [&](const Place& x) { return -x[k] * split.dipole(distance(x)).isotropic; });
+  }
 }
 
-/// The sources' spectra of some columns, one after the other in `work`, become those of the results.
-template <class T>
-void Convolution<T>::Grid::multiply(std::size_t block, Complex* work) const {
-  const std::size_t half = all_rows / 2, field = all_rows * width;
-  const bool from_scalar = deviations.sources, to_scalar = deviations.targets;
-  for (std::size_t j = 0; j < all_rows; ++j) {
-    const std::size_t row = j <= half ? j : all_rows - j;
-    const T sign = j <= half ? T(1) : T(-1);  // of what is odd along the columns
-    const T* const g = table.data() + (block * (half + 1) + row) * tables * width;
-    T* const x = reinterpret_cast<T*>(work + j * width);
-    T* const y = reinterpret_cast<T*>(work + field + j * width);
-    T* const scalar = reinterpret_cast<T*>(work + 2 * field + j * width);
-    for (std::size_t b = 0; b < width; ++b) {
-      const T xx = g[b], xy = sign * g[width + b], yy = g[2 * width + b];
-      const T re_x = x[2 * b], im_x = x[2 * b + 1], re_y = y[2 * b], im_y = y[2 * b + 1];
-      T out_x[2] = {xx * re_x + xy * re_y, xx * im_x + xy * im_y};
-      T out_y[2] = {xy * re_x + yy * re_y, xy * im_x + yy * im_y};
-      if (from_scalar || to_scalar) {
-        const T grad_x = g[3 * width + b], grad_y = sign * g[4 * width + b];  // times -i
-        if (from_scalar) {
-          const T re = scalar[2 * b], im = scalar[2 * b + 1];
-          out_x[0] += grad_x * im, out_x[1] -= grad_x * re;
-          out_y[0] += grad_y * im, out_y[1] -= grad_y * re;
-        }
-        if (to_scalar) {
-          scalar[2 * b] = grad_x * im_x + grad_y * im_y;
-          scalar[2 * b + 1] = -(grad_x * re_x + grad_y * re_y);
-        }
-      }
-      x[2 * b] = out_x[0], x[2 * b + 1] = out_x[1];
-      y[2 * b] = out_y[0], y[2 * b + 1] = out_y[1];
+/// Along the last direction. \param at wave numbers along the others; \param sign of what is odd along the rows
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::multiply_line(std::size_t block, Count at, T sign, Complex* line,
+                                                     std::size_t field) const {
+  std::array<T, dimensions> signs{};
+  signs[0] = 1, signs[1] = sign;
+  for (std::size_t n = 0; n < all[last]; ++n) {
+    const bool mirrored = n > all[last] / 2;
+    at[last] = mirrored ? all[last] - n : n;
+    signs[last] = mirrored ? T(-1) : T(1);
+    multiply<T, dimensions>(parts_at(block, at), signs, deviations, reinterpret_cast<T*>(line + n * width), 2 * field);
+  }
+}
+
+/// Across the layers, for one row after the other.
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::transform_layers(std::size_t block, Complex* work, Complex* line) {
+  const std::size_t field = all[2] * width, layer = all[1] * width;
+  for (std::size_t j = 0; j < all[1]; ++j) {
+    for (std::size_t k = 0; k < sources(); ++k) {
+      for (std::size_t l = 0; l < count[2]; ++l)
+        std::copy_n(work + k * slab() + l * layer + j * width, width, line + k * field + l * width);
+      std::fill(line + k * field + count[2] * width, line + (k + 1) * field, Complex{});
+      forward[2].of_complex(line + k * field);
+    }
+    const bool mirrored = j > all[1] / 2;
+    multiply_line(block, {0, mirrored ? all[1] - j : j, 0}, mirrored ? T(-1) : T(1), line, field);
+    for (std::size_t k = 0; k < results(); ++k) {
+      backward[2].of_complex(line + k * field);
+      for (std::size_t l = 0; l < count[2]; ++l)
+        std::copy_n(line + k * field + l * width, width, work + k * slab() + l * layer + j * width);
     }
   }
 }
 
-template <class T>
-void Convolution<T>::Grid::transform_columns(std::size_t block, Complex* work) {
-  const std::size_t field = all_rows * width;
-  for (int k = 0; k < sources(); ++k) {
-    Complex* const column = work + static_cast<std::size_t>(k) * field;
-    for (std::size_t j = 0; j < rows; ++j) {
-      const Complex* const from = reinterpret_cast<const Complex*>(row(k, j)) + block * width;
-      std::copy(from, from + width, column + j * width);
+/// The sources' spectra along the rows, of some columns, become those of the results.
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::transform_block(std::size_t block, Complex* work) {
+  const std::size_t column = all[1] * width;
+  const auto part_of_row = [&](std::size_t k, std::size_t l, std::size_t j) {
+    return reinterpret_cast<Complex*>(row(k, l * count[1] + j)) + block * width;
+  };
+  for (std::size_t k = 0; k < sources(); ++k)
+    for (std::size_t l = 0; l < count[2]; ++l) {
+      Complex* const columns = work + k * slab() + l * column;
+      for (std::size_t j = 0; j < count[1]; ++j) std::copy_n(part_of_row(k, l, j), width, columns + j * width);
+      std::fill(columns + count[1] * width, columns + column, Complex{});
+      forward[1].of_complex(columns);
     }
-    std::fill(column + rows * width, column + field, Complex{});
-    column_forward.of_complex(column);
-  }
-  multiply(block, work);
-  for (int k = 0; k < results(); ++k) {
-    Complex* const column = work + static_cast<std::size_t>(k) * field;
-    column_backward.of_complex(column);
-    for (std::size_t j = 0; j < rows; ++j)
-      std::copy(column + j * width, column + (j + 1) * width, reinterpret_cast<Complex*>(row(k, j)) + block * width);
-  }
+  if constexpr (dimensions == 2)
+    multiply_line(block, {}, 1, work, slab());
+  else
+    transform_layers(block, work, work + field_count() * slab());
+  for (std::size_t k = 0; k < results(); ++k)
+    for (std::size_t l = 0; l < count[2]; ++l) {
+      Complex* const columns = work + k * slab() + l * column;
+      backward[1].of_complex(columns);
+      for (std::size_t j = 0; j < count[1]; ++j) std::copy_n(columns + j * width, width, part_of_row(k, l, j));
+    }
 }
 
-template <class T>
-Convolution<T>::Convolution(const SpectralAccuracy& accuracy, Deviations deviations)
+template <class T, int dimensions>
+Convolution<T, dimensions>::Convolution(const SpectralAccuracy& accuracy, Deviations deviations)
     : grid_(std::make_unique<Grid>(accuracy, deviations)) {}
-template <class T>
-Convolution<T>::~Convolution() = default;
-template <class T>
-Convolution<T>::Convolution(Convolution&&) noexcept = default;
-template <class T>
-Convolution<T>& Convolution<T>::operator=(Convolution&&) noexcept = default;
+template <class T, int dimensions>
+Convolution<T, dimensions>::~Convolution() = default;
+template <class T, int dimensions>
+Convolution<T, dimensions>::Convolution(Convolution&&) noexcept = default;
+template <class T, int dimensions>
+Convolution<T, dimensions>& Convolution<T, dimensions>::operator=(Convolution&&) noexcept = default;
 
-template <class T>
-T* Convolution<T>::field(int number) {
-  return grid_->row(number, 0);
+template <class T, int dimensions>
+T* Convolution<T, dimensions>::field(int number) {
+  return grid_->row(static_cast<std::size_t>(number), 0);
 }
 
-template <class T>
-const T* Convolution<T>::field(int number) const {
-  return grid_->row(number, 0);
+template <class T, int dimensions>
+const T* Convolution<T, dimensions>::field(int number) const {
+  return grid_->row(static_cast<std::size_t>(number), 0);
 }
 
-template <class T>
-std::size_t Convolution<T>::pitch() const {
+template <class T, int dimensions>
+std::size_t Convolution<T, dimensions>::pitch() const {
   return grid_->pitch;
 }
 
-template <class T>
-void Convolution<T>::prepare(ThreadTeam& team, std::size_t columns, std::size_t rows, double mean_size) {
+template <class T, int dimensions>
+std::size_t Convolution<T, dimensions>::layer_pitch() const {
+  return grid_->count[1] * grid_->pitch;
+}
+
+template <class T, int dimensions>
+void Convolution<T, dimensions>::prepare(ThreadTeam& team, const Count& count, double mean_size) {
   Grid& g = *grid_;
   // A few sizes serve many grids: the room is that of the transform.
-  const std::size_t room_x = (good_size(2 * columns + seam) - seam) / 2;
-  const std::size_t room_y = (good_size(2 * rows + seam) - seam) / 2;
-  if (room_x != g.columns || room_y != g.rows || mean_size != g.mean_size) {
-    g.columns = room_x, g.rows = room_y, g.mean_size = mean_size;
+  Count room = {1, 1, 1};
+  for (std::size_t k = 0; k <= Grid::last; ++k)
+    room[k] = (good_size(2 * count[k] + seam(dimensions)) - seam(dimensions)) / 2;
+  if (room != g.count || mean_size != g.mean_size) {
+    g.count = room, g.mean_size = mean_size;
     g.set_size();
     g.sample(team);
   }
-  team.run(g.rows, [&](std::size_t j) {
-    for (int k = 0; k < g.field_count(); ++k) std::fill(g.row(k, j), g.row(k, j) + g.pitch, T(0));
+  team.run(g.rows(), [&](std::size_t n) {
+    for (std::size_t k = 0; k < g.field_count(); ++k) std::fill_n(g.row(k, n), g.pitch, T(0));
   });
 }
 
-template <class T>
-void Convolution<T>::apply(ThreadTeam& team) {
+template <class T, int dimensions>
+void Convolution<T, dimensions>::apply(ThreadTeam& team) {
   Grid& g = *grid_;
-  team.run(g.rows, [&](std::size_t j) {
-    for (int k = 0; k < g.sources(); ++k) g.row_forward.to_complex(g.row(k, j));
+  team.run(g.rows(), [&](std::size_t n) {
+    for (std::size_t k = 0; k < g.sources(); ++k) g.row_forward.to_complex(g.row(k, n));
   });
-  // Columns do not know of each other: what a task takes does not change a bit.
+  // Blocks of columns do not know of each other: what a task takes does not change a bit.
   const std::size_t tasks = std::min<std::size_t>(g.blocks, 4 * static_cast<std::size_t>(team.size()));
-  const std::size_t field = g.all_rows * width * static_cast<std::size_t>(g.field_count());
-  while (g.space.size() < tasks) g.space.emplace_back(field);
+  while (g.space.size() < tasks) g.space.emplace_back(g.room());
   team.run(tasks, [&](std::size_t task) {
-    for (std::size_t block = task; block < g.blocks; block += tasks) g.transform_columns(block, g.space[task].data());
+    for (std::size_t block = task; block < g.blocks; block += tasks) g.transform_block(block, g.space[task].data());
   });
-  team.run(g.rows, [&](std::size_t j) {
-    for (int k = 0; k < g.results(); ++k) g.row_backward.to_real(g.row(k, j));
+  team.run(g.rows(), [&](std::size_t n) {
+    for (std::size_t k = 0; k < g.results(); ++k) g.row_backward.to_real(g.row(k, n));
   });
 }
 
-template <class T>
-double Convolution<T>::bytes(const SpectralAccuracy&, double columns, double rows) {
-  // Fields twice as wide as the grid, the tables of a quarter of the doubled grid, and one such quarter in double.
-  const double nodes = 1.1 * (columns + seam) * (rows + seam);
-  return nodes * (sizeof(T) * (3 * 2 + tables) + sizeof(double)) + 4e6;
-}
-
-template class Convolution<float>;
-template class Convolution<double>;
+template class Convolution<float, 2>;
+template class Convolution<float, 3>;
+template class Convolution<double, 2>;
+template class Convolution<double, 3>;
 
 }  // namespace talus::cloud

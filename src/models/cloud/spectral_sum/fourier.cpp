@@ -6,6 +6,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <type_traits>
+#include <vector>
 
 namespace talus::cloud {
 
@@ -99,12 +100,18 @@ void Transform<T>::of_complex(std::complex<T>* columns) const {
 template class Transform<float>;
 template class Transform<double>;
 
-void transform_quarter(double* quarter, std::size_t columns, std::size_t rows, bool odd_x, bool odd_y) {
+void transform_part(double* part, const std::array<std::size_t, 3>& count, const std::array<bool, 3>& odd) {
+  std::vector<int> size;
+  std::vector<fftw_r2r_kind> kind;
+  for (std::size_t k = 3; k-- > 0;) {
+    if (count[k] == 1 && !odd[k]) continue;
+    size.push_back(static_cast<int>(count[k]));
+    kind.push_back(odd[k] ? FFTW_RODFT00 : FFTW_REDFT00);
+  }
   fftw_plan plan = nullptr;
   {
     const std::lock_guard lock(planner());
-    plan = fftw_plan_r2r_2d(static_cast<int>(rows), static_cast<int>(columns), quarter, quarter,
-                            odd_y ? FFTW_RODFT00 : FFTW_REDFT00, odd_x ? FFTW_RODFT00 : FFTW_REDFT00, FFTW_ESTIMATE);
+    plan = fftw_plan_r2r(static_cast<int>(size.size()), size.data(), part, part, kind.data(), FFTW_ESTIMATE);
     made(plan);
   }
   fftw_execute(plan);

@@ -4,6 +4,7 @@
 /// threads at once, each on arrays of its own that are aligned as AlignedArray.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <memory>
@@ -56,9 +57,10 @@ class Transform {
   std::unique_ptr<void, Release> plan_;
 };
 
-/// In place, the cosine or (odd) sine transforms along both directions of a quarter of a function on a doubled grid:
-/// what its Fourier transform is, up to -i for each odd direction. Even: from the middle to the seam, both included;
-/// odd: both, where the function is 0, left out. \param columns of the quarter, along which its numbers follow
-void transform_quarter(double* quarter, std::size_t columns, std::size_t rows, bool odd_x, bool odd_y);
+/// In place, the cosine or (odd) sine transforms along every direction of the part, a quarter or an octant, of a function
+/// on a doubled grid in which no coordinate is negative: what its Fourier transform is, up to -i for each odd direction.
+/// Even: from the middle to the seam, both included; odd: both, where the function is 0, left out; of one number: none.
+/// \param count of numbers along each direction, those along the first following each other
+void transform_part(double* part, const std::array<std::size_t, 3>& count, const std::array<bool, 3>& odd);
 
 }  // namespace talus::cloud
