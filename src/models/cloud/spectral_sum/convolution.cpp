@@ -20,12 +20,6 @@ using Count = std::array<std::size_t, 3>;
 
 constexpr std::size_t width = 8;  // columns transformed together
 
-/// The correction for the spline is felt a few nodes away; beyond this many its sources are where the kernel, sampled
-/// on the doubled grid, has its seam.
-constexpr std::size_t seam(int dimensions) {
-  return dimensions == 2 ? 40 : 40;
-}
-
 /// The least even number from `least` on without prime factors above 7.
 std::size_t good_size(std::size_t least) {
   for (std::size_t n = least + least % 2;; n += 2) {
@@ -90,6 +84,12 @@ struct Convolution<T, dimensions>::Grid {
   using Complex = std::complex<T>;
   static constexpr std::size_t last = dimensions - 1;  // the direction that is transformed last
 
+  /// What a block of columns is transformed in. Inputs of transforms along a direction are 0 beyond the nodes in use.
+  struct Space {
+    AlignedArray<Complex> slab, line, across;  ///< of all fields; of all fields in a line of layers; output of one line
+    std::array<AlignedArray<Complex>, 3> input;
+  };
+
   SpectralAccuracy accuracy;
   Deviations deviations;
   Split split;
@@ -97,7 +97,7 @@ struct Convolution<T, dimensions>::Grid {
   Count count = {}, all = {};  // of the nodes that are in use, and of the doubled grid
   std::size_t pitch = 0, blocks = 0;
   AlignedArray<T> fields, table;
-  std::vector<AlignedArray<Complex>> space;
+  std::vector<Space> space;
   Transform<T> row_forward, row_backward;
   std::array<Transform<T>, 3> forward, backward;  // across rows and layers
 
@@ -112,22 +112,26 @@ struct Convolution<T, dimensions>::Grid {
   const T* parts_at(std::size_t block, const Count& k) const {
     return table.data() + ((block * (all[1] / 2 + 1) + k[1]) * (all[2] / 2 + 1) + k[2]) * tables(dimensions) * width;
   }
+  // The correction for the spline is felt a few nodes away: so far its sources, where the sampled kernel has its seam,
+  // are kept.
+  std::size_t seam() const { return static_cast<std::size_t>(accuracy.seam); }
+  std::size_t doubled(std::size_t nodes) const { return good_size(2 * nodes + seam()); }
   std::size_t slab() const { return count[2] * all[1] * width; }  // numbers of a field in a block of columns
-  std::size_t room() const { return field_count() * (slab() + (dimensions == 3 ? all[2] * width : 0)); }
 
   void set_size();
   void sample(ThreadTeam& team);
   void fill_table(ThreadTeam& team, std::size_t number, const std::array<bool, 3>& odd,
                   const std::function<double(const std::array<double, 3>&)>& kernel);
-  void transform_block(std::size_t block, Complex* work);
-  void transform_layers(std::size_t block, Complex* work, Complex* line);
+  void make_space();
+  void transform_block(std::size_t block, const Space& work);
+  void transform_layers(std::size_t block, const Space& work) const;
   void multiply_line(std::size_t block, Count at, T sign, Complex* line, std::size_t field) const;
 };
 
 template <class T, int dimensions>
 void Convolution<T, dimensions>::Grid::set_size() {
   all = {1, 1, 1};
-  for (std::size_t k = 0; k <= last; ++k) all[k] = good_size(2 * count[k] + seam(dimensions));
+  for (std::size_t k = 0; k <= last; ++k) all[k] = doubled(count[k]);
   blocks = (all[0] / 2 + width) / width;
   pitch = 2 * width * blocks;
   fields = AlignedArray<T>(field_count() * rows() * pitch);
@@ -136,9 +140,9 @@ void Convolution<T, dimensions>::Grid::set_size() {
   row_forward = Transform<T>::to_spectrum(all[0], fields.data());
   row_backward = Transform<T>::from_spectrum(all[0], fields.data());
   for (std::size_t k = 1; k <= last; ++k) {
-    const AlignedArray<Complex> columns(all[k] * width);
-    forward[k] = Transform<T>::of_columns(all[k], width, columns.data(), false);
-    backward[k] = Transform<T>::of_columns(all[k], width, columns.data(), true);
+    const AlignedArray<Complex> from(all[k] * width), to(all[k] * width);
+    forward[k] = Transform<T>::of_columns(all[k], width, from.data(), to.data(), false);
+    backward[k] = Transform<T>::of_columns(all[k], width, from.data(), to.data(), true);
   }
 }
 
@@ -222,50 +226,57 @@ void Convolution<T, dimensions>::Grid::multiply_line(std::size_t block, Count at
   }
 }
 
+template <class T, int dimensions>
+void Convolution<T, dimensions>::Grid::make_space() {
+  Space& made = space.emplace_back();
+  made.slab = AlignedArray<Complex>(field_count() * slab());
+  made.line = AlignedArray<Complex>(field_count() * all[2] * width);
+  made.across = AlignedArray<Complex>(std::max(all[1], all[2]) * width);
+  for (std::size_t k = 1; k <= last; ++k) made.input[k] = AlignedArray<Complex>(all[k] * width);
+}
+
 /// Across the layers, for one row after the other.
 template <class T, int dimensions>
-void Convolution<T, dimensions>::Grid::transform_layers(std::size_t block, Complex* work, Complex* line) {
+void Convolution<T, dimensions>::Grid::transform_layers(std::size_t block, const Space& work) const {
   const std::size_t field = all[2] * width, layer = all[1] * width;
+  Complex *const line = work.line.data(), *const input = work.input[2].data(), *const output = work.across.data();
   for (std::size_t j = 0; j < all[1]; ++j) {
     for (std::size_t k = 0; k < sources(); ++k) {
-      for (std::size_t l = 0; l < count[2]; ++l)
-        std::copy_n(work + k * slab() + l * layer + j * width, width, line + k * field + l * width);
-      std::fill(line + k * field + count[2] * width, line + (k + 1) * field, Complex{});
-      forward[2].of_complex(line + k * field);
+      const Complex* const from = work.slab.data() + k * slab() + j * width;
+      for (std::size_t l = 0; l < count[2]; ++l) std::copy_n(from + l * layer, width, input + l * width);
+      forward[2].of_complex(input, line + k * field);
     }
     const bool mirrored = j > all[1] / 2;
     multiply_line(block, {0, mirrored ? all[1] - j : j, 0}, mirrored ? T(-1) : T(1), line, field);
     for (std::size_t k = 0; k < results(); ++k) {
-      backward[2].of_complex(line + k * field);
-      for (std::size_t l = 0; l < count[2]; ++l)
-        std::copy_n(line + k * field + l * width, width, work + k * slab() + l * layer + j * width);
+      backward[2].of_complex(line + k * field, output);
+      Complex* const to = work.slab.data() + k * slab() + j * width;
+      for (std::size_t l = 0; l < count[2]; ++l) std::copy_n(output + l * width, width, to + l * layer);
     }
   }
 }
 
 /// The sources' spectra along the rows, of some columns, become those of the results.
 template <class T, int dimensions>
-void Convolution<T, dimensions>::Grid::transform_block(std::size_t block, Complex* work) {
-  const std::size_t column = all[1] * width;
+void Convolution<T, dimensions>::Grid::transform_block(std::size_t block, const Space& work) {
+  Complex *const input = work.input[1].data(), *const output = work.across.data();
+  const auto columns = [&](std::size_t k, std::size_t l) { return work.slab.data() + k * slab() + l * all[1] * width; };
   const auto part_of_row = [&](std::size_t k, std::size_t l, std::size_t j) {
     return reinterpret_cast<Complex*>(row(k, l * count[1] + j)) + block * width;
   };
   for (std::size_t k = 0; k < sources(); ++k)
     for (std::size_t l = 0; l < count[2]; ++l) {
-      Complex* const columns = work + k * slab() + l * column;
-      for (std::size_t j = 0; j < count[1]; ++j) std::copy_n(part_of_row(k, l, j), width, columns + j * width);
-      std::fill(columns + count[1] * width, columns + column, Complex{});
-      forward[1].of_complex(columns);
+      for (std::size_t j = 0; j < count[1]; ++j) std::copy_n(part_of_row(k, l, j), width, input + j * width);
+      forward[1].of_complex(input, columns(k, l));
     }
   if constexpr (dimensions == 2)
-    multiply_line(block, {}, 1, work, slab());
+    multiply_line(block, {}, 1, work.slab.data(), slab());
   else
-    transform_layers(block, work, work + field_count() * slab());
+    transform_layers(block, work);
   for (std::size_t k = 0; k < results(); ++k)
     for (std::size_t l = 0; l < count[2]; ++l) {
-      Complex* const columns = work + k * slab() + l * column;
-      backward[1].of_complex(columns);
-      for (std::size_t j = 0; j < count[1]; ++j) std::copy_n(columns + j * width, width, part_of_row(k, l, j));
+      backward[1].of_complex(columns(k, l), output);
+      for (std::size_t j = 0; j < count[1]; ++j) std::copy_n(output + j * width, width, part_of_row(k, l, j));
     }
 }
 
@@ -280,13 +291,18 @@ template <class T, int dimensions>
 Convolution<T, dimensions>& Convolution<T, dimensions>::operator=(Convolution&&) noexcept = default;
 
 template <class T, int dimensions>
-T* Convolution<T, dimensions>::field(int number) {
-  return grid_->row(static_cast<std::size_t>(number), 0);
+T* Convolution<T, dimensions>::fields() {
+  return grid_->fields.data();
 }
 
 template <class T, int dimensions>
-const T* Convolution<T, dimensions>::field(int number) const {
-  return grid_->row(static_cast<std::size_t>(number), 0);
+const T* Convolution<T, dimensions>::fields() const {
+  return grid_->fields.data();
+}
+
+template <class T, int dimensions>
+std::size_t Convolution<T, dimensions>::field_pitch() const {
+  return grid_->rows() * grid_->pitch;
 }
 
 template <class T, int dimensions>
@@ -305,7 +321,7 @@ void Convolution<T, dimensions>::prepare(ThreadTeam& team, const Count& count, d
   // A few sizes serve many grids: the room is that of the transform.
   Count room = {1, 1, 1};
   for (std::size_t k = 0; k <= Grid::last; ++k)
-    room[k] = (good_size(2 * count[k] + seam(dimensions)) - seam(dimensions)) / 2;
+    room[k] = (g.doubled(count[k]) - g.seam()) / 2;
   if (room != g.count || mean_size != g.mean_size) {
     g.count = room, g.mean_size = mean_size;
     g.set_size();
@@ -324,9 +340,9 @@ void Convolution<T, dimensions>::apply(ThreadTeam& team) {
   });
   // Blocks of columns do not know of each other: what a task takes does not change a bit.
   const std::size_t tasks = std::min<std::size_t>(g.blocks, 4 * static_cast<std::size_t>(team.size()));
-  while (g.space.size() < tasks) g.space.emplace_back(g.room());
+  while (g.space.size() < tasks) g.make_space();
   team.run(tasks, [&](std::size_t task) {
-    for (std::size_t block = task; block < g.blocks; block += tasks) g.transform_block(block, g.space[task].data());
+    for (std::size_t block = task; block < g.blocks; block += tasks) g.transform_block(block, g.space[task]);
   });
   team.run(g.rows(), [&](std::size_t n) {
     for (std::size_t k = 0; k < g.results(); ++k) g.row_backward.to_real(g.row(k, n));

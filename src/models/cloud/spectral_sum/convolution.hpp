@@ -35,13 +35,14 @@ class Convolution {
   /// \param mean_size s, in units of the square of the cut-off
   void prepare(ThreadTeam& team, const std::array<std::size_t, 3>& count, double mean_size);
 
-  /// The grid's rows, `pitch()` numbers apart, and its layers, `layer_pitch()` apart: before `apply` of the sources
-  /// (first forces over 8 pi mu times the cut-off, then the deviations' scalar), after it of the results (velocities,
-  /// then the scalar for targets).
-  T* field(int number);
-  const T* field(int number) const;
-  std::size_t pitch() const;
+  /// The fields, `field_pitch()` numbers apart, their layers, `layer_pitch()` apart, and rows, `pitch()` apart: before
+  /// `apply` of the sources (first forces over 8 pi mu times the cut-off, then the deviations' scalar), after it of the
+  /// results (velocities, then the scalar for targets).
+  T* fields();
+  const T* fields() const;
+  std::size_t field_pitch() const;
   std::size_t layer_pitch() const;
+  std::size_t pitch() const;
 
   void apply(ThreadTeam& team);
 

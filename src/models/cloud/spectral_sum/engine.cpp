@@ -148,6 +148,8 @@ void EngineOf<T, points, dimensions>::spread(std::size_t strip_of_rows, std::siz
   const T mean = static_cast<T>(size_offset / (cutoff * cutoff)), per_spacing = static_cast<T>(accuracy.nodes);
   const T* const s = column(size_of);
   const std::size_t pitch = convolution_.pitch(), layer_pitch = convolution_.layer_pitch();
+  const std::size_t field_pitch = convolution_.field_pitch();
+  T* const fields = convolution_.fields();
   const std::size_t begin_row = strip_of_rows * strip, end_row = std::min(begin_row + strip, lattice.rows());
   const std::size_t begin_layer = slab_of_layers * strip, end_layer = std::min(begin_layer + strip, lattice.layers());
   for (std::size_t layer = begin_layer; layer < end_layer; ++layer) {
@@ -161,15 +163,13 @@ void EngineOf<T, points, dimensions>::spread(std::size_t strip_of_rows, std::siz
       for (int k = 0; k < dimensions; ++k) f[k] = column(force_of + static_cast<std::size_t>(k))[n];
       for (int l = 0; l < w.layers; ++l)
         for (int j = 0; j < points; ++j) {
-          const std::size_t here = at + static_cast<std::size_t>(l) * layer_pitch + static_cast<std::size_t>(j) * pitch;
+          T* row = fields + at + static_cast<std::size_t>(l) * layer_pitch + static_cast<std::size_t>(j) * pitch;
           const T across = w.y.value[j] * w.layer(l);
-          for (int k = 0; k < dimensions; ++k) {
-            T* const row = convolution_.field(k) + here;
+          for (int k = 0; k < dimensions; ++k, row += field_pitch) {
             const T to = f[k] * across;
             for (int i = 0; i < points; ++i) row[i] += to * w.x.value[i];
           }
           if (!deviations.sources) continue;
-          T* const row = convolution_.field(dimensions) + here;
           const T by_slope = deviation * f[0] * across;
           T by_value = deviation * f[1] * w.y.slope[j] * w.layer(l);
           if constexpr (dimensions == 3) by_value += deviation * f[2] * w.y.value[j] * w.z.slope[l];
@@ -183,22 +183,20 @@ template <class T, int points, int dimensions>
 void EngineOf<T, points, dimensions>::interpolate(std::size_t row, std::span<Vector3> velocity) const {
   const Lattice& lattice = cells_.lattice();
   const std::size_t pitch = convolution_.pitch(), layer_pitch = convolution_.layer_pitch();
+  const std::size_t field_pitch = convolution_.field_pitch();
   const T mean = static_cast<T>(size_offset / (cutoff * cutoff)), per_spacing = static_cast<T>(accuracy.nodes);
-  const T* const s = column(size_of);
+  const T *const s = column(size_of), *const fields = convolution_.fields();
   for (std::size_t n = cells_.first(row, 0); n < cells_.first(row, lattice.columns()); ++n) {
     const Weights w(place_[n]);
     const std::size_t at = first_node(place_[n]);
     T sum[dimensions][points] = {}, value[points] = {}, slope_y[points] = {}, slope_z[points] = {};
     for (int l = 0; l < w.layers; ++l)
       for (int j = 0; j < points; ++j) {
-        const std::size_t here = at + static_cast<std::size_t>(l) * layer_pitch + static_cast<std::size_t>(j) * pitch;
+        const T* from = fields + at + static_cast<std::size_t>(l) * layer_pitch + static_cast<std::size_t>(j) * pitch;
         const T across = w.y.value[j] * w.layer(l);
-        for (int k = 0; k < dimensions; ++k) {
-          const T* const from = convolution_.field(k) + here;
+        for (int k = 0; k < dimensions; ++k, from += field_pitch)
           for (int i = 0; i < points; ++i) sum[k][i] += across * from[i];
-        }
         if (!deviations.targets) continue;
-        const T* const from = convolution_.field(dimensions) + here;
         const T by_y = w.y.slope[j] * w.layer(l), by_z = dimensions == 3 ? w.y.value[j] * w.z.slope[l] : T(0);
         for (int i = 0; i < points; ++i) value[i] += across * from[i];
         for (int i = 0; i < points; ++i) slope_y[i] += by_y * from[i];

@@ -73,11 +73,12 @@ Transform<T> Transform<T>::from_spectrum(std::size_t size, T* row) {
 }
 
 template <class T>
-Transform<T> Transform<T>::of_columns(std::size_t size, std::size_t width, std::complex<T>* columns, bool backward) {
+Transform<T> Transform<T>::of_columns(std::size_t size, std::size_t width, std::complex<T>* from, std::complex<T>* to,
+                                      bool backward) {
   const std::lock_guard lock(planner());
   const int n = static_cast<int>(size), count = static_cast<int>(width);
-  auto* const data = complex_of(reinterpret_cast<T*>(columns));
-  return Transform(made(Fftw<T>::plan_many(1, &n, count, data, nullptr, count, 1, data, nullptr, count, 1,
+  return Transform(made(Fftw<T>::plan_many(1, &n, count, complex_of(reinterpret_cast<T*>(from)), nullptr, count, 1,
+                                           complex_of(reinterpret_cast<T*>(to)), nullptr, count, 1,
                                            backward ? FFTW_BACKWARD : FFTW_FORWARD, FFTW_ESTIMATE)));
 }
 
@@ -92,9 +93,9 @@ void Transform<T>::to_real(T* row) const {
 }
 
 template <class T>
-void Transform<T>::of_complex(std::complex<T>* columns) const {
-  auto* const data = complex_of(reinterpret_cast<T*>(columns));
-  Fftw<T>::execute_complex(as_plan<T>(plan_.get()), data, data);
+void Transform<T>::of_complex(std::complex<T>* from, std::complex<T>* to) const {
+  Fftw<T>::execute_complex(as_plan<T>(plan_.get()), complex_of(reinterpret_cast<T*>(from)),
+                           complex_of(reinterpret_cast<T*>(to)));
 }
 
 template class Transform<float>;

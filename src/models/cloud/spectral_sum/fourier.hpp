@@ -42,12 +42,14 @@ class Transform {
   /// Of a row of numbers, in place: size + 2 of them.
   static Transform to_spectrum(std::size_t size, T* row);
   static Transform from_spectrum(std::size_t size, T* row);
-  /// Of `width` columns side by side, in place.
-  static Transform of_columns(std::size_t size, std::size_t width, std::complex<T>* columns, bool backward);
+  /// Of `width` columns side by side, from one array to another: in place FFTW's estimate takes buffered plans, which
+  /// allocate at each execution.
+  static Transform of_columns(std::size_t size, std::size_t width, std::complex<T>* from, std::complex<T>* to,
+                              bool backward);
 
   void to_complex(T* row) const;
   void to_real(T* row) const;
-  void of_complex(std::complex<T>* columns) const;
+  void of_complex(std::complex<T>* from, std::complex<T>* to) const;  ///< `from` is kept
 
  private:
   struct Release {
