@@ -45,8 +45,8 @@ Extent extent_of(ThreadTeam& team, std::span<const Vector3> position, const Axes
 /// \param extent of at least one place, finite; \param cell m
 Lattice lattice_over(const Extent& extent, const Axes& axis, std::size_t dimensions, double cell);
 
-/// The spheres in the order of their cells, row by row and layer by layer; within a cell in the order in which they were
-/// given.
+/// The spheres in the order of their cells, row by row and layer by layer; within a cell in the order in which they
+/// were given.
 class Cells {
  public:
   /// \param order the spheres, in which they are gone through

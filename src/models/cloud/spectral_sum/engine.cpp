@@ -17,7 +17,7 @@ namespace {
 
 using hydrodynamics::Mobility;
 
-constexpr std::size_t strip = 4;           // cells that are spread together in a direction: more nodes than a spline has
+constexpr std::size_t strip = 4;  // cells that are spread together in a direction: more nodes than a spline has
 constexpr std::size_t targets_wanted = 4;  // of a block of cells: gathering their neighbours is shared
 
 template <class T, int dimensions>
@@ -224,11 +224,11 @@ void EngineOf<T, points, dimensions>::interpolate(std::size_t row, std::span<Vec
 template <class T, int points, int dimensions>
 void EngineOf<T, points, dimensions>::add_near(std::size_t row, AlignedArray<T>& space) {
   const Lattice& lattice = cells_.lattice();
-  SortedSpheres<T, dimensions> spheres{
-      .cell = column(cell_of), .size = column(size_of), .radius = column(radius_of)};
+  SortedSpheres<T, dimensions> spheres{.cell = column(cell_of), .size = column(size_of), .radius = column(radius_of)};
   T* sums[dimensions];
   for (std::size_t k = 0; k < dimensions; ++k)
-    spheres.position[k] = column(position_of + k), spheres.force[k] = column(force_of + k), sums[k] = column(near_of + k);
+    spheres.position[k] = column(position_of + k), spheres.force[k] = column(force_of + k),
+    sums[k] = column(near_of + k);
   constexpr std::size_t reach = near_reach, rows = near_rows(dimensions);
   const std::size_t in_layer = row % lattice.rows(), layer = row / lattice.rows();
   for (std::size_t begin = 0, end; begin < lattice.columns(); begin = end) {

@@ -59,10 +59,10 @@ class Transform {
   std::unique_ptr<void, Release> plan_;
 };
 
-/// In place, the cosine or (odd) sine transforms along every direction of the part, a quarter or an octant, of a function
-/// on a doubled grid in which no coordinate is negative: what its Fourier transform is, up to -i for each odd direction.
-/// Even: from the middle to the seam, both included; odd: both, where the function is 0, left out; of one number: none.
-/// \param count of numbers along each direction, those along the first following each other
+/// In place, the cosine or (odd) sine transforms along every direction of the part, a quarter or an octant, of a
+/// function on a doubled grid in which no coordinate is negative: what its Fourier transform is, up to -i for each odd
+/// direction. Even: from the middle to the seam, both included; odd: both, where the function is 0, left out; of one
+/// number: none. \param count of numbers along each direction, those along the first following each other
 void transform_part(double* part, const std::array<std::size_t, 3>& count, const std::array<bool, 3>& odd);
 
 }  // namespace talus::cloud

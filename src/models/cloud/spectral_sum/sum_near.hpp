@@ -37,7 +37,8 @@ struct Neighbours {
     std::size_t capacity = near_padding;
     for (std::size_t row = 0; row < rows; ++row) capacity += block.end[row] - block.begin[row];
     capacity = (capacity + near_padding - 1) / near_padding * near_padding;
-    for (int k = 0; k < dimensions; ++k) position[k] = space + k * capacity, force[k] = position[k] + dimensions * capacity;
+    for (int k = 0; k < dimensions; ++k)
+      position[k] = space + k * capacity, force[k] = position[k] + dimensions * capacity;
     size = space + 2 * dimensions * capacity, radius = size + capacity, number = radius + capacity;
 
     Column low[dimensions], high[dimensions];
