@@ -19,9 +19,9 @@ struct SpectralAccuracy {
 };
 
 inline constexpr SpectralAccuracy spectral_accuracies[] = {
-    {1e-3, 2.5e-2, 6.5, 2, 4, 4.5, 4, 7, true},
-    {1e-4, 6e-4, 9.0, 3, 6, 6, 16, 9, true},
-    {1e-5, 5e-5, 12.0, 3, 8, 8, 40, 12, false},
+    {1e-3, 2.5e-2, 6.5, 2, 4, 4.5, 8, 7, true},
+    {1e-4, 6e-4, 9.0, 3, 6, 6, 24, 9, true},
+    {1e-5, 5e-5, 12.0, 3, 8, 8, 64, 12, false},
 };
 
 /// Rounding of a pair, over |M_ij| r_c/r: places of near spheres are rounded at the scale of the cut-off.
