@@ -23,7 +23,7 @@ Parameters spectral_disc(std::int64_t count) {
 
 Parameters spectral_ball(std::int64_t count) {
   Parameters p = polystyrene(Shape::ball, count);
-  p.particles.size = p.particles.radius * std::cbrt(static_cast<double>(count) / 0.2);
+  p.particles.size = p.particles.radius * std::cbrt(static_cast<double>(count) / 0.1);
   p.motion = Motion::xyz;
   p.fluid.sum = Sum::spectral;
   return p;
