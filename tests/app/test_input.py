@@ -219,7 +219,7 @@ class BadCase(InputTest):
                              r"^talus: there is no command '\w+'; allowed: new, run, check, ")
         self.assertIn("did you mean 'run'?", self.talus("runn", status=2).stderr)
         self.assertIn("did you mean 'check'?", self.talus("chekc", "case.toml", status=2).stderr)
-        self.assertRegex(self.talus(status=2).stderr, r"^talus: no command; allowed: run, check, ")
+        self.assertRegex(self.talus(status=2).stderr, r"^talus: no command; allowed: new, run, check, ")
         for arguments in (["--help"], ["--version"], ["run", "--help"]):
             self.assertTrue(self.talus(*arguments).stdout)
 
