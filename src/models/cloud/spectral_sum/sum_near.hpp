@@ -54,8 +54,9 @@ struct Neighbours {
     std::size_t seen = 0;
     for (std::size_t row = 0; row < rows; ++row) {
       // From the targets' row to this one; 0 along the row.
-      const Column offset[] = {0, 0.5 * (static_cast<double>(row % 5) - near_reach),
-                               0.5 * (static_cast<double>(row / 5) - near_reach)};
+      const std::size_t of_layer = row % 5, layer = row / 5;
+      const Column offset[] = {0, 0.5 * (static_cast<double>(of_layer) - near_reach),
+                               0.5 * (static_cast<double>(layer) - near_reach)};
       for (std::size_t n = block.begin[row]; n < block.end[row]; n += Column::lanes) {
         Column x[dimensions], beyond[dimensions];
         for (int k = 0; k < dimensions; ++k) {
