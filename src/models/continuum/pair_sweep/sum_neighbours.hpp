@@ -25,7 +25,7 @@ struct SimdVector3 {
 struct PairAccelerations {
   double* component[3];
 
-  TALUS_INLINE PairAccelerations(const Neighbours& neighbours)
+  TALUS_INLINE explicit PairAccelerations(const Neighbours& neighbours)
       : component{neighbours.scratch, neighbours.scratch + neighbours.scratch_size / 3,
                   neighbours.scratch + 2 * (neighbours.scratch_size / 3)} {}
   /// \param first place of the register's first lane in the list
