@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::int64_t most_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
 constexpr double most_places_looked_at = 1e6;                   // to count the particles of a bed
+constexpr double most_places_of_vessel = 2e6;                   // to count those in a vessel
 
 using Openings = std::vector<Wall::Opening>;
 
@@ -67,10 +68,13 @@ Extent bed_along_x(const Parameters& p) {
 }
 
 double bed_bottom(const Parameters& p) {
+  if (!p.bed.bottom && !p.vessel.empty()) return std::max(0.0, surface_of(p).low().z);
   return p.bed.bottom.value_or(p.wedge.half_angle ? p.wedge.height : p.plate.height.value_or(0));
 }
 
 std::optional<Outlet> outlet_of(const Parameters& p) {
+  if (const auto outlet = outlet_of_vessel(p))
+    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width};
   if (p.wedge.half_angle)
     return Outlet{p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet)};
   if (p.plate.height && p.plate.slit_left && p.plate.slit_right)
@@ -128,6 +132,7 @@ struct Bed {
 }  // namespace
 
 std::vector<Vector3> bed_positions(const Parameters& p) {
+  if (!p.vessel.empty()) return bed_in_vessel(p);
   const Bed bed{p};
   const auto& count = bed.lattice.count;
   std::vector<Vector3> positions;
@@ -144,6 +149,12 @@ double places_of(const Lattice& lattice) {
 }
 
 double bed_count(const Parameters& p) {
+  if (!p.vessel.empty()) {
+    if (places_of(lattice_of(p)) <= most_places_of_vessel) return static_cast<double>(bed_in_vessel(p).size());
+    Parameters coarser = p;
+    coarser.bed.spacing *= 2;
+    return 8 * bed_count(coarser);
+  }
   const Bed bed{p};
   const auto& count = bed.lattice.count;
   if (bed.is_whole) return places_of(bed.lattice);

@@ -16,6 +16,7 @@
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
 #include "models/continuum/layout.hpp"
+#include "models/continuum/vessel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
@@ -59,6 +60,7 @@ struct Parameters {
     std::optional<double> opens_after;
   };
   std::vector<InclinedPlate> plates;
+  std::vector<VesselPart> vessel;
   struct Gate {
     GateOpens opens = GateOpens::when_settled;
     double time = 0;
@@ -174,7 +176,9 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "its openings are closed by gates that open so long after the gate of the case; left out: no gates"},
         p.plates[n].opens_after);
   }
-  visit(Parameter{"gate.opens", {}, {}, "when the gate of the slit or of the wedge's outlet opens"}, p.gate.opens);
+  for_each_parameter_of_vessel(visit, p.vessel);
+  visit(Parameter{"gate.opens", {}, {}, "when the gate of the slit, of the wedge's outlet or of the vessel opens"},
+        p.gate.opens);
   auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
   timed(Parameter{"gate.time", dimension::time, at_least(0),
                   "time at which the gate opens, with gate.opens = \"at-time\""},
@@ -191,11 +195,11 @@ void for_each_parameter(Visit&& visit, P& p) {
       p.bed.spacing);
   visit(Parameter{"bed.height", dimension::length, above(0),
                   "height of the bed at the start; the bed fills the region that is connected with the middle of its "
-                  "top, with no plate between",
+                  "top, with no plate or wall between",
                   true},
         p.bed.height);
   visit(Parameter{"bed.bottom", dimension::length, at_least(0),
-                  "bottom of the bed; left out: the plate, the wedge's outlet, or the floor"},
+                  "bottom of the bed; left out: the lowest place of the vessel, the plate, the wedge's outlet, or the floor"},
         p.bed.bottom);
   visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
         p.bed.left);

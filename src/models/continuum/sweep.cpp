@@ -36,7 +36,7 @@ void Rates::resize(std::size_t count) {
   wall_acceleration.resize(count);
 }
 
-Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
+Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel)
     : mass_(mass),
       smoothing_ratio_(p.sph.smoothing_ratio),
       fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
@@ -53,7 +53,8 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
-      neighbourhood_(domain) {
+      neighbourhood_(domain, vessel),
+      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set)) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
@@ -70,6 +71,7 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   neighbourhood_.build(team, position, smoothing_length, skin_);
+  vessel_.find(team, position, smoothing_length, skin_);
   loads_.clear();
   for (const Image& image : neighbourhood_.images()) loads_.push_back(neighbourhood_.domain().loads(image));
   find_groups();
@@ -169,6 +171,7 @@ Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, s
 void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
   rates.resize(count);
+  if (!vessel_.is_empty()) rates.vessel.resize(count);
   pack(team, particles);
   if (prepare_sum_) prepare_stabilisers(team, particles);
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
@@ -180,10 +183,15 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     PairSums sums;
     sum(records_.data(), static_cast<std::uint32_t>(i), neighbours, constants_, sums,
         reinterpret_cast<double(*)[3]>(acceleration.data()));
+    NearWalls met;
+    const bool at_vessel = !vessel_.is_empty() && vessel_.is_near(i);
+    if (at_vessel) vessel_.meet(i, particles.position[i], particles.smoothing_length[i], met);
     if (terms != SweepTerms::forces) {
       const double *m = sums.moment, *v = sums.velocity;
-      const Tensor3<> gradient = sph::velocity_gradient(
-          {{m[0], m[1], m[2], m[3], m[4], m[5]}, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
+      sph::GradientSums<> around{{m[0], m[1], m[2], m[3], m[4], m[5]},
+                                 {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}};
+      if (at_vessel) sums.density_rate += particles.density[i] * add_walls(met, particles.velocity[i], around);
+      const Tensor3<> gradient = sph::velocity_gradient(around);
       rates.velocity_gradient[i] = gradient;
       rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
     }
@@ -203,7 +211,19 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     rates.acceleration[i] = all;
     rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
     rates.wall_acceleration[i] = by_wall;
+    if (!vessel_.is_empty()) rates.kernel_density[i] += add_forces_of_vessel(particles, i, neighbours, met, rates);
   });
+}
+
+double Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+                                   const NearWalls& met, Rates& rates) const {
+  const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
+  rates.vessel[i] =
+      forces_of_walls(met, records_.data(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
+  double beyond = 0;
+  for (const NearWall& wall : met.all()) beyond += wall.sums.density;
+  return particles.density[i] * beyond;
 }
 
 }  // namespace talus::continuum

@@ -14,6 +14,8 @@
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
+#include "models/continuum/vessel_sum.hpp"
+#include "models/continuum/vessel_walls.hpp"
 #include "numerics/neighbourhood.hpp"
 
 namespace talus::continuum {
@@ -27,6 +29,7 @@ struct Rates {
   /// Acceleration by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel in the sum over
   /// all particles.
   std::vector<std::array<double, most_walls>> wall_acceleration;
+  std::vector<WallForces> vessel;  ///< by the walls of the vessel, part of the acceleration; empty without one
 
   void resize(std::size_t count);
 };
@@ -42,9 +45,10 @@ struct ParticleView {
 
 class Sweep {
  public:
-  /// \param domain outlives the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
+  /// \param domain, vessel outlive the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
   /// \throws InputError if the processor does not have the case's instruction set
-  Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed);
+  Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed,
+        const Surface& vessel = Surface::none());
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
@@ -67,6 +71,9 @@ class Sweep {
   void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
+  /// The share of the kernel's sum that is beyond the walls of the vessel. \pre the forces of the particles are summed
+  double add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+                              const NearWalls& met, Rates& rates) const;
 
   double mass_;
   double smoothing_ratio_;
@@ -81,6 +88,7 @@ class Sweep {
   bool local_sound_speed_;
   std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood neighbourhood_;
+  VesselWalls vessel_;
   std::vector<std::array<Domain::Load, 3>> loads_;  // by image
   std::vector<ParticleRecord> records_;             // particles, images, padding
   std::vector<Group> groups_;                       // of every particle's neighbours, one particle after the other
