@@ -95,7 +95,7 @@ void read_surfaces(const CaseFile& file, Parameters& p) {
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const CaseEntry* entry = file.find(continuum::vessel_key(n, "file"));
     const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-    if (name && !name->empty()) p.vessel[n].triangles = read_stl(path_of(file, *name));
+    if (name && !name->empty()) p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(path_of(file, *name)));
   }
 }
 
@@ -103,7 +103,7 @@ void read_surfaces(const CaseFile& file, Parameters& p) {
 std::string digest_of_files(const Parameters& p) {
   std::string bytes;
   for (const continuum::VesselPart& part : p.vessel)
-    for (const Triangle& t : part.triangles)
+    for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
       bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
   return bytes.empty() ? std::string() : digest(bytes);
 }

@@ -64,11 +64,22 @@ std::vector<Wall> walls_of(const Parameters& p) {
 }  // namespace
 
 Extent bed_along_x(const Parameters& p) {
-  return {p.bed.left.value_or(0), p.bed.right.value_or(p.box.width)};
+  Extent x{0, p.box.width};
+  if (!p.vessel.empty())
+    if (const VesselBounds around = bounds_of_vessel(p); around.low.x > 0 && around.high.x < p.box.width)
+      x = {around.low.x, around.high.x};
+  return {p.bed.left.value_or(x.low), p.bed.right.value_or(x.high)};
+}
+
+Extent bed_along_y(const Parameters& p) {
+  if (!p.vessel.empty())
+    if (const VesselBounds around = bounds_of_vessel(p); around.low.y > 0 && around.high.y < p.box.depth)
+      return {around.low.y, around.high.y};
+  return {0, p.box.depth};
 }
 
 double bed_bottom(const Parameters& p) {
-  if (!p.bed.bottom && !p.vessel.empty()) return std::max(0.0, surface_of(p).low().z);
+  if (!p.bed.bottom && !p.vessel.empty()) return std::max(0.0, bounds_of_vessel(p).low.z);
   return p.bed.bottom.value_or(p.wedge.half_angle ? p.wedge.height : p.plate.height.value_or(0));
 }
 
@@ -95,9 +106,9 @@ double least_distance_of_layers(const Parameters& p) {
 }
 
 Lattice lattice_of(const Parameters& p) {
-  const Extent x = bed_along_x(p);
-  const Vector3 extent{x.high - x.low, p.box.depth, p.bed.height};
-  Lattice lattice{.corner = {x.low, 0, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
+  const Extent x = bed_along_x(p), y = bed_along_y(p);
+  const Vector3 extent{x.high - x.low, y.high - y.low, p.bed.height};
+  Lattice lattice{.corner = {x.low, y.low, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double spacings = extent[axis] / p.bed.spacing;
     const auto count = spacings < most_along_an_axis ? std::max<std::int64_t>(1, std::llround(spacings))

@@ -173,6 +173,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   rates.resize(count);
   if (!vessel_.is_empty()) rates.vessel.resize(count);
   pack(team, particles);
+  if (!vessel_.is_empty()) vessel_.meet(team, particles.position, particles.smoothing_length);
   if (prepare_sum_) prepare_stabilisers(team, particles);
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   for_each(team, count, [&](std::size_t i) {
@@ -183,14 +184,12 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     PairSums sums;
     sum(records_.data(), static_cast<std::uint32_t>(i), neighbours, constants_, sums,
         reinterpret_cast<double(*)[3]>(acceleration.data()));
-    NearWalls met;
-    const bool at_vessel = !vessel_.is_empty() && vessel_.is_near(i);
-    if (at_vessel) vessel_.meet(i, particles.position[i], particles.smoothing_length[i], met);
     if (terms != SweepTerms::forces) {
       const double *m = sums.moment, *v = sums.velocity;
       sph::GradientSums<> around{{m[0], m[1], m[2], m[3], m[4], m[5]},
                                  {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}};
-      if (at_vessel) sums.density_rate += particles.density[i] * add_walls(met, particles.velocity[i], around);
+      if (!vessel_.is_empty())
+        sums.density_rate += particles.density[i] * add_walls(vessel_.of(i), particles.velocity[i], around);
       const Tensor3<> gradient = sph::velocity_gradient(around);
       rates.velocity_gradient[i] = gradient;
       rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
@@ -211,15 +210,35 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     rates.acceleration[i] = all;
     rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
     rates.wall_acceleration[i] = by_wall;
-    if (!vessel_.is_empty()) rates.kernel_density[i] += add_forces_of_vessel(particles, i, neighbours, met, rates);
+    if (!vessel_.is_empty()) rates.kernel_density[i] += add_forces_of_vessel(particles, i, neighbours, rates);
   });
 }
 
+SeatAtWall Sweep::seat_at_wall(std::uint32_t record, std::uint32_t part) const {
+  const std::size_t count = neighbourhood_.particles();
+  const bool ghost = record >= count;
+  const std::size_t source = ghost ? neighbourhood_.ghosts()[record - count].source : record;
+  for (const NearWall& wall : vessel_.of(source).all()) {
+    if (wall.part != part) continue;
+    if (!ghost) return {wall.normal, wall.distance, wall.share};
+    const Image& image = neighbourhood_.image(neighbourhood_.ghosts()[record - count]);
+    return {image.position(wall.normal) - image.position({}), wall.distance, wall.share};
+  }
+  return {};
+}
+
 double Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
-                                   const NearWalls& met, Rates& rates) const {
+                                   Rates& rates) const {
+  const NearWalls& met = vessel_.of(i);
+  rates.vessel[i] = {};
+  if (met.count == 0) return 0;
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
   rates.vessel[i] =
       forces_of_walls(met, records_.data(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  for (const NearWall& wall : met.all())
+    rates.acceleration[i] += force_of_images(
+        wall, records_.data(), i, neighbours, constants_.mass,
+        [this](std::uint32_t record, std::uint32_t part) { return seat_at_wall(record, part); });
   for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
   double beyond = 0;
   for (const NearWall& wall : met.all()) beyond += wall.sums.density;

@@ -73,7 +73,9 @@ class Sweep {
   Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
   /// The share of the kernel's sum that is beyond the walls of the vessel. \pre the forces of the particles are summed
   double add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
-                              const NearWalls& met, Rates& rates) const;
+                              Rates& rates) const;
+  /// Wall and normal as another particle, or an image of one, meets the same part of a wall.
+  SeatAtWall seat_at_wall(std::uint32_t record, std::uint32_t part) const;
 
   double mass_;
   double smoothing_ratio_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "models/continuum/parameters.hpp"
@@ -82,9 +83,9 @@ std::string place_text(const Vector3& x) {
 }
 
 void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& problems) {
-  if (v.triangles.empty()) return;
+  if (!v.drawn) return;
   std::size_t told = 0;
-  const std::vector<SurfaceFault> faults = faults_of(v.triangles);
+  const std::vector<SurfaceFault> faults = faults_of(v.drawn->triangles);
   for (const SurfaceFault& fault : faults) {
     if (told++ == most_faults) break;
     const std::string other = fault.other ? fmt::format(" and triangle {}", *fault.other + 1) : "";
@@ -99,6 +100,14 @@ void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& proble
 }
 
 }  // namespace
+
+DrawnSurface::DrawnSurface(std::vector<Triangle> of_file) : triangles(std::move(of_file)) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  low = {infinity, infinity, infinity}, high = -1.0 * low;
+  for (const Triangle& t : triangles)
+    for (const Vector3& c : t.corner)
+      for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
+}
 
 std::string vessel_key(std::size_t n, std::string_view name) {
   return fmt::format("vessel.{}.{}", n + 1, name);
@@ -136,13 +145,57 @@ std::vector<Triangle> triangles_of(const Parameters& p, std::size_t part) {
       break;
     }
     case VesselShape::stl:
-      triangles = v.triangles;
+      if (v.drawn) triangles = v.drawn->triangles;
       for (Triangle& t : triangles)
         for (Vector3& corner : t.corner) corner = metres(v.unit) * corner;
       break;
   }
   for (Triangle& t : triangles) t.patch = static_cast<std::uint32_t>(part);
   return triangles;
+}
+
+VesselBounds bounds_of_vessel(const Parameters& p) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  VesselBounds all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  const auto add = [&](const Vector3& x) {
+    for (int axis = 0; axis < 3; ++axis)
+      all.low[axis] = std::min(all.low[axis], x[axis]), all.high[axis] = std::max(all.high[axis], x[axis]);
+  };
+  for (const VesselPart& v : p.vessel) {
+    const Axis axis = axis_of(p, v);
+    const auto around = [&](double width, double depth, double bottom, double top) {
+      add({axis.x - 0.5 * width, axis.y - 0.5 * depth, bottom});
+      add({axis.x + 0.5 * width, axis.y + 0.5 * depth, top});
+    };
+    switch (v.shape) {
+      case VesselShape::cylinder:
+        around(2 * v.radius, 2 * v.radius, v.bottom, v.top);
+        break;
+      case VesselShape::cone: {
+        const double widest = 2 * std::max(v.lower_radius, v.upper_radius);
+        around(widest, widest, v.bottom, v.top);
+        break;
+      }
+      case VesselShape::disc:
+        around(2 * v.radius, 2 * v.radius, v.height, v.height);
+        break;
+      case VesselShape::box:
+        around(v.width, v.depth, v.bottom, v.top);
+        break;
+      case VesselShape::pyramid:
+        around(std::max(v.lower_width, v.upper_width), std::max(v.lower_depth, v.upper_depth), v.bottom, v.top);
+        break;
+      case VesselShape::plate: {
+        const Vector3 a = vector_of(v.corner), b = vector_of(v.first_edge), c = vector_of(v.second_edge);
+        add(a), add(a + b), add(a + c), add(a + b + c);
+        break;
+      }
+      case VesselShape::stl:
+        if (v.drawn) add(metres(v.unit) * v.drawn->low), add(metres(v.unit) * v.drawn->high);
+        break;
+    }
+  }
+  return all;
 }
 
 Surface surface_of(const Parameters& p) {

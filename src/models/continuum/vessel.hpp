@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +19,13 @@ struct Parameters;
 
 enum class VesselShape { cylinder, cone, disc, box, pyramid, plate, stl };
 enum class FileUnit { m, cm, mm, inch };
+
+/// The triangles of a file.
+struct DrawnSurface {
+  std::vector<Triangle> triangles;
+  Vector3 low, high;  ///< corners of the box around them
+  explicit DrawnSurface(std::vector<Triangle> of_file);
+};
 
 /// One of [[vessel]]. SI.
 struct VesselPart {
@@ -35,7 +43,7 @@ struct VesselPart {
   double opens_after = 0;
 
   /// What the file holds, as it stands there, without the unit. Not a key: who reads the case fills it in.
-  std::vector<Triangle> triangles = {};
+  std::shared_ptr<const DrawnSurface> drawn = nullptr;
 };
 
 /// The key of the nth of [[vessel]], from 0.
@@ -124,6 +132,12 @@ Surface surface_of(const Parameters& parameters);
 
 /// The triangles of one part.
 std::vector<Triangle> triangles_of(const Parameters& parameters, std::size_t part);
+
+/// Corners of the box around the vessel, m, without making its surface.
+struct VesselBounds {
+  Vector3 low, high;
+};
+VesselBounds bounds_of_vessel(const Parameters& parameters);
 
 /// What the grains leave the vessel through: the gate if one is flat and level, else the hole of a disc or the lower end
 /// of a cone or pyramid, the lowest of them; nothing if there is none, or if it is the work of an STL file.

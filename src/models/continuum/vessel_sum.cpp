@@ -130,9 +130,27 @@ WallForces forces_of_walls(const NearWalls& met, const ParticleRecord* records, 
       const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / own.density;
       a += viscosity * wall.slope();
     }
-    forces.of[forces.count++] = {wall.patch, n, -own.density * a};
+    forces.of[forces.count++] = {wall.patch, n, (-own.density * dot(a, n)) * n};
   }
   return forces;
+}
+
+Vector3 force_of_image(const NearWall& wall, const SeatAtWall& its, const ParticleRecord& own,
+                       const ParticleRecord& other, double mass) {
+  const Vector3 both = wall.normal + its.normal;
+  const double size = norm(both);
+  if (!(size > 1.7)) return {};  // on different sides, or around a corner
+  const Vector3 n = (1 / size) * both;
+  const Vector3 d{other.position[0] - own.position[0], other.position[1] - own.position[1],
+                  other.position[2] - own.position[2]};
+  const double h = 0.5 * (own.smoothing_length + other.smoothing_length);
+  const double distance = std::sqrt(dot(d, d) + 4 * wall.distance * its.distance);
+  if (!(distance < sph::support * h)) return {};
+  const Vector3 along = d - dot(d, n) * n;
+  const SymmetricTensor3<> stress = stress_at(own) + stress_at(other), difference = stress_at(own) - stress_at(other);
+  Vector3 force = times(stress, along) - (wall.distance + its.distance) * times(difference, n);
+  force -= dot(force, n) * n;
+  return (0.5 * (wall.share + its.share) * mass * sph::cubic_spline_slope(distance, h)) * force;
 }
 
 }  // namespace talus::continuum

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "numerics/cell_grid.hpp"
+#include "physics/sph/wall_integrals.hpp"
 
 namespace talus::continuum {
 
@@ -13,6 +14,7 @@ namespace {
 /// Longest edge of the pieces of the surface, in spacings: the solid angle of a plane is right to 1 % from 0.25 spacings
 /// on (WallIntegrals.AreThoseOfAPlane).
 constexpr double piece = 0.6;
+constexpr int steps_of_h = 64;
 
 SumWalls* choose(InstructionSet set) {
   switch (set) {
@@ -39,6 +41,8 @@ VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet 
     records_.push_back({{x.x, x.y, x.z}, {n.x, n.y, n.z}, point.area, 0});
   }
   records_.push_back({{1e3, 1e3, 1e3}, {1, 0, 0}, 0, 0});
+  for (int n = 0; n <= 2 * steps_of_h; ++n)
+    plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
 }
 
 void VesselWalls::find(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
@@ -67,6 +71,29 @@ void VesselWalls::find(ThreadTeam& team, std::span<const Vector3> position, std:
   for (std::size_t i = 0; i < position.size(); ++i) first_[i + 1] += first_[i];
   near_.reserve(first_.back());
   for (const auto& list : found) near_.insert(near_.end(), list.begin(), list.end());
+  slot_.assign(position.size(), -1);
+  particles_.clear();
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (first_[i] == first_[i + 1]) continue;
+    slot_[i] = static_cast<std::int32_t>(particles_.size());
+    particles_.push_back(static_cast<std::uint32_t>(i));
+  }
+  met_.resize(particles_.size());
+}
+
+void VesselWalls::meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
+  for_each(team, particles_.size(), [&](std::size_t n) {
+    const std::size_t i = particles_[n];
+    meet(i, position[i], smoothing_length[i], met_[n]);
+  });
+}
+
+double VesselWalls::share_of_plane(double weight, double distance_over_h) const {
+  const double place = distance_over_h * steps_of_h;
+  if (!(place < 2 * steps_of_h)) return 0;
+  const auto n = static_cast<std::size_t>(place);
+  const double part = place - static_cast<double>(n), whole = (1 - part) * plane_[n] + part * plane_[n + 1];
+  return whole > 0 ? std::min(1.0, weight / whole) : 0;
 }
 
 void VesselWalls::meet(std::size_t particle, const Vector3& position, double smoothing_length, NearWalls& met) const {
@@ -74,7 +101,7 @@ void VesselWalls::meet(std::size_t particle, const Vector3& position, double smo
   const std::size_t end = first_[particle + 1];
   for (std::size_t n = first_[particle]; n < end;) {
     const std::uint32_t part = points_[near_[n]].part, patch = points_[near_[n]].patch;
-    NearWall wall{.patch = patch, .normal = {}, .sums = {}};
+    NearWall wall{.patch = patch, .part = part, .normal = {}, .distance = 0, .share = 0, .sums = {}};
     const std::size_t first = n;
     while (n < end && points_[near_[n]].part == part) ++n;
     if (surface_.is_open(patch)) continue;
@@ -85,6 +112,8 @@ void VesselWalls::meet(std::size_t particle, const Vector3& position, double smo
     const double size = norm(normal);
     if (!(size > 0)) continue;
     wall.normal = (1 / size) * normal;
+    wall.distance = wall.sums.distance / wall.sums.weight;
+    wall.share = share_of_plane(wall.sums.weight * smoothing_length, wall.distance / smoothing_length);
     if (met.count < most_near_walls) {
       met.of[met.count++] = wall;
     } else {

@@ -20,8 +20,10 @@ namespace talus::continuum {
 
 /// A smooth part of a wall near a particle.
 struct NearWall {
-  std::uint32_t patch = 0;
-  Vector3 normal;  ///< unit, towards the particle; the mean of what the particle sees of it
+  std::uint32_t patch = 0, part = 0;
+  Vector3 normal;       ///< unit, towards the particle; the mean of what the particle sees of it
+  double distance = 0;  ///< from it, m
+  double share = 0;     ///< that it covers of a plane without end at that distance, 0 to 1
   WallTotals sums;
 
   Vector3 slope() const { return {sums.slope[0], sums.slope[1], sums.slope[2]}; }
@@ -33,7 +35,7 @@ struct NearWall {
 };
 
 /// The most parts that a particle meets at once; of more, those with the least weight are left out.
-inline constexpr std::size_t most_near_walls = 6;
+inline constexpr std::size_t most_near_walls = 4;
 
 struct NearWalls {
   std::array<NearWall, most_near_walls> of;
@@ -54,13 +56,18 @@ class VesselWalls {
   /// Finds the points of the walls within reach of each particle: twice its smoothing length and the skin.
   void find(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length, double skin);
 
-  /// Whether a particle has any within reach.
-  bool is_near(std::size_t particle) const { return first_[particle] < first_[particle + 1]; }
+  /// Takes the sums over those points, of the particles as they are now; open gates left out.
+  void meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
 
-  /// The sums over those points, of the particle as it is now; open gates left out.
-  void meet(std::size_t particle, const Vector3& position, double smoothing_length, NearWalls& met) const;
+  /// The walls that a particle meets. \pre meet()
+  const NearWalls& of(std::size_t particle) const {
+    return slot_[particle] < 0 ? nothing_ : met_[static_cast<std::size_t>(slot_[particle])];
+  }
 
  private:
+  void meet(std::size_t particle, const Vector3& position, double smoothing_length, NearWalls& met) const;
+  double share_of_plane(double weight, double distance_over_h) const;
+
   const Surface& surface_;
   SumWalls* sum_;
   std::vector<SurfacePoint> points_;
@@ -68,6 +75,11 @@ class VesselWalls {
   std::vector<WallPoint> records_;  // of the points, and one without area
   std::vector<std::size_t> first_ = {0};
   std::vector<std::uint32_t> near_;  // points of every particle, by part
+  std::vector<std::int32_t> slot_;   // of every particle in met_, -1: no wall within reach
+  std::vector<std::uint32_t> particles_;  // that have a slot
+  std::vector<NearWalls> met_;
+  NearWalls nothing_;
+  std::vector<double> plane_;  // weight of a plane by its distance, in steps of h/64
 };
 
 }  // namespace talus::continuum

@@ -9,6 +9,7 @@
 /// the rays, and the fields beyond the wall (models/continuum/vessel_sum.hpp).
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 #include "base/simd.hpp"
@@ -51,6 +52,7 @@ struct WallSums {
   Number normal[3] = {};   ///< sum o slope n, 1/m
   Number nearness = 0.0;   ///< sum o slope cos/r, 1/m^2
   Number weight = 0.0;     ///< sum o slope, 1/m
+  Number distance = 0.0;   ///< sum o slope times the distance from the point's plane, 1
 
   /// \param d from the particle to a point of the wall, m; \param n the wall's unit normal, to either side; \param area
   /// that the point stands for, m^2; \param h smoothing length of the particle, m
@@ -80,7 +82,21 @@ struct WallSums {
     }
     nearness = nearness + s * cosine * inverse;
     weight = weight + s;
+    distance = distance + s * select(below > Number(0.0), below, -1.0 * below);
   }
 };
+
+/// The sum `weight` times h for a plane without end at a distance of q h, as `add` blurs it.
+inline double weight_of_plane(double q) {
+  // 2 pi q/r^2 dr is the solid angle of the ring of the plane from r to r + dr.
+  constexpr int steps = 64;
+  const double height = std::sqrt(q * q + 0.0225), step = (2 - height) / steps;
+  double sum = 0;
+  for (int n = 0; n < steps && step > 0; ++n) {
+    const double r = height + (n + 0.5) * step;
+    sum += radial_integrals(r, 1.0).slope / (r * r);
+  }
+  return 2 * std::numbers::pi * height * step * sum;
+}
 
 }  // namespace talus::sph

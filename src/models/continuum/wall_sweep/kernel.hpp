@@ -18,7 +18,7 @@ struct alignas(64) WallPoint {
 struct WallTotals {
   double density = 0;
   double slope[3] = {}, moment[6] = {}, closing[3] = {}, normal[3] = {};
-  double nearness = 0, weight = 0;
+  double nearness = 0, weight = 0, distance = 0;
 };
 
 /// \param numbers of the `count` points; \param padding number of a point without area, which fills up registers

@@ -36,6 +36,7 @@ TALUS_INLINE void sum_points(const WallPoint* points, const std::uint32_t* numbe
   for (int c = 0; c < 6; ++c) totals.moment[c] = sum_lanes(sums.moment[c], 0);
   totals.nearness = sum_lanes(sums.nearness, 0);
   totals.weight = sum_lanes(sums.weight, 0);
+  totals.distance = sum_lanes(sums.distance, 0);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET
