@@ -11,9 +11,9 @@ namespace talus::continuum {
 
 namespace {
 
-/// Longest edge of the pieces of the surface, in spacings: the solid angle of a plane is right to 1 % from 0.25 spacings
-/// on (WallIntegrals.AreThoseOfAPlane).
-constexpr double piece = 0.6;
+/// Distance of the points of the walls, in spacings: the push of a plane is right to 1 % from 0.4 spacings on, to 7 %
+/// from 0.25 on (WallIntegrals.AreThoseOfAPlane).
+constexpr double piece = 0.4;
 constexpr int steps_of_h = 64;
 
 SumWalls* choose(InstructionSet set) {

@@ -12,7 +12,8 @@ namespace talus {
 namespace {
 
 constexpr double most_cells = 1e7;
-constexpr double smooth = 0.848;  // cosine of 32 degrees
+constexpr double smooth = 0.848;     // cosine of 32 degrees
+constexpr double flat = 1 - 1e-9;    // of 0.003 degrees
 
 Vector3 least(const Vector3& a, const Vector3& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
@@ -44,7 +45,8 @@ Surface::Surface(std::vector<Triangle> triangles, std::size_t patches, double ce
     if (!(std::isfinite(normals_.back().x) && norm(t.area()) > 0) || t.patch >= patches)
       throw std::invalid_argument("a triangle without area or of no patch");
   }
-  find_parts();
+  parts_ = joined(smooth, part_count_);
+  facets_ = joined(flat, facet_count_);
   fill_grid();
 }
 
@@ -53,7 +55,8 @@ const Surface& Surface::none() {
   return empty;
 }
 
-void Surface::find_parts() {
+/// Numbers triangles of a patch alike that are joined by edges across which the normal turns by no more than that.
+std::vector<std::uint32_t> Surface::joined(double cosine, std::size_t& groups) const {
   std::vector<std::uint32_t> root(triangles_.size());
   std::iota(root.begin(), root.end(), 0u);
   const auto find = [&](std::uint32_t t) {
@@ -71,16 +74,16 @@ void Surface::find_parts() {
   for (std::size_t e = 1; e < edges.size(); ++e) {
     const Edge &a = edges[e - 1], &b = edges[e];
     if (!(a.from == b.from && a.to == b.to) || triangles_[a.triangle].patch != triangles_[b.triangle].patch) continue;
-    if (std::abs(dot(normals_[a.triangle], normals_[b.triangle])) < smooth) continue;
+    if (std::abs(dot(normals_[a.triangle], normals_[b.triangle])) < cosine) continue;
     const std::uint32_t p = find(a.triangle), q = find(b.triangle);
     root[std::max(p, q)] = std::min(p, q);
   }
-  std::vector<std::uint32_t> number(triangles_.size());
-  parts_.resize(triangles_.size());
+  std::vector<std::uint32_t> number(triangles_.size()), result(triangles_.size());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-    if (find(t) == t) number[t] = static_cast<std::uint32_t>(part_count_++);
-    parts_[t] = number[find(t)];
+    if (find(t) == t) number[t] = static_cast<std::uint32_t>(groups++);
+    result[t] = number[find(t)];
   }
+  return result;
 }
 
 int Surface::along(double x, int axis) const {

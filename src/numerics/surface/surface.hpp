@@ -38,6 +38,9 @@ class Surface {
   /// by less than 32 degrees.
   std::uint32_t part(std::size_t triangle) const { return parts_[triangle]; }
   std::size_t parts() const { return part_count_; }
+  /// Number of the flat piece of a part that it belongs to.
+  std::uint32_t facet(std::size_t triangle) const { return facets_[triangle]; }
+  std::size_t facets() const { return facet_count_; }
 
   /// Takes a patch away, for good: nothing is crossed there any more.
   void open(std::size_t patch) { is_open_[patch] = true; }
@@ -67,7 +70,7 @@ class Surface {
   struct Cell {
     int i, j, k;
   };
-  void find_parts();
+  std::vector<std::uint32_t> joined(double cosine, std::size_t& count) const;
   void fill_grid();
   int along(double x, int axis) const;
   template <class Visit>
@@ -78,8 +81,8 @@ class Surface {
 
   std::vector<Triangle> triangles_;
   std::vector<Vector3> normals_;
-  std::vector<std::uint32_t> parts_;
-  std::size_t part_count_ = 0;
+  std::vector<std::uint32_t> parts_, facets_;
+  std::size_t part_count_ = 0, facet_count_ = 0;
   std::vector<bool> is_open_;
   Vector3 low_, high_;
   double cell_ = 1;

@@ -17,9 +17,9 @@ struct SurfacePoint {
   std::uint32_t patch, part;
 };
 
-/// Cuts triangles across their longest edges until none is longer than `edge`, and takes their middles; triangles that
-/// are smaller than half of that are gathered by cells of that size, so that the points are about as many for a surface
-/// of any number of triangles. \param edge > 0, m
-std::vector<SurfacePoint> spread_points(const Surface& surface, double edge);
+/// Cuts every flat piece of the surface into squares of at most `distance`, and takes the middle of what lies in each;
+/// rests of less than a third of a square join each other or the nearest square of the same smooth part. So the points
+/// are about as many for a surface of any number of triangles of any shape. \param distance > 0, m
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance);
 
 }  // namespace talus
