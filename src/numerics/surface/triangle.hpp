@@ -23,8 +23,8 @@ struct Triangle {
 Vector3 nearest_place(const Triangle& triangle, const Vector3& x);
 
 /// The fraction of the straight line from a to b at which it crosses the triangle; nothing if it does not. Edges and
-/// corners belong to the triangle, and two triangles with a common edge judge it by the same numbers, so that no line
-/// slips through between them; a plane belongs to the side of its normal.
+/// corners belong to the triangle, neighbours overlap by rounding, and two triangles with a common edge judge it by the
+/// same numbers: no line slips through between them. A plane belongs to the side of its normal.
 std::optional<double> crossing(const Triangle& triangle, const Vector3& a, const Vector3& b);
 
 }  // namespace talus

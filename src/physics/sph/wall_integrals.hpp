@@ -29,7 +29,7 @@ TALUS_INLINE RadialIntegrals<Number> radial_integrals(Number q, Number inverse_h
   // Antiderivatives of (2-t)^m t^n, each less its value at 2, and of (1-t)^m t^n, less that at 1: 0 from there on.
   const Number t = minimum(q, Number(2.0)), s = minimum(q, Number(1.0));
   const Number t3 = t * t * t, s3 = s * s * s;
-  const Number outer_density = 8.0 / 15 - t3 * (8.0 / 3 + t * (-3.0 + t * (1.2 - t * (1.0 / 6))));
+  const Number outer_density = 16.0 / 15 - t3 * (8.0 / 3 + t * (-3.0 + t * (1.2 - t * (1.0 / 6))));
   const Number outer_slope = 16.0 / 15 - t3 * (4.0 / 3 + t * (-1.0 + t * 0.2));
   const Number outer_moment = 16.0 / 15 - t3 * t * (1.0 + t * (-0.8 + t * (1.0 / 6)));
   const Number inner_density = 1.0 / 60 - s3 * (1.0 / 3 + s * (-0.75 + s * (0.6 - s * (1.0 / 6))));
