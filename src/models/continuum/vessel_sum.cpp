@@ -31,6 +31,12 @@ SymmetricTensor3<> stress_at(const ParticleRecord& record) {
   return {s[0], s[1], s[2], s[3], s[4], s[5]};
 }
 
+/// What turns the sum over a field that goes on linearly along the normal, times that slope, into that over the field
+/// mirrored: 2 (d - s cos) along the ray, d the distance from the wall, in place of 0.
+Vector3 evened(const NearWall& wall) {
+  return -2.0 * times(wall.moment(), wall.normal) - (2 * wall.distance) * wall.slope();
+}
+
 /// Gradient of the specific stress along x, y and z from the neighbours alone, exact for a linear field; none where they
 /// do not span the space. It is made smaller where the pressure would be gone within a smoothing length: grains that
 /// hardly bear any have none beyond the wall.
@@ -95,7 +101,13 @@ double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSum
     const Tensor3<> l{inside.xx - n.x * across.x, inside.xy - n.x * across.y, inside.xz - n.x * across.z,
                       inside.yx - n.y * across.x, inside.yy - n.y * across.y, inside.yz - n.y * across.z,
                       inside.zx - n.z * across.x, inside.zy - n.z * across.y, inside.zz - n.z * across.z};
-    const Tensor3<> slipping = l * full(m);
+    // What changes along the normal is the same on both sides of the wall, at the distance that it has from it.
+    const Vector3 shear{l.xx * n.x + l.xy * n.y + l.xz * n.z, l.yx * n.x + l.yy * n.y + l.yz * n.z,
+                        l.zx * n.x + l.zy * n.y + l.zz * n.z};
+    const Vector3 f = evened(wall);
+    const Tensor3<> slipping = l * full(m) + Tensor3<>{shear.x * f.x, shear.x * f.y, shear.x * f.z,
+                                                       shear.y * f.x, shear.y * f.y, shear.y * f.z,
+                                                       shear.z * f.x, shear.z * f.y, shear.z * f.z};
     const Vector3 u = -dot(velocity, n) * n, b = wall.closing();
     const Tensor3<> added{slipping.xx + u.x * b.x, slipping.xy + u.x * b.y, slipping.xz + u.x * b.z,
                           slipping.yx + u.y * b.x, slipping.yy + u.y * b.y, slipping.yz + u.y * b.z,
