@@ -45,6 +45,8 @@ std::vector<NamedValue> groups(const Parameters& p) {
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
+  if (const double rate = continuum::discharge_by_hand(p); rate > 0)
+    groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
     groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;
@@ -155,7 +157,9 @@ HopperSetting hopper_setting_of(const CaseFile& resolved) {
 
 Scene scene_of_continuum(const CaseFile& resolved) {
   const Parameters p = read_continuum(resolved).model;
-  return scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
+  Scene scene = scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
+  for (const auto& [from, to] : hopper_setting(p).section) scene.walls.push_back({from, to});
+  return scene;
 }
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {

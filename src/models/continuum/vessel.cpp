@@ -11,6 +11,7 @@
 
 #include "models/continuum/parameters.hpp"
 #include "numerics/surface/surface_faults.hpp"
+#include "physics/granular/orifice_discharge.hpp"
 
 namespace talus::continuum {
 
@@ -243,6 +244,17 @@ bool has_gates_due(const Parameters& p, const Surface& surface, double time) {
 void open_gates(const Parameters& p, Surface& surface, double time) {
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
     if (p.vessel[n].gate && time >= p.vessel[n].opens_after) surface.open(n);
+}
+
+double discharge_by_hand(const Parameters& p) {
+  const auto outlet = outlet_of_vessel(p);
+  if (!outlet || !outlet->round) return 0;
+  double factor = 1;
+  for (const VesselPart& v : p.vessel)
+    if (v.shape == VesselShape::cone && v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
+      factor = granular::factor_of_cone((v.upper_radius - v.lower_radius) / (v.top - v.bottom));
+  return factor * granular::orifice_discharge(outlet->width, p.bed.packing * p.grains.density, p.gravity.acceleration,
+                                              p.grains.diameter);
 }
 
 std::vector<Problem> check_vessel(const Parameters& p) {

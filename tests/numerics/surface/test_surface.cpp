@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "numerics/surface/section.hpp"
 #include "numerics/surface/surface_points.hpp"
 #include "shapes.hpp"
 
@@ -93,6 +94,17 @@ TEST(Surface, EdgesBoundSmoothParts) {
 TEST(Surface, TrianglesWithoutAreaAreRefused) {
   EXPECT_THROW(Surface({{{Vector3{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 0}}, 1, 1), std::invalid_argument);
   EXPECT_THROW(Surface(square(1), 0, 1), std::invalid_argument);
+}
+
+TEST(Surface, ItsSectionIsWhereThePlaneMeetsIt) {
+  const auto lines = section_at(Surface(tube(200), 1, 1), 0.3);
+  double length = 0;
+  for (const auto& [a, b] : lines) {
+    EXPECT_NEAR(std::abs(a.x), std::sqrt(1 - 0.09), 1e-3);
+    EXPECT_NEAR(a.y, 0.3, 1e-12);
+    length += norm(b - a);
+  }
+  EXPECT_NEAR(length, 8, 1e-2) << "two lines, 4 high";
 }
 
 double area_of(const Surface& surface) {
