@@ -66,7 +66,8 @@ const std::vector<Row> of_grains = {
         {{outlet, while_it_flows}}),
     Row("discharge_rate_beverloo", "kg/s",
         "discharge through a round outlet of the case's diameter by hand: C ρ_b g^½ (D − k d)^(5/2) (Beverloo et al. "
-        "1961), C = 0.58, k = 1.5, times (tan θ)^(−0.35) in a cone of half angle θ below 45 degrees (Rose & Tanaka 1959)",
+        "1961), C = 0.58, k = 1.5, times (tan θ)^(−0.35) in a cone of half angle θ below 45 degrees (Rose & Tanaka "
+        "1959)",
         {[](const Run& r, const Place&, const Window&) { return r.setting.hand_discharge; }}, {{hand_formula}}),
     Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
         {[](const Run& r, const Place&, const Window&) {

@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t head = 84, of_triangle = 50;
 
 [[noreturn]] void refuse(std::string_view name, int line, std::string what, std::string allowed) {
-  throw InputError({{.where = std::string(name), .line = line, .what = std::move(what), .allowed = std::move(allowed)}});
+  throw InputError(
+      {{.where = std::string(name), .line = line, .what = std::move(what), .allowed = std::move(allowed)}});
 }
 
 /// Numbers of the file are little-endian.
@@ -49,7 +50,8 @@ std::vector<Triangle> from_binary(std::string_view content, std::string_view nam
   for (std::size_t t = 0; t < count; ++t)
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t place = head + of_triangle * t + 12 * (c + 1);
-      triangles[t].corner[c] = {number_at(content, place), number_at(content, place + 4), number_at(content, place + 8)};
+      triangles[t].corner[c] = {number_at(content, place), number_at(content, place + 4),
+                                number_at(content, place + 8)};
     }
   return triangles;
 }

@@ -12,8 +12,8 @@
 namespace talus {
 
 /// The triangles in the order of the file, in its unit, of patch 0; normals follow from the order of the corners, those
-/// of the file are not read. \throws FileError if it cannot be read; InputError for a file that is no STL, with the line
-/// or the triangle (from 1) at which it ends to be one
+/// of the file are not read. \throws FileError if it cannot be read; InputError for a file that is no STL, with the
+/// line or the triangle (from 1) at which it ends to be one
 std::vector<Triangle> read_stl(const std::filesystem::path& path);
 
 /// The same from the content of a file. \param name of the file, for messages

@@ -24,7 +24,8 @@ struct Ghost {
 class Neighbourhood {
  public:
   /// \param domain, vessel outlive it; \param vessel who is hidden behind it when the lists are built is not listed
-  explicit Neighbourhood(const Domain& domain, const Surface& vessel = Surface::none()) : domain_(domain), vessel_(vessel) {}
+  explicit Neighbourhood(const Domain& domain, const Surface& vessel = Surface::none())
+      : domain_(domain), vessel_(vessel) {}
   explicit Neighbourhood(Domain&&) = delete;
 
   const Domain& domain() const { return domain_; }

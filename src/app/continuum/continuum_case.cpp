@@ -97,7 +97,8 @@ void read_surfaces(const CaseFile& file, Parameters& p) {
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const CaseEntry* entry = file.find(continuum::vessel_key(n, "file"));
     const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-    if (name && !name->empty()) p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(path_of(file, *name)));
+    if (name && !name->empty())
+      p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(path_of(file, *name)));
   }
 }
 
@@ -119,7 +120,8 @@ ModelCase<Parameters> read_continuum(const CaseFile& file) {
   ParameterReader reader(file, continuum::renamed_keys);
   ModelCase<Parameters> read = read_case(reader, std::move(defaults));
   for (continuum::VesselPart& part : read.model.vessel)
-    if (part.shape == continuum::VesselShape::stl) part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
+    if (part.shape == continuum::VesselShape::stl)
+      part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.throw_problems();
   return read;

@@ -103,8 +103,8 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
   const std::vector<Vector3> positions = picked(view.positions(), seen);
   const std::vector<double> packing = picked(view.scalars("packing"), seen);
   const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
-  ParticlePicture picture = particle_picture(
-      setting, positions, radii, {.values = packing, .label = "packing", .low = 0.4, .high = 0.7});
+  ParticlePicture picture =
+      particle_picture(setting, positions, radii, {.values = packing, .label = "packing", .low = 0.4, .high = 0.7});
   picture.title = title_of(time);
   write_png({.title = title, .panels = {picture}}, path);
 }
@@ -153,8 +153,7 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   Figure figure{.title = title};
   std::vector<std::vector<double>> radii;
   const bool in_space = !setting.section.empty();
-  for (const auto& set : dots)
-    radii.emplace_back(set.size(), 0.5 * (in_space ? setting.shape.spacing : dot_diameter));
+  for (const auto& set : dots) radii.emplace_back(set.size(), 0.5 * (in_space ? setting.shape.spacing : dot_diameter));
   for (std::size_t n = 0; n < chosen.size(); ++n) {
     ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
                             .positions = dots[n],

@@ -20,8 +20,8 @@ struct Outlet {
 };
 std::optional<Outlet> outlet_of(const Parameters& parameters);
 
-/// Where the lattice of the bed begins and ends along x and y, and its bottom, m: the box, or the vessel where it stands
-/// apart from the faces of the box.
+/// Where the lattice of the bed begins and ends along x and y, and its bottom, m: the box, or the vessel where it
+/// stands apart from the faces of the box.
 struct Extent {
   double low, high;
 };

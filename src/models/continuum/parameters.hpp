@@ -198,9 +198,11 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "top, with no plate or wall between",
                   true},
         p.bed.height);
-  visit(Parameter{"bed.bottom", dimension::length, at_least(0),
-                  "bottom of the bed; left out: the lowest place of the vessel, the plate, the wedge's outlet, or the floor"},
-        p.bed.bottom);
+  visit(
+      Parameter{
+          "bed.bottom", dimension::length, at_least(0),
+          "bottom of the bed; left out: the lowest place of the vessel, the plate, the wedge's outlet, or the floor"},
+      p.bed.bottom);
   visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
         p.bed.left);
   visit(Parameter{"bed.right", dimension::length, above(0), "end of the bed along x; left out: the right face"},

@@ -67,8 +67,8 @@ struct State {
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
   std::array<Vector3, most_walls> wall_impulse{};
   std::vector<Vector3> vessel_impulse;  ///< the same by patch of the vessel; empty without one
-  Vector3 damping_impulse;  ///< what the damping of the settling bed took, N s
-  Vector3 gravity_impulse;  ///< what gravity gave, N s
+  Vector3 damping_impulse;              ///< what the damping of the settling bed took, N s
+  Vector3 gravity_impulse;              ///< what gravity gave, N s
 
   AirAround air;
 

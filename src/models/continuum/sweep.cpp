@@ -236,9 +236,9 @@ double Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i,
   rates.vessel[i] =
       forces_of_walls(met, records_.data(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
   for (const NearWall& wall : met.all())
-    rates.acceleration[i] += force_of_images(
-        wall, records_.data(), i, neighbours, constants_.mass,
-        [this](std::uint32_t record, std::uint32_t part) { return seat_at_wall(record, part); });
+    rates.acceleration[i] +=
+        force_of_images(wall, records_.data(), i, neighbours, constants_.mass,
+                        [this](std::uint32_t record, std::uint32_t part) { return seat_at_wall(record, part); });
   for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
   double beyond = 0;
   for (const NearWall& wall : met.all()) beyond += wall.sums.density;

@@ -67,7 +67,10 @@ std::vector<Vector3> circle(const Parameters& p, const VesselPart& v, double rad
 std::vector<Vector3> rectangle(const Parameters& p, const VesselPart& v, double width, double depth, double z) {
   const Axis axis = axis_of(p, v);
   const double x = 0.5 * width, y = 0.5 * depth;
-  return {{axis.x - x, axis.y - y, z}, {axis.x + x, axis.y - y, z}, {axis.x + x, axis.y + y, z}, {axis.x - x, axis.y + y, z}};
+  return {{axis.x - x, axis.y - y, z},
+          {axis.x + x, axis.y - y, z},
+          {axis.x + x, axis.y + y, z},
+          {axis.x - x, axis.y + y, z}};
 }
 
 double metres(FileUnit unit) {
@@ -107,7 +110,8 @@ DrawnSurface::DrawnSurface(std::vector<Triangle> of_file) : triangles(std::move(
   low = {infinity, infinity, infinity}, high = -1.0 * low;
   for (const Triangle& t : triangles)
     for (const Vector3& c : t.corner)
-      for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
 }
 
 std::string vessel_key(std::size_t n, std::string_view name) {
@@ -279,8 +283,7 @@ std::vector<Problem> check_vessel(const Parameters& p) {
       add("upper_width", "the pyramid has no width", "one of both above 0");
     if (v.shape == VesselShape::pyramid && !(std::max(v.lower_depth, v.upper_depth) > 0))
       add("upper_depth", "the pyramid has no depth", "one of both above 0");
-    if (v.shape == VesselShape::plate &&
-        !(norm(cross(vector_of(v.first_edge), vector_of(v.second_edge))) > 0))
+    if (v.shape == VesselShape::plate && !(norm(cross(vector_of(v.first_edge), vector_of(v.second_edge))) > 0))
       add("second_edge", "the plate has no area", "an edge at an angle to first_edge");
     for (const char c : v.name)
       if (!(std::isalnum(static_cast<unsigned char>(c)) || c == '_')) {

@@ -70,7 +70,8 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
       for (const VesselShape shape : shapes) holds = holds || shape == v.shape;
       return Condition{key("shape"), "is " + value_text(v.shape), "= " + std::string(names), holds};
     };
-    auto round = only_if(of({cylinder, cone, disc, box, pyramid}, "\"cylinder\", \"cone\", \"disc\", \"box\" or \"pyramid\""), visit);
+    auto round = only_if(
+        of({cylinder, cone, disc, box, pyramid}, "\"cylinder\", \"cone\", \"disc\", \"box\" or \"pyramid\""), visit);
     auto upright = only_if(of({cylinder, cone, box, pyramid}, "\"cylinder\", \"cone\", \"box\" or \"pyramid\""), visit);
     auto circular = only_if(of({cylinder, disc}, "\"cylinder\" or \"disc\""), visit);
     auto conical = only_if(of({cone}, "\"cone\""), visit);
@@ -104,8 +105,12 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
     oblique(Parameter{key("first_edge"), dimension::length, {}, "from there to the next corner", true}, v.first_edge);
     oblique(Parameter{key("second_edge"), dimension::length, {}, "and to the one on its other side", true},
             v.second_edge);
-    drawn(Parameter{key("file"), {}, {}, "STL file, ASCII or binary; a path without / in front starts at the case's "
-                    "folder", true},
+    drawn(Parameter{key("file"),
+                    {},
+                    {},
+                    "STL file, ASCII or binary; a path without / in front starts at the case's "
+                    "folder",
+                    true},
           v.file);
     drawn(Parameter{key("unit"), {}, {}, "unit of the numbers in the file, which an STL file does not say", true},
           v.unit);
@@ -139,10 +144,10 @@ struct VesselBounds {
 };
 VesselBounds bounds_of_vessel(const Parameters& parameters);
 
-/// What the grains leave the vessel through: the gate if one is flat and level, else the hole of a disc or the lower end
-/// of a cone or pyramid, the lowest of them; nothing if there is none, or if it is the work of an STL file.
+/// What the grains leave the vessel through: the gate if one is flat and level, else the hole of a disc or the lower
+/// end of a cone or pyramid, the lowest of them; nothing if there is none, or if it is the work of an STL file.
 struct VesselOutlet {
-  Vector3 middle;            ///< m
+  Vector3 middle;               ///< m
   double width = 0, depth = 0;  ///< along x and y; of a round one its diameter, m
   bool round = false;
 };
@@ -152,7 +157,8 @@ std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
 double discharge_by_hand(const Parameters& parameters);
 
 /// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top by steps
-/// from place to place that no wall crosses; those nearer to a wall than 0.4 spacings are moved off it to that distance.
+/// from place to place that no wall crosses; those nearer to a wall than 0.4 spacings are moved off it to that
+/// distance.
 std::vector<Vector3> bed_in_vessel(const Parameters& parameters);
 
 /// Whether a gate is still shut whose time has come. \param time from the opening of the gate of the case, s

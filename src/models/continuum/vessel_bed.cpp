@@ -35,7 +35,8 @@ struct Places {
     return x;
   }
   bool is_clear(const Vector3& x) const {
-    return !surface.nearest(x, on_the_wall * parameters.bed.spacing) && !domain.is_near_wall(x, 0.25 * parameters.bed.spacing);
+    return !surface.nearest(x, on_the_wall * parameters.bed.spacing) &&
+           !domain.is_near_wall(x, 0.25 * parameters.bed.spacing);
   }
   /// Farther from the wall, if it is too near.
   Vector3 moved_off(const Vector3& x) const {

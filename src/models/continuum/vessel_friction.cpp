@@ -28,8 +28,8 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& r
       const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
       if (!rough) continue;
       const Vector3 through = dot(state.velocity[i], wall.normal) * wall.normal, along = state.velocity[i] - through;
-      const Vector3 after = through + sph::coulomb_friction(along, duration * dot(wall.acceleration, wall.normal),
-                                                            coefficient);
+      const Vector3 after =
+          through + sph::coulomb_friction(along, duration * dot(wall.acceleration, wall.normal), coefficient);
       received[wall.patch] += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
     }
@@ -59,8 +59,8 @@ void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, std::span<const 
     }
     if (!state.reset_position.empty()) state.reset_position[i] += x - moved_to;
   };
-  state.vessel_impulse = sum(state.vessel_impulse,
-                             accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum));
+  state.vessel_impulse =
+      sum(state.vessel_impulse, accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum));
 }
 
 }  // namespace talus::continuum

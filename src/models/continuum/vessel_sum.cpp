@@ -37,9 +37,9 @@ Vector3 evened(const NearWall& wall) {
   return -2.0 * times(wall.moment(), wall.normal) - (2 * wall.distance) * wall.slope();
 }
 
-/// Gradient of the specific stress along x, y and z from the neighbours alone, exact for a linear field; none where they
-/// do not span the space. It is made smaller where the pressure would be gone within a smoothing length: grains that
-/// hardly bear any have none beyond the wall.
+/// Gradient of the specific stress along x, y and z from the neighbours alone, exact for a linear field; none where
+/// they do not span the space. It is made smaller where the pressure would be gone within a smoothing length: grains
+/// that hardly bear any have none beyond the wall.
 std::array<SymmetricTensor3<>, 3> stress_gradient(const ParticleRecord* records, std::size_t self,
                                                   const Neighbours& neighbours) {
   const ParticleRecord& own = records[self];
@@ -66,7 +66,7 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const ParticleRecord* records,
   const Tensor3<> inverted = inverse(whole);
   double gradient[6][3];
   for (int c = 0; c < 6; ++c) {
-    const double *a = along[c];
+    const double* a = along[c];
     gradient[c][0] = inverted.xx * a[0] + inverted.xy * a[1] + inverted.xz * a[2];
     gradient[c][1] = inverted.yx * a[0] + inverted.yy * a[1] + inverted.yz * a[2];
     gradient[c][2] = inverted.zx * a[0] + inverted.zy * a[1] + inverted.zz * a[2];
@@ -74,9 +74,9 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const ParticleRecord* records,
   std::array<SymmetricTensor3<>, 3> result;
   for (std::size_t k = 0; k < 3; ++k)
     result[k] = {gradient[0][k], gradient[1][k], gradient[2][k], gradient[3][k], gradient[4][k], gradient[5][k]};
-  const double fall = own.smoothing_length * std::sqrt(trace(result[0]) * trace(result[0]) +
-                                                       trace(result[1]) * trace(result[1]) +
-                                                       trace(result[2]) * trace(result[2]));
+  const double fall =
+      own.smoothing_length * std::sqrt(trace(result[0]) * trace(result[0]) + trace(result[1]) * trace(result[1]) +
+                                       trace(result[2]) * trace(result[2]));
   const double pressure = trace(stress_at(own));
   if (fall > pressure) {
     const double share = pressure > 0 ? pressure / fall : 0;
@@ -105,9 +105,9 @@ double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSum
     const Vector3 shear{l.xx * n.x + l.xy * n.y + l.xz * n.z, l.yx * n.x + l.yy * n.y + l.yz * n.z,
                         l.zx * n.x + l.zy * n.y + l.zz * n.z};
     const Vector3 f = evened(wall);
-    const Tensor3<> slipping = l * full(m) + Tensor3<>{shear.x * f.x, shear.x * f.y, shear.x * f.z,
-                                                       shear.y * f.x, shear.y * f.y, shear.y * f.z,
-                                                       shear.z * f.x, shear.z * f.y, shear.z * f.z};
+    const Tensor3<> slipping =
+        l * full(m) + Tensor3<>{shear.x * f.x, shear.x * f.y, shear.x * f.z, shear.y * f.x, shear.y * f.y,
+                                shear.y * f.z, shear.z * f.x, shear.z * f.y, shear.z * f.z};
     const Vector3 u = -dot(velocity, n) * n, b = wall.closing();
     const Tensor3<> added{slipping.xx + u.x * b.x, slipping.xy + u.x * b.y, slipping.xz + u.x * b.z,
                           slipping.yx + u.y * b.x, slipping.yy + u.y * b.y, slipping.yz + u.y * b.z,

@@ -3,7 +3,8 @@
 ///
 /// Across the wall. Beyond a wall the field around the particle is taken to go on: the stress linearly, its shear along
 /// the wall turned over as in a mirror; the velocity along the wall linearly too, and that across it linearly through 0
-/// at the wall. The density is the particle's. The wall pushes along its normal only: friction is Coulomb's (walls.hpp).
+/// at the wall. The density is the particle's. The wall pushes along its normal only: friction is Coulomb's
+/// (walls.hpp).
 ///
 /// Along the wall. A particle beside a wall has neighbours on one side only; what lacks is the force along the wall of
 /// the neighbours' images in it. At the distances a and b of two particles from a plane, each is at the distance

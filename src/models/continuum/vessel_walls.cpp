@@ -41,8 +41,7 @@ VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet 
     records_.push_back({{x.x, x.y, x.z}, {n.x, n.y, n.z}, point.area, 0});
   }
   records_.push_back({{1e3, 1e3, 1e3}, {1, 0, 0}, 0, 0});
-  for (int n = 0; n <= 2 * steps_of_h; ++n)
-    plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
+  for (int n = 0; n <= 2 * steps_of_h; ++n) plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
 }
 
 void VesselWalls::find(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,

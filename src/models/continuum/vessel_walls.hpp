@@ -8,13 +8,13 @@
 #include <span>
 #include <vector>
 
+#include "base/instruction_set.hpp"
 #include "base/parallel.hpp"
 #include "base/tensor.hpp"
-#include "numerics/surface/surface.hpp"
-#include "numerics/surface/surface_points.hpp"
-#include "base/instruction_set.hpp"
 #include "base/vector.hpp"
 #include "models/continuum/wall_sweep/kernel.hpp"
+#include "numerics/surface/surface.hpp"
+#include "numerics/surface/surface_points.hpp"
 
 namespace talus::continuum {
 
@@ -74,8 +74,8 @@ class VesselWalls {
   std::vector<Vector3> places_;     // of the points
   std::vector<WallPoint> records_;  // of the points, and one without area
   std::vector<std::size_t> first_ = {0};
-  std::vector<std::uint32_t> near_;  // points of every particle, by part
-  std::vector<std::int32_t> slot_;   // of every particle in met_, -1: no wall within reach
+  std::vector<std::uint32_t> near_;       // points of every particle, by part
+  std::vector<std::int32_t> slot_;        // of every particle in met_, -1: no wall within reach
   std::vector<std::uint32_t> particles_;  // that have a slot
   std::vector<NearWalls> met_;
   NearWalls nothing_;

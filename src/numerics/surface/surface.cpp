@@ -12,8 +12,8 @@ namespace talus {
 namespace {
 
 constexpr double most_cells = 1e7;
-constexpr double smooth = 0.848;     // cosine of 32 degrees
-constexpr double flat = 1 - 1e-9;    // of 0.003 degrees
+constexpr double smooth = 0.848;   // cosine of 32 degrees
+constexpr double flat = 1 - 1e-9;  // of 0.003 degrees
 
 Vector3 least(const Vector3& a, const Vector3& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
@@ -130,8 +130,8 @@ void Surface::fill_grid() {
       });
     }
   };
-  const auto size = static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
-                    static_cast<std::size_t>(count_[2]);
+  const auto size =
+      static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]);
   first_.assign(size + 1, 0);
   for_each_entry([&](std::size_t cell, std::uint32_t) { ++first_[cell + 1]; });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -148,8 +148,8 @@ std::optional<Surface::Foot> Surface::nearest(const Vector3& x, double within) c
       if (is_open_[triangles_[t].patch]) continue;
       const Vector3 place = nearest_place(triangles_[t], x);
       const double distance = norm(place - x);
-      if (!(distance <= within) || (best && (distance > best->distance ||
-                                             (distance == best->distance && t >= best->triangle))))
+      if (!(distance <= within) ||
+          (best && (distance > best->distance || (distance == best->distance && t >= best->triangle))))
         continue;
       best = Foot{t, place, distance};
     }

@@ -46,9 +46,8 @@ void for_each_edge(const std::vector<Edge>& edges, Visit&& visit) {
 }
 
 bool is_finite(const Triangle& t) {
-  return std::all_of(t.corner.begin(), t.corner.end(), [](const Vector3& c) {
-    return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
-  });
+  return std::all_of(t.corner.begin(), t.corner.end(),
+                     [](const Vector3& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); });
 }
 
 /// Height over the longest edge, below rounding of single precision.

@@ -23,9 +23,9 @@ struct SurfaceFault {
     crossing_another  ///< the surface passes through itself
   };
   Kind kind;
-  std::uint32_t triangle;               ///< number, from 0
-  std::optional<std::uint32_t> other;   ///< the second triangle of the fault
-  Vector3 place;                        ///< in the unit of the corners
+  std::uint32_t triangle;              ///< number, from 0
+  std::optional<std::uint32_t> other;  ///< the second triangle of the fault
+  Vector3 place;                       ///< in the unit of the corners
 };
 
 /// In words: "has no area".

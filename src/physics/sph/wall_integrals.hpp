@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The kernel's integrals over what lies beyond a wall, as seen from a particle: along every ray from the particle all
 /// that is farther than the wall is taken for wall. A piece of a wall of area A at distance r, whose normal makes an
-/// angle with the ray, hides the solid angle A cos/r^2; the radial integrals are known in closed form. So corners, rims,
-/// thin plates and curved walls need nothing of their own.
+/// angle with the ray, hides the solid angle A cos/r^2; the radial integrals are known in closed form. So corners,
+/// rims, thin plates and curved walls need nothing of their own.
 ///
 /// Sources: walls by integrals of the kernel over their surface, Kulasegaram, Bonet, Lewis & Profit, Comput. Mech. 33,
 /// 316 (2004); Ferrand, Laurence, Rogers, Violeau & Kassiotis, Int. J. Numer. Methods Fluids 71, 446 (2013). completed:
@@ -36,8 +36,7 @@ TALUS_INLINE RadialIntegrals<Number> radial_integrals(Number q, Number inverse_h
   const Number inner_slope = 1.0 / 30 - s3 * (1.0 / 3 + s * (-0.5 + s * 0.2));
   const Number inner_moment = 1.0 / 60 - s3 * s * (0.25 + s * (-0.4 + s * (1.0 / 6)));
   constexpr double factor = 1 / (4 * std::numbers::pi);
-  return {factor * (outer_density - 4.0 * inner_density),
-          factor * inverse_h * (3.0 * outer_slope - 12.0 * inner_slope),
+  return {factor * (outer_density - 4.0 * inner_density), factor * inverse_h * (3.0 * outer_slope - 12.0 * inner_slope),
           factor * (3.0 * outer_moment - 12.0 * inner_moment)};
 }
 

@@ -214,7 +214,8 @@ TEST(Vessel, ABlockSlidesOnAPlateAsCoulombSays) {
   const double smooth = 9.81 * std::sin(angle), rubbing = 9.81 * (std::sin(angle) - 0.2 * std::cos(angle));
   EXPECT_NEAR(acceleration_down(angle, 0), smooth, 0.01 * smooth);
   EXPECT_NEAR(acceleration_down(angle, 0.2), rubbing, 0.1 * smooth);
-  EXPECT_NEAR(acceleration_down(angle, 0.35), 0, 0.06 * smooth) << "it sticks, but for its front: tan 15 degrees is 0.27";
+  EXPECT_NEAR(acceleration_down(angle, 0.35), 0, 0.06 * smooth)
+      << "it sticks, but for its front: tan 15 degrees is 0.27";
 }
 
 TEST(Vessel, ALayerThatSlidesOnAFloorStopsAsCoulombSays) {
@@ -350,8 +351,8 @@ TEST(Vessel, ContradictionsAreToldAllAtOnce) {
 
 TEST(Vessel, FaultsOfAFileNameTheTriangle) {
   Parameters p = small_silo();
-  p.vessel.push_back(drawn("chute", {{{Vector3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 0},
-                                     {{Vector3{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}}, 0}}));
+  p.vessel.push_back(
+      drawn("chute", {{{Vector3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, 0}, {{Vector3{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}}, 0}}));
   p.vessel.back().file = "chute.stl";
   const auto problems = check(p);
   ASSERT_EQ(problems.size(), 1u);

@@ -29,8 +29,8 @@ inline std::vector<Triangle> ball(int halvings) {
     for (const Triangle& t : triangles) {
       const auto& [a, b, d] = t.corner;
       const Vector3 ab = middle(a, b), bd = middle(b, d), da = middle(d, a);
-      for (const Triangle& part : {Triangle{{a, ab, da}, 0}, Triangle{{ab, b, bd}, 0}, Triangle{{da, bd, d}, 0},
-                                   Triangle{{ab, bd, da}, 0}})
+      for (const Triangle& part :
+           {Triangle{{a, ab, da}, 0}, Triangle{{ab, b, bd}, 0}, Triangle{{da, bd, d}, 0}, Triangle{{ab, bd, da}, 0}})
         finer.push_back(part);
     }
     triangles = finer;

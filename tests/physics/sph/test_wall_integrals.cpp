@@ -101,8 +101,7 @@ TEST(WallIntegrals, InACornerAllIsCountedOnce) {
       for (int j = 0; j < cells; ++j)
         for (int k = 0; k < cells; ++k) {
           const Vector3 x = cell * Vector3{i + 0.5, j + 0.5, k + 0.5};
-          before += cell * cell * cell *
-                    cubic_spline(norm(x - Vector3{as_blurred, as_blurred, as_blurred}), 1.0);
+          before += cell * cell * cell * cubic_spline(norm(x - Vector3{as_blurred, as_blurred, as_blurred}), 1.0);
         }
     EXPECT_NEAR(sums_over(points, {away, away, away}, 1).density, 1 - before, 0.012) << away;
   }

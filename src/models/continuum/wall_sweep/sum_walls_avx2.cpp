@@ -5,7 +5,7 @@
 namespace talus::continuum {
 
 void sum_walls_avx2(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count, std::uint32_t padding,
-                  const double* position, double h, WallTotals& totals) {
+                    const double* position, double h, WallTotals& totals) {
   sum_points(points, numbers, count, padding, position, h, totals);
 }
 

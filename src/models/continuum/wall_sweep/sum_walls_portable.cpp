@@ -4,8 +4,8 @@
 
 namespace talus::continuum {
 
-void sum_walls_portable(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count, std::uint32_t padding,
-                  const double* position, double h, WallTotals& totals) {
+void sum_walls_portable(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count,
+                        std::uint32_t padding, const double* position, double h, WallTotals& totals) {
   sum_points(points, numbers, count, padding, position, h, totals);
 }
 
