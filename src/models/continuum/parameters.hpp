@@ -141,7 +141,6 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
   visit(Parameter{"box.floor", {}, {}, "the floor"}, p.box.floor);
   visit(Parameter{"box.top", {}, {}, "the top"}, p.box.top);
-
   visit(Parameter{"plate.height", dimension::length, above(0),
                   "height of a thin horizontal plate across the box; left out: no plate"},
         p.plate.height);
@@ -177,13 +176,11 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.plates[n].opens_after);
   }
   for_each_parameter_of_vessel(visit, p.vessel);
-  visit(Parameter{"gate.opens", {}, {}, "when the gate of the slit, of the wedge's outlet or of the vessel opens"},
-        p.gate.opens);
+  visit(Parameter{"gate.opens", {}, {}, "when the gate of slit, wedge or vessel opens"}, p.gate.opens);
   auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
   timed(Parameter{"gate.time", dimension::time, at_least(0),
                   "time at which the gate opens, with gate.opens = \"at-time\""},
         p.gate.time);
-
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
@@ -198,11 +195,9 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "top, with no plate or wall between",
                   true},
         p.bed.height);
-  visit(
-      Parameter{
-          "bed.bottom", dimension::length, at_least(0),
-          "bottom of the bed; left out: the lowest place of the vessel, the plate, the wedge's outlet, or the floor"},
-      p.bed.bottom);
+  visit(Parameter{"bed.bottom", dimension::length, at_least(0),
+                  "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
+        p.bed.bottom);
   visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
         p.bed.left);
   visit(Parameter{"bed.right", dimension::length, above(0), "end of the bed along x; left out: the right face"},
