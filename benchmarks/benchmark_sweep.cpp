@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What a step of the continuum costs, and its parts: the sums over pairs with the packing of records, a rebuild of the
 /// neighbour lists, the law applied to all particles, whole steps. The bed of the paper's hopper (60 x 3 x 50 particles
-/// between mirrors, some 37 neighbours each) and one of 100,000 particles; arguments: particles along x, y, z, and
-/// threads.
+/// between mirrors, some 39 neighbours each), and beds of 100,000 and 10^6 particles; arguments: particles along x, y,
+/// z, and threads.
 #include <benchmark/benchmark.h>
 
 #include "base/random.hpp"
@@ -37,6 +37,15 @@ struct Bed {
     p.gate.opens = GateOpens::from_the_start;
     p.bed.spacing = spacing;
     p.bed.height = static_cast<double>(run.range(2)) * spacing;
+    // As cases/yuu2011-hopper-vacuum.toml.
+    granular::CriticalState::Parameters law;
+    law.friction = 0.5;
+    law.fast_friction = 0.76;
+    p.law = law;
+    p.collisions.form = granular::Collisions::none;
+    p.sph.viscosity_alpha = 0.01;
+    p.integration.method = Method::leapfrog;
+    p.integration.courant = 1.2;
     return p;
   }
 
@@ -104,6 +113,7 @@ void law(benchmark::State& run) {
 void step(benchmark::State& run, Method method) {
   Parameters p = Bed::hopper(run);
   p.integration.method = method;
+  if (method == Method::runge_kutta) p.integration.courant = 0.3;
   ThreadTeam team(static_cast<int>(run.range(3)));
   Continuum model(p);
   model.begin(team);
@@ -122,6 +132,7 @@ void sizes(benchmark::internal::Benchmark* stage) {
   stage->UseRealTime()->MeasureProcessCPUTime()->Unit(benchmark::kMicrosecond);
   for (const int threads : {1, 2}) stage->Args({60, 3, 50, threads});
   for (const int threads : {1, 2}) stage->Args({100, 20, 50, threads});
+  for (const int threads : {1, 2}) stage->Args({200, 20, 250, threads});
 }
 BENCHMARK(sweep_gradients)->Apply(sizes);
 BENCHMARK(sweep_forces)->Apply(sizes);

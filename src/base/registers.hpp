@@ -65,47 +65,86 @@ TALUS_INLINE auto sum(Register x) {
                __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15));
 }
 
-/// Rows become columns: lane k of the new register r is lane r of the old register k.
+typedef double HalfRegister __attribute__((vector_size(bytes / 2)));
+TALUS_INLINE auto join(HalfRegister low, HalfRegister high) {
+#if defined(__AVX512F__)
+  return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(low), high, 1);
+#elif defined(__AVX2__)
+  return _mm256_insertf128_pd(_mm256_castpd128_pd256(low), high, 1);
+#else
+  return __builtin_shufflevector(low, high, 0, 1);
+#endif
+}
+
+/// Columns of a table whose rows are elsewhere in memory: lane k of block[c] is row[k][c], for as many columns as a
+/// register has lanes. The upper halves of registers come with the load, which spares a third of the shuffles.
 template <class Register>
-TALUS_INLINE void transpose(Register (&r)[sizeof(Register) / 8]) requires(sizeof(Register{}[0]) == 8) {
+TALUS_INLINE void load_transposed(const double* const (&row)[sizeof(Register) / 8], std::size_t first,
+                                  Register (&block)[sizeof(Register) / 8]) {
   constexpr int lanes = sizeof(Register) / 8;
-  Register t[lanes];
   if constexpr (lanes == 2) {
-    t[0] = __builtin_shufflevector(r[0], r[1], 0, 2);
-    t[1] = __builtin_shufflevector(r[0], r[1], 1, 3);
-    r[0] = t[0], r[1] = t[1];
-  } else if constexpr (lanes == 4) {
-    TALUS_UNROLL for (int k = 0; k < 4; k += 2) {
-      t[k] = __builtin_shufflevector(r[k], r[k + 1], 0, 4, 2, 6);
-      t[k + 1] = __builtin_shufflevector(r[k], r[k + 1], 1, 5, 3, 7);
-    }
-    TALUS_UNROLL for (int k = 0; k < 2; ++k) {
-      r[k] = __builtin_shufflevector(t[k], t[k + 2], 0, 1, 4, 5);
-      r[k + 2] = __builtin_shufflevector(t[k], t[k + 2], 2, 3, 6, 7);
-    }
+    const Register a = *reinterpret_cast<const Register*>(row[0] + first);
+    const Register b = *reinterpret_cast<const Register*>(row[1] + first);
+    block[0] = __builtin_shufflevector(a, b, 0, 2);
+    block[1] = __builtin_shufflevector(a, b, 1, 3);
   } else {
-    TALUS_UNROLL for (int k = 0; k < 8; k += 2) {
-      t[k] = __builtin_shufflevector(r[k], r[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-      t[k + 1] = __builtin_shufflevector(r[k], r[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-    }
-    Register u[lanes];
-    TALUS_UNROLL for (int k = 0; k < 8; k += 4) {
-      TALUS_UNROLL for (int l = 0; l < 2; ++l) {
-        u[k + l] = __builtin_shufflevector(t[k + l], t[k + l + 2], 0, 1, 8, 9, 4, 5, 12, 13);
-        u[k + l + 2] = __builtin_shufflevector(t[k + l], t[k + l + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    constexpr int half = lanes / 2;
+    TALUS_UNROLL for (int c = 0; c < lanes; c += half) {
+      Register t[half];
+      TALUS_UNROLL for (int k = 0; k < half; ++k) {
+        t[k] = join(*reinterpret_cast<const HalfRegister*>(row[k] + first + c),
+                    *reinterpret_cast<const HalfRegister*>(row[k + half] + first + c));
+      }
+      if constexpr (lanes == 4) {
+        block[c] = __builtin_shufflevector(t[0], t[1], 0, 4, 2, 6);
+        block[c + 1] = __builtin_shufflevector(t[0], t[1], 1, 5, 3, 7);
+      } else {
+        const Register even = __builtin_shufflevector(t[0], t[1], 0, 8, 2, 10, 4, 12, 6, 14);
+        const Register odd = __builtin_shufflevector(t[0], t[1], 1, 9, 3, 11, 5, 13, 7, 15);
+        const Register next_even = __builtin_shufflevector(t[2], t[3], 0, 8, 2, 10, 4, 12, 6, 14);
+        const Register next_odd = __builtin_shufflevector(t[2], t[3], 1, 9, 3, 11, 5, 13, 7, 15);
+        block[c] = __builtin_shufflevector(even, next_even, 0, 1, 8, 9, 4, 5, 12, 13);
+        block[c + 1] = __builtin_shufflevector(odd, next_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+        block[c + 2] = __builtin_shufflevector(even, next_even, 2, 3, 10, 11, 6, 7, 14, 15);
+        block[c + 3] = __builtin_shufflevector(odd, next_odd, 2, 3, 10, 11, 6, 7, 14, 15);
       }
     }
-    TALUS_UNROLL for (int k = 0; k < 4; ++k) {
-      r[k] = __builtin_shufflevector(u[k], u[k + 4], 0, 1, 2, 3, 8, 9, 10, 11);
-      r[k + 4] = __builtin_shufflevector(u[k], u[k + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+/// The sum of the lanes of each of x, in one register: lane k that of x[k]. In a fixed order.
+template <class Register>
+TALUS_INLINE Register sums(const Register (&x)[sizeof(Register) / 8]) {
+  constexpr int lanes = sizeof(Register) / 8;
+  if constexpr (lanes == 2) {
+    return __builtin_shufflevector(x[0], x[1], 0, 2) + __builtin_shufflevector(x[0], x[1], 1, 3);
+  } else if constexpr (lanes == 4) {
+    Register t[2];
+    TALUS_UNROLL for (int k = 0; k < 2; ++k) {
+      t[k] = __builtin_shufflevector(x[2 * k], x[2 * k + 1], 0, 4, 2, 6) +
+             __builtin_shufflevector(x[2 * k], x[2 * k + 1], 1, 5, 3, 7);
     }
+    return __builtin_shufflevector(t[0], t[1], 0, 1, 4, 5) + __builtin_shufflevector(t[0], t[1], 2, 3, 6, 7);
+  } else {
+    Register t[4], u[2];
+    TALUS_UNROLL for (int k = 0; k < 4; ++k) {
+      t[k] = __builtin_shufflevector(x[2 * k], x[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14) +
+             __builtin_shufflevector(x[2 * k], x[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    TALUS_UNROLL for (int k = 0; k < 2; ++k) {
+      u[k] = __builtin_shufflevector(t[2 * k], t[2 * k + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+             __builtin_shufflevector(t[2 * k], t[2 * k + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    return __builtin_shufflevector(u[0], u[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+           __builtin_shufflevector(u[0], u[1], 4, 5, 6, 7, 12, 13, 14, 15);
   }
 }
 
 // The few operations that the vector arithmetic of the compiler lacks: a b + c and c - a b, rounded once where the
 // instruction set can; an estimate of the reciprocal square root, good to `estimate_bits` bits; a > b; a choice lane by
 // lane; whether a mask holds in every lane, and its lanes as bits; those of eight numbers whose bit is set, one after
-// the other (the places behind them, up to eight in all, may be overwritten), and how many they are.
+// the other (the places behind them, up to eight in all, may be overwritten), and how many they are; the same of the
+// lanes of a register (as many places as it has lanes may be overwritten).
 #if defined(__AVX512F__)
 inline constexpr int estimate_bits = 14;
 TALUS_INLINE __m512d fused(__m512d a, __m512d b, __m512d c) {
@@ -147,11 +186,20 @@ TALUS_INLINE bool all(__mmask16 mask) {
 TALUS_INLINE unsigned bits(__mmask8 mask) {
   return mask;
 }
+TALUS_INLINE unsigned bits(__mmask16 mask) {
+  return mask;
+}
 TALUS_INLINE std::size_t pack(const std::uint32_t* numbers, unsigned bits, std::uint32_t* packed) {
   const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(packed),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), eight));
   return static_cast<std::size_t>(__builtin_popcount(bits));
+}
+TALUS_INLINE void pack(__m512d x, __mmask8 mask, double* packed) {
+  _mm512_storeu_pd(packed, _mm512_maskz_compress_pd(mask, x));
+}
+TALUS_INLINE void pack(__m512 x, __mmask16 mask, float* packed) {
+  _mm512_storeu_ps(packed, _mm512_maskz_compress_ps(mask, x));
 }
 #elif defined(__AVX2__)
 inline constexpr int estimate_bits = 11;
@@ -189,6 +237,10 @@ TALUS_INLINE bool all(Mask mask) {
 template <class Mask>
 TALUS_INLINE unsigned bits(Mask mask) requires(sizeof(mask[0]) == 8) {
   return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+}
+template <class Mask>
+TALUS_INLINE unsigned bits(Mask mask) requires(sizeof(mask[0]) == 4) {
+  return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask));
 }
 #else
 inline constexpr int estimate_bits = 53;  // not an estimate
@@ -231,6 +283,10 @@ TALUS_INLINE std::size_t pack(const std::uint32_t* numbers, unsigned bits, std::
   std::size_t count = 0;
   for (; bits != 0; bits &= bits - 1) packed[count++] = numbers[__builtin_ctz(bits)];
   return count;
+}
+template <class Register, class Mask, class T>
+TALUS_INLINE void pack(Register x, Mask mask, T* packed) {
+  for (unsigned set = bits(mask); set != 0; set &= set - 1) *packed++ = x[__builtin_ctz(set)];
 }
 #endif
 

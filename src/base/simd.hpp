@@ -68,12 +68,12 @@ struct SimdVector {
   SimdVector() = default;
   /// The same number everywhere. Implicit, so that laws can be written alike for scalars and vectors.
   TALUS_INLINE SimdVector(double value) {  // NOLINT(google-explicit-constructor)
-    TALUS_UNROLL for (int r = 0; r < rows; ++r) row[r] = Register{} + static_cast<T>(value);
+    TALUS_UNROLL for (int r = 0; r < rows; ++r) row[r] = static_cast<T>(value) - Register{};
   }
   /// One number per row, repeated over its lanes. \param values `rows` numbers
   TALUS_INLINE static SimdVector broadcast(const T* values) {
     SimdVector x;
-    TALUS_UNROLL for (int r = 0; r < rows; ++r) x.row[r] = Register{} + values[r];
+    TALUS_UNROLL for (int r = 0; r < rows; ++r) x.row[r] = values[r] - Register{};
     return x;
   }
   /// Row r holds first + r.
@@ -97,6 +97,12 @@ struct SimdVector {
     return x;
   }
   TALUS_INLINE void store(T* values) const requires(rows == 1) { *reinterpret_cast<Register*>(values) = row[0]; }
+  /// One row from anywhere in memory.
+  TALUS_INLINE static SimdVector load_unaligned(const T* values) requires(rows == 1) {
+    SimdVector x;
+    __builtin_memcpy(&x.row[0], values, sizeof(Register));
+    return x;
+  }
 };
 
 template <class T, int rows>
@@ -226,7 +232,8 @@ TALUS_INLINE void gather_rows(SimdVector<T, rows> x, RowOf&& row_of, SimdVector<
 }
 
 /// Columns of a table whose rows are elsewhere in memory: column c of the rows that the lanes choose.
-/// \param row_of lane -> const double*, aligned to a register \param columns as many as the table has, a multiple of 8
+/// \param row_of lane -> const double*, aligned to half a register \param columns as many as the table has, a multiple
+/// of 8
 template <int columns, class RowOf>
 TALUS_INLINE void load_columns(RowOf&& row_of, SimdVector<double> (&column)[columns]) {
   using Register = SimdVector<double>::Register;
@@ -235,9 +242,21 @@ TALUS_INLINE void load_columns(RowOf&& row_of, SimdVector<double> (&column)[colu
   TALUS_UNROLL for (int k = 0; k < lanes; ++k) row[k] = row_of(k);
   TALUS_UNROLL for (int c = 0; c < columns; c += lanes) {
     Register block[lanes];
-    TALUS_UNROLL for (int k = 0; k < lanes; ++k) block[k] = *reinterpret_cast<const Register*>(row[k] + c);
-    registers::transpose(block);
+    registers::load_transposed(row, static_cast<std::size_t>(c), block);
     TALUS_UNROLL for (int k = 0; k < lanes; ++k) column[c + k].row[0] = block[k];
+  }
+}
+
+/// Writes the sum over the lanes of each of x, in a fixed order. \param count a multiple of 8; \param sum aligned to a
+/// register, as many
+template <int count>
+TALUS_INLINE void store_sums(const SimdVector<double> (&x)[count], double* sum) {
+  using Register = SimdVector<double>::Register;
+  constexpr int lanes = SimdVector<double>::lanes;
+  TALUS_UNROLL for (int c = 0; c < count; c += lanes) {
+    Register block[lanes];
+    TALUS_UNROLL for (int k = 0; k < lanes; ++k) block[k] = x[c + k].row[0];
+    *reinterpret_cast<Register*>(sum + c) = registers::sums(block);
   }
 }
 
@@ -253,6 +272,13 @@ TALUS_INLINE bool all(SimdMask<T, rows> condition) {
 template <class T>
 TALUS_INLINE unsigned lane_bits(SimdMask<T, 1> condition) {
   return registers::bits(condition.row[0]);
+}
+
+/// Writes the lanes where the condition holds one after the other. \param packed `lanes` numbers, of which those behind
+/// the ones that were written may change
+template <class T>
+TALUS_INLINE void store_packed(SimdVector<T> x, SimdMask<T, 1> condition, T* packed) {
+  registers::pack(x.row[0], condition.row[0], packed);
 }
 
 /// 1/sqrt(x): the processor's estimate y, and with e = 1 - x y^2 as many terms of y (1 + e/2 + 3/8 e^2 + 5/16 e^3 ...)

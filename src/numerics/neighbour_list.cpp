@@ -98,6 +98,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
   reference_.assign(position.begin(), position.end());
   skin_ = skin;
   first_.assign(count + 1, 0);
+  length_.assign(count, 0);
   if (count == 0) return neighbours_.clear();
 
   const double largest = *std::max_element(radius.begin(), radius.end());
@@ -124,20 +125,21 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
         const std::span<std::uint32_t> near = around.near(pick_near, n, skin);
         const std::size_t length = keep ? keep(listed[n], near) : near.size();
         list.insert(list.end(), near.begin(), near.begin() + static_cast<std::ptrdiff_t>(length));
-        first_[listed[n] + 1] = length;
+        length_[listed[n]] = static_cast<std::uint32_t>(length);
       }
     });
   });
-  for (std::size_t i = 0; i < count; ++i) first_[i + 1] += first_[i];
+  for (std::size_t i = 0; i < count; ++i)
+    first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
   // Sums go through the particles by number: in that order their lists lie in memory.
   neighbours_.resize(first_[count]);
   team.run(chunks, [&](std::size_t chunk) {
     const std::uint32_t* list = found_[chunk].data();
     for_each_listed(chunk, [&](std::span<const std::uint32_t> listed) {
       for (const std::uint32_t i : listed) {
-        const std::size_t length = first_[i + 1] - first_[i];
-        std::copy_n(list, length, neighbours_.data() + first_[i]);
-        list += length;
+        std::uint32_t* const end = std::copy_n(list, length_[i], neighbours_.data() + first_[i]);
+        std::fill(end, neighbours_.data() + first_[i + 1], static_cast<std::uint32_t>(position.size()));
+        list += length_[i];
       }
     });
   });

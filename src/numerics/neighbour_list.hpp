@@ -35,14 +35,19 @@ class NeighbourList {
   bool holds(ThreadTeam& team, std::span<const Vector3> position) const;
 
   std::span<const std::uint32_t> of(std::size_t i) const {
-    return std::span(neighbours_).subspan(first_[i], first_[i + 1] - first_[i]);
+    return std::span(neighbours_).subspan(first_[i], length_[i]);
   }
+
+  /// Behind each list the number of all points stands until a multiple of `padded_to` is reached, so that whole
+  /// registers can be read.
+  static constexpr std::size_t padded_to = 8;
 
  private:
   double skin_ = -1;
   std::vector<Vector3> reference_;
   std::vector<std::uint32_t> neighbours_;
-  std::vector<std::size_t> first_ = {0};
+  std::vector<std::size_t> first_ = {0};  // a multiple of `padded_to`
+  std::vector<std::uint32_t> length_;
   std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory
 };
 

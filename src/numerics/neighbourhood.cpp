@@ -30,14 +30,15 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     points[count + g] = image(ghosts_[g]).position(position[ghosts_[g].source]);
     radii[count + g] = radius[ghosts_[g].source];
   });
-  near_wall_.resize(count);
-  for_each(team, count, [&](std::size_t i) { near_wall_[i] = domain_.is_near_wall(position[i], reach_ + skin); });
-  // Images in walls are the last ones, and seen from near walls only.
+  sight_may_change_.assign(count, 0);
+  // Images in walls are the last ones, and seen from near walls only. A step evaluates rates where the particles are in
+  // its middle, a little farther away than the list allows for its ends.
   const auto first_in_walls = std::partition_point(ghosts_.begin(), ghosts_.end(),
                                                    [&](const Ghost& ghost) { return !image(ghost).is_in_walls(); });
   const std::size_t in_walls = count + static_cast<std::size_t>(first_in_walls - ghosts_.begin());
   const std::vector<double> distance = distances_from_vessel(team, points);
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
+    static constexpr Image identity;
     if (!vessel_.is_empty() && std::isfinite(distance[i])) {
       const auto seen = std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
         return distance[i] + distance[j] <= norm(points[j] - points[i]) && vessel_.blocks(points[i], points[j]);
@@ -45,9 +46,14 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
       near = near.first(static_cast<std::size_t>(seen - near.begin()));
     }
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
-    const auto end = !near_wall_[i] ? seldom : std::remove_if(seldom, near.end(), [&](std::uint32_t j) {
-      return !domain_.may_be_visible(points[i], points[j], image(ghosts_[j - count]), skin);
-    });
+    const auto end = !domain_.is_near_wall(position[i], reach_ + skin)
+                         ? seldom
+                         : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
+                             const auto sight = domain_.sight(points[i], points[j],
+                                                              j < count ? identity : image(ghosts_[j - count]), skin);
+                             if (sight == Domain::Sight::may_change) sight_may_change_[i] = 1;
+                             return sight == Domain::Sight::never;
+                           });
     return static_cast<std::size_t>(end - near.begin());
   };
   const bool all_seen = domain_.walls().empty() && vessel_.is_empty();

@@ -45,10 +45,10 @@ class Neighbourhood {
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
 
   /// The neighbours of particle i, itself not among them, sorted: first particles, then ghosts, numbered from
-  /// particles() on. Whether i sees them is not decided here: where is_near_wall(i), ask the domain.
+  /// particles() on. It sees all of them, unless sight_may_change(i): then ask the domain.
   std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
-  bool is_near_wall(std::size_t i) const { return near_wall_[i]; }
+  bool sight_may_change(std::size_t i) const { return sight_may_change_[i]; }
 
  private:
   std::vector<double> distances_from_vessel(ThreadTeam& team, std::span<const Vector3> points) const;
@@ -64,7 +64,7 @@ class Neighbourhood {
   std::vector<Ghost> ghosts_;
   NeighbourList list_;
   std::vector<std::uint32_t> first_ghost_;
-  std::vector<char> near_wall_;
+  std::vector<char> sight_may_change_;
 };
 
 }  // namespace talus

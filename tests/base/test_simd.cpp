@@ -61,6 +61,24 @@ TYPED_TEST(SimdVectors, SelectWhateverStandsInTheOther) {
   EXPECT_FALSE(all(SimdVector<T>(static_cast<double>(nan)) > SimdVector<T>(0)));
 }
 
+TYPED_TEST(SimdVectors, PackTheLanesThatAreChosen) {
+  using T = TypeParam;
+  constexpr int lanes = SimdVector<T>::lanes;
+  for (unsigned wanted = 0; wanted<(1u << lanes); wanted += lanes> 8 ? 37 : 1) {
+    T flag[lanes + 1], packed[lanes];
+    for (int k = 0; k < lanes; ++k) flag[k + 1] = wanted >> k & 1u ? T(1) : T(-1);
+    const auto chosen = SimdVector<T>::load_unaligned(flag + 1) > SimdVector<T>(0);
+    EXPECT_EQ(lane_bits(chosen), wanted);
+    store_packed(ramp<T>(3), chosen, packed);
+    int count = 0;
+    for (int k = 0; k < lanes; ++k)
+      if (wanted >> k & 1u) {
+        EXPECT_EQ(packed[count], 3 + k) << wanted;
+        ++count;
+      }
+  }
+}
+
 TYPED_TEST(SimdVectors, ReciprocalSquareRootOverTheRangeOfDistances) {
   using T = TypeParam;
   for (double x = 1e-12; x < 1e12; x *= 1.37) {
@@ -70,6 +88,22 @@ TYPED_TEST(SimdVectors, ReciprocalSquareRootOverTheRangeOfDistances) {
     EXPECT_NEAR(ratio, 1, std::numeric_limits<T>::epsilon());
   }
   EXPECT_FALSE(std::isfinite(reciprocal_sqrt(SimdVector<T>(0)).row[0][0]));
+}
+
+TEST(SimdVectors, LoadColumnsOfRowsAndSumTheirLanes) {
+  using Number = SimdVector<double>;
+  constexpr int columns = 16;
+  alignas(64) double row[Number::lanes][columns];
+  for (int k = 0; k < Number::lanes; ++k)
+    for (int c = 0; c < columns; ++c) row[k][c] = 100 * k + c;
+  Number column[columns];
+  load_columns([&](int lane) { return row[Number::lanes - 1 - lane]; }, column);
+  alignas(64) double sum[columns];
+  store_sums(column, sum);
+  for (int c = 0; c < columns; ++c) {
+    for (int k = 0; k < Number::lanes; ++k) EXPECT_EQ(column[c].row[0][k], 100 * (Number::lanes - 1 - k) + c);
+    EXPECT_EQ(sum[c], Number::lanes * c + 50 * Number::lanes * (Number::lanes - 1));
+  }
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(Neighbourhood, RefusesAReachThatPassesFromPlateToFloor) {
   const std::vector<Vector3> x = {{5, 5, 5}};
   EXPECT_THROW(around.build(team, x, std::vector<double>{0.7}, 0.2), std::invalid_argument);
   EXPECT_NO_THROW(around.build(team, x, std::vector<double>{0.6}, 0.2));
-  EXPECT_FALSE(around.is_near_wall(0));
+  EXPECT_FALSE(around.sight_may_change(0));
 }
 
 }  // namespace

@@ -63,6 +63,8 @@ TEST(NeighbourList, FindsThePairsOfParticlesAndGhostsThatAreKept) {
       if (j != i && norm(points[i] - points[j]) <= 1.3 && is_kept(i, j)) expected.push_back(j);
     const auto found = list.of(i);
     EXPECT_THAT(std::vector<std::uint32_t>(found.begin(), found.end()), testing::ElementsAreArray(expected)) << i;
+    for (std::size_t n = found.size(); n % NeighbourList::padded_to != 0; ++n)
+      EXPECT_EQ(found.data()[n], points.size());
   }
 }
 

@@ -19,7 +19,7 @@ constexpr double least_cutoff_over_radius = 8;
 constexpr double cutoff_ratio = 1.26;
 constexpr int most_trials = 60;
 
-/// Seconds, on one thread of an AMD Zen 5 (benchmarks/README.md): their ratios choose.
+/// Seconds, on one thread of an AMD Zen 4 or 5 (benchmarks/README.md): their ratios choose.
 struct Costs {
   double sphere, pair, node;
 };
@@ -27,7 +27,7 @@ struct Costs {
 Costs costs_of(const SpectralAccuracy& accuracy) {
   const double numbers = accuracy.single ? 1 : 2, points = accuracy.points / 4.0;
   return {.sphere = numbers * (30e-9 + 60e-9 * points * points),
-          .pair = numbers * 0.8e-9 * (7 + accuracy.degree) / 14,
+          .pair = (accuracy.single ? 0.42e-9 : 1.1e-9) * (7 + accuracy.degree) / 14,
           .node = numbers * 45e-9};
 }
 

@@ -21,7 +21,7 @@ void measure_strain(ThreadTeam& team, const Neighbourhood& around, std::span<con
       const Image image = ghost ? around.image(around.ghosts()[n - count]) : Image{};
       const Vector3 place = image.position(position[source]), offset = place - position[i];
       if (dot(offset, offset) > radius * radius) continue;
-      if (around.is_near_wall(i) && !around.domain().is_visible(position[i], place, image)) continue;
+      if (around.sight_may_change(i) && !around.domain().is_visible(position[i], place, image)) continue;
       halves.add(offset, image.vector(position[source] - reset_position[source]));
     }
     strain[i] = granular::almansi_strain(halves.gradient());

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <string_view>
+
+#include "base/instruction_set.hpp"
+#include "models/continuum/law_update/kernel.hpp"
 
 namespace talus::continuum {
 
@@ -33,6 +37,34 @@ template <class Law>
 concept TakesAStrain = requires(const Law law, const granular::MaterialPoint<Law>& old) {
   law.update_at_strain(old, SymmetricTensor3<>{}, Tensor3<>{}, 1.0, 1.0);
 };
+
+UpdateCriticalState* choose_update() {
+  switch (resolve(InstructionSet::automatic)) {
+#if defined(__x86_64__)
+    case InstructionSet::avx512:
+      return update_law_avx512;
+    case InstructionSet::avx2:
+      return update_law_avx2;
+#endif
+    default:
+      return update_law_portable;
+  }
+}
+
+LawColumns columns_of(const MaterialColumns& old, const GradientColumns& velocity_gradient,
+                      std::span<const double> density, double time_step, MaterialColumns& next, bool keep_history) {
+  LawColumns columns{};
+  for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = old.stress[c].data();
+  for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
+  for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = velocity_gradient.component[c].data();
+  for (std::size_t k = 0; k < old.history.size(); ++k) {
+    columns.history[k] = old.history[k].data();
+    if (keep_history) columns.next_history[k] = next.history[k].data();
+  }
+  columns.density = density.data();
+  columns.time_step = time_step;
+  return columns;
+}
 
 }  // namespace
 
@@ -80,7 +112,7 @@ double Material::sound_speed(double density) const {
   return std::visit([&](const auto& law) { return law.sound_speed(density); }, law_);
 }
 
-void Material::update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
+void Material::update(ThreadTeam& team, const MaterialColumns& old, const GradientColumns& velocity_gradient,
                       std::span<const SymmetricTensor3<>> measured_strain, std::span<const double> density,
                       double time_step, MaterialColumns& next, bool keep_history) const {
   std::visit(
@@ -92,16 +124,28 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, std::span<co
                                           time_step);
           return law.update(load<Law>(old, i), velocity_gradient[i], density[i], time_step);
         };
-        for_each(team, density.size(), [&](std::size_t i) {
-          auto point = updated(i);
-          store(point, next, i, keep_history);
-          if (!collisions_) return;
-          const double mean_stress = std::max(trace(point.stress) / 3, 0.0);
-          set(next.collisional, i,
-              granular::collisional_stress(*collisions_, fall_time_, mean_stress, velocity_gradient[i]));
+        // Whole blocks in vectors where the law has them, with the same bits.
+        std::size_t done = 0;
+        if constexpr (std::same_as<Law, granular::CriticalState>) {
+          static UpdateCriticalState* const update_blocks = choose_update();
+          const LawColumns columns = columns_of(old, velocity_gradient, density, time_step, next, keep_history);
+          constexpr std::size_t at_once = 32 * law_block;
+          done = density.size() / law_block * law_block;
+          team.run((done + at_once - 1) / at_once, [&](std::size_t task) {
+            update_blocks(law, columns, task * at_once, std::min(done, (task + 1) * at_once));
+          });
+        }
+        for_each(team, density.size() - done, [&](std::size_t n) {
+          auto point = updated(done + n);
+          store(point, next, done + n, keep_history);
         });
       },
       law_);
+  if (!collisions_) return;
+  for_each(team, density.size(), [&](std::size_t i) {
+    const double mean_stress = std::max(trace(tensor_at(next.stress, i)) / 3, 0.0);
+    set(next.collisional, i, granular::collisional_stress(*collisions_, fall_time_, mean_stress, velocity_gradient[i]));
+  });
 }
 
 double Material::strain(const MaterialColumns& columns, std::size_t i) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "models/continuum/gradient_columns.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "physics/granular/collisional_stress.hpp"
@@ -38,7 +39,7 @@ class Material {
   /// by_displacements(),
   ///        else empty; \param density at the end of the step, kg/m^3; \param keep_history false: only the stress of
   ///        `next` is written, for a stage within a step
-  void update(ThreadTeam& team, const MaterialColumns& old, std::span<const Tensor3<>> velocity_gradient,
+  void update(ThreadTeam& team, const MaterialColumns& old, const GradientColumns& velocity_gradient,
               std::span<const SymmetricTensor3<>> measured_strain, std::span<const double> density, double time_step,
               MaterialColumns& next, bool keep_history) const;
 

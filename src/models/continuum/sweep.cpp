@@ -2,6 +2,7 @@
 #include "models/continuum/sweep.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/instruction_set.hpp"
@@ -26,6 +27,19 @@ SumNeighbours choose(InstructionSet set, SweepTerms terms, Stabilisers stabilise
   }
 }
 
+VelocityGradients* choose_velocity_gradients(InstructionSet set) {
+  switch (set) {
+#if defined(__x86_64__)
+    case InstructionSet::avx512:
+      return velocity_gradients_avx512;
+    case InstructionSet::avx2:
+      return velocity_gradients_avx2;
+#endif
+    default:
+      return velocity_gradients_portable;
+  }
+}
+
 }  // namespace
 
 void Rates::resize(std::size_t count) {
@@ -33,7 +47,6 @@ void Rates::resize(std::size_t count) {
   density_rate.resize(count);
   velocity_gradient.resize(count);
   kernel_density.resize(count);
-  wall_acceleration.resize(count);
 }
 
 Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel)
@@ -59,6 +72,7 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
     sum_[static_cast<std::size_t>(terms)] = choose(set, terms, stabilised ? Stabilisers::acting : Stabilisers::none);
+  velocity_gradients_ = choose_velocity_gradients(set);
   if (stabilised) prepare_sum_ = choose(set, SweepTerms::gradients, Stabilisers::prepared);
 }
 
@@ -73,7 +87,13 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
   neighbourhood_.build(team, position, smoothing_length, skin_);
   vessel_.find(team, position, smoothing_length, skin_);
   loads_.clear();
-  for (const Image& image : neighbourhood_.images()) loads_.push_back(neighbourhood_.domain().loads(image));
+  for (const Image& image : neighbourhood_.images()) {
+    ImageLoads loads{};
+    const auto found = neighbourhood_.domain().loads(image);
+    for (std::size_t n = 0; n < found.size(); ++n)
+      loads.load[n] = {found[n].wall, {found[n].part.x, found[n].part.y, found[n].part.z}};
+    loads_.push_back(loads);
+  }
   find_groups();
 }
 
@@ -84,133 +104,160 @@ void Sweep::find_groups() {
   std::vector<std::size_t> end(neighbourhood_.images().size());  // of the ghosts of each image, which follow each other
   for (std::size_t g = 0; g < ghosts.size(); ++g) end[ghosts[g].image] = count + g + 1;
   groups_.clear();
+  longest_ = 1;
   first_group_.assign(1, 0);
+  walls_.clear();
+  first_wall_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto neighbours = neighbourhood_.of(i);
+    longest_ = std::max(longest_, neighbours.size());
     groups_.push_back({static_cast<std::uint32_t>(neighbourhood_.first_ghost_of(i)), -1});
+    std::uint32_t walls = 0;
     std::size_t group_end = count;
     for (std::size_t n = neighbourhood_.first_ghost_of(i); n < neighbours.size(); ++n) {
       if (neighbours[n] >= group_end) {
         const std::uint32_t image = ghosts[neighbours[n] - count].image;
         groups_.push_back({0, static_cast<std::int32_t>(image)});
         group_end = end[image];
+        for (const ImageLoad& load : loads_[image].load)
+          if (load.wall >= 0) walls |= 1u << load.wall;
       }
       groups_.back().end = static_cast<std::uint32_t>(n + 1);
     }
     first_group_.push_back(static_cast<std::uint32_t>(groups_.size()));
+    walls_.push_back(walls);
+    first_wall_.push_back(first_wall_.back() + static_cast<std::uint32_t>(std::popcount(walls)));
   }
 }
 
-void Sweep::pack(ThreadTeam& team, const ParticleView& particles) {
+/// Records of images are made from those of their sources. What only forces read is packed for them only.
+void Sweep::pack(ThreadTeam& team, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
   const auto ghosts = neighbourhood_.ghosts();
-  records_.resize(count + ghosts.size() + 1);
+  motion_.resize(count + ghosts.size() + 1);
+  stress_.resize(motion_.size());
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
+    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, mass_ / density};
+    if (!stresses) return;
     const SymmetricTensor3<> s =
         sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
-    records_[i] = {{x.x, x.y, x.z},
-                   {u.x, u.y, u.z},
-                   particles.smoothing_length[i],
-                   mass_ / density,
-                   {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx},
-                   density,
-                   0};
+    stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
   });
   for_each(team, ghosts.size(), [&](std::size_t g) {
     const Image& image = neighbourhood_.image(ghosts[g]);
-    ParticleRecord ghost = records_[ghosts[g].source];
-    const Vector3 x = image.position({ghost.position[0], ghost.position[1], ghost.position[2]});
-    const Vector3 u = image.vector({ghost.velocity[0], ghost.velocity[1], ghost.velocity[2]});
-    for (int axis = 0; axis < 3; ++axis) ghost.position[axis] = x[axis], ghost.velocity[axis] = u[axis];
-    const double* s = ghost.specific_stress;
-    const SymmetricTensor3<> stress = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
-    const double turned[6] = {stress.xx, stress.yy, stress.zz, stress.xy, stress.yz, stress.zx};
-    std::copy(turned, turned + 6, ghost.specific_stress);
-    records_[count + g] = ghost;
+    const MotionRecord& source = motion_[ghosts[g].source];
+    const Vector3 x = image.position({source.position[0], source.position[1], source.position[2]});
+    const Vector3 u = image.vector({source.velocity[0], source.velocity[1], source.velocity[2]});
+    motion_[count + g] = {{x.x, x.y, x.z}, source.half_length, {u.x, u.y, u.z}, source.volume};
+    if (!stresses) return;
+    const double* s = stress_[ghosts[g].source].specific_stress;
+    const SymmetricTensor3<> t = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
+    stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, stress_[ghosts[g].source].half_density, 0};
   });
   constexpr double far_away = 1e3;  // m
-  records_.back() = {.position = {far_away, far_away, far_away},
-                     .velocity = {},
-                     .smoothing_length = records_.front().smoothing_length,
-                     .volume = 0,
-                     .specific_stress = {},
-                     .density = records_.front().density,
-                     .unused = 0};
+  motion_.back() = {{far_away, far_away, far_away}, motion_.front().half_length, {}, 0};
+  stress_.back() = {{}, 0.5 * particles.density.front(), 0};
 }
 
-/// The neighbours of a particle that it sees. Near a wall they are picked into `record` and `end`.
-Neighbours Sweep::seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const {
+Records Sweep::records() const {
+  return {motion_.data(), stress_.data(), stabilisers_.data(), loads_.data()};
+}
+
+/// The neighbours of a particle that it sees. Near a wall they are picked into `seen`.
+Neighbours Sweep::seen_from(std::size_t i, Seen& seen) const {
   static constexpr Image identity;
   const auto neighbours = neighbourhood_.of(i);
-  const std::uint32_t first = first_group_[i], last = first_group_[i + 1];
-  const bool near_wall = neighbourhood_.is_near_wall(i);
+  const NeighbourGroup* const group = groups_.data() + first_group_[i];
+  const auto count = static_cast<int>(first_group_[i + 1] - first_group_[i]);
+  seen.scratch.resize(3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to));
+  Neighbours found{neighbours.data(),
+                   group,
+                   count,
+                   walls_[i],
+                   seen.scratch.front().number,
+                   static_cast<std::uint32_t>(Neighbours::padded_to * seen.scratch.size())};
+  if (!neighbourhood_.sight_may_change(i)) return found;
   const auto place = [this](std::size_t r) {
-    const double* x = records_[r].position;
+    const double* x = motion_[r].position;
     return Vector3{x[0], x[1], x[2]};
   };
-  record.clear();
-  end.clear();
+  seen.record.clear();
+  seen.group.clear();
   std::uint32_t n = 0;
-  for (std::uint32_t g = first; g < last; ++g) {
-    if (near_wall) {
-      const Image& image =
-          groups_[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(groups_[g].image)];
-      for (; n < groups_[g].end; ++n)
-        if (neighbourhood_.domain().is_visible(place(i), place(neighbours[n]), image)) record.push_back(neighbours[n]);
-      end.push_back(static_cast<std::uint32_t>(record.size()));
-    } else {
-      end.push_back(groups_[g].end);
-    }
+  for (int g = 0; g < count; ++g) {
+    const Image& image =
+        group[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(group[g].image)];
+    for (; n < group[g].end; ++n)
+      if (neighbourhood_.domain().is_visible(place(i), place(neighbours[n]), image))
+        seen.record.push_back(neighbours[n]);
+    seen.group.push_back({static_cast<std::uint32_t>(seen.record.size()), group[g].image});
   }
-  return {near_wall ? record.data() : neighbours.data(), end.data(), static_cast<int>(end.size()),
-          static_cast<std::uint32_t>(records_.size() - 1)};
+  while (seen.record.size() % Neighbours::padded_to != 0)
+    seen.record.push_back(static_cast<std::uint32_t>(motion_.size() - 1));
+  found.record = seen.record.data();
+  found.group = seen.group.data();
+  return found;
 }
 
 void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
   rates.resize(count);
-  if (!vessel_.is_empty()) rates.vessel.resize(count);
-  pack(team, particles);
-  if (!vessel_.is_empty()) vessel_.meet(team, particles.position, particles.smoothing_length);
+  pack(team, particles, terms != SweepTerms::gradients || prepare_sum_);
+  if (!vessel_.is_empty()) {
+    rates.vessel.resize(count);
+    vessel_.meet(team, particles.position, particles.smoothing_length);
+  }
   if (prepare_sum_) prepare_stabilisers(team, particles);
+  if (terms != SweepTerms::gradients) {
+    rates.by_walls.walls = walls_;
+    rates.by_walls.first = first_wall_;
+    rates.by_walls.value.resize(first_wall_.back());
+  }
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
-  for_each(team, count, [&](std::size_t i) {
-    thread_local std::vector<std::uint32_t> record, end;
-    thread_local std::vector<std::array<double, 3>> acceleration;
-    const Neighbours neighbours = seen_from(i, record, end);
-    acceleration.resize(static_cast<std::size_t>(neighbours.groups));
-    PairSums sums;
-    sum(records_.data(), static_cast<std::uint32_t>(i), neighbours, constants_, sums,
-        reinterpret_cast<double(*)[3]>(acceleration.data()));
+  const Records all = records();
+  constexpr std::size_t together = Neighbours::padded_to, blocks_at_once = 16;
+  const auto compute = [&](std::size_t first) {
+    thread_local Seen of_thread;
+    Seen& seen = of_thread;
+    PairSums sums[together];
+    const std::size_t size = std::min(together, count - first);
+    for (std::size_t n = 0; n < together; ++n) {
+      if (n < size)
+        sum(all, static_cast<std::uint32_t>(first + n), seen_from(first + n, seen), constants_, sums[n]);
+      else
+        sums[n] = {};
+    }
     if (terms != SweepTerms::forces) {
-      const double *m = sums.moment, *v = sums.velocity;
-      sph::GradientSums<> around{{m[0], m[1], m[2], m[3], m[4], m[5]},
-                                 {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}};
       if (!vessel_.is_empty())
-        sums.density_rate += particles.density[i] * add_walls(vessel_.of(i), particles.velocity[i], around);
-      const Tensor3<> gradient = sph::velocity_gradient(around);
-      rates.velocity_gradient[i] = gradient;
-      rates.density_rate[i] = corrected_continuity_ ? -particles.density[i] * trace(gradient) : sums.density_rate;
+        for (std::size_t n = 0; n < size; ++n) add_walls_of_vessel(particles, first + n, sums[n]);
+      alignas(64) double gradient[9][together];
+      velocity_gradients_(sums, gradient);
+      for (std::size_t c = 0; c < 9; ++c)
+        std::copy_n(gradient[c], size, rates.velocity_gradient.component[c].data() + first);
+      for (std::size_t n = 0; n < size; ++n)
+        rates.density_rate[first + n] =
+            corrected_continuity_ ? -particles.density[first + n] * (gradient[0][n] + gradient[4][n] + gradient[8][n])
+                                  : sums[n].density_rate;
     }
     if (terms == SweepTerms::gradients) return;
-    Vector3 all;
-    std::array<double, most_walls> by_wall{};
-    for (std::size_t g = 0; g < acceleration.size(); ++g) {
-      all += Vector3{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
-      const std::int32_t image = groups_[first_group_[i] + g].image;
-      if (image < 0) continue;
-      const Vector3 a{acceleration[g][0], acceleration[g][1], acceleration[g][2]};
-      for (const Domain::Load& load : loads_[static_cast<std::size_t>(image)]) {
-        if (load.wall < 0) break;
-        by_wall[static_cast<std::size_t>(load.wall)] += dot(load.part, a);
-      }
+    for (std::size_t n = 0; n < size; ++n) {
+      const std::size_t i = first + n;
+      rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
+      rates.kernel_density[i] = sums[n].kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
+      std::copy_n(sums[n].wall_acceleration, first_wall_[i + 1] - first_wall_[i],
+                  rates.by_walls.value.data() + first_wall_[i]);
     }
-    rates.acceleration[i] = all;
-    rates.kernel_density[i] = sums.kernel_density + mass_ * sph::cubic_spline(0.0, records_[i].smoothing_length);
-    rates.wall_acceleration[i] = by_wall;
-    if (!vessel_.is_empty()) rates.kernel_density[i] += add_forces_of_vessel(particles, i, neighbours, rates);
+    if (!vessel_.is_empty())
+      for (std::size_t i = first; i < first + size; ++i)
+        if (rates.vessel[i] = {}; vessel_.of(i).count > 0)
+          add_forces_of_vessel(particles, i, seen_from(i, seen), rates);
+  };
+  const std::size_t blocks = (count + together - 1) / together;
+  team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
+    for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
+      compute(b * together);
   });
 }
 
@@ -227,22 +274,31 @@ SeatAtWall Sweep::seat_at_wall(std::uint32_t record, std::uint32_t part) const {
   return {};
 }
 
-double Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
-                                   Rates& rates) const {
+void Sweep::add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const {
+  double *m = sums.moment, *v = sums.velocity;
+  sph::GradientSums<> around{{m[0], m[1], m[2], m[3], m[4], m[5]},
+                             {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}};
+  sums.density_rate += particles.density[i] * add_walls(vessel_.of(i), particles.velocity[i], around);
+  const auto& [moment, velocity] = around;
+  m[0] = moment.xx, m[1] = moment.yy, m[2] = moment.zz, m[3] = moment.xy, m[4] = moment.yz, m[5] = moment.zx;
+  v[0] = velocity.xx, v[1] = velocity.xy, v[2] = velocity.xz;
+  v[3] = velocity.yx, v[4] = velocity.yy, v[5] = velocity.yz;
+  v[6] = velocity.zx, v[7] = velocity.zy, v[8] = velocity.zz;
+}
+
+void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+                                 Rates& rates) const {
   const NearWalls& met = vessel_.of(i);
-  rates.vessel[i] = {};
-  if (met.count == 0) return 0;
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
-  rates.vessel[i] =
-      forces_of_walls(met, records_.data(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  rates.vessel[i] = forces_of_walls(met, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
   for (const NearWall& wall : met.all())
     rates.acceleration[i] +=
-        force_of_images(wall, records_.data(), i, neighbours, constants_.mass,
+        force_of_images(wall, records(), i, neighbours, constants_.mass,
                         [this](std::uint32_t record, std::uint32_t part) { return seat_at_wall(record, part); });
   for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
   double beyond = 0;
   for (const NearWall& wall : met.all()) beyond += wall.sums.density;
-  return particles.density[i] * beyond;
+  rates.kernel_density[i] += particles.density[i] * beyond;
 }
 
 }  // namespace talus::continuum

@@ -5,12 +5,13 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "base/tensor.hpp"
+#include "models/continuum/gradient_columns.hpp"
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
@@ -20,15 +21,28 @@
 
 namespace talus::continuum {
 
+/// Acceleration of each particle by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel
+/// in the sum over all particles. Only walls that images of the particle's neighbour list load have a value.
+struct WallAccelerations {
+  std::vector<std::uint32_t> walls;  ///< of a particle, a bit each
+  std::vector<std::uint32_t> first;  ///< where its values begin; one more than particles
+  std::vector<double> value;         ///< of its walls in order
+
+  /// Calls visit(wall, acceleration) for those of particle i, in order.
+  template <class Visit>
+  void of(std::size_t i, Visit&& visit) const {
+    std::size_t n = first[i];
+    for (std::uint32_t left = walls[i]; left != 0; left &= left - 1) visit(std::countr_zero(left), value[n++]);
+  }
+};
+
 /// Rates of change of every particle, of one evaluation.
 struct Rates {
-  std::vector<Vector3> acceleration;         ///< from stress and viscosity, without gravity, m/s^2
-  std::vector<double> density_rate;          ///< Eq. 16, kg/(m^3 s)
-  std::vector<Tensor3<>> velocity_gradient;  ///< du_i/dx_j, 1/s
-  std::vector<double> kernel_density;        ///< sum of m W over particles and images, kg/m^3
-  /// Acceleration by images, by wall, along the normal of the wall, m/s^2. The tangential parts cancel in the sum over
-  /// all particles.
-  std::vector<std::array<double, most_walls>> wall_acceleration;
+  std::vector<Vector3> acceleration;  ///< from stress and viscosity, without gravity, m/s^2
+  std::vector<double> density_rate;   ///< Eq. 16, kg/(m^3 s)
+  GradientColumns velocity_gradient;
+  std::vector<double> kernel_density;  ///< sum of m W over particles and images, kg/m^3
+  WallAccelerations by_walls;
   std::vector<WallForces> vessel;  ///< by the walls of the vessel, part of the acceleration; empty without one
 
   void resize(std::size_t count);
@@ -61,19 +75,26 @@ class Sweep {
   void operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates);
 
  private:
-  struct Group {
-    std::uint32_t end;   ///< within the particle's neighbours
-    std::int32_t image;  ///< of the group, -1: particles
-  };
-
-  void pack(ThreadTeam& team, const ParticleView& particles);
+  void pack(ThreadTeam& team, const ParticleView& particles, bool stresses);
   /// Computes the gradients that the stabilisers need from the packed records, and packs them (stabilise.cpp).
   void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
-  Neighbours seen_from(std::size_t i, std::vector<std::uint32_t>& record, std::vector<std::uint32_t>& end) const;
-  /// The share of the kernel's sum that is beyond the walls of the vessel. \pre the forces of the particles are summed
-  double add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
-                              Rates& rates) const;
+  /// What of a particle's list it sees at present, where that can change while the list holds; memory of the sums.
+  struct Seen {
+    struct alignas(64) Line {
+      double number[Neighbours::padded_to];
+    };
+    std::vector<Line> scratch;
+    std::vector<std::uint32_t> record;
+    std::vector<NeighbourGroup> group;
+  };
+  Neighbours seen_from(std::size_t i, Seen& seen) const;
+  Records records() const;
+  /// Adds the walls of the vessel to the sums of a particle's velocity gradient and density rate.
+  void add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const;
+  /// Adds the forces of the vessel on a particle, and its share of the kernel's sum. \pre those of pairs are there
+  void add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+                            Rates& rates) const;
   /// Wall and normal as another particle, or an image of one, meets the same part of a wall.
   SeatAtWall seat_at_wall(std::uint32_t record, std::uint32_t part) const;
 
@@ -85,16 +106,21 @@ class Sweep {
   sph::StressForm stress_form_;
   bool corrected_continuity_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;     // by SweepTerms
+  std::array<SumNeighbours, 3> sum_;  // by SweepTerms
+  VelocityGradients* velocity_gradients_;
   SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
   bool local_sound_speed_;
   std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood neighbourhood_;
   VesselWalls vessel_;
-  std::vector<std::array<Domain::Load, 3>> loads_;  // by image
-  std::vector<ParticleRecord> records_;             // particles, images, padding
-  std::vector<Group> groups_;                       // of every particle's neighbours, one particle after the other
-  std::vector<std::uint32_t> first_group_;          // of a particle; one more than particles
+  std::vector<ImageLoads> loads_;     // by image
+  std::vector<MotionRecord> motion_;  // particles, images, padding
+  std::vector<StressRecord> stress_;
+  std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other
+  std::size_t longest_ = 1;                 // list of neighbours
+  std::vector<std::uint32_t> first_group_;  // of a particle; one more than particles
+  std::vector<std::uint32_t> walls_;        // WallAccelerations::walls
+  std::vector<std::uint32_t> first_wall_;   // WallAccelerations::first
 };
 
 }  // namespace talus::continuum

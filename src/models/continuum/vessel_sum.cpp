@@ -26,7 +26,7 @@ SymmetricTensor3<> mirrored(const SymmetricTensor3<>& t, const Vector3& n) {
           t.xy - n.x * b.y - n.y * b.x, t.yz - n.y * b.z - n.z * b.y, t.zx - n.z * b.x - n.x * b.z};
 }
 
-SymmetricTensor3<> stress_at(const ParticleRecord& record) {
+SymmetricTensor3<> stress_at(const StressRecord& record) {
   const double* s = record.specific_stress;
   return {s[0], s[1], s[2], s[3], s[4], s[5]};
 }
@@ -40,24 +40,26 @@ Vector3 evened(const NearWall& wall) {
 /// Gradient of the specific stress along x, y and z from the neighbours alone, exact for a linear field; none where
 /// they do not span the space. It is made smaller where the pressure would be gone within a smoothing length: grains
 /// that hardly bear any have none beyond the wall.
-std::array<SymmetricTensor3<>, 3> stress_gradient(const ParticleRecord* records, std::size_t self,
+std::array<SymmetricTensor3<>, 3> stress_gradient(const Records& records, std::size_t self,
                                                   const Neighbours& neighbours) {
-  const ParticleRecord& own = records[self];
+  const MotionRecord& own = records.motion[self];
+  const StressRecord& loaded = records.stress[self];
   double along[6][3] = {};
   SymmetricTensor3<> moment;
   const std::uint32_t end = neighbours.group_end[neighbours.groups - 1];
   for (std::uint32_t n = 0; n < end; ++n) {
-    const ParticleRecord& other = records[neighbours.record[n]];
+    const MotionRecord& other = records.motion[neighbours.record[n]];
+    const StressRecord& its = records.stress[neighbours.record[n]];
     const Vector3 d{other.position[0] - own.position[0], other.position[1] - own.position[1],
                     other.position[2] - own.position[2]};
-    const double h = 0.5 * (own.smoothing_length + other.smoothing_length), r = norm(d);
+    const double h = own.half_length + other.half_length, r = norm(d);
     if (!(r < sph::support * h)) continue;
     const double weight = -other.volume * sph::cubic_spline_slope(r, h);
     const Vector3 wd = weight * d;
     moment.xx += wd.x * d.x, moment.yy += wd.y * d.y, moment.zz += wd.z * d.z;
     moment.xy += wd.x * d.y, moment.yz += wd.y * d.z, moment.zx += wd.z * d.x;
     for (int c = 0; c < 6; ++c) {
-      const double change = other.specific_stress[c] - own.specific_stress[c];
+      const double change = its.specific_stress[c] - loaded.specific_stress[c];
       along[c][0] += change * wd.x, along[c][1] += change * wd.y, along[c][2] += change * wd.z;
     }
   }
@@ -74,10 +76,10 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const ParticleRecord* records,
   std::array<SymmetricTensor3<>, 3> result;
   for (std::size_t k = 0; k < 3; ++k)
     result[k] = {gradient[0][k], gradient[1][k], gradient[2][k], gradient[3][k], gradient[4][k], gradient[5][k]};
-  const double fall =
-      own.smoothing_length * std::sqrt(trace(result[0]) * trace(result[0]) + trace(result[1]) * trace(result[1]) +
-                                       trace(result[2]) * trace(result[2]));
-  const double pressure = trace(stress_at(own));
+  const double fall = 2 * own.half_length *
+                      std::sqrt(trace(result[0]) * trace(result[0]) + trace(result[1]) * trace(result[1]) +
+                                trace(result[2]) * trace(result[2]));
+  const double pressure = trace(stress_at(loaded));
   if (fall > pressure) {
     const double share = pressure > 0 ? pressure / fall : 0;
     for (auto& component : result) component = share * component;
@@ -119,12 +121,13 @@ double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSum
   return -opening;
 }
 
-WallForces forces_of_walls(const NearWalls& met, const ParticleRecord* records, std::size_t self,
-                           const Neighbours& neighbours, const PairConstants& constants, double sound_speed) {
+WallForces forces_of_walls(const NearWalls& met, const Records& records, std::size_t self, const Neighbours& neighbours,
+                           const PairConstants& constants, double sound_speed) {
   WallForces forces;
   if (met.count == 0) return forces;
-  const ParticleRecord& own = records[self];
-  const SymmetricTensor3<> stress = stress_at(own);
+  const MotionRecord& own = records.motion[self];
+  const double density = 2 * records.stress[self].half_density;
+  const SymmetricTensor3<> stress = stress_at(records.stress[self]);
   const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(records, self, neighbours);
   const Vector3 velocity{own.velocity[0], own.velocity[1], own.velocity[2]};
   const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
@@ -137,29 +140,31 @@ WallForces forces_of_walls(const NearWalls& met, const ParticleRecord* records, 
     a += times(mirrored(gradient[2], n), {m.zx, m.yz, m.zz});
     // The image of the particle itself is met at twice the speed and twice the distance.
     const double approach = dot(velocity, n);
-    const double mu = own.smoothing_length * approach * wall.sums.nearness / wall.sums.weight;
+    const double mu = 2 * own.half_length * approach * wall.sums.nearness / wall.sums.weight;
     if (mu < 0) {
-      const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / own.density;
+      const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / density;
       a += viscosity * wall.slope();
     }
-    forces.of[forces.count++] = {wall.patch, n, (-own.density * dot(a, n)) * n};
+    forces.of[forces.count++] = {wall.patch, n, (-density * dot(a, n)) * n};
   }
   return forces;
 }
 
-Vector3 force_of_image(const NearWall& wall, const SeatAtWall& its, const ParticleRecord& own,
-                       const ParticleRecord& other, double mass) {
+Vector3 force_of_image(const NearWall& wall, const SeatAtWall& its, const Records& records, std::size_t self,
+                       std::size_t other, double mass) {
   const Vector3 both = wall.normal + its.normal;
   const double size = norm(both);
   if (!(size > 1.7)) return {};  // on different sides, or around a corner
   const Vector3 n = (1 / size) * both;
-  const Vector3 d{other.position[0] - own.position[0], other.position[1] - own.position[1],
-                  other.position[2] - own.position[2]};
-  const double h = 0.5 * (own.smoothing_length + other.smoothing_length);
+  const MotionRecord &own = records.motion[self], &near = records.motion[other];
+  const Vector3 d{near.position[0] - own.position[0], near.position[1] - own.position[1],
+                  near.position[2] - own.position[2]};
+  const double h = own.half_length + near.half_length;
   const double distance = std::sqrt(dot(d, d) + 4 * wall.distance * its.distance);
   if (!(distance < sph::support * h)) return {};
   const Vector3 along = d - dot(d, n) * n;
-  const SymmetricTensor3<> stress = stress_at(own) + stress_at(other), difference = stress_at(own) - stress_at(other);
+  const SymmetricTensor3<> mine = stress_at(records.stress[self]), theirs = stress_at(records.stress[other]);
+  const SymmetricTensor3<> stress = mine + theirs, difference = mine - theirs;
   Vector3 force = times(stress, along) - (wall.distance + its.distance) * times(difference, n);
   force -= dot(force, n) * n;
   return (0.5 * (wall.share + its.share) * mass * sph::cubic_spline_slope(distance, h)) * force;

@@ -47,32 +47,32 @@ struct SeatAtWall {
 /// The acceleration of a particle along a part of a wall by its neighbours' images there, m/s^2.
 /// \param seat (record, part) -> SeatAtWall
 template <class Seat>
-Vector3 force_of_images(const NearWall& wall, const ParticleRecord* records, std::size_t self,
-                        const Neighbours& neighbours, double mass, const Seat& seat);
+Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t self, const Neighbours& neighbours,
+                        double mass, const Seat& seat);
 
 /// The forces of the walls on a particle, in the order of `met`. \param records, neighbours those of the sweep
-WallForces forces_of_walls(const NearWalls& met, const ParticleRecord* records, std::size_t self,
-                           const Neighbours& neighbours, const PairConstants& constants, double sound_speed);
+WallForces forces_of_walls(const NearWalls& met, const Records& records, std::size_t self, const Neighbours& neighbours,
+                           const PairConstants& constants, double sound_speed);
 
-/// The share of one neighbour. \returns m/s^2
-Vector3 force_of_image(const NearWall& wall, const SeatAtWall& its, const ParticleRecord& own,
-                       const ParticleRecord& other, double mass);
+/// The share of one neighbour. \param other number of its record \returns m/s^2
+Vector3 force_of_image(const NearWall& wall, const SeatAtWall& its, const Records& records, std::size_t self,
+                       std::size_t other, double mass);
 
 template <class Seat>
-Vector3 force_of_images(const NearWall& wall, const ParticleRecord* records, std::size_t self,
-                        const Neighbours& neighbours, double mass, const Seat& seat) {
+Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t self, const Neighbours& neighbours,
+                        double mass, const Seat& seat) {
   Vector3 sum;
-  const ParticleRecord& own = records[self];
+  const MotionRecord& own = records.motion[self];
   const std::uint32_t end = neighbours.group_end[neighbours.groups - 1];
   for (std::uint32_t n = 0; n < end; ++n) {
-    const ParticleRecord& other = records[neighbours.record[n]];
-    const double h = 0.5 * (own.smoothing_length + other.smoothing_length);
+    const MotionRecord& other = records.motion[neighbours.record[n]];
+    const double h = own.half_length + other.half_length;
     double square = 0;
     for (int axis = 0; axis < 3; ++axis)
       square += (other.position[axis] - own.position[axis]) * (other.position[axis] - own.position[axis]);
     if (!(square < 4 * h * h)) continue;
     if (const SeatAtWall its = seat(neighbours.record[n], wall.part); its.share > 0)
-      sum += force_of_image(wall, its, own, other, mass);
+      sum += force_of_image(wall, its, records, self, neighbours.record[n], mass);
   }
   return sum;
 }

@@ -37,6 +37,14 @@ Vector3 velocity_after_friction(const Parameters& p, const Domain& domain, int w
   return through + sph::printed_friction(along, norm(traction - normal * n), normal, p.walls.coefficient, duration);
 }
 
+/// Whether a particle that moved so has certainly passed no boundary.
+bool stays_inside(const Box& box, const std::vector<Wall>& walls, const Vector3& before, const Vector3& after) {
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis) inside &= (after[axis] >= box.low[axis]) & (after[axis] <= box.high[axis]);
+  for (const Wall& wall : walls) inside &= wall.is_above(before) == wall.is_above(after);
+  return inside;
+}
+
 }  // namespace
 
 bool has_wall_friction(const Parameters& p, const State& state) {
@@ -46,20 +54,23 @@ bool has_wall_friction(const Parameters& p, const State& state) {
 void apply_wall_friction(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
                          std::span<const Vector3> position, double duration, State& state) {
   const bool rough = has_wall_friction(p, state);
+  std::array<Vector3, most_walls> normal;
+  for (int wall = 0; wall < domain.wall_count(); ++wall) normal[static_cast<std::size_t>(wall)] = domain.normal(wall);
   const auto meet = [&](std::size_t i, Impulses& received) {
-    const std::array<double, most_walls>& normal_acceleration = rates.wall_acceleration[i];
-    for (int wall = 0; wall < domain.wall_count(); ++wall)
-      if (const auto w = static_cast<std::size_t>(wall); normal_acceleration[w] != 0)
-        received[w] -= (state.mass * duration * normal_acceleration[w]) * domain.normal(wall);
-    if (!rough) return;
-    for (int wall = 0; wall < domain.wall_count(); ++wall) {
-      const auto w = static_cast<std::size_t>(wall);
-      if ((p.walls.friction == Friction::coulomb && normal_acceleration[w] == 0) || !domain.is_solid(wall)) continue;
+    const auto rub = [&](int wall, double normal_acceleration) {
+      if (!domain.is_solid(wall)) return;
       const Vector3 after =
-          velocity_after_friction(p, domain, wall, state, i, position[i], normal_acceleration[w], duration);
-      received[w] += state.mass * (state.velocity[i] - after);
+          velocity_after_friction(p, domain, wall, state, i, position[i], normal_acceleration, duration);
+      received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
-    }
+    };
+    rates.by_walls.of(i, [&](int wall, double acceleration) {
+      const auto w = static_cast<std::size_t>(wall);
+      received[w] -= (state.mass * duration * acceleration) * normal[w];
+      if (rough && p.walls.friction == Friction::coulomb && acceleration != 0) rub(wall, acceleration);
+    });
+    if (rough && p.walls.friction == Friction::printed)
+      for (int wall = 0; wall < domain.wall_count(); ++wall) rub(wall, 0);
   };
   state.wall_impulse = sum(state.wall_impulse, accumulate(team, position.size(), Impulses{}, meet, sum));
 }
@@ -73,6 +84,7 @@ void reflect_at_walls(ThreadTeam& team, const Material& material, const Domain& 
       state.velocity[i] = velocity;
       state.position[i] = position;
     };
+    if (stays_inside(domain.box(), domain.walls(), before[i], state.position[i])) return;
     for (int bounces = 0;; ++bounces) {
       const auto bounce = domain.bounce(before[i], state.position[i]);
       if (!bounce) break;

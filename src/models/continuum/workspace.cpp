@@ -24,11 +24,13 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       sweep(parameters, domain, state.mass, sound_speed, vessel),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain) : nullptr),
       position(state.position.size()),
-      velocity(state.position.size()),
-      density(state.position.size()),
-      half_length(state.position.size()),
-      columns(state.material),
-      smoothing_length(state.position.size()) {}
+      smoothing_length(state.position.size()) {
+  if (parameters.integration.method != Method::runge_kutta) return;
+  velocity.resize(state.position.size());
+  density.resize(state.position.size());
+  half_length.resize(state.position.size());
+  columns = state.material;
+}
 
 void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
   for_each(team, s.position.size(),

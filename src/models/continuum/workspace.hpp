@@ -26,7 +26,7 @@ struct Workspace {
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
 
-  /// The state at the midpoint of a step.
+  /// The state at the midpoint of a step; all but positions of the midpoint rule only.
   std::vector<Vector3> position, velocity;
   std::vector<double> density;
   std::vector<double> half_length;  ///< smoothing lengths of these densities, m

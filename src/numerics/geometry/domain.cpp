@@ -189,11 +189,38 @@ bool Domain::is_near_wall(const Vector3& x, double reach) const {
                      [&](const Wall& wall) { return std::abs(wall.above(x)) <= reach && wall.distance(x) <= reach; });
 }
 
-bool Domain::may_be_visible(const Vector3& from, const Vector3& to, const Image& image, double skin) const {
-  if (!layered_ || !image.is_in_walls()) return true;
-  const Wall& wall = walls_[static_cast<std::size_t>(image.mirrors[0])];
+Domain::Sight Domain::sight(const Vector3& from, const Vector3& to, const Image& image, double margin) const {
+  if (!layered_) return Sight::may_change;
+  Sight found = Sight::always;
+  for (int w = 0; w < static_cast<int>(walls_.size()); ++w) {
+    const std::optional<bool> meets = meets_layer_within(walls_[static_cast<std::size_t>(w)], from, to, margin);
+    if (!meets)
+      found = Sight::may_change;
+    else if (*meets != (w == image.mirrors[0]))
+      return Sight::never;
+  }
+  return found;
+}
+
+/// What meets_layer says wherever the ends are within `margin` of these places; nothing if that varies. The line passes
+/// the plane of the wall between its ends.
+std::optional<bool> Domain::meets_layer_within(const Wall& wall, const Vector3& from, const Vector3& to,
+                                               double margin) const {
   const double own = wall.above(from), other = wall.above(to);
-  return (own > 0) != (other > 0) || std::min(std::abs(own), std::abs(other)) <= skin;
+  if (std::min(std::abs(own), std::abs(other)) <= margin) return std::nullopt;
+  if ((own > 0) == (other > 0)) return false;
+  const int along = 2 - wall.axis();
+  const double slack = margin + 1e-6 * wall.length();
+  const double low = std::min(from[along], to[along]) - slack, high = std::max(from[along], to[along]) + slack;
+  if (low < box_.low[along] || high > box_.high[along]) return std::nullopt;
+  const double direction = wall.direction()[along], start = wall.from()[along];
+  const double begin = direction > 0 ? low - start : start - high, end = begin + (high - low);
+  for (const Wall::Opening& opening : wall.openings()) {
+    if (end < opening.begin || begin > opening.end) continue;
+    if (opening.shut || begin < opening.begin || end > opening.end) return std::nullopt;
+    return false;
+  }
+  return true;
 }
 
 std::array<Domain::Load, 3> Domain::loads(const Image& image) const {

@@ -102,9 +102,10 @@ class Domain {
   /// Whether x is within `reach` of a wall. Farther ones see all their neighbours, and no image in walls.
   bool is_near_wall(const Vector3& x, double reach) const;
 
-  /// Whether a particle near a wall may come to see an image at `to` before both have moved by half the skin: what it
-  /// never will needs not to be listed.
-  bool may_be_visible(const Vector3& from, const Vector3& to, const Image& image, double skin) const;
+  /// Whether a particle at `from` sees an image at `to`, or its source there through the identity, wherever both are
+  /// within `margin` (m) of these places and whichever gates have opened meanwhile. Only layers are looked at closely.
+  enum class Sight { never, always, may_change };
+  Sight sight(const Vector3& from, const Vector3& to, const Image& image, double margin) const;
 
   /// Whether the straight line between two places inside the box meets the solid part of a wall. The same from both
   /// ends.
@@ -158,6 +159,7 @@ class Domain {
       if (meets_layer(walls_[static_cast<std::size_t>(w)], from, to) != (w == mirror)) return false;
     return true;
   }
+  std::optional<bool> meets_layer_within(const Wall& wall, const Vector3& from, const Vector3& to, double margin) const;
   bool sees_source(const Vector3& from, const Vector3& to, const Image& image) const;
   bool are_layers(double apart) const;
   double distance_of_layers() const;

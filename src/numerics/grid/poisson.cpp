@@ -249,23 +249,23 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
            "an open face for every region that grains enter or leave");
     remove_means(source_);
   }
+  const auto fail_to_converge = [this] {
+    fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
+  };
   int iterations = 0;
   double norm = std::sqrt(find_residual(team));
   while (!(norm <= enough)) {
     if (!(norm <= std::numeric_limits<double>::max()))
       fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
-    if (iterations >= stop.most_iterations)
-      fail("the pressure equation has not converged", "a larger tolerance, or a smaller contrast of the drag");
+    if (iterations >= stop.most_iterations) fail_to_converge();
+    const double before = norm;
     iterations += refine(team, norm, enough, std::min(stop.most_iterations - iterations, most_iterations_of_floats));
-    const double left = std::sqrt(find_residual(team));
-    if (left > least_gain * norm) {
-      const ConjugateGradients found = solve_in_doubles(team, enough, stop.most_iterations);
-      iterations += found.iterations;
-      norm = std::sqrt(find_residual(team));
-      if (norm > enough && found.convergence != Convergence::reached) iterations = stop.most_iterations;
-    } else {
-      norm = left;
-    }
+    norm = std::sqrt(find_residual(team));
+    if (!(norm > least_gain * before)) continue;
+    const ConjugateGradients found = solve_in_doubles(team, enough, stop.most_iterations);
+    iterations += found.iterations;
+    norm = std::sqrt(find_residual(team));
+    if (norm > enough && found.convergence != Convergence::reached) fail_to_converge();
   }
   remove_means(value_);
   for_each_run(team, [&](std::size_t, std::size_t own, int length, std::size_t to, const std::array<int, 3>&) {

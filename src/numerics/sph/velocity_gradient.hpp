@@ -20,18 +20,14 @@ struct GradientSums {
   /// \param volume V_j, m^3; \param slope F_ij, 1/m^5; \param d x_j - x_i, m; \param du u_j - u_i, m/s
   template <class Vector = Vector3>
   constexpr void add(const Number& volume, const Number& slope, const Vector& d, const Vector& du) {
-    const Number weight = -1.0 * volume * slope;
+    const Number weight = volume * slope;  // -w
     const Number x = weight * d.x, y = weight * d.y, z = weight * d.z;
-    moment.xx = multiply_add(x, d.x, moment.xx), moment.yy = multiply_add(y, d.y, moment.yy),
-    moment.zz = multiply_add(z, d.z, moment.zz);
-    moment.xy = multiply_add(x, d.y, moment.xy), moment.yz = multiply_add(y, d.z, moment.yz),
-    moment.zx = multiply_add(z, d.x, moment.zx);
-    velocity.xx = multiply_add(x, du.x, velocity.xx), velocity.xy = multiply_add(y, du.x, velocity.xy),
-    velocity.xz = multiply_add(z, du.x, velocity.xz);
-    velocity.yx = multiply_add(x, du.y, velocity.yx), velocity.yy = multiply_add(y, du.y, velocity.yy),
-    velocity.yz = multiply_add(z, du.y, velocity.yz);
-    velocity.zx = multiply_add(x, du.z, velocity.zx), velocity.zy = multiply_add(y, du.z, velocity.zy),
-    velocity.zz = multiply_add(z, du.z, velocity.zz);
+    const auto subtract = [](Number& sum, const Number& a, const Number& b) { sum = negative_multiply_add(a, b, sum); };
+    subtract(moment.xx, x, d.x), subtract(moment.yy, y, d.y), subtract(moment.zz, z, d.z);
+    subtract(moment.xy, x, d.y), subtract(moment.yz, y, d.z), subtract(moment.zx, z, d.x);
+    subtract(velocity.xx, x, du.x), subtract(velocity.xy, y, du.x), subtract(velocity.xz, z, du.x);
+    subtract(velocity.yx, x, du.y), subtract(velocity.yy, y, du.y), subtract(velocity.yz, z, du.y);
+    subtract(velocity.zx, x, du.z), subtract(velocity.zy, y, du.z), subtract(velocity.zz, z, du.z);
   }
 };
 
@@ -41,9 +37,13 @@ struct GradientSums {
 inline constexpr double least_moment = 0.01;
 
 /// L = velocity . moment^-1, L_ij = du_i/dx_j, 1/s; without the correction where the neighbours do not span the space.
-inline Tensor3<> velocity_gradient(const GradientSums<>& sums) {
-  const Tensor3<> moment = full(sums.moment);
-  return determinant(moment) > least_moment ? sums.velocity * inverse(moment) : sums.velocity;
+template <class Number>
+Tensor3<Number> velocity_gradient(const GradientSums<Number>& sums) {
+  const Tensor3<Number> moment = full(sums.moment), raw = sums.velocity, l = raw * inverse(moment);
+  const auto spanned = determinant(moment) > Number(least_moment);
+  return {select(spanned, l.xx, raw.xx), select(spanned, l.xy, raw.xy), select(spanned, l.xz, raw.xz),
+          select(spanned, l.yx, raw.yx), select(spanned, l.yy, raw.yy), select(spanned, l.yz, raw.yz),
+          select(spanned, l.zx, raw.zx), select(spanned, l.zy, raw.zy), select(spanned, l.zz, raw.zz)};
 }
 
 }  // namespace talus::sph

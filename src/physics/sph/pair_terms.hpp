@@ -12,7 +12,7 @@ namespace talus::sph {
 /// \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d x_j - x_i, m; \param du u_j - u_i, m/s; \returns kg/(m^3 s)
 template <class Number, class Vector>
 constexpr Number density_rate(double mass, const Number& slope, const Vector& d, const Vector& du) {
-  return mass * slope * (du.x * d.x + du.y * d.y + du.z * d.z);
+  return mass * slope * multiply_add(du.x, d.x, multiply_add(du.y, d.y, du.z * d.z));
 }
 
 /// The density after a change in a step: old + change; where it falls, old/(1 + x + x^2) with x = -change/old, which is
@@ -32,9 +32,10 @@ template <class Number, class Vector>
 constexpr Vector acceleration(double mass, const Number& slope, const Vector& d, const SymmetricTensor3<Number>& s,
                               const Number& viscosity) {
   const Number factor = mass * slope;
-  return {factor * ((s.xx + viscosity) * d.x + s.xy * d.y + s.zx * d.z),
-          factor * (s.xy * d.x + (s.yy + viscosity) * d.y + s.yz * d.z),
-          factor * (s.zx * d.x + s.yz * d.y + (s.zz + viscosity) * d.z)};
+  const auto row = [&](const Number& x, const Number& y, const Number& z) {
+    return factor * multiply_add(x, d.x, multiply_add(y, d.y, z * d.z));
+  };
+  return {row(s.xx + viscosity, s.xy, s.zx), row(s.xy, s.yy + viscosity, s.yz), row(s.zx, s.yz, s.zz + viscosity)};
 }
 
 }  // namespace talus::sph

@@ -104,7 +104,8 @@ TEST(Stabilise, VelocitiesThatAlternateDecay) {
   for (int k = 0; k < 10; ++k) {
     e.evaluate();
     double most = 0;
-    for (const Tensor3<>& gradient : e.rates.velocity_gradient) EXPECT_LT(norm(symmetric_part(gradient)), 1e-12);
+    for (std::size_t i = 0; i < e.rates.velocity_gradient.size(); ++i)
+      EXPECT_LT(norm(symmetric_part(e.rates.velocity_gradient[i])), 1e-12);
     for (std::size_t i = 0; i < e.state.velocity.size(); ++i) {
       e.state.velocity[i] += 2e-4 * e.rates.acceleration[i];
       most = std::max(most, norm(e.state.velocity[i]));

@@ -21,7 +21,8 @@ TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedPart
   const Tensor3<> exact{1, -2, 0.5, 3, -1, 0.25, 0.75, 2, -0.5};
   e.velocity(linear(exact));
   e.evaluate();
-  for (const Tensor3<>& found : e.rates.velocity_gradient) expect_gradient(found, exact, 1e-10);
+  for (std::size_t i = 0; i < e.rates.velocity_gradient.size(); ++i)
+    expect_gradient(e.rates.velocity_gradient[i], exact, 1e-10);
 }
 
 TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
@@ -31,7 +32,8 @@ TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
     const Tensor3<> exact{1, 0, 0, 0, -2, 0, 0, 0, 3};
     e.velocity(linear(exact));
     e.evaluate();
-    for (const Tensor3<>& found : e.rates.velocity_gradient) expect_gradient(found, exact, 1e-11);
+    for (std::size_t i = 0; i < e.rates.velocity_gradient.size(); ++i)
+      expect_gradient(e.rates.velocity_gradient[i], exact, 1e-11);
   }
 }
 
@@ -71,8 +73,8 @@ TEST(Sweep, WallsBearTheStressTimesTheirArea) {
   e.stress({3000, 2000, 1000, 0, 0, 0});
   e.evaluate();
   std::array<double, most_walls> by_wall{};
-  for (const auto& one : e.rates.wall_acceleration)
-    for (std::size_t w = 0; w < most_walls; ++w) by_wall[w] += e.state.mass * one[w];
+  for (std::size_t i = 0; i < e.state.position.size(); ++i)
+    e.rates.by_walls.of(i, [&](int wall, double a) { by_wall[static_cast<std::size_t>(wall)] += e.state.mass * a; });
   const double d2 = spacing * spacing, m = lattice_moment();
   const double expected[6] = {3000 * 15, -3000 * 15, 2000 * 35, -2000 * 35, 1000 * 21, -1000 * 21};
   for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(by_wall[w], expected[w] * d2 * m, 1e-9 * std::abs(expected[w] * d2));
@@ -95,8 +97,7 @@ TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   for (std::size_t i = 0; i < e.state.position.size(); ++i) {
     total += e.rates.acceleration[i];
     size += norm(e.rates.acceleration[i]);
-    const auto& by_wall = e.rates.wall_acceleration[i];
-    by_walls += Vector3{by_wall[0] + by_wall[1], by_wall[2] + by_wall[3], by_wall[4] + by_wall[5] + by_wall[6]};
+    e.rates.by_walls.of(i, [&](int wall, double a) { by_walls[std::min(wall / 2, 2)] += a; });
   }
   EXPECT_LT(norm(total - by_walls), 1e-13 * size);
   EXPECT_GT(norm(by_walls), 1e-6 * size);

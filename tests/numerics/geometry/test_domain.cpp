@@ -150,6 +150,40 @@ TEST(Sees, EveryNeighbourEitherItselfOrItsImageAndAlikeFromBothEnds) {
   EXPECT_GT(mirrored, 2000);
 }
 
+TEST(Sees, WhatIsCertainWhereverBothStayNear) {
+  Random random(7);
+  constexpr double margin = 0.5, reach = 4;
+  int always = 0, never = 0, may_change = 0;
+  for (const bool shut : {false, true}) {
+    const Domain domain = hopper(shut);
+    Domain open = domain;
+    open.open_gates();
+    std::vector<Image> images = domain.images(reach);
+    images.push_back({});
+    for (int n = 0; n < 20000; ++n) {
+      const Vector3 from{random.uniform(0, 100), random.uniform(0, 5), random.uniform(97, 103)};
+      const Image& image = images[static_cast<std::size_t>(random.uniform(0, static_cast<double>(images.size())))];
+      const auto move = [&] { return Vector3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
+      const Vector3 source = domain.fold(from + reach * move()), to = image.position(source);
+      if (norm(to - from) > reach) continue;
+      const Domain::Sight sight = domain.sight(from, to, image, margin);
+      always += sight == Domain::Sight::always;
+      never += sight == Domain::Sight::never;
+      may_change += sight == Domain::Sight::may_change;
+      if (sight == Domain::Sight::may_change) continue;
+      for (int k = 0; k < 20; ++k) {
+        const Vector3 near_from = domain.fold(from + (margin / 2) * move());
+        const Vector3 near_to = image.position(domain.fold(source + (margin / 2) * move()));
+        for (const Domain* now : std::initializer_list<const Domain*>{&domain, &open})
+          EXPECT_EQ(now->is_visible(near_from, near_to, image), sight == Domain::Sight::always);
+      }
+    }
+  }
+  EXPECT_GT(always, 300);
+  EXPECT_GT(never, 300);
+  EXPECT_GT(may_change, 300);
+}
+
 TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {
   // Whether the way to an image is followed or read off the place where it meets the plate: the same images are seen.
   const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, wall}};

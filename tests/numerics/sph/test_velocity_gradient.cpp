@@ -26,7 +26,7 @@ TEST(VelocityGradient, IsExactForALinearFieldWhateverTheNeighbours) {
 }
 
 TEST(VelocityGradient, StaysFiniteForALoneParticleAndForALineOfThem) {
-  EXPECT_EQ(velocity_gradient({}), Tensor3<>{});
+  EXPECT_EQ(velocity_gradient(GradientSums<>{}), Tensor3<>{});
   GradientSums<> line;
   line.add(0.5, -1, {1, 0, 0}, {0, 2, 0});
   EXPECT_EQ(velocity_gradient(line).yx, 1.0);

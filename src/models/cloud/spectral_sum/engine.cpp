@@ -18,7 +18,7 @@ namespace {
 using hydrodynamics::Mobility;
 
 constexpr std::size_t strip = 4;           // rows of cells that are spread together: more nodes than a spline has
-constexpr std::size_t targets_wanted = 8;  // of a block of cells: gathering their neighbours is shared
+constexpr std::size_t targets_wanted = 4;  // of a block of cells: gathering their neighbours is shared
 
 template <class T>
 SumNear<T> choose(InstructionSet set, Mobility mobility, int degree) {
@@ -223,8 +223,7 @@ void EngineOf<T, points>::add_near(std::size_t row, AlignedArray<T>& space) {
       count += block.end[k] - block.begin[k];
     }
     // Grown by half: the task's room settles after a few blocks.
-    const std::size_t padded = (count + near_padding - 1) / near_padding * near_padding;
-    const std::size_t needed = near_columns * padded + near_padding;
+    const std::size_t needed = near_columns * (count + 2 * near_padding);
     if (space.size() < needed) space = AlignedArray<T>(needed + needed / 2);
     sum_near_(spheres, block, polynomial_.data(), space.data(), sums);
   }

@@ -35,7 +35,7 @@ struct NearBlock {
 
 /// Writes the sums over near pairs of the tensor less its smooth part, of each target its own with itself included.
 /// \param polynomial Split::polynomials of the degree that the loop is for
-/// \param space near_columns times the neighbours, rounded up to near_padding, and near_padding; aligned to 64 bytes
+/// \param space near_columns times the neighbours and near_padding, rounded up to near_padding; aligned to 64 bytes
 /// \param velocity two columns, in the order of the spheres
 template <class T>
 using SumNear = void (*)(const SortedSpheres<T>& spheres, const NearBlock<T>& block, const T* polynomial, T* space,

@@ -15,37 +15,62 @@ inline namespace TALUS_INSTRUCTION_SET {
 using hydrodynamics::Mobility;
 using hydrodynamics::PairMobility;
 
-/// The neighbours of a block, gathered: places relative to the block's first cell.
+/// The spheres that a block's targets may be near, gathered: places relative to the block's first cell. Left out is
+/// what lies beyond the cut-off of the rectangle around the targets.
 template <class T>
 struct Neighbours {
+  using Column = SimdVector<T>;
   T *x, *y, *force_x, *force_y, *size, *radius, *number;
-  std::size_t count = 0;
+  std::size_t count = 0;  ///< a multiple of the lanes of a register
 
   TALUS_INLINE Neighbours(const SortedSpheres<T>& spheres, const NearBlock<T>& block, T* space) {
-    std::size_t capacity = 0;
+    std::size_t capacity = near_padding;
     for (int row = 0; row < near_rows; ++row) capacity += block.end[row] - block.begin[row];
     capacity = (capacity + near_padding - 1) / near_padding * near_padding;
     T** const columns[] = {&x, &y, &force_x, &force_y, &size, &radius, &number};
     for (std::size_t k = 0; k < near_columns; ++k) *columns[k] = space + k * capacity;
-    constexpr int middle = near_rows / 2;
+
+    T left = 100, right = -100, low = 100, high = -100;
+    for (std::size_t n = block.first; n < block.last; ++n) {
+      const T x_n = x_of(spheres, block, n), y_n = spheres.position[1][n];
+      left = minimum(left, x_n), right = maximum(right, x_n), low = minimum(low, y_n), high = maximum(high, y_n);
+    }
+    const Column to_left(left), to_right(right), to_low(low), to_high(high), first_cell(block.first_cell);
+    const Column lane = Column::ramp(0);
+    std::size_t seen = 0;
     for (int row = 0; row < near_rows; ++row) {
-      const std::size_t begin = block.begin[row], run = block.end[row] - begin;
-      const T above = T(0.5) * static_cast<T>(row - middle);
-      for (std::size_t n = 0; n < run; ++n)
-        x[count + n] = spheres.position[0][begin + n] + T(0.5) * (spheres.cell[begin + n] - block.first_cell);
-      for (std::size_t n = 0; n < run; ++n) y[count + n] = spheres.position[1][begin + n] + above;
-      for (std::size_t n = 0; n < run; ++n) force_x[count + n] = spheres.force[0][begin + n];
-      for (std::size_t n = 0; n < run; ++n) force_y[count + n] = spheres.force[1][begin + n];
-      for (std::size_t n = 0; n < run; ++n) size[count + n] = spheres.size[begin + n];
-      for (std::size_t n = 0; n < run; ++n) radius[count + n] = spheres.radius[begin + n];
-      count += run;
+      const Column above(0.5 * (row - near_rows / 2));
+      for (std::size_t n = block.begin[row]; n < block.end[row]; n += Column::lanes) {
+        const Column x_n = multiply_add(Column(0.5), Column::load_unaligned(spheres.cell + n) - first_cell,
+                                        Column::load_unaligned(spheres.position[0] + n));
+        const Column y_n = Column::load_unaligned(spheres.position[1] + n) + above;
+        const Column beside = maximum(maximum(to_left - x_n, x_n - to_right), Column(0));
+        const Column over = maximum(maximum(to_low - y_n, y_n - to_high), Column(0));
+        const std::size_t left_over = block.end[row] - n;
+        // A little more than the cut-off: what rounding of the places could bring within it stays.
+        const auto near =
+            Column(1.0001) > multiply_add(beside, beside, over * over) && Column(static_cast<double>(left_over)) > lane;
+        store_packed(x_n, near, x + count);
+        store_packed(y_n, near, y + count);
+        store_packed(Column::load_unaligned(spheres.force[0] + n), near, force_x + count);
+        store_packed(Column::load_unaligned(spheres.force[1] + n), near, force_y + count);
+        store_packed(Column::load_unaligned(spheres.size + n), near, size + count);
+        store_packed(Column::load_unaligned(spheres.radius + n), near, radius + count);
+        store_packed(lane + static_cast<double>(seen + n - block.begin[row]), near, number + count);
+        count += static_cast<std::size_t>(__builtin_popcount(lane_bits(near)));
+      }
+      seen += block.end[row] - block.begin[row];
     }
-    for (std::size_t n = count; n < capacity; ++n) {  // beyond every cut-off
+    const std::size_t padded = (count + Column::lanes - 1) / Column::lanes * Column::lanes;
+    for (std::size_t n = count; n < padded; ++n) {  // beyond every cut-off
       x[n] = y[n] = 100;
-      force_x[n] = force_y[n] = size[n] = radius[n] = 0;
+      force_x[n] = force_y[n] = size[n] = radius[n] = number[n] = 0;
     }
-    for (std::size_t n = 0; n < capacity; ++n) number[n] = static_cast<T>(static_cast<int>(n));
-    count = capacity;
+    count = padded;
+  }
+
+  TALUS_INLINE static T x_of(const SortedSpheres<T>& spheres, const NearBlock<T>& block, std::size_t n) {
+    return spheres.position[0][n] + T(0.5) * (spheres.cell[n] - block.first_cell);
   }
 };
 
@@ -89,9 +114,12 @@ void sum_near(const SortedSpheres<T>& spheres, const NearBlock<T>& block, const 
   std::size_t self = block.first - block.begin[near_rows / 2];
   for (int row = 0; row < near_rows / 2; ++row) self += block.end[row] - block.begin[row];
   for (std::size_t target = block.first; target < block.last; target += targets_at_once, self += targets_at_once) {
-    const Number x = Number::broadcast(near.x + self), y = Number::broadcast(near.y + self);
-    const Number size_i = Number::broadcast(near.size + self), radius_i = Number::broadcast(near.radius + self);
-    const Number number = Number::broadcast(near.number + self);
+    T along_row[targets_at_once];
+    for (std::size_t r = 0; r < targets_at_once; ++r)
+      along_row[r] = near.x_of(spheres, block, target + r < block.last ? target + r : target);
+    const Number x = Number::broadcast(along_row), y = Number::broadcast(spheres.position[1] + target);
+    const Number size_i = Number::broadcast(spheres.size + target);
+    const Number radius_i = Number::broadcast(spheres.radius + target), number = Number::ramp_of_rows(self);
     Number velocity_x(0), velocity_y(0);
     for (std::size_t n = 0; n < near.count; n += Column::lanes) {
       const Number dx = Column::load(near.x + n) - x, dy = Column::load(near.y + n) - y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the sums over a particle's neighbours, compiled once for each instruction set, are handed and hand back: plain
+/// What the sums over particles' neighbours, compiled once for each instruction set, are handed and hand back: plain
 /// numbers only.
 #pragma once
 
@@ -7,14 +7,18 @@
 
 namespace talus::continuum {
 
-/// A particle or an image of one, as its neighbours see it.
-struct alignas(128) ParticleRecord {
-  double position[3];         ///< m
-  double velocity[3];         ///< m/s
-  double smoothing_length;    ///< m
-  double volume;              ///< m^3
+/// A particle or an image of one, as its neighbours see it: what all sums read,
+struct alignas(64) MotionRecord {
+  double position[3];  ///< m
+  double half_length;  ///< half of the smoothing length, m
+  double velocity[3];  ///< m/s
+  double volume;       ///< m^3
+};
+
+/// and what forces read besides.
+struct alignas(64) StressRecord {
   double specific_stress[6];  ///< tau/rho^2: xx yy zz xy yz zx, m^5/(kg s^2)
-  double density;             ///< kg/m^3
+  double half_density;        ///< half of the bulk density, kg/m^3
   double unused;
 };
 
@@ -28,32 +32,60 @@ struct alignas(128) StabiliserRecord {
   double unused;
 };
 
-/// What all pairs have in common.
-struct PairConstants {
-  double mass;                                    ///< of a particle, kg
-  double sound_speed;                             ///< largest, of the viscosity, m/s
-  double viscosity_alpha, viscosity_beta;         ///< Monaghan's
-  double density_diffusion = 0;                   ///< 2 delta c, m/s
-  double hourglass_damping = 0;                   ///< zeta c, m/s
-  const StabiliserRecord* stabilisers = nullptr;  ///< one a record, where stabilisers act
+/// What the force of an image adds to the load of a wall: the part of the force along `part`.
+struct ImageLoad {
+  int wall;  ///< -1: none, nor behind it
+  double part[3];
+};
+/// The loads of an image.
+struct ImageLoads {
+  ImageLoad load[3];
 };
 
-/// Neighbours of a particle, by number of their records. Groups follow each other; the first holds particles, each
-/// other one the images by one mirror.
+/// What all pairs have in common.
+struct PairConstants {
+  double mass;                             ///< of a particle, kg
+  double sound_speed;                      ///< largest, of the viscosity, m/s
+  double viscosity_alpha, viscosity_beta;  ///< Monaghan's
+  double density_diffusion = 0;            ///< 2 delta c, m/s
+  double hourglass_damping = 0;            ///< zeta c, m/s
+};
+
+/// All records, particles first, then images; the last one is far away from all others.
+struct Records {
+  const MotionRecord* motion;
+  const StressRecord* stress;
+  const StabiliserRecord* stabilisers;  ///< null where stabilisers do not act
+  const ImageLoads* loads;              ///< of every image
+};
+
+/// Of the neighbours of a particle those up to `end` that are particles (image -1) or seen in one image.
+struct NeighbourGroup {
+  std::uint32_t end;
+  std::int32_t image;
+};
+
+/// Neighbours of a particle, by number of their records: first particles, then images, one group after the other. The
+/// list goes on to a multiple of `padded_to` with the number of the last record.
 struct Neighbours {
+  static constexpr std::uint32_t padded_to = 8;
   const std::uint32_t* record;
-  const std::uint32_t* group_end;  ///< one per group: where it ends in `record`
+  const NeighbourGroup* group;
   int groups;
-  std::uint32_t padding;  ///< a record far away from all others, which fills up registers
+  std::uint32_t walls;         ///< a bit for each wall that the images of the groups load
+  double* scratch;             ///< aligned to 64 bytes
+  std::uint32_t scratch_size;  ///< three times the longest list, padded
 };
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
-struct PairSums {
+struct alignas(64) PairSums {
   double moment[6];            ///< GradientSums::moment: xx yy zz xy yz zx
   double velocity[9];          ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
   double density_rate;         ///< Eq. 16, kg/(m^3 s)
+  double density_gradient[8];  ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared; 3 of them
+  double acceleration[3];      ///< Eq. 17 without gravity, m/s^2
   double kernel_density;       ///< sum of m W without the particle itself, kg/m^3
-  double density_gradient[3];  ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared
+  double wall_acceleration[20];  ///< that by images, along the normals of the walls that they load, these in order
 };
 
 enum class SweepTerms { all, gradients, forces };
@@ -61,10 +93,15 @@ enum class SweepTerms { all, gradients, forces };
 /// Whether stabilisers act; before they can, the gradients that they take are measured.
 enum class Stabilisers { none, prepared, acting };
 
-/// \param acceleration one per group, of three components: Eq. 17 without gravity, m/s^2; untouched if no forces are
-/// requested
-using SumNeighbours = void (*)(const ParticleRecord* records, std::uint32_t self, const Neighbours& neighbours,
-                               const PairConstants& constants, PairSums& sums, double (*acceleration)[3]);
+/// Only the requested sums are written.
+using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const Neighbours& neighbours,
+                               const PairConstants& constants, PairSums& sums);
+
+/// The corrected velocity gradients (numerics/sph/velocity_gradient.hpp) of as many particles as there are sums.
+/// \param sums of Neighbours::padded_to particles \param gradient as many numbers for each component, 1/s: xx xy xz yx
+/// yy yz zx zy zz
+using VelocityGradients = void(const PairSums* sums, double (*gradient)[Neighbours::padded_to]);
+VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
 /// \param stabilisers prepared: of `gradients` only
 using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers);

@@ -8,4 +8,8 @@ SumNeighbours sum_neighbours_avx2(SweepTerms terms, Stabilisers stabilisers) {
   return choose(terms, stabilisers);
 }
 
+void velocity_gradients_avx2(const PairSums* sums, double (*gradient)[Neighbours::padded_to]) {
+  velocity_gradients(sums, gradient);
+}
+
 }  // namespace talus::continuum

@@ -8,4 +8,8 @@ SumNeighbours sum_neighbours_avx512(SweepTerms terms, Stabilisers stabilisers) {
   return choose(terms, stabilisers);
 }
 
+void velocity_gradients_avx512(const PairSums* sums, double (*gradient)[Neighbours::padded_to]) {
+  velocity_gradients(sums, gradient);
+}
+
 }  // namespace talus::continuum

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/material.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/instruction_set.hpp"
+#include "base/random.hpp"
+#include "models/continuum/law_update/kernel.hpp"
+
+namespace talus::continuum {
+namespace {
+
+/// Points in all states: loaded and loose, at yield and far from it.
+struct Points {
+  static constexpr std::size_t count = 83;  // no multiple of a block
+  MaterialColumns old;
+  GradientColumns gradient;
+  std::vector<double> density;
+
+  Points() {
+    Random random(11);
+    for (auto* columns : {&old.stress, &old.collisional})
+      for (auto& column : *columns) column.resize(count);
+    old.history.assign(2, std::vector<double>(count));
+    gradient.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double pressure = random.uniform(0, 2000);
+      for (std::size_t c = 0; c < 6; ++c) old.stress[c][i] = (c < 3 ? pressure : 0) + random.uniform(-500, 500);
+      for (auto& component : gradient.component) component[i] = random.uniform(-100, 100);
+      density.push_back(2500 * random.uniform(0.5, 0.65));
+      old.history[0][i] = random.uniform(-0.05, 0.05);
+      old.history[1][i] = random.uniform(0, 1);
+    }
+  }
+};
+
+TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {
+  Parameters p;
+  p.law = granular::CriticalState::Parameters{};
+  p.collisions.form = granular::Collisions::none;
+  const Points points;
+  const granular::CriticalState law(granular::CriticalState::Parameters{}, p.grains.density, p.grains.diameter);
+  MaterialColumns next = points.old;
+  ThreadTeam team(2);
+  Material(p).update(team, points.old, points.gradient, {}, points.density, 1e-5, next, true);
+  std::size_t loose = 0;
+  for (std::size_t i = 0; i < Points::count; ++i) {
+    const granular::MaterialPoint<granular::CriticalState> old{tensor_at(points.old.stress, i),
+                                                               {points.old.history[0][i], points.old.history[1][i]}};
+    const auto expected = law.update(old, points.gradient[i], points.density[i], 1e-5);
+    EXPECT_EQ(tensor_at(next.stress, i), expected.stress);
+    EXPECT_EQ(next.history[0][i], expected.history.expansion);
+    EXPECT_EQ(next.history[1][i], expected.history.contacts);
+    loose += expected.stress.xx == 0;
+  }
+  EXPECT_GT(loose, 10u);
+  EXPECT_LT(loose, 70u);
+}
+
+TEST(Material, EveryInstructionSetHasTheSameBits) {
+  const Points points;
+  const granular::CriticalState law(granular::CriticalState::Parameters{}, 2500, 200e-6);
+  constexpr std::size_t end = Points::count / law_block * law_block;
+  std::vector<MaterialColumns> found;
+  for (const auto& [set, update] :
+       {std::pair{InstructionSet::portable, &update_law_portable}, std::pair{InstructionSet::avx2, &update_law_avx2},
+        std::pair{InstructionSet::avx512, &update_law_avx512}}) {
+    if (!is_available(set)) continue;
+    MaterialColumns next = points.old;
+    LawColumns columns{};
+    for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = points.old.stress[c].data();
+    for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
+    for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = points.gradient.component[c].data();
+    for (std::size_t k = 0; k < 2; ++k) columns.history[k] = points.old.history[k].data();
+    for (std::size_t k = 0; k < 2; ++k) columns.next_history[k] = next.history[k].data();
+    columns.density = points.density.data();
+    columns.time_step = 1e-5;
+    update(law, columns, 0, end);
+    found.push_back(next);
+  }
+  for (const MaterialColumns& other : found) {
+    EXPECT_EQ(other.stress, found.front().stress);
+    EXPECT_EQ(other.history, found.front().history);
+  }
+}
+
+}  // namespace
+}  // namespace talus::continuum
