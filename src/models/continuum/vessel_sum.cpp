@@ -46,7 +46,7 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const Records& records, std::s
   const StressRecord& loaded = records.stress[self];
   double along[6][3] = {};
   SymmetricTensor3<> moment;
-  const std::uint32_t end = neighbours.group_end[neighbours.groups - 1];
+  const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
   for (std::uint32_t n = 0; n < end; ++n) {
     const MotionRecord& other = records.motion[neighbours.record[n]];
     const StressRecord& its = records.stress[neighbours.record[n]];

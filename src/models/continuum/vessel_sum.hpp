@@ -63,7 +63,7 @@ Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_
                         double mass, const Seat& seat) {
   Vector3 sum;
   const MotionRecord& own = records.motion[self];
-  const std::uint32_t end = neighbours.group_end[neighbours.groups - 1];
+  const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
   for (std::uint32_t n = 0; n < end; ++n) {
     const MotionRecord& other = records.motion[neighbours.record[n]];
     const double h = own.half_length + other.half_length;
