@@ -7,12 +7,16 @@
     run.snapshots.at(0.2)["velocity"]             # one row a particle
     run.summary["discharge_rate_plateau"].units   # "kg/s"
 
-`talus.draw` (matplotlib) draws particles, fields of the air and curves into axes of your own.
+`simulate`, `sweep` and `new` start the program, `compare` sets two runs side by side, and tables and snapshots turn into
+pandas and xarray (`to_pandas`, `to_xarray`) where these are installed. `talus.draw` (matplotlib) draws particles, fields of the air and curves into axes of your own.
 """
 from talus.column import Column, Value
+from talus.comparison import Difference, changed_keys, compare
+from talus.program import ProgramError, Sweep, find_program, new, simulate, sweep
 from talus.run import Run, find_runs
 from talus.snapshots import AirSnapshot, ParticleSnapshot, Snapshots
 from talus.table import Table
 from talus.trouble import RunError
 
-__all__ = ["AirSnapshot", "Column", "ParticleSnapshot", "Run", "RunError", "Snapshots", "Table", "Value", "find_runs"]
+__all__ = ["AirSnapshot", "Column", "Difference", "ParticleSnapshot", "ProgramError", "Run", "RunError", "Snapshots", "Sweep",
+           "Table", "Value", "changed_keys", "compare", "find_program", "find_runs", "new", "simulate", "sweep"]

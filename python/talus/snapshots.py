@@ -85,6 +85,19 @@ class ParticleSnapshot(_Frame):
             return int(file["VTKHDF/FieldData/step"][0])
 
 
+    def to_xarray(self, names=None):
+        """A Dataset over `particle` (the identities, if there are any, rising) with `position` and the columns; vectors
+        over `axis` too. \\param names of the columns; all if left out"""
+        import xarray  # only here: the rest does without
+        order = np.argsort(self["identity"], kind="stable") if "identity" in self else np.arange(len(self.positions))
+        identity = np.asarray(self["identity"])[order] if "identity" in self else order
+        columns = {"position": self.positions} | {name: self[name] for name in (names or self) if name != "identity"}
+        return xarray.Dataset(
+            {name: (("particle", "axis")[:values.ndim], np.asarray(values)[order], {"units": values.units})
+             for name, values in columns.items()},
+            coords={"particle": identity, "axis": list("xyz"), "time": ((), self.time, {"units": "s"})})
+
+
 class AirSnapshot(_Frame):
     """The air at one time, on cells: a column has the shape `shape` = (nx, ny, nz), a vector (nx, ny, nz, 3).
     `x`, `y`, `z` are the centres of the cells, `spacing` their edges, m."""
@@ -124,6 +137,16 @@ class AirSnapshot(_Frame):
     def _shaped(self, values):
         nx, ny, nz = self.shape  # the file has z first, and an only cell at both of its faces
         return np.ascontiguousarray(np.moveaxis(values[:nz, :ny, :nx], (0, 1, 2), (2, 1, 0)))
+
+    def to_xarray(self, names=None):
+        """A Dataset over `x`, `y`, `z`, the centres of the cells; vectors over `axis` too. \\param names as above"""
+        import xarray
+        columns = {name: self[name] for name in (names or self)}
+        return xarray.Dataset(
+            {name: (("x", "y", "z", "axis")[:values.ndim], np.asarray(values), {"units": values.units})
+             for name, values in columns.items()},
+            coords={"axis": list("xyz"), "time": ((), self.time, {"units": "s"})} |
+                   {name: (name, np.asarray(getattr(self, name)), {"units": "m"}) for name in "xyz"})
 
     def layer(self, name, y=None):
         """A column over x and z, (nx, nz[, 3]): in the cells at the depth `y`, or in the middle of the depth."""
@@ -171,6 +194,12 @@ class Snapshots:
             if number not in self._times:
                 self._times[number] = self._load(number).time
         return Column([self._times[number] for number in self.numbers], "s")
+
+    def to_xarray(self, names=None):
+        """All of them as one Dataset over `time`; particles are joined by their identities, nan where one is missing."""
+        import xarray
+        self._need_some()
+        return xarray.concat([frame.to_xarray(names) for frame in self], "time", join="outer")
 
     def _need_some(self):
         if not self.numbers:

@@ -50,5 +50,19 @@ class Table:
     def __len__(self):
         return len(self._values)
 
+    def to_pandas(self, index=None):
+        """A DataFrame; its attrs["units"] are the units by name. \\param index name of the column that is the index"""
+        import pandas  # only here: the rest does without
+        frame = pandas.DataFrame(self._values, columns=list(self.units))
+        frame.attrs["units"] = dict(self.units)
+        return frame if index is None else frame.set_index(index)
+
+    def to_xarray(self, index="time"):
+        """A Dataset over the column `index`; units as attributes of the variables."""
+        import xarray
+        along = xarray.Variable(index, np.asarray(self[index]), {"units": self.units[index]})
+        return xarray.Dataset({name: (index, np.asarray(self[name]), {"units": unit}) for name, unit in self.units.items()
+                               if name != index}, coords={index: along})
+
     def __repr__(self):
         return f"<Table {self.path}: {len(self)} rows of {', '.join(f'{n} [{u}]' for n, u in self.units.items())}>"

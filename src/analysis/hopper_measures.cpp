@@ -50,7 +50,8 @@ const std::vector<Row> of_grains = {
           return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth * r.setting.stress_share);
         }},
         {{level_ground}}),
-    Row("floor_stress_error", "1", "the same force over M g, less 1", {[](const Run& r, const Place&, const Window&) {
+    Row("floor_stress_error", "1", "force on the floor as in floor_stress_settled, over M g, less 1",
+        {[](const Run& r, const Place&, const Window&) {
           return settled_force(r) / (r.setting.mass() * r.setting.gravity) - 1;
         }},
         {{level_ground}}),
@@ -125,26 +126,31 @@ const std::vector<Row> of_grains = {
         at(repose_angle_in<Where::hopper, &ReposeAngle::steepest>), {{outlet}}),
     Row("repose_angle_nearer", "deg", "of bin and hopper the angle of repose nearer to 30 degrees",
         {[](const Run& r, const Place&, const Window& w) { return repose(r, w, true); }}),
-    Row("repose_angle_other", "deg", "the other one",
+    Row("repose_angle_other", "deg", "of bin and hopper the angle of repose farther from 30 degrees",
         {[](const Run& r, const Place&, const Window& w) { return repose(r, w, false); }}),
     Row("surface_angle_bin", "deg",
         "slope of the bin's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
         "and its right half",
         at(surface_angle_in<Where::bin>), {{bin}}),
-    Row("surface_angle_hopper", "deg", "the same of the hopper's surface, mean over the window",
+    Row("surface_angle_hopper", "deg",
+        "slope of the hopper's surface as a whole: angle of the mean size of the slopes of two lines, through its left "
+        "and its right half, mean over the window",
         mean_of(surface_angle_in<Where::hopper>), {{outlet, while_it_flows}}),
     Row("surface_height_bin", "m",
         "mean height of the bin's surface (as in repose_angle_bin) at distances between `from` and `to` from the "
         "middle, left and right together",
         at(surface_height_in<Where::bin>), {}, beside),
-    Row("surface_height_hopper", "m", "the same of the hopper's surface", at(surface_height_in<Where::hopper>), {},
-        beside),
+    Row("surface_height_hopper", "m",
+        "mean height of the hopper's surface (as in repose_angle_hopper) at distances between `from` and `to` from the "
+        "middle, left and right together",
+        at(surface_height_in<Where::hopper>), {}, beside),
     Row("surface_outward_angle_bin", "deg",
         "angle at which the bin's surface falls towards the walls between distances `from` and `to` from the middle: "
         "of the mean of the slopes of two lines, left and right; negative where it rises towards them",
         at(surface_outward_angle_in<Where::bin>), {}, beside),
     Row("surface_inward_angle_hopper", "deg",
-        "the same of the hopper's surface, towards the middle; negative where it falls towards the walls",
+        "angle at which the hopper's surface falls towards the middle between distances `from` and `to` from it: of "
+        "the mean of the slopes of two lines, left and right; negative where it falls towards the walls",
         at(surface_inward_angle_hopper), {}, beside),
     Row("surface_inward_angle_largest_fall", "deg", "as surface_angle_largest_fall, of surface_inward_angle_hopper",
         {largest_fall_of<surface_inward_angle_hopper>}, {}, beside),
@@ -176,7 +182,8 @@ const std::vector<Row> of_grains = {
     Row("packing_max", "1", "99.9th percentile of the particles' packing, largest over the snapshots",
         largest_of(packing_max), {{always}}),
     Row("packing_max_outside_impact", "1",
-        "the same of the particles farther than `distance` from where the stream strikes the bin's surface; of a part "
+        "99.9th percentile of the packing of the particles farther than `distance` from where the stream strikes the "
+        "bin's surface, largest over the snapshots; of a part "
         "of the particles, so that it may be above packing_max",
         largest_of(packing_max_outside_impact), {}, {"distance"}),
     Row("density_drift", "1",
@@ -186,18 +193,37 @@ const std::vector<Row> of_grains = {
         "Q at 5000 values a second, line removed, Hann window, zero-padded four times: period of the highest peak of "
         "the power between 2 and 20 ms",
         period_of("discharge_rate"), {{outlet, while_it_flows}}),
-    Row("period_density", "s", "the same of ρ_b 5 mm above the middle of the outlet", period_of("probe_density")),
-    Row("period_velocity", "s", "the same of u_z there", period_of("probe_velocity")),
-    Row("period_stress", "s", "the same of τ_zz there", period_of("probe_stress")),
-    Row("period_strain", "s", "the same of the strain that the law remembers there", period_of("probe_strain")),
+    Row("period_density", "s",
+        "period of ρ_b 5 mm above the middle of the outlet, from its spectrum as in period_discharge",
+        period_of("probe_density")),
+    Row("period_velocity", "s",
+        "period of u_z 5 mm above the middle of the outlet, from its spectrum as in period_discharge",
+        period_of("probe_velocity")),
+    Row("period_stress", "s",
+        "period of τ_zz 5 mm above the middle of the outlet, from its spectrum as in period_discharge",
+        period_of("probe_stress")),
+    Row("period_strain", "s",
+        "period of the strain that the law remembers 5 mm above the middle of the outlet, from its spectrum as in "
+        "period_discharge",
+        period_of("probe_strain")),
     Row("crossing_period_discharge", "s",
         "Q less its centred 20 ms mean, 5000 values a second: mean time between its passages upwards through 0",
         crossing_period_of("discharge_rate"), {{outlet, while_it_flows}}),
-    Row("crossing_period_density", "s", "the same of ρ_b 5 mm above the middle of the outlet",
+    Row("crossing_period_density", "s",
+        "ρ_b 5 mm above the middle of the outlet less its centred 20 ms mean: mean time between its passages upwards "
+        "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_density")),
-    Row("crossing_period_velocity", "s", "the same of u_z there", crossing_period_of("probe_velocity")),
-    Row("crossing_period_stress", "s", "the same of τ_zz there", crossing_period_of("probe_stress")),
-    Row("crossing_period_strain", "s", "the same of the strain that the law remembers there",
+    Row("crossing_period_velocity", "s",
+        "u_z 5 mm above the middle of the outlet less its centred 20 ms mean: mean time between its passages upwards "
+        "through 0, as in crossing_period_discharge",
+        crossing_period_of("probe_velocity")),
+    Row("crossing_period_stress", "s",
+        "τ_zz 5 mm above the middle of the outlet less its centred 20 ms mean: mean time between its passages upwards "
+        "through 0, as in crossing_period_discharge",
+        crossing_period_of("probe_stress")),
+    Row("crossing_period_strain", "s",
+        "the strain that the law remembers 5 mm above the middle of the outlet less its centred 20 ms mean: mean time "
+        "between its passages upwards through 0, as in crossing_period_discharge",
         crossing_period_of("probe_strain")),
     Row("inertial_share_of_bearing", "1",
         "share with I below 10⁻² of the particles that bear a pressure and are not below the outlet, mean over the "
@@ -210,22 +236,27 @@ const std::vector<Row> of_grains = {
         "(D/g)^½ times the largest |∂u_i/∂x_j|, i ≠ j, of the particles with packing above 0.5, corrected gradient, "
         "largest over the snapshots",
         largest_of(gradient<&GradientSizes::shear_max>), {{gravity}}),
-    Row("velocity_gradient_normal_max", "1", "the same with i = j", largest_of(gradient<&GradientSizes::normal_max>),
-        {{gravity}}),
+    Row("velocity_gradient_normal_max", "1",
+        "(D/g)^½ times the largest |∂u_i/∂x_i| of the particles with packing above 0.5, corrected gradient, largest "
+        "over the snapshots",
+        largest_of(gradient<&GradientSizes::normal_max>), {{gravity}}),
     Row("velocity_gradient_shear_percentile", "1",
         "as velocity_gradient_shear_max, the 99.9th percentile over the particles in place of the largest",
         largest_of(gradient<&GradientSizes::shear_percentile>)),
-    Row("velocity_gradient_normal_percentile", "1", "the same with i = j",
+    Row("velocity_gradient_normal_percentile", "1",
+        "as velocity_gradient_normal_max, the 99.9th percentile over the particles in place of the largest",
         largest_of(gradient<&GradientSizes::normal_percentile>)),
     Row("cell_gradient_shear_max", "1",
         "(D/g)^½ times the largest |∂u_x/∂z| or |∂u_z/∂x| above the outlet, central differences of velocities averaged "
         "over cells of 1.25 mm with packing above 0.5, largest over the snapshots",
         largest_of(cell_gradient<&GradientSizes::shear_max>)),
-    Row("cell_gradient_normal_max", "1", "the same of |∂u_x/∂x| or |∂u_z/∂z|",
+    Row("cell_gradient_normal_max", "1", "as cell_gradient_shear_max, of |∂u_x/∂x| or |∂u_z/∂z|",
         largest_of(cell_gradient<&GradientSizes::normal_max>)),
-    Row("cell_gradient_shear_percentile", "1", "the 99.9th percentile over the cells in place of the largest",
+    Row("cell_gradient_shear_percentile", "1",
+        "as cell_gradient_shear_max, the 99.9th percentile over the cells in place of the largest",
         largest_of(cell_gradient<&GradientSizes::shear_percentile>)),
-    Row("cell_gradient_normal_percentile", "1", "the same of |∂u_x/∂x| or |∂u_z/∂z|",
+    Row("cell_gradient_normal_percentile", "1",
+        "as cell_gradient_normal_max, the 99.9th percentile over the cells in place of the largest",
         largest_of(cell_gradient<&GradientSizes::normal_percentile>)),
     Row("hopper_velocity", "m/s", "mean of u_z from `left` to `right` at `height`", at(hopper_velocity), {}, across),
     Row("hopper_packing", "1", "mean packing from `left` to `right` at `height`", at(hopper_packing), {}, across),

@@ -23,6 +23,12 @@ void add_analyze_command(CLI::App& app, Action& action);
 void add_law_command(CLI::App& app, Action& action);
 void add_reproduce_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
+void add_picture_command(CLI::App& app, Action& action);
+void add_movie_command(CLI::App& app, Action& action);
+void add_new_command(CLI::App& app, Action& action);
 void add_schema_command(CLI::App& app, Action& action);
+/// Of all commands that have been added when it runs.
+void add_completion_command(CLI::App& app, Action& action);
+void add_man_command(CLI::App& app, Action& action);
 
 }  // namespace talus::app

@@ -22,19 +22,26 @@
 namespace {
 
 /// What is wrong with the command's name, if anything. The first word must be one, whatever options stand around it:
-/// `talus plto --help` is a slip, not a question.
-std::optional<talus::Problem> check_command(const CLI::App& app, const std::vector<std::string_view>& arguments) {
+/// `talus plto --help` is a slip, not a question. So must the second of a command that has commands of its own.
+std::optional<talus::Problem> check_command(const CLI::App& app, std::vector<std::string_view> arguments,
+                                            const std::string& where = "talus") {
   const auto word = std::find_if(arguments.begin(), arguments.end(),
                                  [](std::string_view argument) { return !argument.starts_with('-'); });
   const bool none = word == arguments.end();
   if (none && !arguments.empty()) return std::nullopt;
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (!none && std::find(names.begin(), names.end(), *word) != names.end()) return std::nullopt;
+  if (names.empty()) return std::nullopt;
+  if (!none && std::find(names.begin(), names.end(), *word) != names.end()) {
+    const CLI::App& chosen = *app.get_subcommand(std::string(*word));
+    const std::string command = where + " " + chosen.get_name();
+    arguments.erase(word);
+    return check_command(chosen, std::move(arguments), command);
+  }
   const std::vector<std::string_view> commands(names.begin(), names.end());
-  return talus::Problem{.where = "talus",
+  return talus::Problem{.where = where,
                         .what = none ? "no command" : fmt::format("there is no command '{}'", *word),
-                        .allowed = fmt::format("{}; talus --help says more", fmt::join(names, ", ")),
+                        .allowed = fmt::format("{}; {} --help says more", fmt::join(names, ", "), where),
                         .nearest = none ? std::string() : std::string(talus::nearest(*word, commands))};
 }
 
@@ -61,6 +68,7 @@ int main(int argc, char** argv) {
       "  talus check cases/niiya2020-circle.toml          what the case says, in SI, and what the run will take\n"
       "  talus run cases/niiya2020-circle.toml            the run; its folder is results/niiya2020-circle");
   talus::app::Action action;
+  talus::app::add_new_command(app, action);
   talus::app::add_run_command(app, action);
   talus::app::add_check_command(app, action);
   talus::app::add_ensemble_command(app, action);
@@ -69,7 +77,11 @@ int main(int argc, char** argv) {
   talus::app::add_law_command(app, action);
   talus::app::add_reproduce_command(app, action);
   talus::app::add_report_command(app, action);
+  talus::app::add_picture_command(app, action);
+  talus::app::add_movie_command(app, action);
   talus::app::add_schema_command(app, action);
+  talus::app::add_completion_command(app, action);
+  talus::app::add_man_command(app, action);
 
   auto fail = [](ExitStatus status, const std::string& message) {
     talus::print_error("talus: {}\n", message);

@@ -11,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
 #include "app/models/symbols.hpp"
+#include "app/usage/tree.hpp"
 #include "base/terminal.hpp"
 #include "io/parameter_schema.hpp"
 
@@ -64,7 +65,7 @@ std::string page_of_quantities() {
 void add_schema_command(CLI::App& app, Action& action) {
   struct Options {
     std::string model = "cloud";
-    bool page = false, quantities = false;
+    bool page = false, quantities = false, commands = false;
   };
   auto options = std::make_shared<Options>();
   std::vector<std::string> names;
@@ -73,8 +74,13 @@ void add_schema_command(CLI::App& app, Action& action) {
   command->add_option("MODEL", options->model, "model")->check(CLI::IsMember(names))->capture_default_str();
   command->add_flag("--markdown", options->page, "print the reference page instead");
   command->add_flag("--quantities", options->quantities, "print the page of all quantities of all models instead");
-  command->callback([options, &action] {
-    action = [options] {
+  command->add_flag("--commands", options->commands, "print the commands and their options as JSON instead");
+  command->callback([&app, options, &action] {
+    action = [&app, options] {
+      if (options->commands) {
+        fmt::print("{}", usage_json(usage_of(app)));
+        return ExitStatus::done;
+      }
       if (options->quantities) {
         fmt::print("{}", page_of_quantities());
         return ExitStatus::done;

@@ -216,10 +216,10 @@ class BadCase(InputTest):
         self.assert_nothing_written()
         for arguments in (["runn"], ["plot", "--help"], ["--help", "plot"], ["--version", "chekc", "case.toml"]):
             self.assertRegex(self.talus(*arguments, status=2).stderr,
-                             r"^talus: there is no command '\w+'; allowed: run, check, ")
+                             r"^talus: there is no command '\w+'; allowed: new, run, check, ")
         self.assertIn("did you mean 'run'?", self.talus("runn", status=2).stderr)
         self.assertIn("did you mean 'check'?", self.talus("chekc", "case.toml", status=2).stderr)
-        self.assertRegex(self.talus(status=2).stderr, r"^talus: no command; allowed: run, check, ")
+        self.assertRegex(self.talus(status=2).stderr, r"^talus: no command; allowed: new, run, check, ")
         for arguments in (["--help"], ["--version"], ["run", "--help"]):
             self.assertTrue(self.talus(*arguments).stdout)
 

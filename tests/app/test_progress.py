@@ -9,7 +9,7 @@ import subprocess
 import termios
 import unittest
 
-from program import PROGRAM, ProgramTest
+from program import HOPPER, PROGRAM, ProgramTest
 
 # A second or two.
 LONG = ("--set", "integration.largest_step=0.0001", "--set", "output.pictures=false")
@@ -26,6 +26,12 @@ class Progress(ProgramTest):
         for line in lines:
             self.assertRegex(line, r"^t = \S+ s of 0\.001 s  step \d+.*  +\d+ %  ETA \d+ s$")
         self.assertEqual(self.logged(), lines)
+
+    def test_a_vessel_without_an_outlet_shows_its_largest_speed(self):
+        (self.folder / "box.toml").write_text(HOPPER.replace(HOPPER[HOPPER.index("[plate]"):HOPPER.index("[bed]")],
+                                                             '[gate]\nopens = "from-the-start"\n'))
+        said = self.talus("run", "box.toml", "--out", "r", "--set", "output.pictures=false").stderr
+        self.assertRegex(said.splitlines()[0], r"^t = .* fastest \S+ m/s .*ETA")
 
     def test_on_a_terminal_of_40_columns(self):
         ours, theirs = pty.openpty()

@@ -3,6 +3,7 @@
 
 Usage: test_talus.py TALUS
 """
+import importlib.util
 import json
 import pickle
 import shutil
@@ -140,6 +141,18 @@ class Reading(OnARun):
         np.testing.assert_array_equal(snapshot["density"], density)
         with self.assertRaisesRegex(talus.RunError, "particles_0002.vtkhdf"):
             snapshot["velocity"]
+
+    @unittest.skipUnless(importlib.util.find_spec("xarray"), "xarray is not installed (tools/install_packages tables)")
+    def test_xarray_puts_particles_and_cells_in_their_places(self):
+        snapshot, air = self.read.snapshots[-1], self.read.air[-1]
+        data = snapshot.to_xarray(["velocity"])
+        identity = np.asarray(snapshot["identity"])
+        for n in (0, len(identity) // 2, len(identity) - 1):
+            np.testing.assert_array_equal(data["velocity"].sel(particle=identity[n]), snapshot["velocity"][n])
+            np.testing.assert_array_equal(data["position"].sel(particle=identity[n]), snapshot.positions[n])
+        cells = air.to_xarray(["pressure", "velocity"])
+        np.testing.assert_array_equal(cells["pressure"].sel(x=air.x[1], z=air.z[2])[0], air["pressure"][1, 0, 2])
+        self.assertEqual(cells["pressure"].attrs["units"], "Pa")
 
     def test_air_lies_on_its_grid(self):
         air = self.read.air[-1]

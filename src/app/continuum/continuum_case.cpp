@@ -149,7 +149,9 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
-  if (p.plate.height || continuum::outlet_of(p)) prepared.headline = {.column = "discharge_rate", .name = "discharge"};
+  prepared.headline = p.plate.height || continuum::outlet_of(p)
+                          ? run::Headline{.column = "discharge_rate", .name = "discharge"}
+                          : run::Headline{.column = "speed_max", .name = "fastest"};
   return prepared;
 }
 

@@ -23,21 +23,8 @@ namespace {
 
 constexpr int interrupted_status = static_cast<int>(ExitStatus::interrupted);
 
-/// What a member says, until it has ended well.
-std::filesystem::path output_of(const EnsembleMember& member) {
-  std::filesystem::path output = member.folder;
-  output += ".out";
-  return output;
-}
-
 run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
-  run::Job job{.arguments = {run::own_program(), "run", run.case_path, "--out", run.member.folder.string(), "--threads",
-                             "1", "--set", "output.pictures=false", "--set", "output.report=false"},
-               .output = output};
-  for (const std::string& setting : run.member.settings) {
-    job.arguments.push_back("--set");
-    job.arguments.push_back(setting);
-  }
+  run::Job job{.arguments = arguments_of(run), .output = output};
   if (std::filesystem::exists(run.member.folder)) job.arguments.push_back("--resume");
   return job;
 }
@@ -51,6 +38,31 @@ std::string last_line(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::filesystem::path output_of(const EnsembleMember& member) {
+  std::filesystem::path output = member.folder;
+  output += ".out";
+  return output;
+}
+
+std::vector<std::string> arguments_of(const ScheduledRun& run) {
+  std::vector<std::string> arguments = {run::own_program(),
+                                        "run",
+                                        run.case_path,
+                                        "--out",
+                                        run.member.folder.string(),
+                                        "--threads",
+                                        "1",
+                                        "--set",
+                                        "output.pictures=false",
+                                        "--set",
+                                        "output.report=false"};
+  for (const std::string& setting : run.member.settings) {
+    arguments.push_back("--set");
+    arguments.push_back(setting);
+  }
+  return arguments;
+}
 
 bool is_done(const EnsembleMember& member) {
   const RunFolder folder(member.folder);
@@ -73,6 +85,21 @@ bool has_begun(const std::vector<ScheduledRun>& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const ScheduledRun& run) {
     return std::filesystem::exists(RunFolder(run.member.folder).manifest());
   });
+}
+
+ScheduleResult gather_members(const std::vector<ScheduledRun>& runs) {
+  ScheduleResult result;
+  for (const ScheduledRun& run : runs) {
+    if (is_done(run.member)) {
+      ++result.found_done;
+      std::error_code ignored;
+      std::filesystem::remove(output_of(run.member), ignored);
+    } else {
+      const std::string said = last_line(output_of(run.member));
+      result.failed.push_back({run.member.folder, std::nullopt, said.empty() ? "has not ended" : said});
+    }
+  }
+  return result;
 }
 
 ScheduleResult run_members(const std::vector<ScheduledRun>& runs, int jobs) {

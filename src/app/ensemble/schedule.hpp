@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct ScheduledRun {
 /// A member that did not end well.
 struct FailedRun {
   std::filesystem::path folder;
-  int status = 0;
-  std::string reason;  ///< the last line it wrote
+  std::optional<int> status = {};  ///< exit status, where this process has seen it
+  std::string reason;              ///< the last line it wrote
 };
 
 struct ScheduleResult {
@@ -36,6 +37,15 @@ bool is_done(const EnsembleMember& member);
 
 /// Whether one of the runs has been begun in its folder.
 bool has_begun(const std::vector<ScheduledRun>& runs);
+
+/// What a member says, until it has ended well.
+std::filesystem::path output_of(const EnsembleMember& member);
+
+/// The command of a member, the program first, without --resume.
+std::vector<std::string> arguments_of(const ScheduledRun& run);
+
+/// What is done, without running anything; members that are not done count as failed. \throws FileError, InputError
+ScheduleResult gather_members(const std::vector<ScheduledRun>& runs);
 
 /// Runs what is not done yet, `jobs` at a time, each on one thread, without pictures and reports; a run that was
 /// interrupted is resumed. Shows one line of progress with an ETA for the whole. \throws FileError, InputError

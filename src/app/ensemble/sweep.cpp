@@ -17,43 +17,10 @@ namespace {
 
 constexpr std::size_t line_width = 100;
 
-/// One of a group's varied keys.
-struct Setting {
-  std::string key, text;
-  std::optional<Quantity> quantity;  ///< none: a name, an array
-};
-
 /// In the unit of its dimension that Talus writes, without it.
 std::string number_of(const Quantity& quantity) {
   const std::string text = format_quantity(quantity.value, unit_name(quantity.dimension));
   return text.substr(0, text.find(' '));
-}
-
-std::vector<Setting> settings_of(const EnsembleGroup& group) {
-  std::vector<Setting> settings;
-  for (const std::string& setting : group.settings) {
-    const std::size_t equals = setting.find('=');
-    const std::string text = setting.substr(equals + 1);
-    settings.push_back({setting.substr(0, equals), text, parse_quantity(text)});
-  }
-  return settings;
-}
-
-/// Names and units of all quantities, in the order in which the groups have them.
-std::vector<const QuantitySpread*> all_quantities(const std::vector<SweptGroup>& groups) {
-  std::vector<const QuantitySpread*> all;
-  for (const SweptGroup& swept : groups)
-    for (const QuantitySpread& spread : swept.spreads)
-      if (!spread.values.empty() &&
-          std::none_of(all.begin(), all.end(), [&](const QuantitySpread* known) { return known->name == spread.name; }))
-        all.push_back(&spread);
-  return all;
-}
-
-const QuantitySpread* find(const SweptGroup& swept, const std::string& name) {
-  for (const QuantitySpread& spread : swept.spreads)
-    if (spread.name == name && !spread.values.empty()) return &spread;
-  return nullptr;
 }
 
 bool has_deviations(const std::vector<SweptGroup>& groups) {
@@ -106,7 +73,7 @@ std::string csv_text(const std::vector<SweptGroup>& groups) {
     for (const QuantitySpread& spread : swept.spreads) members = std::max(members, spread.values.size());
     text += fmt::format("{}", members);
     for (const QuantitySpread* q : quantities) {
-      const QuantitySpread* spread = find(swept, q->name);
+      const QuantitySpread* spread = find_quantity(swept, q->name);
       text += fmt::format(",{}", spread ? spread->mean : std::nan(""));
       if (deviations) text += fmt::format(",{}", spread ? spread->deviation : std::nan(""));
     }
@@ -142,6 +109,32 @@ std::string json_text(const std::vector<SweptGroup>& groups) {
 
 }  // namespace
 
+std::vector<Setting> settings_of(const EnsembleGroup& group) {
+  std::vector<Setting> settings;
+  for (const std::string& setting : group.settings) {
+    const std::size_t equals = setting.find('=');
+    const std::string text = setting.substr(equals + 1);
+    settings.push_back({setting.substr(0, equals), text, parse_quantity(text)});
+  }
+  return settings;
+}
+
+std::vector<const QuantitySpread*> all_quantities(const std::vector<SweptGroup>& groups) {
+  std::vector<const QuantitySpread*> all;
+  for (const SweptGroup& swept : groups)
+    for (const QuantitySpread& spread : swept.spreads)
+      if (!spread.values.empty() &&
+          std::none_of(all.begin(), all.end(), [&](const QuantitySpread* known) { return known->name == spread.name; }))
+        all.push_back(&spread);
+  return all;
+}
+
+const QuantitySpread* find_quantity(const SweptGroup& swept, const std::string& name) {
+  for (const QuantitySpread& spread : swept.spreads)
+    if (spread.name == name && !spread.values.empty()) return &spread;
+  return nullptr;
+}
+
 std::string mean_and_deviation(const QuantitySpread& spread) {
   if (spread.values.empty()) return "-";
   return spread.values.size() == 1 ? fmt::format("{:.6g}", spread.mean)
@@ -164,7 +157,7 @@ std::string sweep_text(const std::vector<SweptGroup>& groups) {
   for (const SweptGroup& swept : groups) {
     Column column{.cells = {swept.group->name}};
     for (const QuantitySpread* q : quantities) {
-      const QuantitySpread* spread = find(swept, q->name);
+      const QuantitySpread* spread = find_quantity(swept, q->name);
       column.cells.push_back(spread ? mean_and_deviation(*spread) : "-");
     }
     for (const std::string& cell : column.cells) column.width = std::max(column.width, width(cell));

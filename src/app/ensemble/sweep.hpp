@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/statistics.hpp"
+#include "base/unit.hpp"
 
 namespace talus::app {
 
@@ -15,6 +17,19 @@ struct SweptGroup {
   const EnsembleGroup* group;
   std::vector<QuantitySpread> spreads;
 };
+
+/// One of a group's varied keys.
+struct Setting {
+  std::string key, text;
+  std::optional<Quantity> quantity;  ///< none: a name, an array
+};
+std::vector<Setting> settings_of(const EnsembleGroup& group);
+
+/// Name and unit of every quantity that a group has, in the order in which the groups have them.
+std::vector<const QuantitySpread*> all_quantities(const std::vector<SweptGroup>& groups);
+
+/// Null if no member of the group has it.
+const QuantitySpread* find_quantity(const SweptGroup& swept, const std::string& name);
 
 /// "1.234", or "1.234 ± 0.05" of two members and more; "-" of none.
 std::string mean_and_deviation(const QuantitySpread& spread);
@@ -26,5 +41,12 @@ std::string sweep_text(const std::vector<SweptGroup>& groups);
 /// where groups have two members and more, its standard deviation) and sweep.json (the same, the values also as they
 /// were given). \throws FileError
 void write_sweep(const std::vector<SweptGroup>& groups, const std::filesystem::path& folder);
+
+/// Draws quantities against the first varied key that is a number, a line for each combination of the others; against
+/// the groups' numbers if none is. \param quantities that are asked for; none: those that differ between groups, twelve
+/// at most \returns false, drawing nothing, if nothing differs
+/// \throws InputError with the nearest name if there is no such quantity, FileError
+bool draw_sweep(const std::vector<SweptGroup>& groups, const std::vector<std::string>& quantities,
+                const std::filesystem::path& path);
 
 }  // namespace talus::app

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "app/case/numbers.hpp"
 #include "io/report/packed.hpp"
 #include "io/run_folder.hpp"
 #include "io/vtkhdf.hpp"
@@ -61,24 +62,8 @@ class Particles {
     if (frame_ == 0)
       share_ = static_cast<double>(most_) / static_cast<double>(std::max<std::size_t>(1, snapshot.size()));
     choose(snapshot);
-    for (const ColumnView& column : snapshot.columns) {
-      const std::string name(column.name), unit(column.unit);
-      if (name == "identity") continue;
-      if (const auto* scalars = std::get_if<std::span<const double>>(&column.values))
-        put(name, unit, [&](std::size_t n) { return (*scalars)[n]; });
-      if (const auto* integers = std::get_if<std::span<const std::int64_t>>(&column.values))
-        put(name, unit, [&](std::size_t n) { return static_cast<double>((*integers)[n]); });
-      if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values)) {
-        if (name != "position") put(name, unit, [&](std::size_t n) { return norm((*vectors)[n]); });
-        for (int axis = 0; axis < 3; ++axis)
-          put(name + '_' + "xyz"[axis], unit, [&](std::size_t n) { return (*vectors)[n][axis]; });
-      }
-    }
-    if (snapshot.has("stress_xx") && snapshot.has("stress_yy") && snapshot.has("stress_zz")) {
-      const auto x = snapshot.scalars("stress_xx"), y = snapshot.scalars("stress_yy"),
-                 z = snapshot.scalars("stress_zz");
-      put("pressure", "Pa", [&](std::size_t n) { return (x[n] + y[n] + z[n]) / 3; });
-    }
+    for_each_number(
+        snapshot, [&](const std::string& name, const std::string& unit, const auto& value) { put(name, unit, value); });
     ++frame_;
   }
 

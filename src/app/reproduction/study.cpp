@@ -129,7 +129,7 @@ ExitStatus reproduce(const StudyRequest& request) {
         members, request.jobs, request.folder.string());
   const ScheduleResult result = run_members(runs, request.jobs);
   for (const FailedRun& failed : result.failed)
-    print("Failed (exit status {}): {}: {}\n", failed.status, failed.folder.string(), failed.reason);
+    print("Failed (exit status {}): {}: {}\n", failed.status.value_or(-1), failed.folder.string(), failed.reason);
   if (result.interrupted) {
     print("Interrupted; --resume goes on: {}\n", request.folder.string());
     return ExitStatus::interrupted;

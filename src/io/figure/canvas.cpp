@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <stdexcept>
 
 namespace talus::figure {
@@ -35,6 +37,26 @@ std::string Canvas::png() const {
     throw std::runtime_error(fmt::format("drawing a picture failed: {}", cairo_status_to_string(status)));
   }
   return bytes;
+}
+
+Pixels Canvas::pixels() const {
+  if (const cairo_status_t status = cairo_status(context()); status != CAIRO_STATUS_SUCCESS)
+    throw std::runtime_error(fmt::format("drawing a picture failed: {}", cairo_status_to_string(status)));
+  cairo_surface_flush(surface_.get());
+  Pixels pixels{.width = cairo_image_surface_get_width(surface_.get()),
+                .height = cairo_image_surface_get_height(surface_.get())};
+  const unsigned char* const data = cairo_image_surface_get_data(surface_.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
+  const auto count = static_cast<std::size_t>(pixels.width), rows = static_cast<std::size_t>(pixels.height);
+  pixels.bytes.reserve(4 * count * rows);
+  for (std::size_t y = 0; y < rows; ++y)
+    for (std::size_t x = 0; x < count; ++x) {
+      std::uint32_t pixel = 0;  // cairo's pixels are numbers of 32 bits in the machine's order of bytes
+      std::memcpy(&pixel, data + y * stride + 4 * x, sizeof pixel);
+      for (const int shift : {0, 8, 16}) pixels.bytes += static_cast<char>(pixel >> shift & 255u);
+      pixels.bytes += '\0';
+    }
+  return pixels;
 }
 
 void set_colour(cairo_t* context, const Colour& colour) {

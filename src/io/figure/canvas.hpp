@@ -21,6 +21,12 @@ struct Rectangle {
   bool contains(double px, double py) const { return px >= x && px <= right() && py >= y && py <= bottom(); }
 };
 
+/// A page's pixels, row by row from the top, four bytes each: blue, green, red, unused.
+struct Pixels {
+  int width = 0, height = 0;
+  std::string bytes = {};
+};
+
 class Canvas {
  public:
   /// A white page of width x height units, rounded to whole pixels.
@@ -31,6 +37,9 @@ class Canvas {
 
   /// The page as a PNG file's bytes. \throws std::runtime_error if cairo failed in any drawing before
   std::string png() const;
+
+  /// \throws std::runtime_error as png()
+  Pixels pixels() const;
 
  private:
   struct Destroy {

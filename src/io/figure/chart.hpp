@@ -30,7 +30,8 @@ struct Line {
   std::string label = {};
   std::optional<Colour> colour = {};
   Dash dash = Dash::solid;
-  double width = 1.5;  ///< units
+  double width = 1.5;   ///< units
+  bool marked = false;  ///< a disc at each point
 };
 
 /// A histogram: bars between edges, or their outline as one stepped line.

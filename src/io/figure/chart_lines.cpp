@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Lines, with a band about them.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "io/figure/chart_layers.hpp"
 
@@ -8,7 +10,7 @@ namespace talus::figure {
 
 namespace {
 
-constexpr double band_opacity = 0.22;
+constexpr double band_opacity = 0.22, marker_radius = 2;  // units
 
 /// Fills between two curves, one polygon for each stretch without gaps.
 void fill_between(ChartPage& page, const std::vector<double>& x, const std::vector<double>& low,
@@ -60,6 +62,13 @@ void paint(ChartPage& page, const Line& line, const Colour& colour) {
     last = point;
   }
   cairo_stroke(page.context);
+  for (std::size_t i = 0; line.marked && i < line.x.size(); ++i) {
+    const auto point = page.place(line.x[i], line.y[i]);
+    if (!point.there()) continue;
+    cairo_arc(page.context, point.x, point.y, marker_radius, 0, 2 * std::numbers::pi);
+    cairo_fill(page.context);
+    page.obstacles.push_back({point.x, point.y});
+  }
   page.name(line.label, [colour, dash = line.dash, width = line.width, band = !line.spread.empty()](
                             cairo_t* context, const Rectangle& swatch) {
     if (band) fill_rectangle(context, swatch, with_alpha(colour, band_opacity));

@@ -17,7 +17,19 @@ namespace {
 
 constexpr TextStyle figure_title_style{.size = 11, .bold = true}, letter_style{.size = 10, .bold = true},
     title_style{.size = 10};
-constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, least_width = 60;
+constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, least_width = 60, key_gap = 8;
+
+double key_width(cairo_t* context, const ArrowKey& key) {
+  return std::max(key.length, text_extent(context, key.label, legend_style).width);
+}
+
+/// In the lower corner right of the panels.
+void draw_key(cairo_t* context, const ArrowKey& key, const Rectangle& panels) {
+  const double x = panels.right() + key_gap, y = panels.bottom() - 1.8 * legend_style.size;
+  set_pen(context, key.colour, 1.0);
+  stroke_arrow(context, x, y, x + key.length, y, 4);
+  draw_text(context, key.label, x, y + 1.5 * legend_style.size, legend_style);
+}
 
 double aspect_of(const Chart& chart) {
   return chart.aspect;
@@ -67,6 +79,12 @@ class Layout {
   double height() const { return height_; }
   const Rectangle& plot(std::size_t panel) const { return plots_[panel]; }
 
+  /// What the colour bar of the figure stands right of.
+  Rectangle panels() const {
+    const double top = plots_.front().y, bottom = plots_.back().bottom();
+    return {edge, top, width_ - 2 * edge - bar_, bottom - top};
+  }
+
   /// "(a) title" above the plot.
   bool has_title(std::size_t panel) const {
     return lettered() || std::visit([](const auto& p) { return !p.title.empty(); }, figure_.panels[panel]);
@@ -86,9 +104,11 @@ class Layout {
         side.left = std::max(side.left, around[i].left), side.right = std::max(side.right, around[i].right);
       }
     }
+    if (figure_.bar) bar_ = colour_bar_width(context, *figure_.bar, height_);
+    if (figure_.key) bar_ = std::max(bar_, key_gap + key_width(context, *figure_.key));
     double y = edge + (figure_.title.empty() ? 0 : 1.4 * title_line);
     for (const Row& row : rows_) {
-      double room = width_ - 2 * edge - static_cast<double>(row.columns - 1) * column_gap;
+      double room = width_ - 2 * edge - bar_ - static_cast<double>(row.columns - 1) * column_gap;
       for (std::size_t k = 0; k < row.columns; ++k) room -= sides[row.columns][k].left + sides[row.columns][k].right;
       const double plot_width = std::max(least_width, room / static_cast<double>(row.columns));
       double top = 0, bottom = 0, aspect = 0;
@@ -113,17 +133,19 @@ class Layout {
   const Figure& figure_;
   std::vector<Row> rows_;
   std::size_t most_columns_ = 1;
-  double width_ = 0, height_ = 0;
+  double width_ = 0, height_ = 0, bar_ = 0;
   std::vector<Rectangle> plots_;
 };
 
 }  // namespace
 
-std::string png(const Figure& figure) {
+namespace {
+
+Canvas drawn(const Figure& figure) {
   if (figure.panels.empty()) throw std::invalid_argument("a figure without panels");
   const Canvas scratch(1, 1, 1);
   const Layout layout(figure, scratch.context());
-  const Canvas canvas(layout.width(), layout.height(), figure.scale);
+  Canvas canvas(layout.width(), layout.height(), figure.scale);
   cairo_t* context = canvas.context();
   draw_text(context, figure.title, edge, edge + figure_title_style.size, figure_title_style);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
@@ -143,7 +165,19 @@ std::string png(const Figure& figure) {
         },
         figure.panels[i]);
   }
-  return canvas.png();
+  if (figure.bar) draw_colour_bar(context, *figure.bar, layout.panels());
+  if (figure.key) draw_key(context, *figure.key, layout.panels());
+  return canvas;
+}
+
+}  // namespace
+
+std::string png(const Figure& figure) {
+  return drawn(figure).png();
+}
+
+Pixels pixels(const Figure& figure) {
+  return drawn(figure).pixels();
 }
 
 void write_png(const Figure& figure, const std::filesystem::path& path) {

@@ -39,10 +39,11 @@ std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& 
     per_unit = usual_arrow / usual;
   }
   const double scale = per_unit / arrows.unit.value;
+  const std::span<const Vector3> positions = arrows.positions.empty() ? picture.positions : arrows.positions;
   std::unordered_set<std::uint64_t> taken;
   set_pen(context, arrows.colour, arrow_width);
   for (std::size_t i = 0; i < arrows.values.size(); ++i) {
-    const Obstacle from = p(picture.positions[i]);
+    const Obstacle from = p(positions[i]);
     const double dx = dot(p.view.right, arrows.values[i]) * scale, dy = -dot(p.view.up, arrows.values[i]) * scale;
     if (!std::isfinite(dx + dy) || !p.plot.contains(from.x, from.y)) continue;
     if (arrows.spacing > 0) {
@@ -53,6 +54,7 @@ std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& 
     stroke_arrow(context, from.x, from.y, from.x + dx, from.y + dy, arrow_head);
     for (const double t : {0.5, 1.0}) obstacles.push_back({from.x + t * dx, from.y + t * dy});
   }
+  if (!arrows.key) return {};
   const double key = nice_length(longest_key / per_unit);
   return LegendEntry{fmt::format("{:g} {}", key, arrows.unit.name),
                      [colour = arrows.colour, length = key * per_unit](cairo_t* pen, const Rectangle& box) {

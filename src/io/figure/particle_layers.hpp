@@ -34,7 +34,7 @@ void draw_slope(cairo_t* context, const ParticlePicture& picture, const Projecti
 void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
                 std::vector<Obstacle>& obstacles);
 
-/// \returns the legend's entry: an arrow of a round value; nothing if there is no arrow of finite length
+/// \returns the legend's entry: an arrow of a round value; nothing if none is wanted, or no arrow has a finite length
 std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
                                        std::vector<Obstacle>& obstacles);
 

@@ -81,7 +81,7 @@ void draw(cairo_t* context, const ParticlePicture& picture, const Rectangle& plo
   std::vector<LegendEntry> entries = entries_of(picture);
   if (arrow_key) entries.push_back(*arrow_key);
   draw_legend(context, entries, plot, obstacles);
-  if (!has_axes(picture)) draw_scale_bar(context, picture, projection, obstacles);
+  if (picture.scale_bar && !has_axes(picture)) draw_scale_bar(context, picture, projection, obstacles);
   const auto* by_value = std::get_if<ByValue>(&picture.colouring);
   if (by_value && by_value->bar) draw_colour_bar(context, bar_of(*by_value), plot);
 }

@@ -52,13 +52,15 @@ struct ByCategory {
   std::vector<Category> categories = {};
 };
 
-/// An arrow for each particle, e.g. its velocity relative to the front.
+/// An arrow for each particle, e.g. its velocity relative to the front, or for each of other places.
 struct Arrows {
-  std::span<const Vector3> values = {};  ///< SI
+  std::span<const Vector3> values = {};     ///< SI
+  std::span<const Vector3> positions = {};  ///< where they begin, m; empty: at the particles
   Unit unit = {1, "m/s"};
   double length = 0;   ///< units of the page for one `unit`; 0: chosen so that nearly all are 16 or shorter
   double spacing = 6;  ///< at most one arrow in each square of this side, in units of the page; 0: all
   Colour colour = ink;
+  bool key = true;  ///< an arrow of a round value in the legend
 };
 
 /// A straight line over the particles: a wall.
@@ -81,10 +83,12 @@ struct ParticlePicture {
   std::optional<Arrows> arrows = {};
   std::vector<Segment> segments = {};
   Unit length = {1, "m"};
-  bool axes = true;    ///< numbered, where the view's directions are those of the axes; a scale bar otherwise
-  bool slope = false;  ///< the slope as a line, in views from the side; as a plane with shadows, in oblique ones
-  bool depth = false;  ///< nearer particles over farther ones, and the farther the paler
+  bool axes = true;       ///< numbered, where the view's directions are those of the axes; a scale bar otherwise
+  bool scale_bar = true;  ///< where there are no axes
+  bool slope = false;     ///< the slope as a line, in views from the side; as a plane with shadows, in oblique ones
+  bool depth = false;     ///< nearer particles over farther ones, and the farther the paler
   std::optional<Window> window = {};  ///< left out: all particles
+  std::optional<double> aspect = {};  ///< height over width of the plot; left out: the window's, within 0.2 to 1.3
 };
 
 /// \throws std::invalid_argument if the columns have different lengths, a unit is not positive, or a given window or

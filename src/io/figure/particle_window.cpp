@@ -41,9 +41,13 @@ void check(const ParticlePicture& picture) {
   }
   if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) same("categories", by_category->of.size());
   if (picture.arrows) {
-    same("arrows", picture.arrows->values.size());
+    if (const std::size_t places = picture.arrows->positions.size(); places == 0)
+      same("arrows", picture.arrows->values.size());
+    else if (places != picture.arrows->values.size())
+      throw std::invalid_argument(fmt::format("{} arrows at {} places", picture.arrows->values.size(), places));
     positive("arrows", picture.arrows->unit.value);
   }
+  if (picture.aspect && !(*picture.aspect > 0)) throw std::invalid_argument("a picture without height");
   if (picture.window && !has_size(*picture.window)) throw std::invalid_argument("a picture's window without extent");
 }
 
@@ -105,6 +109,7 @@ void share_scale(std::span<ParticlePicture> pictures) {
 }
 
 double aspect_of(const ParticlePicture& picture) {
+  if (picture.aspect) return *picture.aspect;
   const Window w = window_of(picture);
   return std::clamp((w.top - w.bottom) / (w.right - w.left), 0.2, 1.3);
 }

@@ -124,9 +124,6 @@ std::vector<Problem> check(const Parameters& p) {
           fmt::format("at most {}: random packing without overlap jams", jamming));
   }
   if (p.fluid.sum == Sum::spectral && p.fluid.mobility != hydrodynamics::Mobility::none) {
-    if (p.motion == Motion::xyz)
-      add("fluid.sum", "\"spectral\" with motion \"xyz\": its grid lies in a plane",
-          "\"automatic\" or \"direct\"; or motion \"xy\" or \"xz\"");
     if (!spectral_accuracy(p.fluid.sum_error))
       add("fluid.sum_error", fmt::format("{:g} is less than the spectral sum reaches", p.fluid.sum_error),
           fmt::format("at least {:g}; or fluid.sum = \"direct\"", std::rbegin(spectral_accuracies)->error));

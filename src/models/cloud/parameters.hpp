@@ -126,9 +126,9 @@ void for_each_parameter(Visit&& visit, P& p) {
   dragged(Parameter{"fluid.sum",
                     {},
                     {},
-                    "how the sum over pairs is computed: direct; spectral, in a plane, by a grid and Fourier "
-                    "transforms at a cost of N log N; or automatic, spectral for 5000 grains and more in a plane "
-                    "where it is cheaper and reaches fluid.sum_error"},
+                    "how the sum over pairs is computed: direct; spectral, by a grid and Fourier transforms at a cost "
+                    "of N log N; or automatic, spectral for 5000 grains and more in a plane and 20,000 in space where "
+                    "it is cheaper and reaches fluid.sum_error"},
           p.fluid.sum);
   auto split = only_if(unless("fluid.sum", p.fluid.sum, Sum::direct), dragged);
   split(Parameter{"fluid.sum_error", dimension::none, between(1e-15, 0.1),

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sum over all pairs of spheres in a plane at a cost of N log N: the tensor is split (spectral_sum/split.hpp) into
-/// a smooth part, summed on a grid by Fourier transforms, and a rest that near pairs alone have, summed directly.
+/// The sum over all pairs of spheres in a plane or in space at a cost of N log N: the tensor is split
+/// (spectral_sum/split.hpp) into a smooth part, summed on a grid by Fourier transforms, and a rest that near pairs
+/// alone have, summed directly.
 ///
 /// Unequal radii, coplanar places and unbounded space are exact; what errs is the grid (and single precision). For
 /// every place of the spheres and all forces,
 ///     |error of velocity i| <= k/(8 pi mu) sum over j of |F_j| / max(r_ij, r_c),   j = i included,
 /// with k the `pair_error` of the accuracy and r_c the cut-off, and the rounding of near pairs, `pair_rounding`. Errors
-/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums. Decision
-/// 0024.
+/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums. Decisions
+/// 0024 (in a plane) and 0031 (in space).
 #pragma once
 
 #include <cstdint>
@@ -34,9 +35,9 @@ class SpectralSum {
  public:
   using Options = PairSum::Options;
 
-  /// \param options motion in a plane and a mobility other than `none`; the precision follows from the accuracy
+  /// \param options with a mobility other than `none`; the precision follows from the accuracy
   /// \param radius one per sphere, m, > 0
-  /// \throws std::invalid_argument for motion in space or no mobility; InputError as PairSum
+  /// \throws std::invalid_argument for no mobility; InputError as PairSum
   SpectralSum(const Options& options, const SpectralAccuracy& accuracy, std::span<const double> radius);
   ~SpectralSum();
   SpectralSum(SpectralSum&&) noexcept;

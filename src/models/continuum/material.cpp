@@ -57,10 +57,8 @@ LawColumns columns_of(const MaterialColumns& old, const GradientColumns& velocit
   for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = old.stress[c].data();
   for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
   for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = velocity_gradient.component[c].data();
-  for (std::size_t k = 0; k < old.history.size(); ++k) {
-    columns.history[k] = old.history[k].data();
-    if (keep_history) columns.next_history[k] = next.history[k].data();
-  }
+  columns.expansion = old.history[0].data(), columns.contacts = old.history[1].data();
+  if (keep_history) columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
   columns.density = density.data();
   columns.time_step = time_step;
   return columns;
@@ -132,7 +130,7 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, const Gradie
           constexpr std::size_t at_once = 32 * law_block;
           done = density.size() / law_block * law_block;
           team.run((done + at_once - 1) / at_once, [&](std::size_t task) {
-            update_blocks(law, columns, task * at_once, std::min(done, (task + 1) * at_once));
+            update_blocks(law.coefficients(), columns, task * at_once, std::min(done, (task + 1) * at_once));
           });
         }
         for_each(team, density.size() - done, [&](std::size_t n) {

@@ -30,10 +30,9 @@ void Sweep::prepare_stabilisers(ThreadTeam& team, const ParticleView& particles)
     prepare_sum_(all, static_cast<std::uint32_t>(i), seen_from(i, seen), constants_, sums);
     const double *m = sums.moment, *v = sums.velocity, *r = sums.density_gradient;
     const SymmetricTensor3<> moment{m[0], m[1], m[2], m[3], m[4], m[5]};
-    const Tensor3<> l =
-        sph::velocity_gradient<double>({moment, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
+    const Tensor3<> l = sph::velocity_gradient({moment, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
     // The density is corrected as a velocity is: as the x component of one.
-    const Tensor3<> density = sph::velocity_gradient<double>({moment, {.xx = r[0], .xy = r[1], .xz = r[2]}});
+    const Tensor3<> density = sph::velocity_gradient({moment, {.xx = r[0], .xy = r[1], .xz = r[2]}});
     const bool loaded = trace(stress_of(particles.material, i)) > 0;
     stabilisers_[i] = {{density.xx, density.xy, density.xz},
                        {l.xx, l.xy, l.xz, l.yx, l.yy, l.yz, l.zx, l.zy, l.zz},

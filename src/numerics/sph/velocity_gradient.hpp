@@ -46,4 +46,8 @@ Tensor3<Number> velocity_gradient(const GradientSums<Number>& sums) {
           select(spanned, l.zx, raw.zx), select(spanned, l.zy, raw.zy), select(spanned, l.zz, raw.zz)};
 }
 
+inline Tensor3<> velocity_gradient(const GradientSums<>& sums) {
+  return velocity_gradient<double>(sums);
+}
+
 }  // namespace talus::sph

@@ -7,9 +7,9 @@ namespace talus::granular {
 
 CriticalState::CriticalState(const Parameters& parameters, double grain_density, double grain_diameter)
     : parameters_(parameters),
-      reference_density_(parameters.reference_packing * grain_density),
-      largest_volume_(parameters.reference_packing / parameters.loosest_packing),
-      grain_inertia_(std::sqrt(2 * grain_density) * grain_diameter) {}
+      coefficients_{parameters, parameters.reference_packing * grain_density,
+                    parameters.reference_packing / parameters.loosest_packing,
+                    std::sqrt(2 * grain_density) * grain_diameter} {}
 
 double CriticalState::sound_speed(double density) const {
   return std::sqrt((parameters_.bulk_modulus + 4.0 / 3.0 * parameters_.shear_modulus) / density);
@@ -25,7 +25,7 @@ std::vector<Problem> CriticalState::check(const Parameters& p) {
        {std::pair{"critical_packing", p.critical_packing}, std::pair{"reference_packing", p.reference_packing}})
     if (packing < p.loosest_packing)
       problems.push_back({.key = key, .what = "lies below the loosest packing", .allowed = "at least loosest_packing"});
-  if (!(p.critical_packing - largest_inertial_number * p.loosening > 0.1))
+  if (!(p.critical_packing - CriticalStateCoefficients::largest_inertial_number * p.loosening > 0.1))
     problems.push_back({.key = "loosening",
                         .what = "fast flow would have next to no grains",
                         .allowed = "less than (critical_packing - 0.1)/0.3"});

@@ -36,8 +36,8 @@
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
+#include "physics/granular/critical_state_point.hpp"
 #include "physics/granular/material_point.hpp"
-#include "physics/granular/rotation.hpp"
 
 namespace talus::granular {
 
@@ -48,21 +48,7 @@ class CriticalState {
       "elastic up to a friction that depends on rate and packing, with a strength at rest that flow takes away";
   static constexpr bool bears_tension = false;
 
-  struct Parameters {
-    double bulk_modulus = 4.9e6;      ///< K, Pa: (lambda + 2G/3) of Eqs 1-3 of Yuu & Umekage at zero strain
-    double shear_modulus = 2.94e6;    ///< G, Pa: the same
-    double friction = 0.38;           ///< mu_s
-    double fast_friction = 0.64;      ///< mu_2
-    double inertial_number = 0.279;   ///< I_0
-    double reference_packing = 0.6;   ///< phi_s of a new point
-    double critical_packing = 0.585;  ///< phi_c
-    double loosest_packing = 0.55;    ///< phi_min
-    double loosening = 0.25;          ///< Delta
-    double dilatancy = 4;             ///< k
-    double strength_at_rest = 0.08;   ///< Delta_mu
-    double healing_time = 10e-3;      ///< T, s
-    double breaking_strain = 0.05;    ///< gamma_0
-  };
+  using Parameters = CriticalStateParameters;
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{"bulk_modulus", dimension::pressure, above(0),
@@ -123,61 +109,22 @@ class CriticalState {
   MaterialPoint<CriticalState, Number> update(const MaterialPoint<CriticalState, Number>& old,
                                               const Tensor3<Number>& velocity_gradient, const Number& density,
                                               double time_step) const {
-    using std::log;
-    using std::sqrt;
-    const SymmetricTensor3<Number> rate = deviator(symmetric_part(velocity_gradient));
-    // Volumes of a grain's share of space, in units of that at the reference packing: now, and just touching.
-    const Number volume = reference_density_ / density;
-    const auto touch = volume < 1.0 + old.history.expansion;
-    const Number apart = minimum(volume, Number(largest_volume_));
-    const Number touching = select(touch, 1.0 + old.history.expansion, maximum(1.0 + old.history.expansion, apart));
-    const Number pressure = select(touch, parameters_.bulk_modulus * log(touching / volume), Number(0.0));
-
-    const Number inertial = grain_inertia_ * norm(rate) / sqrt(maximum(pressure, Number(tiny)));
-    const Number critical_volume =
-        parameters_.reference_packing /
-        (parameters_.critical_packing - parameters_.loosening * minimum(inertial, Number(largest_inertial_number)));
-    const Number dilatancy =
-        (parameters_.dilatancy * parameters_.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
-    const Number friction =
-        parameters_.friction +
-        (parameters_.fast_friction - parameters_.friction) * (inertial / (inertial + parameters_.inertial_number)) +
-        dilatancy + parameters_.strength_at_rest * old.history.contacts;
-
-    const SymmetricTensor3<Number> trial =
-        transformed(deviator(old.stress), rotation_of_step(velocity_gradient, time_step)) -
-        (2 * parameters_.shear_modulus * time_step) * rate;
-    const Number size = norm(trial);
-    const Number most = (sqrt2 * maximum(friction, Number(0.0))) * pressure;
-    const Number slip = (1 / (sqrt2 * parameters_.shear_modulus)) * maximum(size - most, Number(0.0));
-
-    MaterialPoint<CriticalState, Number> point;
-    point.stress = isotropic(pressure) + (minimum(size, most) / maximum(size, Number(tiny))) * trial;
-    // d(1/phi_s)/dgamma = k (1 - phi_c/phi_s), implicit: it cannot pass the critical packing.
-    const Number dilation = (parameters_.dilatancy * parameters_.reference_packing) * slip;
-    point.history.expansion = select(touch, (touching + dilation) / (1.0 + dilation / critical_volume), touching) - 1.0;
-    const double healing = time_step / parameters_.healing_time;
-    point.history.contacts =
-        select(touch, (old.history.contacts + healing) / (1.0 + healing + (1 / parameters_.breaking_strain) * slip),
-               Number(0.0));
-    return point;
+    const CriticalStatePoint<Number> point =
+        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts}, velocity_gradient, density,
+                time_step);
+    return {point.stress, {point.expansion, point.contacts}};
   }
+  const CriticalStateCoefficients& coefficients() const { return coefficients_; }
 
   /// c = ((K + 4G/3)/rho_b)^(1/2), m/s.
   double sound_speed(double density) const;
   /// Any dry beads, up to that inertial number.
-  LawRange range() const { return {.largest_inertial_number = largest_inertial_number}; }
+  LawRange range() const { return {.largest_inertial_number = CriticalStateCoefficients::largest_inertial_number}; }
   const Parameters& parameters() const { return parameters_; }
 
  private:
-  static constexpr double sqrt2 = 1.4142135623730951;
-  static constexpr double tiny = 1e-30;
-  static constexpr double largest_inertial_number = 0.3;  // to which the packing is known to fall in proportion
-
   Parameters parameters_;
-  double reference_density_;  // kg/m^3
-  double largest_volume_;     // at phi_min
-  double grain_inertia_;      // (2 rho_p)^(1/2) d: I over |D_dev| p^(-1/2)
+  CriticalStateCoefficients coefficients_;
 };
 
 static_assert(ConstitutiveLaw<CriticalState>);

@@ -52,6 +52,34 @@ TEST(Figure, PutsPanelsInAGrid) {
   EXPECT_NEAR(a.x, c.x, 1);
 }
 
+TEST(Figure, OneColourBarAndOneKeyStandRightOfAllPanels) {
+  const Figure plain{.panels = {with_line(blue), with_line(vermillion)}, .columns = 1, .width = 300};
+  Figure with = plain;
+  with.bar = ColourBar{.low = 0, .high = 1, .title = "packing"};
+  with.key = ArrowKey{.label = "1 m/s", .length = 20, .colour = purple};
+  const Picture alone = decode(png(plain)), both = decode(png(with));
+  const Rectangle before = where(alone, blue), line = where(both, blue), key = where(both, purple),
+                  brightest = where(both, colour_at(1)), other = where(both, vermillion);
+  EXPECT_LT(line.right(), before.right());
+  EXPECT_GT(brightest.x, std::max(line.right(), other.right()));
+  EXPECT_GT(key.x, other.right());
+  EXPECT_GT(key.y, brightest.bottom());
+  EXPECT_NEAR(key.width, 40, 8);
+}
+
+TEST(Figure, PixelsAreThoseOfThePng) {
+  const Figure figure{.panels = {with_line(blue)}, .width = 150, .scale = 1.5};
+  const Picture picture = decode(png(figure));
+  const Pixels raw = pixels(figure);
+  ASSERT_EQ(raw.width, picture.width);
+  ASSERT_EQ(raw.height, picture.height);
+  ASSERT_EQ(raw.bytes.size(), 4u * picture.pixels.size());
+  for (std::size_t n = 0; n < picture.pixels.size(); ++n) {
+    const auto at = [&](std::size_t k) { return static_cast<unsigned char>(raw.bytes[4 * n + k]) / 255.0; };
+    ASSERT_NEAR(difference({at(2), at(1), at(0)}, picture.pixels[n]), 0, 1e-9) << n;
+  }
+}
+
 TEST(Figure, RowsMayDifferInTheirColumns) {
   const Picture picture =
       decode(png({.panels = {with_line(blue), with_line(vermillion), with_line(green)}, .rows = {1, 2}, .width = 400}));

@@ -199,6 +199,18 @@ TEST(ParticlePicture, ArrowsPointAlongTheirVectors) {
   EXPECT_EQ(up.at(50, 70), white);
 }
 
+TEST(ParticlePicture, ArrowsMayBeginElsewhere) {
+  Scene scene({{0.5, 0.5, 0}}, {0.05});
+  const std::vector<Vector3> places = {{0.2, 0.8, 0}, {0.2, 0.2, 0}}, velocities = {{2, 0, 0}, {2, 0, 0}};
+  scene.picture.colouring = Plain{white};
+  scene.picture.arrows = Arrows{.values = velocities, .positions = places, .length = 20, .colour = vermillion};
+  const Picture picture = scene.drawn();
+  for (const int y : {20, 80}) EXPECT_LT(difference(picture.at(57, y), vermillion), 0.15) << y;
+  EXPECT_EQ(picture.at(80, 50), white);
+  scene.picture.arrows->positions = std::span(places).first(1);
+  EXPECT_THROW(check(scene.picture), std::invalid_argument);
+}
+
 TEST(ParticlePicture, ArrowsAreThinnedWhereTheyCrowd) {
   std::vector<Vector3> positions, velocities;
   for (int i = 0; i < 400; ++i) positions.push_back({0.8 + 0.0004 * i, 0.5, 0}), velocities.push_back({0, 1, 0});

@@ -71,11 +71,11 @@ TEST(Material, EveryInstructionSetHasTheSameBits) {
     for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = points.old.stress[c].data();
     for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
     for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = points.gradient.component[c].data();
-    for (std::size_t k = 0; k < 2; ++k) columns.history[k] = points.old.history[k].data();
-    for (std::size_t k = 0; k < 2; ++k) columns.next_history[k] = next.history[k].data();
+    columns.expansion = points.old.history[0].data(), columns.contacts = points.old.history[1].data();
+    columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
     columns.density = points.density.data();
     columns.time_step = 1e-5;
-    update(law, columns, 0, end);
+    update(law.coefficients(), columns, 0, end);
     found.push_back(next);
   }
   for (const MaterialColumns& other : found) {

@@ -387,16 +387,22 @@ class View {
 function connectTheme(onChange) {
   const themes = ["system", "light", "dark"];
   const button = by("theme");
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  const root = document.documentElement.dataset;
   const apply = (theme) => {
-    document.documentElement.dataset.theme = theme;
+    root.theme = theme;
+    root.palette = theme === "system" ? (system.matches ? "dark" : "light") : theme;
     button.textContent = { system: "Auto", light: "Light", dark: "Dark" }[theme];
   };
   apply("system");
   button.addEventListener("click", () => {
-    apply(themes[(themes.indexOf(document.documentElement.dataset.theme) + 1) % themes.length]);
+    apply(themes[(themes.indexOf(root.theme) + 1) % themes.length]);
     onChange();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", onChange);
+  system.addEventListener("change", () => {
+    apply(root.theme);
+    onChange();
+  });
 }
 
 function drawHead() {

@@ -13,18 +13,20 @@ constexpr std::size_t most_chunks = 16;
 
 }  // namespace
 
-Extent extent_of(ThreadTeam& team, std::span<const Vector3> position, std::array<double Vector3::*, 2> axis) {
+Extent extent_of(ThreadTeam& team, std::span<const Vector3> position, const Axes& axis, std::size_t dimensions) {
+  Extent initial;
+  for (std::size_t k = dimensions; k < 3; ++k) initial.least[k] = initial.most[k] = 0;
   return accumulate(
-      team, position.size(), Extent{},
+      team, position.size(), initial,
       [&](std::size_t i, Extent& extent) {
-        for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t k = 0; k < dimensions; ++k) {
           const double x = position[i].*axis[k];
           extent.least[k] = std::min(extent.least[k], x), extent.most[k] = std::max(extent.most[k], x);
           extent.finite = extent.finite && std::isfinite(x);
         }
       },
       [](Extent a, const Extent& b) {
-        for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
           a.least[k] = std::min(a.least[k], b.least[k]), a.most[k] = std::max(a.most[k], b.most[k]);
         }
         a.finite = a.finite && b.finite;
@@ -32,29 +34,35 @@ Extent extent_of(ThreadTeam& team, std::span<const Vector3> position, std::array
       });
 }
 
-Lattice lattice_over(const Extent& extent, std::array<double Vector3::*, 2> axis, double cell) {
-  const bool turned = extent.most[0] - extent.least[0] > extent.most[1] - extent.least[1];
+Lattice lattice_over(const Extent& extent, const Axes& axis, std::size_t dimensions, double cell) {
+  std::array<std::size_t, 3> from = {0, 1, 2};
+  std::stable_sort(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(dimensions),
+                   [&](std::size_t k, std::size_t l) {
+                     return extent.most[k] - extent.least[k] < extent.most[l] - extent.least[l];
+                   });
   Lattice lattice{.per_length = 1 / cell};
-  std::array<double, 2> count{};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t from = turned ? 1 - k : k;
-    lattice.axis[k] = axis[from];
-    lattice.origin[k] = std::floor(extent.least[from] * lattice.per_length);
-    count[k] = std::floor(extent.most[from] * lattice.per_length - lattice.origin[k]) + 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    lattice.axis[k] = axis[from[k]];
+    if (k >= dimensions) continue;
+    lattice.origin[k] = std::floor(extent.least[from[k]] * lattice.per_length);
+    const double count = std::floor(extent.most[from[k]] * lattice.per_length - lattice.origin[k]) + 1;
+    lattice.count[k] = static_cast<std::size_t>(std::min(count, 1e12));
   }
-  lattice.columns = static_cast<std::size_t>(std::min(count[0], 1e12));
-  lattice.rows = static_cast<std::size_t>(std::min(count[1], 1e12));
   return lattice;
 }
 
 void Cells::sort(ThreadTeam& team, const Lattice& lattice, std::span<const Vector3> position,
                  std::span<const std::uint32_t> order) {
   lattice_ = lattice;
-  const std::size_t count = order.size(), rows = lattice.rows, columns = lattice.columns;
+  const std::size_t count = order.size(), rows = lattice.all_rows(), columns = lattice.columns();
   const std::size_t chunks = std::clamp<std::size_t>(count / chunk_of_spheres, 1, most_chunks);
   const auto begin_of = [&](std::size_t chunk) { return count * chunk / chunks; };
   const auto cell_along = [&](std::size_t k, std::uint32_t i) {
     return static_cast<std::uint32_t>(lattice.cells_along(k, position[i]));
+  };
+  const auto row_of = [&](std::uint32_t i) {
+    const std::uint32_t row = cell_along(1, i);
+    return lattice.layers() == 1 ? row : cell_along(2, i) * static_cast<std::uint32_t>(lattice.rows()) + row;
   };
   row_.resize(count), by_row_.resize(count), sphere_.resize(count);
   counts_.assign(chunks * rows, 0);
@@ -63,7 +71,7 @@ void Cells::sort(ThreadTeam& team, const Lattice& lattice, std::span<const Vecto
   // By rows: the chunks count, then place, each its own.
   team.run(chunks, [&](std::size_t chunk) {
     for (std::size_t n = begin_of(chunk); n < begin_of(chunk + 1); ++n) {
-      row_[n] = cell_along(1, order[n]);
+      row_[n] = row_of(order[n]);
       ++counts_[chunk * rows + row_[n]];
     }
   });

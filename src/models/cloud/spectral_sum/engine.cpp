@@ -17,45 +17,31 @@ namespace {
 
 using hydrodynamics::Mobility;
 
-constexpr std::size_t strip = 4;           // rows of cells that are spread together: more nodes than a spline has
+constexpr std::size_t strip = 4;  // cells that are spread together in a direction: more nodes than a spline has
 constexpr std::size_t targets_wanted = 4;  // of a block of cells: gathering their neighbours is shared
 
-template <class T>
-SumNear<T> choose(InstructionSet set, Mobility mobility, int degree) {
-  constexpr bool single = sizeof(T) == sizeof(float);
-  if constexpr (single) {
-    switch (set) {
+template <class T, int dimensions>
+SumNear<T, dimensions> choose(InstructionSet set, Mobility mobility, int degree) {
+  switch (set) {
 #if defined(__x86_64__)
-      case InstructionSet::avx512:
-        return sum_near_avx512(mobility, degree);
-      case InstructionSet::avx2:
-        return sum_near_avx2(mobility, degree);
+    case InstructionSet::avx512:
+      return sum_near_avx512<T, dimensions>(mobility, degree);
+    case InstructionSet::avx2:
+      return sum_near_avx2<T, dimensions>(mobility, degree);
 #endif
-      default:
-        return sum_near_portable(mobility, degree);
-    }
-  } else {
-    switch (set) {
-#if defined(__x86_64__)
-      case InstructionSet::avx512:
-        return sum_near_double_avx512(mobility, degree);
-      case InstructionSet::avx2:
-        return sum_near_double_avx2(mobility, degree);
-#endif
-      default:
-        return sum_near_double_portable(mobility, degree);
-    }
+    default:
+      return sum_near_portable<T, dimensions>(mobility, degree);
   }
 }
 
 /// Lengths in units of the cut-off. A cell is half of it.
-template <class T, int points>
+template <class T, int points, int dimensions>
 class EngineOf final : public SpectralSum::Engine {
  public:
   EngineOf(const SpectralSum::Options& options_, const SpectralAccuracy& accuracy_, std::span<const double> radius_)
       : Engine(options_, accuracy_, radius_),
         convolution_(accuracy_, deviations),
-        sum_near_(choose<T>(resolve(options_.instruction_set), options_.mobility, accuracy_.degree)) {
+        sum_near_(choose<T, dimensions>(resolve(options_.instruction_set), options_.mobility, accuracy_.degree)) {
     for (const double c : Split(accuracy_.beta, accuracy_.order).polynomials(accuracy_.degree))
       polynomial_.push_back(static_cast<T>(c));
   }
@@ -63,18 +49,25 @@ class EngineOf final : public SpectralSum::Engine {
   void velocities(ThreadTeam& team, const Lattice& lattice, std::span<const Vector3> position,
                   std::span<const Vector3> force, std::span<Vector3> velocity) override {
     cells_.sort(team, lattice, position, order);
-    convolution_.prepare(team, nodes_along(lattice.columns, accuracy), nodes_along(lattice.rows, accuracy),
-                         mean_size / (cutoff * cutoff));
+    std::array<std::size_t, 3> nodes = {1, 1, 1};
+    for (std::size_t k = 0; k < dimensions; ++k) nodes[k] = nodes_along(lattice.count[k], accuracy);
+    convolution_.prepare(team, nodes, mean_size / (cutoff * cutoff));
     pack(team, position, force);
-    // What a strip of cells is spread over reaches into the next ones by less than a strip: every other one at a time.
-    const std::size_t strips = (lattice.rows + strip - 1) / strip;
-    for (const std::size_t parity : {0, 1})
-      team.run((strips + 1 - parity) / 2, [&](std::size_t n) { spread(2 * n + parity); });
+    // What a strip of rows and layers is spread over reaches into the next ones by less than a strip: every other one
+    // at a time.
+    const std::size_t strips = (lattice.rows() + strip - 1) / strip, slabs = (lattice.layers() + strip - 1) / strip;
+    for (const std::size_t odd_slab : {0, 1})
+      for (const std::size_t odd_strip : {0, 1}) {
+        const std::size_t across = (strips + 1 - odd_strip) / 2;
+        team.run(across * ((slabs + 1 - odd_slab) / 2),
+                 [&](std::size_t n) { spread(2 * (n % across) + odd_strip, 2 * (n / across) + odd_slab); });
+      }
     convolution_.apply(team);
-    const std::size_t tasks = std::min<std::size_t>(lattice.rows, 16 * static_cast<std::size_t>(team.size()));
+    const std::size_t rows = lattice.all_rows();
+    const std::size_t tasks = std::min<std::size_t>(rows, 16 * static_cast<std::size_t>(team.size()));
     space_.resize(std::max(space_.size(), tasks));
     team.run(tasks, [&](std::size_t task) {
-      for (std::size_t row = lattice.rows * task / tasks; row < lattice.rows * (task + 1) / tasks; ++row) {
+      for (std::size_t row = rows * task / tasks; row < rows * (task + 1) / tasks; ++row) {
         add_near(row, space_[task]);
         interpolate(row, velocity);
       }
@@ -82,22 +75,38 @@ class EngineOf final : public SpectralSum::Engine {
   }
 
  private:
-  struct Place {  // of a sphere on the grid: the node at or below it along both axes, and how far it is beyond
-    std::uint32_t node[2];
-    T beyond[2];
+  struct Place {  // of a sphere on the grid: the node at or below it along each axis, and how far it is beyond
+    std::uint32_t node[dimensions];
+    T beyond[dimensions];
+  };
+
+  /// What a sphere is spread over: weights along each axis. In a plane that of the third is 1.
+  struct Weights {
+    static constexpr int layers = dimensions == 2 ? 1 : points;
+    const SplineWeights<T, points> x, y, z;
+    explicit Weights(const Place& place) : x(place.beyond[0]), y(place.beyond[1]), z(place.beyond[dimensions - 1]) {}
+    T layer(int l) const { return dimensions == 2 ? T(1) : z.value[l]; }
   };
 
   void pack(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force);
-  void spread(std::size_t number);
+  void spread(std::size_t strip_of_rows, std::size_t slab_of_layers);
   void interpolate(std::size_t row, std::span<Vector3> velocity) const;
   void add_near(std::size_t row, AlignedArray<T>& space);
   T* column(std::size_t k) { return columns_.data() + k * padded_; }
   const T* column(std::size_t k) const { return columns_.data() + k * padded_; }
+  std::size_t first_node(const Place& place) const {
+    std::size_t at = place.node[1] * convolution_.pitch() + place.node[0];
+    if constexpr (dimensions == 3) at += place.node[2] * convolution_.layer_pitch();
+    return at;
+  }
 
-  enum Column : std::size_t { position_x, position_y, cell, force_x, force_y, size_of, radius_of, near_x, near_y, all };
+  // Columns of numbers: those of vectors hold one for each dimension.
+  static constexpr std::size_t position_of = 0, force_of = dimensions, near_of = 2 * dimensions,
+                               cell_of = 3 * dimensions, size_of = cell_of + 1, radius_of = cell_of + 2,
+                               all_columns = cell_of + 3;
 
-  Convolution<T> convolution_;
-  SumNear<T> sum_near_;
+  Convolution<T, dimensions> convolution_;
+  SumNear<T, dimensions> sum_near_;
   std::vector<T> polynomial_;
   Cells cells_;
   std::size_t padded_ = 0;
@@ -106,127 +115,154 @@ class EngineOf final : public SpectralSum::Engine {
   std::vector<AlignedArray<T>> space_;
 };
 
-template <class T, int points>
-void EngineOf<T, points>::pack(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force) {
+template <class T, int points, int dimensions>
+void EngineOf<T, points, dimensions>::pack(ThreadTeam& team, std::span<const Vector3> position,
+                                           std::span<const Vector3> force) {
   const Lattice& lattice = cells_.lattice();
-  padded_ = position.size();
-  columns_.resize(all * padded_), place_.resize(padded_);
+  padded_ = position.size() + near_padding;  // neighbours are read a register at a time
+  columns_.resize(all_columns * padded_), place_.resize(position.size());
   const double per_force = 1 / (8 * std::numbers::pi * options.viscosity * cutoff);
   const double per_area = 1 / (cutoff * cutoff), per_cutoff = 1 / cutoff;
   const double nodes = 0.5 * accuracy.nodes;  // of the grid in a cell
-  for_each(team, padded_, [&](std::size_t n) {
+  for_each(team, position.size(), [&](std::size_t n) {
     const std::uint32_t i = cells_.sphere()[n];
     Place& place = place_[n];
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < dimensions; ++k) {
       const double x = lattice.cells_along(k, position[i]);
       const auto number = static_cast<std::uint32_t>(x);
       const double inside = x - number, along = x * nodes;
       place.node[k] = static_cast<std::uint32_t>(along);
       place.beyond[k] = static_cast<T>(along - place.node[k]);
-      column(position_x + k)[n] = static_cast<T>(0.5 * inside);
-      if (k == 0) column(cell)[n] = static_cast<T>(number);
-      column(force_x + k)[n] = static_cast<T>(force[i].*lattice.axis[k] * per_force);
+      column(position_of + k)[n] = static_cast<T>(0.5 * inside);
+      if (k == 0) column(cell_of)[n] = static_cast<T>(number);
+      column(force_of + k)[n] = static_cast<T>(force[i].*lattice.axis[k] * per_force);
     }
     column(size_of)[n] = static_cast<T>(size[i] * per_area);
     column(radius_of)[n] = static_cast<T>(radius[i] * per_cutoff);
   });
 }
 
-template <class T, int points>
-void EngineOf<T, points>::spread(std::size_t number) {
+template <class T, int points, int dimensions>
+void EngineOf<T, points, dimensions>::spread(std::size_t strip_of_rows, std::size_t slab_of_layers) {
   const Lattice& lattice = cells_.lattice();
-  const std::size_t end = cells_.first(std::min((number + 1) * strip, lattice.rows) - 1, lattice.columns);
-  const T mean = static_cast<T>(size_offset / (cutoff * cutoff)), per_spacing = static_cast<T>(accuracy.nodes);
-  const T *const f_x = column(force_x), *const f_y = column(force_y), *const s = column(size_of);
-  T *const field_x = convolution_.field(0), *const field_y = convolution_.field(1);
-  T* const field_s = deviations.sources ? convolution_.field(2) : nullptr;
-  const std::size_t pitch = convolution_.pitch();
-  for (std::size_t n = cells_.first(number * strip, 0); n < end; ++n) {
-    const Place& place = place_[n];
-    const SplineWeights<T, points> x(place.beyond[0]), y(place.beyond[1]);
-    T along[points], gradient_x[points], gradient_y[points];
-    const T deviation = deviations.sources ? (s[n] - mean) * per_spacing : T(0);
-    for (int k = 0; k < points; ++k) along[k] = x.value[k];
-    for (int k = 0; k < points; ++k) gradient_x[k] = deviation * f_x[n] * x.slope[k];
-    for (int k = 0; k < points; ++k) gradient_y[k] = deviation * f_y[n] * x.value[k];
-    for (int j = 0; j < points; ++j) {
-      const std::size_t at = (place.node[1] + static_cast<std::size_t>(j)) * pitch + place.node[0];
-      T *const row_x = field_x + at, *const row_y = field_y + at;
-      const T to_x = f_x[n] * y.value[j], to_y = f_y[n] * y.value[j];
-      for (int k = 0; k < points; ++k) row_x[k] += to_x * along[k];
-      for (int k = 0; k < points; ++k) row_y[k] += to_y * along[k];
-      if (!deviations.sources) continue;
-      T* const row_s = field_s + at;
-      for (int k = 0; k < points; ++k) row_s[k] += gradient_x[k] * y.value[j] + gradient_y[k] * y.slope[j];
-    }
-  }
-}
-
-template <class T, int points>
-void EngineOf<T, points>::interpolate(std::size_t row, std::span<Vector3> velocity) const {
-  const Lattice& lattice = cells_.lattice();
-  const T *const field_x = convolution_.field(0), *const field_y = convolution_.field(1);
-  const T* const field_s = deviations.targets ? convolution_.field(2) : nullptr;
-  const std::size_t pitch = convolution_.pitch();
   const T mean = static_cast<T>(size_offset / (cutoff * cutoff)), per_spacing = static_cast<T>(accuracy.nodes);
   const T* const s = column(size_of);
-  for (std::size_t n = cells_.first(row, 0); n < cells_.first(row, lattice.columns); ++n) {
-    const Place& place = place_[n];
-    const SplineWeights<T, points> x(place.beyond[0]), y(place.beyond[1]);
-    T sum_x[points] = {}, sum_y[points] = {}, value[points] = {}, slope[points] = {};
-    for (int j = 0; j < points; ++j) {
-      const std::size_t at = (place.node[1] + static_cast<std::size_t>(j)) * pitch + place.node[0];
-      const T *const row_x = field_x + at, *const row_y = field_y + at;
-      for (int k = 0; k < points; ++k) sum_x[k] += y.value[j] * row_x[k];
-      for (int k = 0; k < points; ++k) sum_y[k] += y.value[j] * row_y[k];
-      if (!deviations.targets) continue;
-      const T* const row_s = field_s + at;
-      for (int k = 0; k < points; ++k) value[k] += y.value[j] * row_s[k];
-      for (int k = 0; k < points; ++k) slope[k] += y.slope[j] * row_s[k];
+  const std::size_t pitch = convolution_.pitch(), layer_pitch = convolution_.layer_pitch();
+  const std::size_t field_pitch = convolution_.field_pitch();
+  T* const fields = convolution_.fields();
+  const std::size_t begin_row = strip_of_rows * strip, end_row = std::min(begin_row + strip, lattice.rows());
+  const std::size_t begin_layer = slab_of_layers * strip, end_layer = std::min(begin_layer + strip, lattice.layers());
+  for (std::size_t layer = begin_layer; layer < end_layer; ++layer) {
+    const std::size_t rows_before = layer * lattice.rows();
+    const std::size_t end = cells_.first(rows_before + end_row - 1, lattice.columns());
+    for (std::size_t n = cells_.first(rows_before + begin_row, 0); n < end; ++n) {
+      const Weights w(place_[n]);
+      const std::size_t at = first_node(place_[n]);
+      const T deviation = deviations.sources ? (s[n] - mean) * per_spacing : T(0);
+      T f[dimensions];
+      for (int k = 0; k < dimensions; ++k) f[k] = column(force_of + static_cast<std::size_t>(k))[n];
+      for (int l = 0; l < w.layers; ++l)
+        for (int j = 0; j < points; ++j) {
+          T* row = fields + at + static_cast<std::size_t>(l) * layer_pitch + static_cast<std::size_t>(j) * pitch;
+          const T across = w.y.value[j] * w.layer(l);
+          for (int k = 0; k < dimensions; ++k, row += field_pitch) {
+            const T to = f[k] * across;
+            for (int i = 0; i < points; ++i) row[i] += to * w.x.value[i];
+          }
+          if (!deviations.sources) continue;
+          const T by_slope = deviation * f[0] * across;
+          T by_value = deviation * f[1] * w.y.slope[j] * w.layer(l);
+          if constexpr (dimensions == 3) by_value += deviation * f[2] * w.y.value[j] * w.z.slope[l];
+          for (int i = 0; i < points; ++i) row[i] += by_slope * w.x.slope[i] + by_value * w.x.value[i];
+        }
     }
-    T v_x = column(near_x)[n], v_y = column(near_y)[n];
-    for (int k = 0; k < points; ++k) v_x += x.value[k] * sum_x[k], v_y += x.value[k] * sum_y[k];
-    if (deviations.targets) {
-      const T deviation = (s[n] - mean) * per_spacing;
-      for (int k = 0; k < points; ++k)
-        v_x -= deviation * x.slope[k] * value[k], v_y -= deviation * x.value[k] * slope[k];
-    }
-    Vector3& v = velocity[cells_.sphere()[n]];
-    v = Vector3{};
-    v.*lattice.axis[0] = v_x, v.*lattice.axis[1] = v_y;
   }
 }
 
-template <class T, int points>
-void EngineOf<T, points>::add_near(std::size_t row, AlignedArray<T>& space) {
+template <class T, int points, int dimensions>
+void EngineOf<T, points, dimensions>::interpolate(std::size_t row, std::span<Vector3> velocity) const {
   const Lattice& lattice = cells_.lattice();
-  const SortedSpheres<T> spheres{.position = {column(position_x), column(position_y)},
-                                 .cell = column(cell),
-                                 .force = {column(force_x), column(force_y)},
-                                 .size = column(size_of),
-                                 .radius = column(radius_of)};
-  T* const sums[2] = {column(near_x), column(near_y)};
-  constexpr std::size_t reach = near_rows / 2;
-  for (std::size_t begin = 0, end; begin < lattice.columns; begin = end) {
-    NearBlock<T> block;
+  const std::size_t pitch = convolution_.pitch(), layer_pitch = convolution_.layer_pitch();
+  const std::size_t field_pitch = convolution_.field_pitch();
+  const T mean = static_cast<T>(size_offset / (cutoff * cutoff)), per_spacing = static_cast<T>(accuracy.nodes);
+  const T *const s = column(size_of), *const fields = convolution_.fields();
+  for (std::size_t n = cells_.first(row, 0); n < cells_.first(row, lattice.columns()); ++n) {
+    const Weights w(place_[n]);
+    const std::size_t at = first_node(place_[n]);
+    T sum[dimensions][points] = {}, value[points] = {}, slope_y[points] = {}, slope_z[points] = {};
+    for (int l = 0; l < w.layers; ++l)
+      for (int j = 0; j < points; ++j) {
+        const T* from = fields + at + static_cast<std::size_t>(l) * layer_pitch + static_cast<std::size_t>(j) * pitch;
+        const T across = w.y.value[j] * w.layer(l);
+        for (int k = 0; k < dimensions; ++k, from += field_pitch)
+          for (int i = 0; i < points; ++i) sum[k][i] += across * from[i];
+        if (!deviations.targets) continue;
+        const T by_y = w.y.slope[j] * w.layer(l), by_z = dimensions == 3 ? w.y.value[j] * w.z.slope[l] : T(0);
+        for (int i = 0; i < points; ++i) value[i] += across * from[i];
+        for (int i = 0; i < points; ++i) slope_y[i] += by_y * from[i];
+        if constexpr (dimensions == 3)
+          for (int i = 0; i < points; ++i) slope_z[i] += by_z * from[i];
+      }
+    T v[dimensions];
+    for (int k = 0; k < dimensions; ++k) {
+      v[k] = column(near_of + static_cast<std::size_t>(k))[n];
+      for (int i = 0; i < points; ++i) v[k] += w.x.value[i] * sum[k][i];
+    }
+    if (deviations.targets) {
+      const T deviation = (s[n] - mean) * per_spacing;
+      for (int i = 0; i < points; ++i) {
+        v[0] -= deviation * w.x.slope[i] * value[i], v[1] -= deviation * w.x.value[i] * slope_y[i];
+        if constexpr (dimensions == 3) v[2] -= deviation * w.x.value[i] * slope_z[i];
+      }
+    }
+    Vector3& result = velocity[cells_.sphere()[n]];
+    result = Vector3{};
+    for (std::size_t k = 0; k < dimensions; ++k) result.*lattice.axis[k] = v[k];
+  }
+}
+
+template <class T, int points, int dimensions>
+void EngineOf<T, points, dimensions>::add_near(std::size_t row, AlignedArray<T>& space) {
+  const Lattice& lattice = cells_.lattice();
+  SortedSpheres<T, dimensions> spheres{.cell = column(cell_of), .size = column(size_of), .radius = column(radius_of)};
+  T* sums[dimensions];
+  for (std::size_t k = 0; k < dimensions; ++k)
+    spheres.position[k] = column(position_of + k), spheres.force[k] = column(force_of + k),
+    sums[k] = column(near_of + k);
+  constexpr std::size_t reach = near_reach, rows = near_rows(dimensions);
+  const std::size_t in_layer = row % lattice.rows(), layer = row / lattice.rows();
+  for (std::size_t begin = 0, end; begin < lattice.columns(); begin = end) {
+    NearBlock<T, dimensions> block;
     block.first = cells_.first(row, begin);
-    for (end = begin + 1; end < lattice.columns && end < begin + 8; ++end)
+    for (end = begin + 1; end < lattice.columns() && end < begin + 8; ++end)
       if (cells_.first(row, end) - block.first >= targets_wanted) break;
     block.last = cells_.first(row, end);
     if (block.first == block.last) continue;
     block.first_cell = static_cast<T>(begin);
     std::size_t count = 0;
-    for (std::size_t k = 0; k < near_rows; ++k) {
-      if (row + k < reach || row + k - reach >= lattice.rows) continue;
-      block.begin[k] = cells_.first(row + k - reach, begin < reach ? 0 : begin - reach);
-      block.end[k] = cells_.first(row + k - reach, std::min(end + reach, lattice.columns));
+    for (std::size_t k = 0; k < rows; ++k) {
+      // Moved up by the reach, so as not to be negative.
+      const std::size_t of_layer = in_layer + k % 5, of_layers = layer + (dimensions == 2 ? reach : k / 5);
+      if (of_layer < reach || of_layer - reach >= lattice.rows()) continue;
+      if (of_layers < reach || of_layers - reach >= lattice.layers()) continue;
+      const std::size_t other = (of_layers - reach) * lattice.rows() + (of_layer - reach);
+      block.begin[k] = cells_.first(other, begin < reach ? 0 : begin - reach);
+      block.end[k] = cells_.first(other, std::min(end + reach, lattice.columns()));
       count += block.end[k] - block.begin[k];
     }
     // Grown by half: the task's room settles after a few blocks.
-    const std::size_t needed = near_columns * (count + 2 * near_padding);
+    const std::size_t needed = near_columns(dimensions) * (count + 2 * near_padding);
     if (space.size() < needed) space = AlignedArray<T>(needed + needed / 2);
     sum_near_(spheres, block, polynomial_.data(), space.data(), sums);
   }
+}
+
+template <int dimensions>
+std::unique_ptr<SpectralSum::Engine> make(const SpectralSum::Options& options, const SpectralAccuracy& accuracy,
+                                          std::span<const double> radius) {
+  if (accuracy.points == 4) return std::make_unique<EngineOf<float, 4, dimensions>>(options, accuracy, radius);
+  if (accuracy.points == 6) return std::make_unique<EngineOf<float, 6, dimensions>>(options, accuracy, radius);
+  return std::make_unique<EngineOf<double, 8, dimensions>>(options, accuracy, radius);
 }
 
 }  // namespace
@@ -234,9 +270,11 @@ void EngineOf<T, points>::add_near(std::size_t row, AlignedArray<T>& space) {
 SpectralSum::Engine::Engine(const Options& options_, const SpectralAccuracy& accuracy_, std::span<const double> radius_)
     : options(options_),
       accuracy(accuracy_),
-      axis({&Vector3::x, options_.motion == Motion::xz ? &Vector3::z : &Vector3::y}),
+      directions(options_.motion == Motion::xyz ? 3 : 2),
+      axis({&Vector3::x, &Vector3::y, &Vector3::z}),
       radius(radius_.begin(), radius_.end()),
       order(radius_.size()) {
+  if (options.motion == Motion::xz) std::swap(axis[1], axis[2]);
   const bool both = options.mobility == Mobility::zuk_2014;
   double sum = 0;
   for (const double a : radius)
@@ -251,9 +289,7 @@ SpectralSum::Engine::Engine(const Options& options_, const SpectralAccuracy& acc
 
 std::unique_ptr<SpectralSum::Engine> make_engine(const SpectralSum::Options& options, const SpectralAccuracy& accuracy,
                                                  std::span<const double> radius) {
-  if (accuracy.points == 4) return std::make_unique<EngineOf<float, 4>>(options, accuracy, radius);
-  if (accuracy.points == 6) return std::make_unique<EngineOf<float, 6>>(options, accuracy, radius);
-  return std::make_unique<EngineOf<double, 8>>(options, accuracy, radius);
+  return options.motion == Motion::xyz ? make<3>(options, accuracy, radius) : make<2>(options, accuracy, radius);
 }
 
 }  // namespace talus::cloud

@@ -21,7 +21,8 @@ class SpectralSum::Engine {
 
   Options options;
   SpectralAccuracy accuracy;
-  std::array<double Vector3::*, 2> axis;
+  std::size_t directions;  ///< in which spheres move: 2 or 3
+  Axes axis;
   std::vector<double> radius;
   std::vector<double> size;  ///< m^2: what a sphere contributes to the finite size of a pair
   double mean_size = 0;      ///< m^2, of a pair

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <type_traits>
+#include <vector>
 
 namespace talus::cloud {
 
@@ -72,11 +73,12 @@ Transform<T> Transform<T>::from_spectrum(std::size_t size, T* row) {
 }
 
 template <class T>
-Transform<T> Transform<T>::of_columns(std::size_t size, std::size_t width, std::complex<T>* columns, bool backward) {
+Transform<T> Transform<T>::of_columns(std::size_t size, std::size_t width, std::complex<T>* from, std::complex<T>* to,
+                                      bool backward) {
   const std::lock_guard lock(planner());
   const int n = static_cast<int>(size), count = static_cast<int>(width);
-  auto* const data = complex_of(reinterpret_cast<T*>(columns));
-  return Transform(made(Fftw<T>::plan_many(1, &n, count, data, nullptr, count, 1, data, nullptr, count, 1,
+  return Transform(made(Fftw<T>::plan_many(1, &n, count, complex_of(reinterpret_cast<T*>(from)), nullptr, count, 1,
+                                           complex_of(reinterpret_cast<T*>(to)), nullptr, count, 1,
                                            backward ? FFTW_BACKWARD : FFTW_FORWARD, FFTW_ESTIMATE)));
 }
 
@@ -91,20 +93,26 @@ void Transform<T>::to_real(T* row) const {
 }
 
 template <class T>
-void Transform<T>::of_complex(std::complex<T>* columns) const {
-  auto* const data = complex_of(reinterpret_cast<T*>(columns));
-  Fftw<T>::execute_complex(as_plan<T>(plan_.get()), data, data);
+void Transform<T>::of_complex(std::complex<T>* from, std::complex<T>* to) const {
+  Fftw<T>::execute_complex(as_plan<T>(plan_.get()), complex_of(reinterpret_cast<T*>(from)),
+                           complex_of(reinterpret_cast<T*>(to)));
 }
 
 template class Transform<float>;
 template class Transform<double>;
 
-void transform_quarter(double* quarter, std::size_t columns, std::size_t rows, bool odd_x, bool odd_y) {
+void transform_part(double* part, const std::array<std::size_t, 3>& count, const std::array<bool, 3>& odd) {
+  std::vector<int> size;
+  std::vector<fftw_r2r_kind> kind;
+  for (std::size_t k = 3; k-- > 0;) {
+    if (count[k] == 1 && !odd[k]) continue;
+    size.push_back(static_cast<int>(count[k]));
+    kind.push_back(odd[k] ? FFTW_RODFT00 : FFTW_REDFT00);
+  }
   fftw_plan plan = nullptr;
   {
     const std::lock_guard lock(planner());
-    plan = fftw_plan_r2r_2d(static_cast<int>(rows), static_cast<int>(columns), quarter, quarter,
-                            odd_y ? FFTW_RODFT00 : FFTW_REDFT00, odd_x ? FFTW_RODFT00 : FFTW_REDFT00, FFTW_ESTIMATE);
+    plan = fftw_plan_r2r(static_cast<int>(size.size()), size.data(), part, part, kind.data(), FFTW_ESTIMATE);
     made(plan);
   }
   fftw_execute(plan);

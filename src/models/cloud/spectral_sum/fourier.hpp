@@ -4,6 +4,7 @@
 /// threads at once, each on arrays of its own that are aligned as AlignedArray.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <memory>
@@ -41,12 +42,14 @@ class Transform {
   /// Of a row of numbers, in place: size + 2 of them.
   static Transform to_spectrum(std::size_t size, T* row);
   static Transform from_spectrum(std::size_t size, T* row);
-  /// Of `width` columns side by side, in place.
-  static Transform of_columns(std::size_t size, std::size_t width, std::complex<T>* columns, bool backward);
+  /// Of `width` columns side by side, from one array to another: in place FFTW's estimate takes buffered plans, which
+  /// allocate at each execution.
+  static Transform of_columns(std::size_t size, std::size_t width, std::complex<T>* from, std::complex<T>* to,
+                              bool backward);
 
   void to_complex(T* row) const;
   void to_real(T* row) const;
-  void of_complex(std::complex<T>* columns) const;
+  void of_complex(std::complex<T>* from, std::complex<T>* to) const;  ///< `from` is kept
 
  private:
   struct Release {
@@ -56,9 +59,10 @@ class Transform {
   std::unique_ptr<void, Release> plan_;
 };
 
-/// In place, the cosine or (odd) sine transforms along both directions of a quarter of a function on a doubled grid:
-/// what its Fourier transform is, up to -i for each odd direction. Even: from the middle to the seam, both included;
-/// odd: both, where the function is 0, left out. \param columns of the quarter, along which its numbers follow
-void transform_quarter(double* quarter, std::size_t columns, std::size_t rows, bool odd_x, bool odd_y);
+/// In place, the cosine or (odd) sine transforms along every direction of the part, a quarter or an octant, of a
+/// function on a doubled grid in which no coordinate is negative: what its Fourier transform is, up to -i for each odd
+/// direction. Even: from the middle to the seam, both included; odd: both, where the function is 0, left out; of one
+/// number: none. \param count of numbers along each direction, those along the first following each other
+void transform_part(double* part, const std::array<std::size_t, 3>& count, const std::array<bool, 3>& odd);
 
 }  // namespace talus::cloud

@@ -15,45 +15,64 @@ inline namespace TALUS_INSTRUCTION_SET {
 using hydrodynamics::Mobility;
 using hydrodynamics::PairMobility;
 
+template <int dimensions, class Number, class Vector>
+TALUS_INLINE Number dot(const Number* u, const Vector* v) {
+  Number sum = u[dimensions - 1] * v[dimensions - 1];
+  TALUS_UNROLL for (int k = dimensions - 2; k >= 0; --k) sum = multiply_add(u[k], v[k], sum);
+  return sum;
+}
+
 /// The spheres that a block's targets may be near, gathered: places relative to the block's first cell. Left out is
-/// what lies beyond the cut-off of the rectangle around the targets.
-template <class T>
+/// what lies beyond the cut-off of the box around the targets.
+template <class T, int dimensions>
 struct Neighbours {
   using Column = SimdVector<T>;
-  T *x, *y, *force_x, *force_y, *size, *radius, *number;
+  using Spheres = SortedSpheres<T, dimensions>;
+  using Block = NearBlock<T, dimensions>;
+  static constexpr std::size_t rows = near_rows(dimensions);
+  T *position[dimensions], *force[dimensions], *size, *radius, *number;
   std::size_t count = 0;  ///< a multiple of the lanes of a register
 
-  TALUS_INLINE Neighbours(const SortedSpheres<T>& spheres, const NearBlock<T>& block, T* space) {
+  TALUS_INLINE Neighbours(const Spheres& spheres, const Block& block, T* space) {
     std::size_t capacity = near_padding;
-    for (int row = 0; row < near_rows; ++row) capacity += block.end[row] - block.begin[row];
+    for (std::size_t row = 0; row < rows; ++row) capacity += block.end[row] - block.begin[row];
     capacity = (capacity + near_padding - 1) / near_padding * near_padding;
-    T** const columns[] = {&x, &y, &force_x, &force_y, &size, &radius, &number};
-    for (std::size_t k = 0; k < near_columns; ++k) *columns[k] = space + k * capacity;
+    for (int k = 0; k < dimensions; ++k)
+      position[k] = space + k * capacity, force[k] = position[k] + dimensions * capacity;
+    size = space + 2 * dimensions * capacity, radius = size + capacity, number = radius + capacity;
 
-    T left = 100, right = -100, low = 100, high = -100;
-    for (std::size_t n = block.first; n < block.last; ++n) {
-      const T x_n = x_of(spheres, block, n), y_n = spheres.position[1][n];
-      left = minimum(left, x_n), right = maximum(right, x_n), low = minimum(low, y_n), high = maximum(high, y_n);
+    Column low[dimensions], high[dimensions];
+    for (int k = 0; k < dimensions; ++k) {
+      T least = 100, most = -100;
+      for (std::size_t n = block.first; n < block.last; ++n) {
+        const T x = place_of(spheres, block, k, n);
+        least = minimum(least, x), most = maximum(most, x);
+      }
+      low[k] = Column(least), high[k] = Column(most);
     }
-    const Column to_left(left), to_right(right), to_low(low), to_high(high), first_cell(block.first_cell);
-    const Column lane = Column::ramp(0);
+    const Column lane = Column::ramp(0), first_cell(block.first_cell);
     std::size_t seen = 0;
-    for (int row = 0; row < near_rows; ++row) {
-      const Column above(0.5 * (row - near_rows / 2));
+    for (std::size_t row = 0; row < rows; ++row) {
+      // From the targets' row to this one; 0 along the row.
+      const std::size_t of_layer = row % 5, layer = row / 5;
+      const Column offset[] = {0, 0.5 * (static_cast<double>(of_layer) - near_reach),
+                               0.5 * (static_cast<double>(layer) - near_reach)};
       for (std::size_t n = block.begin[row]; n < block.end[row]; n += Column::lanes) {
-        const Column x_n = multiply_add(Column(0.5), Column::load_unaligned(spheres.cell + n) - first_cell,
-                                        Column::load_unaligned(spheres.position[0] + n));
-        const Column y_n = Column::load_unaligned(spheres.position[1] + n) + above;
-        const Column beside = maximum(maximum(to_left - x_n, x_n - to_right), Column(0));
-        const Column over = maximum(maximum(to_low - y_n, y_n - to_high), Column(0));
+        Column x[dimensions], beyond[dimensions];
+        for (int k = 0; k < dimensions; ++k) {
+          x[k] = Column::load_unaligned(spheres.position[k] + n);
+          x[k] = k == 0 ? multiply_add(Column(0.5), Column::load_unaligned(spheres.cell + n) - first_cell, x[k])
+                        : x[k] + offset[k];
+          beyond[k] = maximum(maximum(low[k] - x[k], x[k] - high[k]), Column(0));
+        }
         const std::size_t left_over = block.end[row] - n;
         // A little more than the cut-off: what rounding of the places could bring within it stays.
         const auto near =
-            Column(1.0001) > multiply_add(beside, beside, over * over) && Column(static_cast<double>(left_over)) > lane;
-        store_packed(x_n, near, x + count);
-        store_packed(y_n, near, y + count);
-        store_packed(Column::load_unaligned(spheres.force[0] + n), near, force_x + count);
-        store_packed(Column::load_unaligned(spheres.force[1] + n), near, force_y + count);
+            Column(1.0001) > dot<dimensions>(beyond, beyond) && Column(static_cast<double>(left_over)) > lane;
+        for (int k = 0; k < dimensions; ++k) {
+          store_packed(x[k], near, position[k] + count);
+          store_packed(Column::load_unaligned(spheres.force[k] + n), near, force[k] + count);
+        }
         store_packed(Column::load_unaligned(spheres.size + n), near, size + count);
         store_packed(Column::load_unaligned(spheres.radius + n), near, radius + count);
         store_packed(lane + static_cast<double>(seen + n - block.begin[row]), near, number + count);
@@ -63,14 +82,14 @@ struct Neighbours {
     }
     const std::size_t padded = (count + Column::lanes - 1) / Column::lanes * Column::lanes;
     for (std::size_t n = count; n < padded; ++n) {  // beyond every cut-off
-      x[n] = y[n] = 100;
-      force_x[n] = force_y[n] = size[n] = radius[n] = number[n] = 0;
+      for (int k = 0; k < dimensions; ++k) position[k][n] = 100, force[k][n] = 0;
+      size[n] = radius[n] = number[n] = 0;
     }
     count = padded;
   }
 
-  TALUS_INLINE static T x_of(const SortedSpheres<T>& spheres, const NearBlock<T>& block, std::size_t n) {
-    return spheres.position[0][n] + T(0.5) * (spheres.cell[n] - block.first_cell);
+  TALUS_INLINE static T place_of(const Spheres& spheres, const Block& block, int k, std::size_t n) {
+    return k == 0 ? spheres.position[0][n] + T(0.5) * (spheres.cell[n] - block.first_cell) : spheres.position[k][n];
   }
 };
 
@@ -101,29 +120,33 @@ TALUS_INLINE PairMobility<Number> whole(const Number& square, const Size& size, 
 inline constexpr int targets_at_once = 2;
 
 /// As SumNear says.
-template <Mobility mobility, class T, int degree>
-void sum_near(const SortedSpheres<T>& spheres, const NearBlock<T>& block, const T* polynomial, T* space,
-              T* const* velocity) {
+template <Mobility mobility, class T, int dimensions, int degree>
+void sum_near(const SortedSpheres<T, dimensions>& spheres, const NearBlock<T, dimensions>& block, const T* polynomial,
+              T* space, T* const* velocity) {
   using Column = SimdVector<T>;
   using Number = SimdVector<T, targets_at_once>;
-  const Neighbours<T> near(spheres, block, space);
+  const Neighbours<T, dimensions> near(spheres, block, space);
   constexpr int terms = degree + 1;
   Column c[4 * terms];
   for (int n = 0; n < 4 * terms; ++n) c[n] = Column(static_cast<double>(polynomial[n]));
 
-  std::size_t self = block.first - block.begin[near_rows / 2];
-  for (int row = 0; row < near_rows / 2; ++row) self += block.end[row] - block.begin[row];
+  constexpr std::size_t middle = near_rows(dimensions) / 2;
+  std::size_t self = block.first - block.begin[middle];
+  for (std::size_t row = 0; row < middle; ++row) self += block.end[row] - block.begin[row];
   for (std::size_t target = block.first; target < block.last; target += targets_at_once, self += targets_at_once) {
-    T along_row[targets_at_once];
-    for (std::size_t r = 0; r < targets_at_once; ++r)
-      along_row[r] = near.x_of(spheres, block, target + r < block.last ? target + r : target);
-    const Number x = Number::broadcast(along_row), y = Number::broadcast(spheres.position[1] + target);
+    Number position[dimensions], sum[dimensions];
+    T place[targets_at_once];
+    for (int k = 0; k < dimensions; ++k) {
+      for (std::size_t r = 0; r < targets_at_once; ++r)
+        place[r] = near.place_of(spheres, block, k, target + r < block.last ? target + r : target);
+      position[k] = Number::broadcast(place), sum[k] = Number(0);
+    }
     const Number size_i = Number::broadcast(spheres.size + target);
     const Number radius_i = Number::broadcast(spheres.radius + target), number = Number::ramp_of_rows(self);
-    Number velocity_x(0), velocity_y(0);
     for (std::size_t n = 0; n < near.count; n += Column::lanes) {
-      const Number dx = Column::load(near.x + n) - x, dy = Column::load(near.y + n) - y;
-      const Number square = multiply_add(dx, dx, dy * dy);
+      Number d[dimensions];
+      TALUS_UNROLL for (int k = 0; k < dimensions; ++k) d[k] = Column::load(near.position[k] + n) - position[k];
+      const Number square = dot<dimensions>(d, d);
       const Column size_j = Column::load(near.size + n), radius_j = Column::load(near.radius + n);
       const auto size = [&] {
         if constexpr (mobility == Mobility::zuk_2014)
@@ -146,27 +169,30 @@ void sum_near(const SortedSpheres<T>& spheres, const NearBlock<T>& block, const 
           select(within, select(counts, all_of_it.isotropic, Column(0)) - smooth_isotropic, Column(0));
       const Number radial = select(within, select(counts, all_of_it.radial, Column(0)) - smooth_radial, Column(0));
 
-      const Column force_x = Column::load(near.force_x + n), force_y = Column::load(near.force_y + n);
-      const Number along = radial * multiply_add(dx, force_x, dy * force_y);
-      velocity_x = multiply_add(along, dx, multiply_add(isotropic, force_x, velocity_x));
-      velocity_y = multiply_add(along, dy, multiply_add(isotropic, force_y, velocity_y));
+      Column force[dimensions];
+      TALUS_UNROLL for (int k = 0; k < dimensions; ++k) force[k] = Column::load(near.force[k] + n);
+      const Number along = radial * dot<dimensions>(d, force);
+      TALUS_UNROLL for (int k = 0; k < dimensions; ++k) {
+        sum[k] = multiply_add(along, d[k], multiply_add(isotropic, force[k], sum[k]));
+      }
     }
-    for (int r = 0; r < targets_at_once && target + static_cast<std::size_t>(r) < block.last; ++r) {
-      velocity[0][target + static_cast<std::size_t>(r)] = sum_lanes(velocity_x, r);
-      velocity[1][target + static_cast<std::size_t>(r)] = sum_lanes(velocity_y, r);
-    }
+    for (int r = 0; r < targets_at_once && target + static_cast<std::size_t>(r) < block.last; ++r)
+      for (int k = 0; k < dimensions; ++k) velocity[k][target + static_cast<std::size_t>(r)] = sum_lanes(sum[k], r);
   }
 }
 
-template <class T, Mobility mobility>
-TALUS_INLINE SumNear<T> choose_near(int degree) {
-  return degree == 7 ? sum_near<mobility, T, 7> : degree == 9 ? sum_near<mobility, T, 9> : sum_near<mobility, T, 12>;
+template <class T, int dimensions, Mobility mobility>
+TALUS_INLINE SumNear<T, dimensions> choose_near(int degree) {
+  if constexpr (sizeof(T) == sizeof(double))
+    return sum_near<mobility, T, dimensions, 12>;
+  else
+    return degree == 7 ? sum_near<mobility, T, dimensions, 7> : sum_near<mobility, T, dimensions, 9>;
 }
 
-template <class T>
-TALUS_INLINE SumNear<T> choose_near(Mobility mobility, int degree) {
-  return mobility == Mobility::zuk_2014 ? choose_near<T, Mobility::zuk_2014>(degree)
-                                        : choose_near<T, Mobility::rotne_prager_1969>(degree);
+template <class T, int dimensions>
+TALUS_INLINE SumNear<T, dimensions> choose_near(Mobility mobility, int degree) {
+  return mobility == Mobility::zuk_2014 ? choose_near<T, dimensions, Mobility::zuk_2014>(degree)
+                                        : choose_near<T, dimensions, Mobility::rotne_prager_1969>(degree);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET

@@ -4,12 +4,26 @@
 
 namespace talus::cloud {
 
-SumNear<float> sum_near_portable(hydrodynamics::Mobility mobility, int degree) {
-  return choose_near<float>(mobility, degree);
+using hydrodynamics::Mobility;
+
+template <>
+SumNear<float, 2> sum_near_portable(Mobility mobility, int degree) {
+  return choose_near<float, 2>(mobility, degree);
 }
 
-SumNear<double> sum_near_double_portable(hydrodynamics::Mobility mobility, int degree) {
-  return choose_near<double>(mobility, degree);
+template <>
+SumNear<float, 3> sum_near_portable(Mobility mobility, int degree) {
+  return choose_near<float, 3>(mobility, degree);
+}
+
+template <>
+SumNear<double, 2> sum_near_portable(Mobility mobility, int degree) {
+  return choose_near<double, 2>(mobility, degree);
+}
+
+template <>
+SumNear<double, 3> sum_near_portable(Mobility mobility, int degree) {
+  return choose_near<double, 3>(mobility, degree);
 }
 
 }  // namespace talus::cloud

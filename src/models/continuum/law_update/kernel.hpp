@@ -5,27 +5,26 @@
 
 #include <cstddef>
 
-#include "physics/granular/critical_state.hpp"
+#include "physics/granular/critical_state_point.hpp"
 
 namespace talus::continuum {
 
 /// Columns of all particles, as of Material::update. A law may read and write the same ones.
 struct LawColumns {
-  static constexpr std::size_t most_slots = 8;
   const double* stress[6];
-  const double* history[most_slots];
+  const double *expansion, *contacts;  ///< CriticalState::History
   const double* velocity_gradient[9];
   const double* density;
   double time_step;
   double* next_stress[6];
-  double* next_history[most_slots];  ///< null: not written
+  double *next_expansion, *next_contacts;  ///< null: not written
 };
 
 /// Particles updated together: their number is a multiple of it.
 inline constexpr std::size_t law_block = 8;
 
-using UpdateCriticalState = void(const granular::CriticalState& law, const LawColumns& columns, std::size_t first,
-                                 std::size_t end);
+using UpdateCriticalState = void(const granular::CriticalStateCoefficients& law, const LawColumns& columns,
+                                 std::size_t first, std::size_t end);
 UpdateCriticalState update_law_portable, update_law_avx2, update_law_avx512;
 
 }  // namespace talus::continuum

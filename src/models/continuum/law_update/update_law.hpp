@@ -19,24 +19,23 @@ TALUS_INLINE void store(const Number& x, double* values) {
   __builtin_memcpy(values, x.row, sizeof(x));
 }
 
-template <class Law>
-TALUS_INLINE void update_law(const Law& law, const LawColumns& c, std::size_t first, std::size_t end) {
+TALUS_INLINE void update_law(const granular::CriticalStateCoefficients& law, const LawColumns& c, std::size_t first,
+                             std::size_t end) {
   for (std::size_t i = first; i < end; i += Number::lanes) {
     const auto stress = [&](int k) { return load(c.stress[k] + i); };
     const auto l = [&](int k) { return load(c.velocity_gradient[k] + i); };
-    granular::MaterialPoint<Law, Number> old{{stress(0), stress(1), stress(2), stress(3), stress(4), stress(5)}, {}};
-    int slot = 0;
-    Law::for_each_slot([&](const granular::HistorySlot&, Number& value) { value = load(c.history[slot++] + i); },
-                       old.history);
-    granular::MaterialPoint<Law, Number> point = law.update(
-        old, Tensor3<Number>{l(0), l(1), l(2), l(3), l(4), l(5), l(6), l(7), l(8)}, load(c.density + i), c.time_step);
+    const granular::CriticalStatePoint<Number> old{{stress(0), stress(1), stress(2), stress(3), stress(4), stress(5)},
+                                                   load(c.expansion + i),
+                                                   load(c.contacts + i)};
+    const granular::CriticalStatePoint<Number> point =
+        granular::updated(law, old, Tensor3<Number>{l(0), l(1), l(2), l(3), l(4), l(5), l(6), l(7), l(8)},
+                          load(c.density + i), c.time_step);
     const Number next[6] = {point.stress.xx, point.stress.yy, point.stress.zz,
                             point.stress.xy, point.stress.yz, point.stress.zx};
     for (int k = 0; k < 6; ++k) store(next[k], c.next_stress[k] + i);
-    if (c.next_history[0] == nullptr) continue;
-    slot = 0;
-    Law::for_each_slot([&](const granular::HistorySlot&, Number& value) { store(value, c.next_history[slot++] + i); },
-                       point.history);
+    if (c.next_expansion == nullptr) continue;
+    store(point.expansion, c.next_expansion + i);
+    store(point.contacts, c.next_contacts + i);
   }
 }
 

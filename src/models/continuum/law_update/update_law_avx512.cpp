@@ -4,7 +4,7 @@
 
 namespace talus::continuum {
 
-void update_law_avx512(const granular::CriticalState& law, const LawColumns& columns, std::size_t first,
+void update_law_avx512(const granular::CriticalStateCoefficients& law, const LawColumns& columns, std::size_t first,
                        std::size_t end) {
   update_law(law, columns, first, end);
 }

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What particles can be coloured by: every number that a snapshot has of each of them, under one name everywhere.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "numerics/snapshot.hpp"
+
+namespace talus::app {
+
+/// Calls visit(name, unit, value), where value(n) is the number of particle n: for every column of numbers under its
+/// name; for every vector its size under the column's name (not of the position) and its components, NAME_x; and of a
+/// stress the pressure, a third of the trace. The identity is no such number.
+template <class Visit>
+void for_each_number(const Snapshot& snapshot, const Visit& visit) {
+  for (const ColumnView& column : snapshot.columns) {
+    const std::string name(column.name), unit(column.unit);
+    if (name == "identity") continue;
+    if (const auto* scalars = std::get_if<std::span<const double>>(&column.values))
+      visit(name, unit, [&](std::size_t n) { return (*scalars)[n]; });
+    if (const auto* integers = std::get_if<std::span<const std::int64_t>>(&column.values))
+      visit(name, unit, [&](std::size_t n) { return static_cast<double>((*integers)[n]); });
+    if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values)) {
+      if (name != "position") visit(name, unit, [&](std::size_t n) { return norm((*vectors)[n]); });
+      for (int axis = 0; axis < 3; ++axis)
+        visit(name + '_' + "xyz"[axis], unit, [&](std::size_t n) { return (*vectors)[n][axis]; });
+    }
+  }
+  if (snapshot.has("stress_xx") && snapshot.has("stress_yy") && snapshot.has("stress_zz")) {
+    const auto x = snapshot.scalars("stress_xx"), y = snapshot.scalars("stress_yy"), z = snapshot.scalars("stress_zz");
+    visit("pressure", "Pa", [&](std::size_t n) { return (x[n] + y[n] + z[n]) / 3; });
+  }
+}
+
+}  // namespace talus::app

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The arithmetic of the law critical_state.hpp, without its keys: what loops in vectors, compiled once for each
+/// instruction set, need of it.
+#pragma once
+
+#include <cmath>
+
+#include "base/tensor.hpp"
+#include "physics/granular/rotation.hpp"
+
+namespace talus::granular {
+
+struct CriticalStateParameters {
+  double bulk_modulus = 4.9e6;      ///< K, Pa: (lambda + 2G/3) of Eqs 1-3 of Yuu & Umekage at zero strain
+  double shear_modulus = 2.94e6;    ///< G, Pa: the same
+  double friction = 0.38;           ///< mu_s
+  double fast_friction = 0.64;      ///< mu_2
+  double inertial_number = 0.279;   ///< I_0
+  double reference_packing = 0.6;   ///< phi_s of a new point
+  double critical_packing = 0.585;  ///< phi_c
+  double loosest_packing = 0.55;    ///< phi_min
+  double loosening = 0.25;          ///< Delta
+  double dilatancy = 4;             ///< k
+  double strength_at_rest = 0.08;   ///< Delta_mu
+  double healing_time = 10e-3;      ///< T, s
+  double breaking_strain = 0.05;    ///< gamma_0
+};
+
+/// The parameters, with what follows from them and the grains.
+struct CriticalStateCoefficients {
+  static constexpr double sqrt2 = 1.4142135623730951;
+  static constexpr double tiny = 1e-30;
+  static constexpr double largest_inertial_number = 0.3;  // to which the packing is known to fall in proportion
+
+  CriticalStateParameters parameters;
+  double reference_density = 0;  ///< kg/m^3
+  double largest_volume = 0;     ///< at phi_min
+  double grain_inertia = 0;      ///< (2 rho_p)^(1/2) d: I over |D_dev| p^(-1/2)
+};
+
+/// MaterialPoint of the law.
+template <class Number>
+struct CriticalStatePoint {
+  SymmetricTensor3<Number> stress;  ///< Pa
+  Number expansion, contacts;       ///< CriticalState::History
+};
+
+/// The point after a time step (ConstitutiveLaw).
+template <class Number>
+CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const CriticalStatePoint<Number>& old,
+                                   const Tensor3<Number>& velocity_gradient, const Number& density, double time_step) {
+  const CriticalStateParameters& p = c.parameters;
+  using std::log;
+  using std::sqrt;
+  const SymmetricTensor3<Number> rate = deviator(symmetric_part(velocity_gradient));
+  // Volumes of a grain's share of space, in units of that at the reference packing: now, and just touching.
+  const Number volume = c.reference_density / density;
+  const auto touch = volume < 1.0 + old.expansion;
+  const Number apart = minimum(volume, Number(c.largest_volume));
+  const Number touching = select(touch, 1.0 + old.expansion, maximum(1.0 + old.expansion, apart));
+  const Number pressure = select(touch, p.bulk_modulus * log(touching / volume), Number(0.0));
+
+  const Number inertial = c.grain_inertia * norm(rate) / sqrt(maximum(pressure, Number(c.tiny)));
+  const Number critical_volume =
+      p.reference_packing / (p.critical_packing - p.loosening * minimum(inertial, Number(c.largest_inertial_number)));
+  const Number dilatancy = (p.dilatancy * p.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
+  const Number friction = p.friction + (p.fast_friction - p.friction) * (inertial / (inertial + p.inertial_number)) +
+                          dilatancy + p.strength_at_rest * old.contacts;
+
+  const SymmetricTensor3<Number> trial =
+      transformed(deviator(old.stress), rotation_of_step(velocity_gradient, time_step)) -
+      (2 * p.shear_modulus * time_step) * rate;
+  const Number size = norm(trial);
+  const Number most = (c.sqrt2 * maximum(friction, Number(0.0))) * pressure;
+  const Number slip = (1 / (c.sqrt2 * p.shear_modulus)) * maximum(size - most, Number(0.0));
+
+  CriticalStatePoint<Number> point;
+  point.stress = isotropic(pressure) + (minimum(size, most) / maximum(size, Number(c.tiny))) * trial;
+  // d(1/phi_s)/dgamma = k (1 - phi_c/phi_s), implicit: it cannot pass the critical packing.
+  const Number dilation = (p.dilatancy * p.reference_packing) * slip;
+  point.expansion = select(touch, (touching + dilation) / (1.0 + dilation / critical_volume), touching) - 1.0;
+  const double healing = time_step / p.healing_time;
+  point.contacts =
+      select(touch, (old.contacts + healing) / (1.0 + healing + (1 / p.breaking_strain) * slip), Number(0.0));
+  return point;
+}
+
+}  // namespace talus::granular

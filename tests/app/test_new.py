@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: Apache-2.0
+"""talus new: every kind's case is one that talus check accepts and that runs; what makes no sense is refused."""
+import itertools
+import os
+import pty
+import re
+import select
+import subprocess
+import tomllib
+import unittest
+
+from program import PROGRAM, InputTest, ProgramTest
+
+KINDS = {
+    "hopper": {"width": "100 mm", "fill": "83.333 mm", "outlet": "40 mm", "drop": "100 mm", "half-angle": None,
+               "diameter": "200 um", "density": "2500 kg/m3", "friction": "0.5"},
+    "silo": {"width": "30 mm", "fill": "150 mm", "wall-friction": "0.3", "diameter": "200 um", "density": "2500 kg/m3"},
+    "column": {"width": "50 mm", "height": "50 mm", "floor-friction": "0.5", "diameter": "200 um", "density": "2500 kg/m3",
+               "friction": "0.5"},
+    "avalanche": {"grains": "2000", "radius": "5 mm", "density": "20 kg/m3", "angle": "45 deg", "fluid-density": "1.2 kg/m3",
+                  "viscosity": "1.82e-5 Pa s"},
+}
+
+
+def unit_of(text):
+    return text.split(" ", 1)[1] if " " in text else ""
+
+
+class Cases(ProgramTest):
+    def new(self, kind, *options, status=0, out="new.toml"):
+        return self.talus("new", kind, *options, "--overwrite", "-o", out, status=status, stdin=subprocess.DEVNULL)
+
+    def test_what_is_not_given_takes_the_value_in_brackets(self):
+        for kind, questions in KINDS.items():
+            self.new(kind)
+            given = (self.folder / "new.toml").read_text()
+            self.talus("check", "new.toml", "--threads", 1)
+            self.assertIn("\n#", given, "it is commented")
+            said = self.talus("new", kind, "--help").stdout
+            for name, standard in questions.items():
+                self.assertIn(f"--{name}", said)
+                if standard:
+                    self.assertIn(f"[{standard}]", re.sub(r"\s+", " ", said))
+            options = [word for name, value in questions.items() if value for word in (f"--{name}", value)]
+            self.new(kind, *options)
+            self.assertEqual((self.folder / "new.toml").read_text(), given)
+
+    def test_an_answer_is_in_the_case(self):
+        self.new("hopper", "--width", "0.2 m", "--outlet", "30 mm", "--density", "1.5 g/cm3", "--air")
+        case = tomllib.loads((self.folder / "new.toml").read_text())
+        self.assertEqual(case["box"]["width"], "200 mm")
+        self.assertEqual((case["plate"]["slit_left"], case["plate"]["slit_right"]), ("85 mm", "115 mm"))
+        self.assertEqual(case["grains"]["density"], "1500 kg/m3")
+        self.assertTrue(case["air"]["enabled"])
+        self.new("hopper", "--half-angle", "30 deg")
+        case = tomllib.loads((self.folder / "new.toml").read_text())
+        self.assertEqual(case["wedge"]["half_angle"], "30 deg")
+        self.assertNotIn("plate", case)
+        self.assertNotIn("air", case)
+        self.new("silo", "--wall-friction", "0.6")
+        self.assertEqual(tomllib.loads((self.folder / "new.toml").read_text())["walls"]["coefficient"], 0.6)
+        self.new("column", "--height", "0.2 m")
+        self.assertEqual(tomllib.loads((self.folder / "new.toml").read_text())["bed"]["height"], "200 mm")
+        self.new("avalanche", "--grains", "300", "--angle", "30 deg")
+        case = tomllib.loads((self.folder / "new.toml").read_text())
+        self.assertEqual((case["particles"]["count"], case["slope"]["angle"]), (300, "30 deg"))
+
+    def test_small_and_large_answers_are_a_case_or_are_refused(self):
+        """Each number alone, a thousand times smaller and larger, and two of them together."""
+        ends = {0: 0, 2: 0}
+        for kind, questions in KINDS.items():
+            numbers = {name: standard for name, standard in questions.items() if standard}
+            singles = [((name, factor),) for name in numbers for factor in (1e-3, 1e3)]
+            pairs = [((a, 1e3), (b, 1e-3)) for a, b in itertools.islice(itertools.permutations(numbers, 2), 4)]
+            for changes in singles + pairs:
+                options = []
+                for name, factor in changes:
+                    value, unit = float(numbers[name].split()[0]) * factor, unit_of(numbers[name])
+                    options += [f"--{name}", f"{value:g} {unit}".strip()]
+                ended = self.run_talus("new", kind, *options, "--overwrite", "-o", "new.toml")
+                self.assertIn(ended.returncode, ends, f"{kind} {options}: {ended.stderr}")
+                ends[ended.returncode] += 1
+                if ended.returncode == 0:
+                    self.assertNotRegex((self.folder / "new.toml").read_text(), r"\b(nan|inf)\b")
+        self.assertGreater(ends[0], 20)
+        self.assertGreater(ends[2], 5)
+
+    def test_cases_run(self):
+        for kind, options in {"hopper": ("--fill", "20 mm", "--width", "40 mm", "--outlet", "20 mm", "--drop", "20 mm"),
+                              "silo": (), "column": ("--height", "20 mm", "--width", "20 mm"),
+                              "avalanche": ("--grains", "100")}.items():
+            self.new(kind, *options)
+            self.talus("run", "new.toml", "--out", kind, "--set", "output.pictures=false", "--set", "output.report=false",
+                       "--set", "run.end=1 ms" if kind != "avalanche" else "run.end=0.1 ms")
+
+
+class Refused(InputTest):
+    def test_every_bad_answer_is_told_at_once(self):
+        problems = self.problems("new", "hopper", "--width", "3 kg", "--outlet", "0 mm", "--drop", "much", "--friction",
+                                 "nan", "-o", "new.toml")
+        self.assertEqual([p.split(" ")[0] for p in problems], ["--width", "--outlet", "--drop", "--friction"])
+        for problem in problems:
+            self.assertIn("allowed: ", problem)
+        self.problems("new", "hopper", "--outlet", "200 mm", "-o", "new.toml")
+        self.problems("new", "hopper", "--half-angle", "90 deg", "-o", "new.toml")
+        self.problems("new", "avalanche", "--grains", "0", "-o", "new.toml")
+        self.assertIn("is there already", self.problems("new", "silo", "-o", "case.toml")[0])
+        self.assertIn("did you mean 'hopper'", self.talus("new", "hoper", status=2).stderr)
+        self.assertIn("hopper, silo, column, avalanche", self.talus("new", status=2).stderr)
+        self.talus("new", "silo", "-o", "nowhere/new.toml", status=4)
+        self.assert_nothing_written()
+
+
+class Asked(ProgramTest):
+    def test_on_a_terminal_what_is_not_given_is_asked(self):
+        main, other = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "new", "silo", "--fill", "120 mm", "-o", "new.toml"], cwd=self.folder,
+                                   stdin=other, stdout=other, stderr=other, close_fds=True)
+        os.close(other)
+        said = ""
+        for wanted, answer in ((r"width of the silo \[30 mm\]: ", "4 kg"), (r"is no length.*width of the silo \[30 mm\]: ",
+                               "40 mm"), (r"wall friction \[0.3\]: ", ""), (r"diameter of the grains \[200 um\]: ", ""),
+                               (r"density of a grain \[2500 kg/m3\]: ", "")):
+            while not re.search(wanted + r"\Z", said, re.S):
+                self.assertTrue(select.select([main], [], [], 30)[0], said)
+                said += os.read(main, 4096).decode()
+            os.write(main, (answer + "\n").encode())
+        self.assertEqual(process.wait(30), 0)
+        os.close(main)
+        case = tomllib.loads((self.folder / "new.toml").read_text())
+        self.assertEqual((case["box"]["width"], case["bed"]["height"]), ("40 mm", "120 mm"))
+
+
+if __name__ == "__main__":
+    unittest.main()
