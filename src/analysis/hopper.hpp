@@ -3,6 +3,7 @@
 /// What is below the outlet is called the bin, what is above it the hopper; a box without an outlet is a bin alone.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -30,7 +31,12 @@ struct HopperSetting {
   bool air = false;
   bool has_floor = true;     ///< what falls out of the outlet stays in the bin
   bool level_ground = true;  ///< the bed rests on the floor, or on a horizontal plate from wall to wall
-  double stress_share = 1;   ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
+  /// The walls of a vessel in space, where the plane through its middle meets them, m; empty: what is seen from the
+  /// side is all there is.
+  std::vector<std::array<Vector3, 2>> section = {};
+  double middle = 0;          ///< y of that plane, m
+  double hand_discharge = 0;  ///< by a hand formula, kg/s; 0: none for this outlet
+  double stress_share = 1;    ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }
 };

@@ -27,6 +27,12 @@ bool gravity(const Run& run) {
 bool outlet(const Run& run) {
   return run.setting.shape.plate.has_value();
 }
+bool hand_formula(const Run& run) {
+  return run.setting.hand_discharge > 0;
+}
+bool vessel_with_outlet(const Run& run) {
+  return outlet(run) && !run.setting.section.empty();
+}
 bool bin(const Run& run) {
   return run.setting.has_floor && run.setting.shape.bin().top > 0;
 }
@@ -59,6 +65,18 @@ const std::vector<Row> of_grains = {
     Row("discharge_rate_plateau", "kg/s", "mean of Q over the window",
         {[](const Run& r, const Place&, const Window& w) { return mean_rate(passed_mass(r), w.from, w.to); }},
         {{outlet, while_it_flows}}),
+    Row("discharge_rate_beverloo", "kg/s",
+        "discharge through a round outlet of the case's diameter by hand: C ρ_b g^½ (D − k d)^(5/2) (Beverloo et al. "
+        "1961), C = 0.58, k = 1.5, times (tan θ)^(−0.35) in a cone of half angle θ below 45 degrees (Rose & Tanaka "
+        "1959)",
+        {[](const Run& r, const Place&, const Window&) { return r.setting.hand_discharge; }}, {{hand_formula}}),
+    Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
+        {[](const Run& r, const Place&, const Window&) {
+          Curve left = discharged_share(r);
+          for (double& share : left.value) share = 1 - share;
+          return first_time_at_or_below(left, 0.01);
+        }},
+        {{vessel_with_outlet}}),
     Row("discharge_rate_drift", "1",
         "slope of the line through the 10 ms means of Q times the length of the window, over their mean",
         {[](const Run& r, const Place&, const Window& w) { return drift(passed_mass(r), trend_mean, w.from, w.to); }}),

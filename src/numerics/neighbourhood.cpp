@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace talus {
@@ -35,8 +36,15 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   const auto first_in_walls = std::partition_point(ghosts_.begin(), ghosts_.end(),
                                                    [&](const Ghost& ghost) { return !image(ghost).is_in_walls(); });
   const std::size_t in_walls = count + static_cast<std::size_t>(first_in_walls - ghosts_.begin());
+  const std::vector<double> distance = distances_from_vessel(team, points);
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     static constexpr Image identity;
+    if (!vessel_.is_empty() && std::isfinite(distance[i])) {
+      const auto seen = std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
+        return distance[i] + distance[j] <= norm(points[j] - points[i]) && vessel_.blocks(points[i], points[j]);
+      });
+      near = near.first(static_cast<std::size_t>(seen - near.begin()));
+    }
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
     const auto end = !domain_.is_near_wall(position[i], reach_ + skin)
                          ? seldom
@@ -48,7 +56,8 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
                            });
     return static_cast<std::size_t>(end - near.begin());
   };
-  list_.build(team, points, radii, skin, count, domain_.walls().empty() ? nullptr : keep_visible);
+  const bool all_seen = domain_.walls().empty() && vessel_.is_empty();
+  list_.build(team, points, radii, skin, count, all_seen ? nullptr : keep_visible);
 
   first_ghost_.resize(count);
   for_each(team, count, [&](std::size_t i) {
@@ -56,6 +65,16 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     const auto first = std::lower_bound(neighbours.begin(), neighbours.end(), count);
     first_ghost_[i] = static_cast<std::uint32_t>(first - neighbours.begin());
   });
+}
+
+/// Infinite beyond the reach.
+std::vector<double> Neighbourhood::distances_from_vessel(ThreadTeam& team, std::span<const Vector3> points) const {
+  if (vessel_.is_empty()) return {};
+  std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
+  for_each(team, points.size(), [&](std::size_t n) {
+    if (const auto foot = vessel_.nearest(points[n], reach_)) distance[n] = foot->distance;
+  });
+  return distance;
 }
 
 void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,

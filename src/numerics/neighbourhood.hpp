@@ -12,6 +12,7 @@
 #include "base/vector.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/neighbour_list.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus {
 
@@ -22,8 +23,9 @@ struct Ghost {
 
 class Neighbourhood {
  public:
-  /// \param domain outlives it
-  explicit Neighbourhood(const Domain& domain) : domain_(domain) {}
+  /// \param domain, vessel outlive it; \param vessel who is hidden behind it when the lists are built is not listed
+  explicit Neighbourhood(const Domain& domain, const Surface& vessel = Surface::none())
+      : domain_(domain), vessel_(vessel) {}
   explicit Neighbourhood(Domain&&) = delete;
 
   const Domain& domain() const { return domain_; }
@@ -49,9 +51,11 @@ class Neighbourhood {
   bool sight_may_change(std::size_t i) const { return sight_may_change_[i]; }
 
  private:
+  std::vector<double> distances_from_vessel(ThreadTeam& team, std::span<const Vector3> points) const;
   void find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double largest);
 
   const Domain& domain_;
+  const Surface& vessel_;
   double skin_ = -1;
   double reach_ = 0;
   std::vector<Vector3> reference_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_analysis.hpp"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_grid.hpp"
 #include "numerics/sph/cubic_spline.hpp"
+#include "numerics/surface/section.hpp"
 
 namespace talus::app {
 
@@ -106,8 +108,16 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .smoothing_length = {},
                         .air = p.air.enabled,
                         .has_floor = is_mirror(p.box.floor),
-                        .level_ground = !p.wedge.half_angle && p.plates.empty(),
+                        .level_ground = !p.wedge.half_angle && p.plates.empty() && p.vessel.empty(),
                         .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
+  if (!p.vessel.empty()) {
+    const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
+    setting.middle = 0.5 * (around.low.y + around.high.y);
+    Surface surface = continuum::surface_of(p);
+    continuum::open_gates(p, surface, std::numeric_limits<double>::infinity());
+    setting.section = section_at(surface, setting.middle);
+    setting.hand_discharge = continuum::discharge_by_hand(p);
+  }
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};
   else if (p.plate.height)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
@@ -13,6 +14,7 @@
 #include "app/continuum/hopper_observers.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
+#include "io/stl.hpp"
 #include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
@@ -26,6 +28,8 @@ namespace {
 using continuum::Continuum;
 using continuum::Parameters;
 
+constexpr std::size_t most_parts_of_vessel = 64;
+
 std::vector<NamedValue> groups(const Parameters& p) {
   const double density = p.bed.packing * p.grains.density;
   const double sound = continuum::Material(p).sound_speed(density);
@@ -37,10 +41,12 @@ std::vector<NamedValue> groups(const Parameters& p) {
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   // Where the bed is as wide as the box from its bottom to its top.
-  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty())
+  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
+  if (const double rate = continuum::discharge_by_hand(p); rate > 0)
+    groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
     groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;
@@ -81,12 +87,41 @@ Problem too_large(const Parameters& p, double available) {
       .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
 }
 
+std::filesystem::path path_of(const CaseFile& file, const std::string& given) {
+  const std::filesystem::path path = given;
+  return path.is_absolute() ? path : std::filesystem::path(file.name()).parent_path() / path;
+}
+
+/// Reads the files of the vessel before the case is checked, so that their faults are told with the rest.
+void read_surfaces(const CaseFile& file, Parameters& p) {
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    const CaseEntry* entry = file.find(continuum::vessel_key(n, "file"));
+    const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+    if (name && !name->empty())
+      p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(path_of(file, *name)));
+  }
+}
+
+/// Of the surfaces that the files of the case hold.
+std::string digest_of_files(const Parameters& p) {
+  std::string bytes;
+  for (const continuum::VesselPart& part : p.vessel)
+    for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
+      bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
+  return bytes.empty() ? std::string() : digest(bytes);
+}
+
 /// \throws InputError with every problem
 ModelCase<Parameters> read_continuum(const CaseFile& file) {
   Parameters defaults;
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
+  defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
+  read_surfaces(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
   ModelCase<Parameters> read = read_case(reader, std::move(defaults));
+  for (continuum::VesselPart& part : read.model.vessel)
+    if (part.shape == continuum::VesselShape::stl)
+      part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.throw_problems();
   return read;
@@ -97,6 +132,7 @@ ModelCase<Parameters> read_continuum(const CaseFile& file) {
 ParameterList continuum_parameters() {
   ModelCase<Parameters> defaults;
   defaults.model.plates.resize(1);  // whose keys stand for those of all
+  defaults.model.vessel.resize(1);
   return defaults.list();
 }
 
@@ -105,6 +141,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   const Parameters& p = read.model;
   PreparedCase prepared = prepared_case("continuum", read);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
+  prepared.inputs = digest_of_files(p);
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
@@ -124,7 +161,9 @@ HopperSetting hopper_setting_of(const CaseFile& resolved) {
 
 Scene scene_of_continuum(const CaseFile& resolved) {
   const Parameters p = read_continuum(resolved).model;
-  return scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
+  Scene scene = scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
+  for (const auto& [from, to] : hopper_setting(p).section) scene.walls.push_back({from, to});
+  return scene;
 }
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {

@@ -75,17 +75,36 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
   add(0, 1, {s.width, 0, 0}, {s.width, 0, top});
   for (const WallLine& line : wall_lines(setting.domain))
     if (std::isinf(line.until)) lines.push_back({.from = line.from, .to = line.to, .colour = colour});
+  for (const auto& [from, to] : setting.section) lines.push_back({.from = from, .to = to, .colour = colour});
   return lines;
+}
+
+/// Of a vessel in space, the particles in the section through its middle, a spacing thick; else all.
+std::vector<std::size_t> seen_particles(const HopperSetting& setting, std::span<const Vector3> positions) {
+  std::vector<std::size_t> seen;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (setting.section.empty() || std::abs(positions[i].y - setting.middle) <= 0.5 * setting.shape.spacing)
+      seen.push_back(i);
+  return seen;
+}
+
+template <class T>
+std::vector<T> picked(std::span<const T> column, const std::vector<std::size_t>& which) {
+  std::vector<T> values;
+  for (const std::size_t i : which) values.push_back(column[i]);
+  return values;
 }
 
 void draw_packing(const std::filesystem::path& snapshot, double time, const HopperSetting& setting,
                   const std::string& title, const std::filesystem::path& path) {
   const PointSet points = read_points(snapshot);
   const Snapshot view = points.view();
-  const std::vector<double> radii(view.size(), 0.5 * setting.shape.spacing);
+  const std::vector<std::size_t> seen = seen_particles(setting, view.positions());
+  const std::vector<Vector3> positions = picked(view.positions(), seen);
+  const std::vector<double> packing = picked(view.scalars("packing"), seen);
+  const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
   ParticlePicture picture =
-      particle_picture(setting, view.positions(), radii,
-                       {.values = view.scalars("packing"), .label = "packing", .low = 0.4, .high = 0.7});
+      particle_picture(setting, positions, radii, {.values = packing, .label = "packing", .low = 0.4, .high = 0.7});
   picture.title = title_of(time);
   write_png({.title = title, .panels = {picture}}, path);
 }
@@ -118,6 +137,11 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   for (const std::size_t n : chosen) {
     const PointSet points = read_points(frames.paths[n]);
     const Snapshot view = points.view();
+    if (!setting.section.empty()) {
+      dots.push_back(picked(view.positions(), seen_particles(setting, view.positions())));
+      top = std::max(top, setting.shape.height);
+      continue;
+    }
     const Particles particles = particles_of_density(view.positions(), view.scalars("density"), setting.particle_mass,
                                                      setting.grain_density, setting.smoothing_length);
     Domain domain = setting.domain;
@@ -128,13 +152,14 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   }
   Figure figure{.title = title};
   std::vector<std::vector<double>> radii;
-  for (const auto& set : dots) radii.emplace_back(set.size(), 0.5 * dot_diameter);
+  const bool in_space = !setting.section.empty();
+  for (const auto& set : dots) radii.emplace_back(set.size(), 0.5 * (in_space ? setting.shape.spacing : dot_diameter));
   for (std::size_t n = 0; n < chosen.size(); ++n) {
     ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
                             .positions = dots[n],
                             .radii = radii[n],
                             .view = view_xz,
-                            .colouring = Plain{colour_of_dots(setting.shape)},
+                            .colouring = Plain{in_space ? dot_colour : colour_of_dots(setting.shape)},
                             .segments = outline(setting, top),
                             .length = millimetre};
     picture.window = window_of(setting.shape, top);

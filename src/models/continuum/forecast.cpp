@@ -111,7 +111,7 @@ Parameters sample(const Parameters& p, double particles) {
   const double layers = std::min(most_layers, static_cast<double>(lattice.count[1]));
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
   Parameters q = p;
-  q.plate = {}, q.wedge = {}, q.plates.clear();
+  q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear();
   q.bed.bottom = q.bed.left = q.bed.right = std::nullopt;
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;
   q.bed.height = side * lattice.spacing.z, q.box.height = 2 * q.bed.height;

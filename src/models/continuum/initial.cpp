@@ -16,6 +16,7 @@ State initial_state(const Parameters& parameters, const Material& material) {
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
   for (auto& column : state.material.stress) column.assign(count, 0.0);
   for (auto& column : state.material.collisional) column.assign(count, 0.0);
+  state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
   if (material.by_displacements()) state.reset_position = state.position;
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::int64_t most_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
 constexpr double most_places_looked_at = 1e6;                   // to count the particles of a bed
+constexpr double most_places_of_vessel = 2e6;                   // to count those in a vessel
 
 using Openings = std::vector<Wall::Opening>;
 
@@ -63,14 +64,28 @@ std::vector<Wall> walls_of(const Parameters& p) {
 }  // namespace
 
 Extent bed_along_x(const Parameters& p) {
-  return {p.bed.left.value_or(0), p.bed.right.value_or(p.box.width)};
+  Extent x{0, p.box.width};
+  if (!p.vessel.empty())
+    if (const VesselBounds around = bounds_of_vessel(p); around.low.x > 0 && around.high.x < p.box.width)
+      x = {around.low.x, around.high.x};
+  return {p.bed.left.value_or(x.low), p.bed.right.value_or(x.high)};
+}
+
+Extent bed_along_y(const Parameters& p) {
+  if (!p.vessel.empty())
+    if (const VesselBounds around = bounds_of_vessel(p); around.low.y > 0 && around.high.y < p.box.depth)
+      return {around.low.y, around.high.y};
+  return {0, p.box.depth};
 }
 
 double bed_bottom(const Parameters& p) {
+  if (!p.bed.bottom && !p.vessel.empty()) return std::max(0.0, bounds_of_vessel(p).low.z);
   return p.bed.bottom.value_or(p.wedge.half_angle ? p.wedge.height : p.plate.height.value_or(0));
 }
 
 std::optional<Outlet> outlet_of(const Parameters& p) {
+  if (const auto outlet = outlet_of_vessel(p))
+    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width};
   if (p.wedge.half_angle)
     return Outlet{p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet)};
   if (p.plate.height && p.plate.slit_left && p.plate.slit_right)
@@ -91,9 +106,9 @@ double least_distance_of_layers(const Parameters& p) {
 }
 
 Lattice lattice_of(const Parameters& p) {
-  const Extent x = bed_along_x(p);
-  const Vector3 extent{x.high - x.low, p.box.depth, p.bed.height};
-  Lattice lattice{.corner = {x.low, 0, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
+  const Extent x = bed_along_x(p), y = bed_along_y(p);
+  const Vector3 extent{x.high - x.low, y.high - y.low, p.bed.height};
+  Lattice lattice{.corner = {x.low, y.low, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double spacings = extent[axis] / p.bed.spacing;
     const auto count = spacings < most_along_an_axis ? std::max<std::int64_t>(1, std::llround(spacings))
@@ -128,6 +143,7 @@ struct Bed {
 }  // namespace
 
 std::vector<Vector3> bed_positions(const Parameters& p) {
+  if (!p.vessel.empty()) return bed_in_vessel(p);
   const Bed bed{p};
   const auto& count = bed.lattice.count;
   std::vector<Vector3> positions;
@@ -144,6 +160,12 @@ double places_of(const Lattice& lattice) {
 }
 
 double bed_count(const Parameters& p) {
+  if (!p.vessel.empty()) {
+    if (places_of(lattice_of(p)) <= most_places_of_vessel) return static_cast<double>(bed_in_vessel(p).size());
+    Parameters coarser = p;
+    coarser.bed.spacing *= 2;
+    return 8 * bed_count(coarser);
+  }
   const Bed bed{p};
   const auto& count = bed.lattice.count;
   if (bed.is_whole) return places_of(bed.lattice);

@@ -20,11 +20,13 @@ struct Outlet {
 };
 std::optional<Outlet> outlet_of(const Parameters& parameters);
 
-/// Where the bed begins and ends along x, and its bottom, m.
+/// Where the lattice of the bed begins and ends along x and y, and its bottom, m: the box, or the vessel where it
+/// stands apart from the faces of the box.
 struct Extent {
   double low, high;
 };
 Extent bed_along_x(const Parameters& parameters);
+Extent bed_along_y(const Parameters& parameters);
 double bed_bottom(const Parameters& parameters);
 
 /// The box and the walls in it, with their gates shut unless there are none.

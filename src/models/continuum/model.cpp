@@ -192,6 +192,8 @@ std::vector<NamedValue> Continuum::totals() const {
   for (int wall = 0; wall < domain().wall_count(); ++wall)
     if (domain().bears_load(wall))
       add("impulse_" + wall_name(domain(), wall), s.wall_impulse[static_cast<std::size_t>(wall)]);
+  for (std::size_t n = 0; n < s.vessel_impulse.size(); ++n)
+    add("impulse_" + name_of(parameters_, n), s.vessel_impulse[n]);
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
     const PressureRange pressure = pressure_range(air);

@@ -172,6 +172,7 @@ std::vector<Problem> check(const Parameters& p) {
   check_plate(p, problems);
   check_wedge(p, problems);
   check_inclined_plates(p, problems);
+  for (const Problem& problem : check_vessel(p)) problems.push_back(problem);
   check_bed(p, problems);
   if (p.settle.loading_time && *p.settle.loading_time >= p.settle.longest)
     problems.push_back({.key = "settle.loading_time",

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
 #include "models/continuum/layout.hpp"
+#include "models/continuum/vessel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
@@ -59,6 +59,7 @@ struct Parameters {
     std::optional<double> opens_after;
   };
   std::vector<InclinedPlate> plates;
+  std::vector<VesselPart> vessel;
   struct Gate {
     GateOpens opens = GateOpens::when_settled;
     double time = 0;
@@ -139,7 +140,6 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
   visit(Parameter{"box.floor", {}, {}, "the floor"}, p.box.floor);
   visit(Parameter{"box.top", {}, {}, "the top"}, p.box.top);
-
   visit(Parameter{"plate.height", dimension::length, above(0),
                   "height of a thin horizontal plate across the box; left out: no plate"},
         p.plate.height);
@@ -174,12 +174,12 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "its openings are closed by gates that open so long after the gate of the case; left out: no gates"},
         p.plates[n].opens_after);
   }
-  visit(Parameter{"gate.opens", {}, {}, "when the gate of the slit or of the wedge's outlet opens"}, p.gate.opens);
+  for_each_parameter_of_vessel(visit, p.vessel);
+  visit(Parameter{"gate.opens", {}, {}, "when the gate of slit, wedge or vessel opens"}, p.gate.opens);
   auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
   timed(Parameter{"gate.time", dimension::time, at_least(0),
                   "time at which the gate opens, with gate.opens = \"at-time\""},
         p.gate.time);
-
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
@@ -191,11 +191,11 @@ void for_each_parameter(Visit&& visit, P& p) {
       p.bed.spacing);
   visit(Parameter{"bed.height", dimension::length, above(0),
                   "height of the bed at the start; the bed fills the region that is connected with the middle of its "
-                  "top, with no plate between",
+                  "top, with no plate or wall between",
                   true},
         p.bed.height);
   visit(Parameter{"bed.bottom", dimension::length, at_least(0),
-                  "bottom of the bed; left out: the plate, the wedge's outlet, or the floor"},
+                  "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
         p.bed.bottom);
   visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
         p.bed.left);

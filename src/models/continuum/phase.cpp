@@ -22,10 +22,17 @@ bool is_loose_where_free(const Parameters& p, const Material& material) {
 /// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
 void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double time = s.time - s.gate_time;
-  if (!w.domain.has_gates_due(time)) return;
+  const bool in_vessel = has_gates_due(p, w.vessel, time);
+  if (!w.domain.has_gates_due(time) && !in_vessel) return;
   evaluate(team, p, s, w);
   const std::vector<double> before = w.rates.kernel_density;
   w.domain.open_gates(time);
+  open_gates(p, w.vessel, time);
+  if (in_vessel) {  // who was hidden by the gate is a neighbour now
+    w.sweep.find_neighbours(team, s.position, w.smoothing_length);
+    s.list_position = s.position;
+    s.list_smoothing_length = w.smoothing_length;
+  }
   if (!is_loose_where_free(p, w.material)) return;
   evaluate(team, p, s, w);
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += w.rates.kernel_density[i] - before[i]; });

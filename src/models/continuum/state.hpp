@@ -66,8 +66,9 @@ struct State {
 
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
   std::array<Vector3, most_walls> wall_impulse{};
-  Vector3 damping_impulse;  ///< what the damping of the settling bed took, N s
-  Vector3 gravity_impulse;  ///< what gravity gave, N s
+  std::vector<Vector3> vessel_impulse;  ///< the same by patch of the vessel; empty without one
+  Vector3 damping_impulse;              ///< what the damping of the settling bed took, N s
+  Vector3 gravity_impulse;              ///< what gravity gave, N s
 
   AirAround air;
 
@@ -161,6 +162,8 @@ void for_each_field(Visit&& visit, S& s) {
     visit(FieldInfo{detail::damping_names[axis], "N s"}, s.damping_impulse[axis]);
     visit(FieldInfo{detail::gravity_names[axis], "N s"}, s.gravity_impulse[axis]);
   }
+  if (!s.vessel_impulse.empty())
+    visit(FieldInfo{"vessel_impulse", "N s", FieldRole::kept, false, false}, s.vessel_impulse);
   visit(FieldInfo{"gate_time", "s"}, s.gate_time);
   visit(FieldInfo{"quiet_time", "s"}, s.quiet_time);
   visit(FieldInfo{"list_position", "m", FieldRole::kept, false}, s.list_position);

@@ -11,6 +11,7 @@
 #include "models/continuum/displacement.hpp"
 #include "models/continuum/loading.hpp"
 #include "models/continuum/phase.hpp"
+#include "models/continuum/vessel_friction.hpp"
 #include "models/continuum/walls.hpp"
 #include "physics/sph/pair_terms.hpp"
 
@@ -72,6 +73,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     step.stress();
   }
   reflect_at_walls(team, w.material, w.domain, w.position, s);
+  reflect_at_vessel(team, w.vessel, w.position, s);
   step.damping();
   step.clock();
   check_state(team, p, w.domain, s, dt);
@@ -182,6 +184,7 @@ void Step::stress() const {
 /// Friction, and the loads of the walls.
 void Step::walls(double duration) const {
   apply_wall_friction(team, p, w.domain, w.rates, w.position, duration, s);
+  apply_vessel_friction(team, p, w.rates, duration, s);
 }
 
 void Step::damping() const {
@@ -206,7 +209,10 @@ void Step::clock() const {
 }  // namespace
 
 void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (p.gate.opens == GateOpens::from_the_start) s.gate_time = 0;
+  if (p.gate.opens == GateOpens::from_the_start) {
+    s.gate_time = 0;
+    open_gates(p, w.vessel, 0);
+  }
   update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
   begin_densities(team, p, s, w);
@@ -216,7 +222,10 @@ void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 }
 
 void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (s.gate_time >= 0) w.domain.open_gates(s.time - s.gate_time);
+  if (s.gate_time >= 0) {
+    w.domain.open_gates(s.time - s.gate_time);
+    open_gates(p, w.vessel, s.time - s.gate_time);
+  }
   update_smoothing_lengths(team, s, w);
   w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
   evaluate(team, p, s, w);

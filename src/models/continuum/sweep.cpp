@@ -49,7 +49,7 @@ void Rates::resize(std::size_t count) {
   kernel_density.resize(count);
 }
 
-Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed)
+Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel)
     : mass_(mass),
       smoothing_ratio_(p.sph.smoothing_ratio),
       fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
@@ -66,7 +66,8 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
-      neighbourhood_(domain) {
+      neighbourhood_(domain, vessel),
+      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set)) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
@@ -84,6 +85,7 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   neighbourhood_.build(team, position, smoothing_length, skin_);
+  vessel_.find(team, position, smoothing_length, skin_);
   loads_.clear();
   for (const Image& image : neighbourhood_.images()) {
     ImageLoads loads{};
@@ -203,6 +205,10 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   const std::size_t count = particles.position.size();
   rates.resize(count);
   pack(team, particles, terms != SweepTerms::gradients || prepare_sum_);
+  if (!vessel_.is_empty()) {
+    rates.vessel.resize(count);
+    vessel_.meet(team, particles.position, particles.smoothing_length);
+  }
   if (prepare_sum_) prepare_stabilisers(team, particles);
   if (terms != SweepTerms::gradients) {
     rates.by_walls.walls = walls_;
@@ -224,6 +230,8 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
         sums[n] = {};
     }
     if (terms != SweepTerms::forces) {
+      if (!vessel_.is_empty())
+        for (std::size_t n = 0; n < size; ++n) add_walls_of_vessel(particles, first + n, sums[n]);
       alignas(64) double gradient[9][together];
       velocity_gradients_(sums, gradient);
       for (std::size_t c = 0; c < 9; ++c)
@@ -241,12 +249,56 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       std::copy_n(sums[n].wall_acceleration, first_wall_[i + 1] - first_wall_[i],
                   rates.by_walls.value.data() + first_wall_[i]);
     }
+    if (!vessel_.is_empty())
+      for (std::size_t i = first; i < first + size; ++i)
+        if (rates.vessel[i] = {}; vessel_.of(i).count > 0)
+          add_forces_of_vessel(particles, i, seen_from(i, seen), rates);
   };
   const std::size_t blocks = (count + together - 1) / together;
   team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
     for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
       compute(b * together);
   });
+}
+
+SeatAtWall Sweep::seat_at_wall(std::uint32_t record, std::uint32_t part) const {
+  const std::size_t count = neighbourhood_.particles();
+  const bool ghost = record >= count;
+  const std::size_t source = ghost ? neighbourhood_.ghosts()[record - count].source : record;
+  for (const NearWall& wall : vessel_.of(source).all()) {
+    if (wall.part != part) continue;
+    if (!ghost) return {wall.normal, wall.distance, wall.share};
+    const Image& image = neighbourhood_.image(neighbourhood_.ghosts()[record - count]);
+    return {image.position(wall.normal) - image.position({}), wall.distance, wall.share};
+  }
+  return {};
+}
+
+void Sweep::add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const {
+  double *m = sums.moment, *v = sums.velocity;
+  sph::GradientSums<> around{{m[0], m[1], m[2], m[3], m[4], m[5]},
+                             {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}};
+  sums.density_rate += particles.density[i] * add_walls(vessel_.of(i), particles.velocity[i], around);
+  const auto& [moment, velocity] = around;
+  m[0] = moment.xx, m[1] = moment.yy, m[2] = moment.zz, m[3] = moment.xy, m[4] = moment.yz, m[5] = moment.zx;
+  v[0] = velocity.xx, v[1] = velocity.xy, v[2] = velocity.xz;
+  v[3] = velocity.yx, v[4] = velocity.yy, v[5] = velocity.yz;
+  v[6] = velocity.zx, v[7] = velocity.zy, v[8] = velocity.zz;
+}
+
+void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+                                 Rates& rates) const {
+  const NearWalls& met = vessel_.of(i);
+  const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
+  rates.vessel[i] = forces_of_walls(met, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  for (const NearWall& wall : met.all())
+    rates.acceleration[i] +=
+        force_of_images(wall, records(), i, neighbours, constants_.mass,
+                        [this](std::uint32_t record, std::uint32_t part) { return seat_at_wall(record, part); });
+  for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
+  double beyond = 0;
+  for (const NearWall& wall : met.all()) beyond += wall.sums.density;
+  rates.kernel_density[i] += particles.density[i] * beyond;
 }
 
 }  // namespace talus::continuum

@@ -15,6 +15,8 @@
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
+#include "models/continuum/vessel_sum.hpp"
+#include "models/continuum/vessel_walls.hpp"
 #include "numerics/neighbourhood.hpp"
 
 namespace talus::continuum {
@@ -41,6 +43,7 @@ struct Rates {
   GradientColumns velocity_gradient;
   std::vector<double> kernel_density;  ///< sum of m W over particles and images, kg/m^3
   WallAccelerations by_walls;
+  std::vector<WallForces> vessel;  ///< by the walls of the vessel, part of the acceleration; empty without one
 
   void resize(std::size_t count);
 };
@@ -56,9 +59,10 @@ struct ParticleView {
 
 class Sweep {
  public:
-  /// \param domain outlives the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
+  /// \param domain, vessel outlive the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
   /// \throws InputError if the processor does not have the case's instruction set
-  Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed);
+  Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed,
+        const Surface& vessel = Surface::none());
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
@@ -86,6 +90,13 @@ class Sweep {
   };
   Neighbours seen_from(std::size_t i, Seen& seen) const;
   Records records() const;
+  /// Adds the walls of the vessel to the sums of a particle's velocity gradient and density rate.
+  void add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const;
+  /// Adds the forces of the vessel on a particle, and its share of the kernel's sum. \pre those of pairs are there
+  void add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+                            Rates& rates) const;
+  /// Wall and normal as another particle, or an image of one, meets the same part of a wall.
+  SeatAtWall seat_at_wall(std::uint32_t record, std::uint32_t part) const;
 
   double mass_;
   double smoothing_ratio_;
@@ -101,6 +112,7 @@ class Sweep {
   bool local_sound_speed_;
   std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood neighbourhood_;
+  VesselWalls vessel_;
   std::vector<ImageLoads> loads_;     // by image
   std::vector<MotionRecord> motion_;  // particles, images, padding
   std::vector<StressRecord> stress_;

@@ -20,7 +20,8 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
-      sweep(parameters, domain, state.mass, sound_speed),
+      vessel(surface_of(parameters)),
+      sweep(parameters, domain, state.mass, sound_speed, vessel),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain) : nullptr),
       position(state.position.size()),
       smoothing_length(state.position.size()) {

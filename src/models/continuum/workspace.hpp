@@ -21,6 +21,7 @@ struct Workspace {
   Material material;
   double sound_speed;   ///< bound for the time step, m/s
   double loading_time;  ///< over which gravity is raised, s
+  Surface vessel;       ///< empty without one
   Sweep sweep;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/vessel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "models/continuum/parameters.hpp"
+#include "numerics/surface/surface_faults.hpp"
+#include "physics/granular/orifice_discharge.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double millimetre = 1e-3;
+constexpr double round_off = 0.02;  // of a polygon from its circle, in spacings
+constexpr std::size_t most_faults = 5;
+
+/// A closed line of corners at each of two heights, joined by triangles that face its axis. A corner that two lines
+/// share is one place.
+std::vector<Triangle> band(const std::vector<Vector3>& lower, const std::vector<Vector3>& upper) {
+  std::vector<Triangle> triangles;
+  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
+    if (!(a == b) && !(b == c) && !(c == a)) triangles.push_back({{a, b, c}, 0});
+  };
+  for (std::size_t n = 0; n < lower.size(); ++n) {
+    const std::size_t m = (n + 1) % lower.size();
+    add(lower[n], upper[n], lower[m]);
+    add(lower[m], upper[n], upper[m]);
+  }
+  return triangles;
+}
+
+struct Axis {
+  double x, y;
+};
+
+Axis axis_of(const Parameters& p, const VesselPart& v) {
+  if (v.centre.size() == 2) return {v.centre[0], v.centre[1]};
+  return {0.5 * p.box.width, 0.5 * p.box.depth};
+}
+
+/// The number of sides is that of the largest circle of the vessel, so that parts that meet have the same corners.
+std::size_t sides(const Parameters& p) {
+  double radius = 0;
+  for (const VesselPart& v : p.vessel) radius = std::max({radius, v.radius, v.lower_radius, v.upper_radius});
+  const double angle = std::acos(std::max(0.0, 1 - round_off * p.bed.spacing / radius));  // half of a side's
+  return 4 * static_cast<std::size_t>(std::clamp(std::ceil(0.25 * std::numbers::pi / angle), 6.0, 1000.0));
+}
+
+std::vector<Vector3> circle(const Parameters& p, const VesselPart& v, double radius, double z) {
+  const Axis axis = axis_of(p, v);
+  const auto count = static_cast<double>(sides(p));
+  // Between the circle within and the one around it: the polygon of the same area.
+  const double angle = 2 * std::numbers::pi / count, around = radius * std::sqrt(angle / std::sin(angle));
+  std::vector<Vector3> corners;
+  for (double n = 0; n < count; ++n)
+    corners.push_back({axis.x + around * std::cos(angle * n), axis.y + around * std::sin(angle * n), z});
+  return corners;
+}
+
+std::vector<Vector3> rectangle(const Parameters& p, const VesselPart& v, double width, double depth, double z) {
+  const Axis axis = axis_of(p, v);
+  const double x = 0.5 * width, y = 0.5 * depth;
+  return {{axis.x - x, axis.y - y, z},
+          {axis.x + x, axis.y - y, z},
+          {axis.x + x, axis.y + y, z},
+          {axis.x - x, axis.y + y, z}};
+}
+
+double metres(FileUnit unit) {
+  constexpr double all[] = {1, 1e-2, 1e-3, 25.4e-3};
+  return all[static_cast<std::size_t>(unit)];
+}
+
+Vector3 vector_of(const std::array<double, 3>& a) {
+  return {a[0], a[1], a[2]};
+}
+
+std::string place_text(const Vector3& x) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x, x.y, x.z);
+}
+
+void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& problems) {
+  if (!v.drawn) return;
+  std::size_t told = 0;
+  const std::vector<SurfaceFault> faults = faults_of(v.drawn->triangles);
+  for (const SurfaceFault& fault : faults) {
+    if (told++ == most_faults) break;
+    const std::string other = fault.other ? fmt::format(" and triangle {}", *fault.other + 1) : "";
+    problems.push_back({.key = vessel_key(n, "file"),
+                        .what = fmt::format("{}: triangle {}{} at {} {}: {}", v.file, fault.triangle + 1, other,
+                                            place_text(fault.place), choice_name(v.unit), text_of(fault.kind)),
+                        .allowed = "a surface without such triangles"});
+  }
+  if (faults.size() > most_faults)
+    problems.push_back({.key = vessel_key(n, "file"),
+                        .what = fmt::format("{}: {} more such faults", v.file, faults.size() - most_faults)});
+}
+
+}  // namespace
+
+DrawnSurface::DrawnSurface(std::vector<Triangle> of_file) : triangles(std::move(of_file)) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  low = {infinity, infinity, infinity}, high = -1.0 * low;
+  for (const Triangle& t : triangles)
+    for (const Vector3& c : t.corner)
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
+}
+
+std::string vessel_key(std::size_t n, std::string_view name) {
+  return fmt::format("vessel.{}.{}", n + 1, name);
+}
+
+std::string name_of(const Parameters& p, std::size_t part) {
+  const VesselPart& v = p.vessel[part];
+  return v.name.empty() ? fmt::format("{}_{}", choice_name(v.shape), part + 1) : v.name;
+}
+
+std::vector<Triangle> triangles_of(const Parameters& p, std::size_t part) {
+  const VesselPart& v = p.vessel[part];
+  std::vector<Triangle> triangles;
+  switch (v.shape) {
+    case VesselShape::cylinder:
+      triangles = band(circle(p, v, v.radius, v.bottom), circle(p, v, v.radius, v.top));
+      break;
+    case VesselShape::cone:
+      triangles = band(circle(p, v, v.lower_radius, v.bottom), circle(p, v, v.upper_radius, v.top));
+      break;
+    case VesselShape::disc:
+      triangles = band(circle(p, v, v.hole, v.height), circle(p, v, v.radius, v.height));
+      break;
+    case VesselShape::box:
+      triangles = band(rectangle(p, v, v.width, v.depth, v.bottom), rectangle(p, v, v.width, v.depth, v.top));
+      break;
+    case VesselShape::pyramid:
+      triangles = band(rectangle(p, v, v.lower_width, v.lower_depth, v.bottom),
+                       rectangle(p, v, v.upper_width, v.upper_depth, v.top));
+      break;
+    case VesselShape::plate: {
+      const Vector3 a = vector_of(v.corner), b = a + vector_of(v.first_edge), d = a + vector_of(v.second_edge);
+      const Vector3 c = b + vector_of(v.second_edge);
+      triangles = {{{a, b, c}, 0}, {{a, c, d}, 0}};
+      break;
+    }
+    case VesselShape::stl:
+      if (v.drawn) triangles = v.drawn->triangles;
+      for (Triangle& t : triangles)
+        for (Vector3& corner : t.corner) corner = metres(v.unit) * corner;
+      break;
+  }
+  for (Triangle& t : triangles) t.patch = static_cast<std::uint32_t>(part);
+  return triangles;
+}
+
+VesselBounds bounds_of_vessel(const Parameters& p) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  VesselBounds all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  const auto add = [&](const Vector3& x) {
+    for (int axis = 0; axis < 3; ++axis)
+      all.low[axis] = std::min(all.low[axis], x[axis]), all.high[axis] = std::max(all.high[axis], x[axis]);
+  };
+  for (const VesselPart& v : p.vessel) {
+    const Axis axis = axis_of(p, v);
+    const auto around = [&](double width, double depth, double bottom, double top) {
+      add({axis.x - 0.5 * width, axis.y - 0.5 * depth, bottom});
+      add({axis.x + 0.5 * width, axis.y + 0.5 * depth, top});
+    };
+    switch (v.shape) {
+      case VesselShape::cylinder:
+        around(2 * v.radius, 2 * v.radius, v.bottom, v.top);
+        break;
+      case VesselShape::cone: {
+        const double widest = 2 * std::max(v.lower_radius, v.upper_radius);
+        around(widest, widest, v.bottom, v.top);
+        break;
+      }
+      case VesselShape::disc:
+        around(2 * v.radius, 2 * v.radius, v.height, v.height);
+        break;
+      case VesselShape::box:
+        around(v.width, v.depth, v.bottom, v.top);
+        break;
+      case VesselShape::pyramid:
+        around(std::max(v.lower_width, v.upper_width), std::max(v.lower_depth, v.upper_depth), v.bottom, v.top);
+        break;
+      case VesselShape::plate: {
+        const Vector3 a = vector_of(v.corner), b = vector_of(v.first_edge), c = vector_of(v.second_edge);
+        add(a), add(a + b), add(a + c), add(a + b + c);
+        break;
+      }
+      case VesselShape::stl:
+        if (v.drawn) add(metres(v.unit) * v.drawn->low), add(metres(v.unit) * v.drawn->high);
+        break;
+    }
+  }
+  return all;
+}
+
+Surface surface_of(const Parameters& p) {
+  std::vector<Triangle> all;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    const std::vector<Triangle> own = triangles_of(p, n);
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return Surface(std::move(all), p.vessel.size(), p.bed.spacing);
+}
+
+std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
+  std::optional<VesselOutlet> lowest;
+  const auto offer = [&](const VesselPart& v, double height, double width, double depth, bool round) {
+    const Axis axis = axis_of(p, v);
+    if (width > 0 && (!lowest || height < lowest->middle.z))
+      lowest = VesselOutlet{{axis.x, axis.y, height}, width, depth, round};
+  };
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    const VesselPart& v = p.vessel[n];
+    if (!v.gate) continue;
+    if (v.shape == VesselShape::disc) {
+      offer(v, v.height, 2 * v.radius, 2 * v.radius, true);
+    } else if (v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0) {
+      const Surface plate(triangles_of(p, n), p.vessel.size(), p.bed.spacing);
+      const Vector3 extent = plate.high() - plate.low();
+      lowest = VesselOutlet{plate.low() + 0.5 * extent, extent.x, extent.y, false};
+    }
+  }
+  if (lowest) return lowest;
+  for (const VesselPart& v : p.vessel) {
+    if (v.shape == VesselShape::cone) offer(v, v.bottom, 2 * v.lower_radius, 2 * v.lower_radius, true);
+    if (v.shape == VesselShape::disc) offer(v, v.height, 2 * v.hole, 2 * v.hole, true);
+    if (v.shape == VesselShape::pyramid) offer(v, v.bottom, v.lower_width, v.lower_depth, false);
+  }
+  return lowest;
+}
+
+bool has_gates_due(const Parameters& p, const Surface& surface, double time) {
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    if (p.vessel[n].gate && !surface.is_open(n) && time >= p.vessel[n].opens_after) return true;
+  return false;
+}
+
+void open_gates(const Parameters& p, Surface& surface, double time) {
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    if (p.vessel[n].gate && time >= p.vessel[n].opens_after) surface.open(n);
+}
+
+double discharge_by_hand(const Parameters& p) {
+  const auto outlet = outlet_of_vessel(p);
+  if (!outlet || !outlet->round) return 0;
+  double factor = 1;
+  for (const VesselPart& v : p.vessel)
+    if (v.shape == VesselShape::cone && v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
+      factor = granular::factor_of_cone((v.upper_radius - v.lower_radius) / (v.top - v.bottom));
+  return factor * granular::orifice_discharge(outlet->width, p.bed.packing * p.grains.density, p.gravity.acceleration,
+                                              p.grains.diameter);
+}
+
+std::vector<Problem> check_vessel(const Parameters& p) {
+  std::vector<Problem> problems;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    const VesselPart& v = p.vessel[n];
+    const auto add = [&](std::string_view key, std::string what, std::string allowed) {
+      problems.push_back({.key = vessel_key(n, key), .what = std::move(what), .allowed = std::move(allowed)});
+    };
+    const bool upright = v.shape == VesselShape::cylinder || v.shape == VesselShape::cone ||
+                         v.shape == VesselShape::box || v.shape == VesselShape::pyramid;
+    if (upright && !(v.top > v.bottom))
+      add("top", fmt::format("{:.4g} mm is not above the bottom", v.top / millimetre),
+          fmt::format("above {:.4g} mm", v.bottom / millimetre));
+    if (!v.centre.empty() && v.centre.size() != 2) add("centre", "is no place", "two lengths, x and y");
+    if (v.shape == VesselShape::disc && !(v.hole < v.radius))
+      add("hole", fmt::format("{:.4g} mm leaves no disc", v.hole / millimetre),
+          fmt::format("below {:.4g} mm, its radius", v.radius / millimetre));
+    if (v.shape == VesselShape::cone && !(std::max(v.lower_radius, v.upper_radius) > 0))
+      add("upper_radius", "the cone has no radius", "one of both above 0");
+    if (v.shape == VesselShape::pyramid && !(std::max(v.lower_width, v.upper_width) > 0))
+      add("upper_width", "the pyramid has no width", "one of both above 0");
+    if (v.shape == VesselShape::pyramid && !(std::max(v.lower_depth, v.upper_depth) > 0))
+      add("upper_depth", "the pyramid has no depth", "one of both above 0");
+    if (v.shape == VesselShape::plate && !(norm(cross(vector_of(v.first_edge), vector_of(v.second_edge))) > 0))
+      add("second_edge", "the plate has no area", "an edge at an angle to first_edge");
+    for (const char c : v.name)
+      if (!(std::isalnum(static_cast<unsigned char>(c)) || c == '_')) {
+        add("name", fmt::format("\"{}\" cannot name a column", v.name), "letters, digits and _");
+        break;
+      }
+    for (std::size_t m = 0; m < n; ++m)
+      if (name_of(p, m) == name_of(p, n)) add("name", "is that of another wall too", "a name of its own");
+    check_file(v, n, problems);
+  }
+  if (p.vessel.empty()) return problems;
+  const auto refuse = [&](bool given, std::string key, std::string what, std::string allowed) {
+    if (given) problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
+  };
+  refuse(p.air.enabled, "air.enabled", "air does not know the walls of a [[vessel]] yet", "false with a [[vessel]]");
+  refuse(p.plate.height.has_value(), "plate.height", "a plate across the box and a [[vessel]]", "one of them");
+  refuse(p.wedge.half_angle.has_value(), "wedge.half_angle", "a wedge and a [[vessel]]", "one of them");
+  refuse(p.walls.friction == Friction::printed, "walls.friction", "the printed rule in a [[vessel]]",
+         "\"coulomb\" or \"none\"");
+  return problems;
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The vessel of a case: walls of any shape in space, each a patch of one surface of triangles.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parameter.hpp"
+#include "numerics/surface/surface.hpp"
+
+namespace talus::continuum {
+
+struct Parameters;
+
+enum class VesselShape { cylinder, cone, disc, box, pyramid, plate, stl };
+enum class FileUnit { m, cm, mm, inch };
+
+/// The triangles of a file.
+struct DrawnSurface {
+  std::vector<Triangle> triangles;
+  Vector3 low, high;  ///< corners of the box around them
+  explicit DrawnSurface(std::vector<Triangle> of_file);
+};
+
+/// One of [[vessel]]. SI.
+struct VesselPart {
+  std::string name;
+  VesselShape shape = VesselShape::cylinder;
+  std::vector<double> centre;  ///< x and y of the axis; empty: the middle of the box
+  double bottom = 0, top = 0, height = 0;
+  double radius = 0, hole = 0, lower_radius = 0, upper_radius = 0;
+  double width = 0, depth = 0, lower_width = 0, lower_depth = 0, upper_width = 0, upper_depth = 0;
+  std::array<double, 3> corner{}, first_edge{}, second_edge{};
+  std::string file;
+  FileUnit unit = FileUnit::mm;
+  std::optional<double> friction;
+  bool gate = false;
+  double opens_after = 0;
+
+  /// What the file holds, as it stands there, without the unit. Not a key: who reads the case fills it in.
+  std::shared_ptr<const DrawnSurface> drawn = nullptr;
+};
+
+/// The key of the nth of [[vessel]], from 0.
+std::string vessel_key(std::size_t n, std::string_view name);
+
+template <class Visit, class P>
+void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    auto& v = parts[n];
+    using enum VesselShape;
+    const auto key = [n](std::string_view name) { return vessel_key(n, name); };
+    visit(Parameter{key("name"), {}, {}, "name of the wall, in the columns of its load; left out: its shape"}, v.name);
+    visit(Parameter{key("shape"),
+                    {},
+                    {},
+                    "wall in space without thickness, a patch of the vessel: an upright cylinder, a cone (or a frustum "
+                    "of one), a horizontal disc (with a hole in its middle), the four upright walls of a box, the four "
+                    "walls of a pyramid (or a frustum), a plate (a parallelogram at any angle), or the triangles of an "
+                    "STL file",
+                    true},
+          v.shape);
+    const auto of = [&](std::initializer_list<VesselShape> shapes, std::string_view names) {
+      bool holds = false;
+      for (const VesselShape shape : shapes) holds = holds || shape == v.shape;
+      return Condition{key("shape"), "is " + value_text(v.shape), "= " + std::string(names), holds};
+    };
+    auto round = only_if(
+        of({cylinder, cone, disc, box, pyramid}, "\"cylinder\", \"cone\", \"disc\", \"box\" or \"pyramid\""), visit);
+    auto upright = only_if(of({cylinder, cone, box, pyramid}, "\"cylinder\", \"cone\", \"box\" or \"pyramid\""), visit);
+    auto circular = only_if(of({cylinder, disc}, "\"cylinder\" or \"disc\""), visit);
+    auto conical = only_if(of({cone}, "\"cone\""), visit);
+    auto flat = only_if(of({disc}, "\"disc\""), visit);
+    auto square = only_if(of({box}, "\"box\""), visit);
+    auto tapered = only_if(of({pyramid}, "\"pyramid\""), visit);
+    auto oblique = only_if(of({plate}, "\"plate\""), visit);
+    auto drawn = only_if(of({stl}, "\"stl\""), visit);
+    round(Parameter{key("centre"), dimension::length, {}, "x and y of its axis; left out: the middle of the box"},
+          v.centre);
+    upright(Parameter{key("bottom"), dimension::length, {}, "height of its lower end", true}, v.bottom);
+    upright(Parameter{key("top"), dimension::length, {}, "height of its upper end", true}, v.top);
+    flat(Parameter{key("height"), dimension::length, {}, "height of the disc", true}, v.height);
+    circular(Parameter{key("radius"), dimension::length, above(0), "radius", true}, v.radius);
+    flat(Parameter{key("hole"), dimension::length, at_least(0), "radius of the hole in the disc; 0: none"}, v.hole);
+    conical(Parameter{key("lower_radius"), dimension::length, at_least(0), "radius at the lower end", true},
+            v.lower_radius);
+    conical(Parameter{key("upper_radius"), dimension::length, at_least(0), "radius at the upper end", true},
+            v.upper_radius);
+    square(Parameter{key("width"), dimension::length, above(0), "extent along x", true}, v.width);
+    square(Parameter{key("depth"), dimension::length, above(0), "extent along y", true}, v.depth);
+    tapered(Parameter{key("lower_width"), dimension::length, at_least(0), "extent along x at the lower end", true},
+            v.lower_width);
+    tapered(Parameter{key("lower_depth"), dimension::length, at_least(0), "extent along y at the lower end", true},
+            v.lower_depth);
+    tapered(Parameter{key("upper_width"), dimension::length, at_least(0), "extent along x at the upper end", true},
+            v.upper_width);
+    tapered(Parameter{key("upper_depth"), dimension::length, at_least(0), "extent along y at the upper end", true},
+            v.upper_depth);
+    oblique(Parameter{key("corner"), dimension::length, {}, "a corner of the plate", true}, v.corner);
+    oblique(Parameter{key("first_edge"), dimension::length, {}, "from there to the next corner", true}, v.first_edge);
+    oblique(Parameter{key("second_edge"), dimension::length, {}, "and to the one on its other side", true},
+            v.second_edge);
+    drawn(Parameter{key("file"),
+                    {},
+                    {},
+                    "STL file, ASCII or binary; a path without / in front starts at the case's "
+                    "folder",
+                    true},
+          v.file);
+    drawn(Parameter{key("unit"), {}, {}, "unit of the numbers in the file, which an STL file does not say", true},
+          v.unit);
+    visit(Parameter{key("friction"), dimension::none, friction_coefficient(),
+                    "coefficient of friction of this wall; left out: walls.coefficient"},
+          v.friction);
+    visit(Parameter{key("gate"), {}, {}, "whether it is taken away when the gate of the case opens"}, v.gate);
+    auto gated = only_if(where(key("gate"), v.gate, true), visit);
+    gated(Parameter{key("opens_after"), dimension::time, at_least(0), "so long after the gate of the case opens"},
+          v.opens_after);
+  }
+}
+
+/// Contradictions between keys of the vessel that are each valid by themselves, and faults of its files.
+std::vector<Problem> check_vessel(const Parameters& parameters);
+
+/// Of a part: that of its key, or its shape and number.
+std::string name_of(const Parameters& parameters, std::size_t part);
+
+/// The surface of the vessel, patch n of part n, all gates shut; empty without a vessel.
+/// Round parts are polygons whose sides are nowhere farther from the circle than a fiftieth of bed.spacing, and whose
+/// area of cross-section is the circle's.
+Surface surface_of(const Parameters& parameters);
+
+/// The triangles of one part.
+std::vector<Triangle> triangles_of(const Parameters& parameters, std::size_t part);
+
+/// Corners of the box around the vessel, m, without making its surface.
+struct VesselBounds {
+  Vector3 low, high;
+};
+VesselBounds bounds_of_vessel(const Parameters& parameters);
+
+/// What the grains leave the vessel through: the gate if one is flat and level, else the hole of a disc or the lower
+/// end of a cone or pyramid, the lowest of them; nothing if there is none, or if it is the work of an STL file.
+struct VesselOutlet {
+  Vector3 middle;               ///< m
+  double width = 0, depth = 0;  ///< along x and y; of a round one its diameter, m
+  bool round = false;
+};
+std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
+
+/// What leaves by a hand formula (physics/granular/orifice_discharge.hpp) where the outlet is round, kg/s; else 0.
+double discharge_by_hand(const Parameters& parameters);
+
+/// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top by steps
+/// from place to place that no wall crosses; those nearer to a wall than 0.4 spacings are moved off it to that
+/// distance.
+std::vector<Vector3> bed_in_vessel(const Parameters& parameters);
+
+/// Whether a gate is still shut whose time has come. \param time from the opening of the gate of the case, s
+bool has_gates_due(const Parameters& parameters, const Surface& surface, double time);
+/// Opens these, for good.
+void open_gates(const Parameters& parameters, Surface& surface, double time);
+
+}  // namespace talus::continuum
+
+namespace talus {
+template <>
+inline constexpr auto choices<continuum::VesselShape> =
+    std::to_array<std::string_view>({"cylinder", "cone", "disc", "box", "pyramid", "plate", "stl"});
+template <>
+inline constexpr auto choices<continuum::FileUnit> = std::to_array<std::string_view>({"m", "cm", "mm", "in"});
+}  // namespace talus

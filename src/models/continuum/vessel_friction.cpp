@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/vessel_friction.hpp"
+
+#include <vector>
+
+#include "models/continuum/walls.hpp"
+#include "physics/sph/wall_friction.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+using Impulses = std::vector<Vector3>;  // by patch
+
+Impulses sum(Impulses a, const Impulses& b) {
+  for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
+  return a;
+}
+
+}  // namespace
+
+void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& rates, double duration, State& state) {
+  if (state.vessel_impulse.empty()) return;
+  const bool rough = has_wall_friction(p, state);
+  const auto meet = [&](std::size_t i, Impulses& received) {
+    for (const WallForce& wall : rates.vessel[i].all()) {
+      received[wall.patch] -= (state.mass * duration) * wall.acceleration;
+      const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
+      if (!rough) continue;
+      const Vector3 through = dot(state.velocity[i], wall.normal) * wall.normal, along = state.velocity[i] - through;
+      const Vector3 after =
+          through + sph::coulomb_friction(along, duration * dot(wall.acceleration, wall.normal), coefficient);
+      received[wall.patch] += state.mass * (state.velocity[i] - after);
+      state.velocity[i] = after;
+    }
+  };
+  state.vessel_impulse = sum(state.vessel_impulse,
+                             accumulate(team, state.position.size(), Impulses(state.vessel_impulse.size()), meet, sum));
+}
+
+void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, std::span<const Vector3> before, State& state) {
+  if (vessel.is_empty()) return;
+  constexpr int most_bounces = 4;
+  const auto turn = [&](std::size_t i, Impulses& received) {
+    Vector3 &x = state.position[i], &u = state.velocity[i];
+    const Vector3 moved_to = x;
+    for (int bounces = 0;; ++bounces) {
+      const auto met = vessel.first_crossing(before[i], x);
+      if (!met) break;
+      const Triangle& triangle = vessel.triangles()[met->triangle];
+      const Vector3& normal = vessel.normal(met->triangle);
+      const double beyond = dot(normal, x - triangle.corner[0]);  // of the other sign than where it came from
+      if (const double speed = dot(u, normal); speed * beyond > 0) {
+        received[triangle.patch] += (state.mass * speed) * normal;
+        u -= speed * normal;
+      }
+      x -= (2 * beyond) * normal;
+      if (bounces == most_bounces) x = before[i];  // in a narrow corner: back to where it was
+    }
+    if (!state.reset_position.empty()) state.reset_position[i] += x - moved_to;
+  };
+  state.vessel_impulse =
+      sum(state.vessel_impulse, accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum));
+}
+
+}  // namespace talus::continuum

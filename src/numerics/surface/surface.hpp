@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A surface of triangles: the walls of a vessel. It has no thickness; grains may stand on either side of it. Its
+/// triangles belong to patches, which a gate may open, and to smooth parts, which edges bound.
+///
+/// A uniform grid of cells finds the triangles near a place, so that the cost does not grow with their number.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "numerics/surface/triangle.hpp"
+
+namespace talus {
+
+class Surface {
+ public:
+  Surface() = default;
+  static const Surface& none();  ///< without triangles
+
+  /// \param triangles each with an area; \param patches how many there are; \param cell edge of the grid's cells, m; it
+  /// is raised where the grid would have more than some ten million
+  /// \throws std::invalid_argument for a triangle without area, of no patch, or not finite
+  Surface(std::vector<Triangle> triangles, std::size_t patches, double cell);
+
+  bool is_empty() const { return triangles_.empty(); }
+  std::span<const Triangle> triangles() const { return triangles_; }
+  const Vector3& normal(std::size_t triangle) const { return normals_[triangle]; }  ///< unit
+  std::size_t patches() const { return is_open_.size(); }
+  const Vector3& low() const { return low_; }  ///< corners of the box around it, m
+  const Vector3& high() const { return high_; }
+
+  /// Number of the smooth part of a triangle: those of a patch that are joined by edges across which the surface turns
+  /// by less than 32 degrees.
+  std::uint32_t part(std::size_t triangle) const { return parts_[triangle]; }
+  std::size_t parts() const { return part_count_; }
+  /// Number of the flat piece of a part that it belongs to.
+  std::uint32_t facet(std::size_t triangle) const { return facets_[triangle]; }
+  std::size_t facets() const { return facet_count_; }
+
+  /// Takes a patch away, for good: nothing is crossed there any more.
+  void open(std::size_t patch) { is_open_[patch] = true; }
+  bool is_open(std::size_t patch) const { return is_open_[patch]; }
+
+  struct Foot {
+    std::uint32_t triangle;
+    Vector3 place;    ///< of the surface, m
+    double distance;  ///< m
+  };
+  /// The place of the surface nearest to x, open patches left out; nothing if none is within the distance.
+  std::optional<Foot> nearest(const Vector3& x, double within) const;
+
+  struct Crossing {
+    std::uint32_t triangle;
+    double at;  ///< fraction of the line
+  };
+  /// Where the straight line from a to b crosses the surface first.
+  std::optional<Crossing> first_crossing(const Vector3& a, const Vector3& b) const;
+  /// Whether it does. The same from both ends.
+  bool blocks(const Vector3& a, const Vector3& b) const;
+
+  /// Calls visit(a, b), a < b, once for each two triangles that have a cell in common.
+  void for_each_near_pair(const std::function<void(std::uint32_t a, std::uint32_t b)>& visit) const;
+
+ private:
+  struct Cell {
+    int i, j, k;
+  };
+  std::vector<std::uint32_t> joined(double cosine, std::size_t& count) const;
+  void fill_grid();
+  int along(double x, int axis) const;
+  template <class Visit>
+  void for_each_cell(const Vector3& low, const Vector3& high, Visit&& visit) const;
+  std::span<const std::uint32_t> in_cell(std::size_t cell) const {
+    return std::span(of_cells_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+  }
+
+  std::vector<Triangle> triangles_;
+  std::vector<Vector3> normals_;
+  std::vector<std::uint32_t> parts_, facets_;
+  std::size_t part_count_ = 0, facet_count_ = 0;
+  std::vector<bool> is_open_;
+  Vector3 low_, high_;
+  double cell_ = 1;
+  std::array<int, 3> count_{};
+  std::vector<std::size_t> first_ = {0};  // of each cell in of_cells_; one more at the end
+  std::vector<std::uint32_t> of_cells_;   // triangles by cell
+};
+
+}  // namespace talus

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "numerics/surface/surface_faults.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "shapes.hpp"
+
+namespace talus {
+namespace {
+
+using Kind = SurfaceFault::Kind;
+
+TEST(SurfaceFaults, AGoodSurfaceHasNone) {
+  EXPECT_TRUE(faults_of(ball(3)).empty());
+  EXPECT_TRUE(faults_of(tube(40)).empty()) << "rims are no fault";
+  EXPECT_EQ(open_edges(ball(3)), 0u);
+  EXPECT_EQ(open_edges(tube(40)), 80u);
+}
+
+TEST(SurfaceFaults, NameTheTriangleAndThePlace) {
+  std::vector<Triangle> triangles = ball(2);
+  std::swap(triangles[17].corner[0], triangles[17].corner[1]);
+  const auto turned = faults_of(triangles);
+  ASSERT_EQ(turned.size(), 3u) << "with each of its neighbours";
+  for (const SurfaceFault& fault : turned) {
+    EXPECT_EQ(fault.kind, Kind::turned_over);
+    EXPECT_TRUE(fault.triangle == 17 || fault.other == 17);
+    EXPECT_LT(norm(fault.place - triangles[17].middle()), 0.5);
+  }
+
+  triangles = ball(2);
+  triangles.push_back(triangles[5]);
+  const auto twice = faults_of(triangles);
+  ASSERT_FALSE(twice.empty());
+  EXPECT_EQ(twice.front().kind, Kind::twice);
+  EXPECT_EQ(twice.front().triangle, 5u);
+  EXPECT_EQ(twice.front().other, triangles.size() - 1);
+
+  triangles = ball(2);
+  triangles[9].corner[2] = triangles[9].corner[1];
+  triangles[11].corner[0].y = std::numeric_limits<double>::quiet_NaN();
+  const auto flat = faults_of(triangles);
+  ASSERT_EQ(flat.size(), 2u);
+  EXPECT_EQ(flat[0].kind, Kind::without_area);
+  EXPECT_EQ(flat[0].triangle, 9u);
+  EXPECT_EQ(flat[1].kind, Kind::not_finite);
+  EXPECT_EQ(flat[1].triangle, 11u);
+}
+
+TEST(SurfaceFaults, ASurfaceThatPassesThroughItselfIsFound) {
+  std::vector<Triangle> triangles = square(1);
+  triangles.push_back({{Vector3{0.2, -0.1, -1}, {0.4, -0.1, -1}, {0.3, -0.1, 1}}, 0});
+  const auto faults = faults_of(triangles);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.front().kind, Kind::crossing_another);
+  EXPECT_EQ(faults.front().triangle, 0u);
+  EXPECT_EQ(faults.front().other, 2u);
+  EXPECT_NEAR(faults.front().place.z, 0, 1e-12);
+  EXPECT_NEAR(faults.front().place.y, -0.1, 1e-12);
+  triangles.back() = {{Vector3{0.2, -0.1, 0}, {0.4, -0.1, 0}, {0.3, -0.1, 1}}, 0};
+  EXPECT_TRUE(faults_of(triangles).empty()) << "it stands on the square";
+}
+
+TEST(SurfaceFaults, AThirdTriangleAtAnEdgeIsFound) {
+  std::vector<Triangle> triangles = square(1);
+  triangles.push_back({{Vector3{-1, -1, 0}, {1, 1, 0}, {0, 0, 1}}, 0});
+  const auto faults = faults_of(triangles);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults.front().kind, Kind::branching);
+}
+
+}  // namespace
+}  // namespace talus
