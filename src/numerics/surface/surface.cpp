@@ -121,12 +121,14 @@ void Surface::fill_grid() {
   // Two passes: how many triangles a cell has, then which. A triangle is in the cells of its box that its plane passes.
   const auto for_each_entry = [&](const auto& enter) {
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      const auto& [a, b, c] = triangles_[t].corner;
+      const std::array<Vector3, 3>& corner = triangles_[t].corner;
+      const Vector3 low = least(corner[0], least(corner[1], corner[2]));
+      const Vector3 high = largest(corner[0], largest(corner[1], corner[2]));
       const Vector3& n = normals_[t];
       const double half = (0.5 + 1e-6) * cell_ * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-      for_each_cell(least(a, least(b, c)), largest(a, largest(b, c)), [&](std::size_t cell, const Cell& at) {
+      for_each_cell(low, high, [&](std::size_t cell, const Cell& at) {
         const Vector3 middle = low_ + cell_ * Vector3{at.i + 0.5, at.j + 0.5, at.k + 0.5};
-        if (std::abs(dot(n, middle - a)) <= half) enter(cell, t);
+        if (std::abs(dot(n, middle - corner[0])) <= half) enter(cell, t);
       });
     }
   };
