@@ -88,7 +88,7 @@ class Words {
     return value;
   }
   /// \param triangle from 1
-  [[noreturn]] void fail(std::string_view word, std::string wanted, std::size_t triangle) const {
+  [[noreturn]] void fail(std::string_view word, const std::string& wanted, std::size_t triangle) const {
     refuse(name_, line_,
            word.empty() ? fmt::format("ends within triangle {}", triangle)
                         : fmt::format("triangle {}: \"{}\"", triangle, printable(word.substr(0, 40))),
