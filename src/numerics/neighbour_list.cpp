@@ -5,7 +5,7 @@
 #include <bit>
 #include <limits>
 
-#include "base/instruction_set.hpp"
+#include "base/compiled_for.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/near_points/kernel.hpp"
 
@@ -78,19 +78,6 @@ class Surroundings {
   std::vector<std::uint32_t> near_;
 };
 
-PickNear* choose_pick_near() {
-  switch (resolve(InstructionSet::automatic)) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return pick_near_avx512;
-    case InstructionSet::avx2:
-      return pick_near_avx2;
-#endif
-    default:
-      return pick_near_portable;
-  }
-}
-
 }  // namespace
 
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
@@ -112,7 +99,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
       if (ghosts != points.begin()) visit(std::span(points.begin(), ghosts));
     }
   };
-  static PickNear* const pick_near = choose_pick_near();
+  static PickNear* const pick_near = TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), pick_near);
   found_.resize(std::max(chunks, found_.size()));
   team.run(chunks, [&](std::size_t chunk) {
     thread_local Surroundings of_thread;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/compiled_for.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
 #include "physics/hydrodynamics/rotne_prager.hpp"
 #include "physics/hydrodynamics/zuk.hpp"
@@ -23,16 +24,7 @@ constexpr std::size_t gather_block = 32 * padding;
 
 SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t dimensions) {
   const bool single = options.precision == Precision::single_precision;
-  switch (set) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return sum_rows_avx512(options.mobility, dimensions, single);
-    case InstructionSet::avx2:
-      return sum_rows_avx2(options.mobility, dimensions, single);
-#endif
-    default:
-      return sum_rows_portable(options.mobility, dimensions, single);
-  }
+  return TALUS_COMPILED_FOR(set, sum_rows)(options.mobility, dimensions, single);
 }
 
 std::array<double Vector3::*, 3> axes(Motion motion) {

@@ -6,7 +6,7 @@
 #include <concepts>
 #include <string_view>
 
-#include "base/instruction_set.hpp"
+#include "base/compiled_for.hpp"
 #include "models/continuum/law_update/kernel.hpp"
 
 namespace talus::continuum {
@@ -37,19 +37,6 @@ template <class Law>
 concept TakesAStrain = requires(const Law law, const granular::MaterialPoint<Law>& old) {
   law.update_at_strain(old, SymmetricTensor3<>{}, Tensor3<>{}, 1.0, 1.0);
 };
-
-UpdateCriticalState* choose_update() {
-  switch (resolve(InstructionSet::automatic)) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return update_law_avx512;
-    case InstructionSet::avx2:
-      return update_law_avx2;
-#endif
-    default:
-      return update_law_portable;
-  }
-}
 
 LawColumns columns_of(const MaterialColumns& old, const GradientColumns& velocity_gradient,
                       std::span<const double> density, double time_step, MaterialColumns& next, bool keep_history) {
@@ -125,7 +112,8 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, const Gradie
         // Whole blocks in vectors where the law has them, with the same bits.
         std::size_t done = 0;
         if constexpr (std::same_as<Law, granular::CriticalState>) {
-          static UpdateCriticalState* const update_blocks = choose_update();
+          static UpdateCriticalState* const update_blocks =
+              TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), update_law);
           const LawColumns columns = columns_of(old, velocity_gradient, density, time_step, next, keep_history);
           constexpr std::size_t at_once = 32 * law_block;
           done = density.size() / law_block * law_block;

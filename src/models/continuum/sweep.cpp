@@ -5,42 +5,12 @@
 #include <bit>
 #include <cmath>
 
-#include "base/instruction_set.hpp"
+#include "base/compiled_for.hpp"
 #include "models/continuum/material.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
 
 namespace talus::continuum {
-
-namespace {
-
-SumNeighbours choose(InstructionSet set, SweepTerms terms, Stabilisers stabilisers) {
-  switch (set) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return sum_neighbours_avx512(terms, stabilisers);
-    case InstructionSet::avx2:
-      return sum_neighbours_avx2(terms, stabilisers);
-#endif
-    default:
-      return sum_neighbours_portable(terms, stabilisers);
-  }
-}
-
-VelocityGradients* choose_velocity_gradients(InstructionSet set) {
-  switch (set) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return velocity_gradients_avx512;
-    case InstructionSet::avx2:
-      return velocity_gradients_avx2;
-#endif
-    default:
-      return velocity_gradients_portable;
-  }
-}
-
-}  // namespace
 
 void Rates::resize(std::size_t count) {
   acceleration.resize(count);
@@ -71,9 +41,10 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
-    sum_[static_cast<std::size_t>(terms)] = choose(set, terms, stabilised ? Stabilisers::acting : Stabilisers::none);
-  velocity_gradients_ = choose_velocity_gradients(set);
-  if (stabilised) prepare_sum_ = choose(set, SweepTerms::gradients, Stabilisers::prepared);
+    sum_[static_cast<std::size_t>(terms)] =
+        TALUS_COMPILED_FOR(set, sum_neighbours)(terms, stabilised ? Stabilisers::acting : Stabilisers::none);
+  velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
+  if (stabilised) prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared);
 }
 
 double Sweep::smoothing_length(double density) const {

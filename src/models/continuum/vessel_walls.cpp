@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/compiled_for.hpp"
 #include "numerics/cell_grid.hpp"
 #include "physics/sph/wall_integrals.hpp"
 
@@ -16,23 +17,10 @@ namespace {
 constexpr double piece = 0.4;
 constexpr int steps_of_h = 64;
 
-SumWalls* choose(InstructionSet set) {
-  switch (set) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return sum_walls_avx512;
-    case InstructionSet::avx2:
-      return sum_walls_avx2;
-#endif
-    default:
-      return sum_walls_portable;
-  }
-}
-
 }  // namespace
 
 VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set)
-    : surface_(surface), sum_(choose(set)) {
+    : surface_(surface), sum_(TALUS_COMPILED_FOR(set, sum_walls)) {
   if (surface.is_empty()) return;
   points_ = spread_points(surface, piece * spacing);
   for (const SurfacePoint& point : points_) {

@@ -160,11 +160,4 @@ std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles) {
   return faults;
 }
 
-std::size_t open_edges(std::span<const Triangle> triangles) {
-  const std::vector<Edge> edges = sorted_edges(triangles, std::vector<bool>(triangles.size(), false));
-  std::size_t open = 0;
-  for_each_edge(edges, [&](std::size_t, std::size_t count) { open += count == 1; });
-  return open;
-}
-
 }  // namespace talus

@@ -35,7 +35,4 @@ std::string_view text_of(SurfaceFault::Kind kind);
 /// A triangle without area counts only as that. Coordinates that belong together must be the same bits.
 std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles);
 
-/// Edges that belong to one triangle only: the rims and holes of the surface. \returns their number
-std::size_t open_edges(std::span<const Triangle> triangles);
-
 }  // namespace talus
