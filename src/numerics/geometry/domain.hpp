@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The space that particles live in: a box and thin walls in it.
 ///
-/// What it offers is what grains, air and analysis ask of any vessel, and all that they ask: the images of a particle
+/// What it offers is what grains, air and analysis ask of it, and all that they ask: the images of a particle
 /// (images, is_near), which places see each other (sees, blocks, end_of_line), where a particle goes that would pass a
 /// boundary (bounce), which boundaries an image loads (loads), and of each boundary its number, its normal, whether a
-/// place is beside it and on which side. A vessel of triangles would offer the same.
+/// place is beside it and on which side. Walls of any shape have no images: they are a Surface, and act by integrals of
+/// the kernel (models/continuum/vessel_walls.hpp).
 ///
 /// Images. A face that mirrors makes of each particle near it an image behind it; two parallel faces make images of
 /// images without end, of which all within reach are listed: in a box thinner than the reach a particle meets several
