@@ -93,6 +93,7 @@ inline Vector3 momentum(const State& s) {
 inline Vector3 momentum_error(const State& s) {
   Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse - s.air.impulse;
   for (const Vector3& impulse : s.wall_impulse) error += impulse;
+  for (const Vector3& impulse : s.vessel_impulse) error += impulse;
   return error;
 }
 

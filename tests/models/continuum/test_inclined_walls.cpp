@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "block_on_incline.hpp"
 #include "cases.hpp"
 
 namespace talus::continuum {
@@ -67,27 +68,7 @@ double acceleration_down(double angle, double coefficient) {
   p.box.front = p.box.rear = FaceKind::periodic;
   ThreadTeam team(1);
   Continuum model(p);
-  State& s = model.mutable_state();
-  // Ten particles in a row and three layers, half a spacing above the incline.
-  const Vector3 down{std::cos(angle), 0, -std::sin(angle)}, up{std::sin(angle), 0, std::cos(angle)};
-  const State one = s;
-  const auto repeat = [&](auto& column) { column.assign(30, column[0]); };
-  repeat(s.position), repeat(s.velocity), repeat(s.density), repeat(s.identity);
-  for (auto& column : s.material.stress) repeat(column);
-  for (auto& column : s.material.collisional) repeat(column);
-  for (auto& column : s.material.history) repeat(column);
-  for (std::size_t n = 0; n < 30; ++n) {
-    s.identity[n] = std::int64_t(n);
-    s.position[n] = Vector3{x0, 0.5 * spacing, z0} + (0.3 + double(n % 10) * spacing) * down +
-                    ((0.5 + double(n / 10)) * spacing) * up;
-  }
-  model.begin(team);
-  while (s.time < 0.15) model.advance(team);
-  const double first = dot(momentum(s), down) / (30 * s.mass), begin = s.time;
-  while (s.time < begin + 0.25) model.advance(team);
-  EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
-  for (const Vector3& x : s.position) EXPECT_GT(dot(x - Vector3{x0, 0, z0}, up), 0) << "through the incline";
-  return (dot(momentum(s), down) / (30 * s.mass) - first) / (s.time - begin);
+  return acceleration_of_block(model, model.state(), {x0, 0, z0}, angle, team);
 }
 
 TEST(InclinedWalls, ABlockSlidesAsCoulombSays) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "block_on_incline.hpp"
 #include "cases.hpp"
 #include "models/continuum/vessel.hpp"
 
@@ -75,12 +76,6 @@ std::vector<Vector3> settled_forces(Continuum& model, ThreadTeam& team, double d
   return force;
 }
 
-Vector3 error_of_momentum(const State& s) {
-  Vector3 error = momentum_error(s);
-  for (const Vector3& impulse : s.vessel_impulse) error += impulse;
-  return error;
-}
-
 TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   Parameters p = room(10, 10, 24);
   make_liquid(p);
@@ -102,7 +97,7 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   }
   EXPECT_LT(force[0].x, 0);
   EXPECT_GT(force[3].y, 0);
-  EXPECT_LT(norm(error_of_momentum(s)), 1e-11 * norm(s.gravity_impulse));
+  EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 }
 
 TEST(Vessel, FloorAndWallOfACylinderBearTheHydrostaticLoad) {
@@ -184,29 +179,7 @@ double acceleration_down(double angle, double coefficient) {
   Parameters alone = p;
   alone.vessel.clear();
   Continuum model(p);
-  State& s = model.mutable_state();
-  const State one = Continuum(alone).state();
-  const Vector3 down{std::cos(angle), 0, -std::sin(angle)}, up{std::sin(angle), 0, std::cos(angle)};
-  const auto impulses = s.vessel_impulse;
-  s = one;
-  s.vessel_impulse = impulses;
-  const auto repeat = [&](auto& column) { column.assign(30, column[0]); };
-  repeat(s.position), repeat(s.velocity), repeat(s.density), repeat(s.identity);
-  for (auto& column : s.material.stress) repeat(column);
-  for (auto& column : s.material.collisional) repeat(column);
-  for (auto& column : s.material.history) repeat(column);
-  for (std::size_t n = 0; n < 30; ++n) {
-    s.identity[n] = std::int64_t(n);
-    s.position[n] = Vector3{x0, 0.5 * spacing, z0} + (0.3 + double(n % 10) * spacing) * down +
-                    ((0.5 + double(n / 10)) * spacing) * up;
-  }
-  model.begin(team);
-  while (s.time < 0.15) model.advance(team);
-  const double first = dot(momentum(s), down) / (30 * s.mass), begin = s.time;
-  while (s.time < begin + 0.25) model.advance(team);
-  EXPECT_LT(norm(error_of_momentum(s)), 1e-11 * norm(s.gravity_impulse));
-  for (const Vector3& x : s.position) EXPECT_GT(dot(x - Vector3{x0, 0, z0}, up), 0) << "through the incline";
-  return (dot(momentum(s), down) / (30 * s.mass) - first) / (s.time - begin);
+  return acceleration_of_block(model, Continuum(alone).state(), {x0, 0, z0}, angle, team);
 }
 
 TEST(Vessel, ABlockSlidesOnAPlateAsCoulombSays) {
@@ -237,7 +210,7 @@ TEST(Vessel, ALayerThatSlidesOnAFloorStopsAsCoulombSays) {
   EXPECT_NEAR(momentum(s).x / (s.mass * count), 0.3 - 0.2 * 9.81 * s.time, 0.02 * 0.3);
   while (s.time < 0.2) model.advance(team);
   EXPECT_NEAR(momentum(s).x / (s.mass * count), 0, 0.01 * 0.3) << "at rest since 0.153 s";
-  EXPECT_LT(norm(error_of_momentum(s) - given), 1e-11 * norm(s.gravity_impulse));
+  EXPECT_LT(norm(momentum_error(s) - given), 1e-11 * norm(s.gravity_impulse));
 }
 
 /// A small cone under a cylinder, with a gate.
@@ -287,7 +260,7 @@ TEST(Vessel, NothingLeaksFromASilo) {
   }
   EXPECT_GT(passed, count / 50);
   EXPECT_EQ(s.position.size(), count);
-  EXPECT_LT(norm(error_of_momentum(s)), 1e-11 * norm(s.gravity_impulse));
+  EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 }
 
 TEST(Vessel, TheBitsDependNeitherOnThreadsNorOnResuming) {
