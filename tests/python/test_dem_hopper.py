@@ -13,15 +13,17 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.argv.pop()
-SCRIPTS = Path(__file__).resolve().parents[2] / "validation" / "dem-hopper"
-sys.path.insert(0, str(SCRIPTS))
+PROGRAM = Path(sys.argv.pop()).resolve()
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "validation" / "dem-hopper"
+sys.path[:0] = [str(SCRIPTS), str(ROOT / "python")]
 
 import fields  # noqa: E402
 import frames as referee  # noqa: E402
 import numpy as np  # noqa: E402
 import paper_rows  # noqa: E402
 import surfaces  # noqa: E402
+import talus  # noqa: E402
 import trend  # noqa: E402
 
 RADIUS, APART, DEPTH = 0.5e-3, 1e-3, 4e-3
@@ -203,6 +205,24 @@ class Folder(unittest.TestCase):
         self.assertAlmostEqual(run.end, 2 * referee.FRAME)
         with self.assertRaises(ValueError):
             referee.read_frame(last, 0.006)
+
+    def test_beads_are_drawn_and_read_as_a_run(self):
+        frames = self.falling(5)
+        write(self.folder / "run", frames)
+        beads = self.folder / "beads"
+        convert = [sys.executable, SCRIPTS / "as_run.py", self.folder / "run", beads, "--every", "2"]
+        subprocess.run(convert, check=True)
+        run = talus.Run(beads)
+        np.testing.assert_allclose([snapshot.time for snapshot in run.snapshots], [0, 0.004, 0.008])
+        self.assertEqual((float(run.case["plate"]["height"]), run.case["plate"]["height"].units), (0.1, "m"))
+        snapshot = run.snapshots[1]
+        np.testing.assert_allclose(snapshot.positions[:, [0, 2]], np.column_stack([frames[2].x, frames[2].z]), rtol=1e-6)
+        np.testing.assert_allclose(snapshot["radius"], RADIUS, rtol=1e-6)
+        np.testing.assert_allclose(snapshot["velocity"][:, 2], -0.5)
+        picture = self.folder / "beads.png"
+        subprocess.run([PROGRAM, "picture", beads, "--times", "0,0.004", "--color", "velocity", "-o", picture], check=True)
+        self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+        self.assertNotEqual(subprocess.run(convert, capture_output=True).returncode, 0, "an existing folder is left alone")
 
     def test_the_tables_have_their_units_and_every_run(self):
         for name in ("one", "two"):
