@@ -134,6 +134,11 @@ class Browser:
             self.mouse("mouseMoved", *(a + (b - a) * k / 5 for a, b in zip(start, end)), button="left", buttons=1)
         self.mouse("mouseReleased", *end, button="left", clickCount=1)
 
+    def click(self, x, y):
+        self.mouse("mouseMoved", x, y)
+        self.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
+        self.mouse("mouseReleased", x, y, button="left", clickCount=1)
+
     def key(self, key, text=None):
         self.call("Input.dispatchKeyEvent", type="keyDown", key=key, **({"text": text} if text else {}))
         self.call("Input.dispatchKeyEvent", type="keyUp", key=key)
@@ -143,6 +148,10 @@ class Browser:
         return self.evaluate(f"""(() => {{ const e = document.querySelector({json.dumps(selector)});
             e.scrollIntoView({{block: "center"}}); const b = e.getBoundingClientRect();
             return [b.left, b.top, b.width, b.height]; }})()""")
+
+    def pdf(self):
+        """What the page is on paper (A4)."""
+        return base64.b64decode(self.call("Page.printToPDF", paperWidth=8.27, paperHeight=11.69)["data"])
 
     def screenshot(self, path, whole=False):
         image = self.call("Page.captureScreenshot", captureBeyondViewport=whole)

@@ -189,8 +189,10 @@ class InABrowser(ProgramTest):
         tick = "document.querySelectorAll('#plots figure').length"
         self.assertGreaterEqual(page.evaluate(tick), 2)
         picture = "document.querySelector('#plots canvas').toDataURL()"
-        whole = page.evaluate(picture)
         left, top, width, height = page.box("#plots .u-over")
+        page.click(left + 0.9 * width, top + 0.5 * height)
+        self.assertNotEqual(page.evaluate(clock), before)
+        whole = page.evaluate(picture)
         page.drag((left + 0.3 * width, top + 0.5 * height), (left + 0.6 * width, top + 0.5 * height))
         page.wait_for(f"{picture} !== {json.dumps(whole)}", 5)
 
@@ -202,8 +204,19 @@ class InABrowser(ProgramTest):
             time.sleep(0.05)
         self.assertTrue(saved, "no picture was saved")
         self.assertEqual(saved[0].read_bytes()[:4], b"\x89PNG")
-        self.assert_quiet(page)
         self.shot(page, "report")
+
+        # On paper what is folded is printed too, and nothing that only a screen can do.
+        page.evaluate("addEventListener('beforeprint', () => { window.unfolded ="
+                      " [...document.querySelectorAll('details')].every(d => d.open); })")
+        printed = page.pdf()
+        self.assertEqual(printed[:5], b"%PDF-")
+        self.assertGreater(len(re.findall(rb"/Type /Page\b", printed)), 1)
+        self.assertTrue(page.evaluate("window.unfolded"))
+        self.assertFalse(page.evaluate("document.querySelector('#case details').open"))
+        if "TALUS_SCREENSHOTS" in os.environ:
+            (Path(os.environ["TALUS_SCREENSHOTS"]) / "report.pdf").write_bytes(printed)
+        self.assert_quiet(page)
 
     def test_two_runs_share_the_time_and_without_webgl_pictures_stand_in(self):
         self.talus("run", "case.toml", "--out", "a", "--set", "output.pictures=true")
@@ -212,6 +225,16 @@ class InABrowser(ProgramTest):
         page = self.open(self.folder / "report.html")
         self.assertEqual(page.evaluate("document.querySelectorAll('.panel-label').length"), 2)
         self.assertIn("particles.count", page.evaluate("document.getElementById('case').textContent"))
+        # One slider moves both: each half of the canvas changes.
+        half = """((side) => { const from = document.getElementById("canvas"), to = document.createElement("canvas");
+            to.width = from.width / 2; to.height = from.height;
+            to.getContext("2d").drawImage(from, -side * to.width, 0); return to.toDataURL(); })"""
+        before = [page.evaluate(f"{half}({side})") for side in (0, 1)]
+        page.evaluate("(async () => { const time = document.getElementById('time'); time.value = time.max;"
+                      "time.dispatchEvent(new Event('input')); await new Promise(done => setTimeout(done, 150)); })()")
+        for side in (0, 1):
+            self.assertNotEqual(page.evaluate(f"{half}({side})"), before[side])
+        self.shot(page, "two-runs")
         self.assert_quiet(page)
         page = browser.Browser(webgl=False)
         self.addCleanup(page.close)

@@ -405,6 +405,18 @@ function connectTheme(onChange) {
   });
 }
 
+/** On paper nothing can be unfolded: the pictures and the case are printed, and folded again as they were. */
+function unfoldForPrint() {
+  let folded = [];
+  addEventListener("beforeprint", () => {
+    folded = [...document.querySelectorAll("details:not([open])")];
+    for (const part of folded) part.open = true;
+  });
+  addEventListener("afterprint", () => {
+    for (const part of folded) part.open = false;
+  });
+}
+
 function drawHead() {
   by("title").textContent = header.title;
   const { runs } = header;
@@ -418,6 +430,7 @@ async function start() {
   drawRegime(by("regime-body"));
   drawPublished(by("published"), by("published-body"));
   drawCase(by("case-body"));
+  unfoldForPrint();
   const plots = new Plots((time) => view?.setTime(time));
   if (plots.curves.size === 0) by("curves").hidden = true;
   let view = null;

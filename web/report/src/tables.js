@@ -129,7 +129,7 @@ export function drawCase(place) {
           ["Fingerprint", m.fingerprint],
         ].flatMap(([term, text]) => [element("dt", {}, term), element("dd", {}, text)]),
         element("dt", {}, "Again"),
-        element("dd", {}, save, " and ", element("code", { className: "command" }, members)),
+        element("dd", {}, element("span", { className: "on-screen" }, save, " and "), element("code", { className: "command" }, members)),
       ),
       element("details", {}, element("summary", {}, "The case as resolved: every key, in SI"), element("pre", {}, run.case)),
     );
