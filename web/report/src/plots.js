@@ -150,7 +150,7 @@ export class Plots {
         legend: { live: true },
         axes: [
           { ...axis, label: `time in ${unit(curve.time)}`, labelSize: 22, size: 34, values: (_, ticks) => ticks.map((t) => number(t)) },
-          { ...axis, size: 64, values: (_, ticks) => ticks.map((t) => number(t)) },
+          { ...axis, size: (_, texts) => Math.max(64, 20 + 7 * Math.max(...(texts ?? []).map((text) => text.length))), values: (_, ticks) => ticks.map((t) => number(t)) },
         ],
         hooks: {
           draw: [
