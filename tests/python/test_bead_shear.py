@@ -38,8 +38,28 @@ class Fits(unittest.TestCase):
         self.assertAlmostEqual(row["inertial_number"], shear.RATE / np.sqrt(0.9))
         self.assertAlmostEqual(row["xy_over_yy"], 0.375)
 
+    def test_the_dilatancy_of_a_logistic_curve_is_its_rate(self):
+        strain = np.arange(0.005, 1, 0.01)
+        packing = 0.56 / (1 + (0.56 / 0.62 - 1) * np.exp(-9 * 0.56 * strain))
+        rise = np.minimum(strain / 0.05, 1)  # elastic before the peak
+        k, b, critical, slow = shear.fit_dilatancy(strain, packing, rise * (0.48 + 0.5 * 9 * (packing - 0.56)))
+        self.assertAlmostEqual(k, 9, delta=0.45)  # a part of the excess is still there when it is called steady
+        self.assertAlmostEqual(b, 0.5, delta=0.025)
+        self.assertAlmostEqual(critical, 0.56, delta=0.001)
+        self.assertAlmostEqual(slow, 0.48, delta=0.005)
+
 
 class States(unittest.TestCase):
+    def test_dense_beads_dilate_twice_as_fast_as_their_friction_rises(self):
+        for rolling, rate in ((0.2, 8.2), (0.0, 9.8)):
+            k, b, critical, slow = shear.dilatancy(rolling).mean(axis=1)
+            self.assertAlmostEqual(k, rate, delta=1)
+            self.assertAlmostEqual(b, 0.5, delta=0.1)
+            # At constant pressure they come to the state that constant volume has.
+            s = shear.states(rolling)
+            self.assertAlmostEqual(critical, np.interp(0.007, s["inertial_number"][::-1], s["packing"][::-1]), delta=0.012)
+            self.assertAlmostEqual(slow, np.interp(0.007, s["inertial_number"][::-1], s["friction"][::-1]), delta=0.025)
+
     def test_beads_that_hardly_roll_have_more_friction_and_a_looser_critical_state(self):
         fits = {}
         for rolling in shear.PACKINGS:

@@ -3,7 +3,8 @@
 """Shears the referee's beads in a periodic box (shear.in), and fits the parameters of the law critical-state to them.
 
 usage: shear.py run FOLDER     runs every state with LAMMPS (about half an hour on one core), to data/states.csv
-       shear.py fit            data/states.csv to the parameters, with their standard errors
+       shear.py dilate FOLDER  shears dense packings at constant pressure (dilate.in, the same again), to data/dilation.csv
+       shear.py fit            both to the parameters, with their standard errors
 """
 import csv
 import subprocess
@@ -14,6 +15,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 STATES = HERE / "data" / "states.csv"
+DILATION = HERE / "data" / "dilation.csv"
 RATE = 2e-4  # shear rate times (rho_p d^3/k)^(1/2), as in shear.in
 #: Rolling friction and the packings that are sheared with it.
 PACKINGS = {0.2: (0.50, 0.51, 0.52, 0.53, 0.54, 0.545, 0.55, 0.555, 0.56, 0.58),
@@ -23,6 +25,11 @@ COLUMNS = ("rolling", "packing", "inertial_number", "friction", "pressure_over_s
 #: Pressure times diameter over stiffness, beyond which overlaps fill more than 0.2 % of the volume: such states have
 #: the friction of hard beads, but not their packing.
 SOFT = 1e-3
+#: Rolling friction, packing before the pressure and seed of the beads that dilate; strain of one row; steady from here.
+DENSE = ((0.2, 0.58, 1), (0.2, 0.60, 1), (0.2, 0.60, 2), (0.2, 0.60, 3), (0.2, 0.62, 1), (0.2, 0.62, 2), (0.2, 0.62, 3),
+         (0.0, 0.60, 1), (0.0, 0.62, 1), (0.0, 0.62, 2), (0.0, 0.62, 3), (0.0, 0.635, 1))
+STRAIN = 0.01
+STEADY = 0.7
 
 
 def state(rolling, packing, table):
@@ -38,23 +45,64 @@ def state(rolling, packing, table):
     return rolling, packing, RATE / np.sqrt(pressure), radius / centre, pressure, xx / yy, zz / yy, abs(xy) / yy
 
 
+def lammps(place, script, **variables):
+    """Runs a script in a folder of its own, unless that was done."""
+    if (place / "done").exists():
+        return
+    place.mkdir(parents=True, exist_ok=True)
+    words = [word for name, value in variables.items() for word in ("-var", name, f"{value:g}")]
+    with open(place / "out.txt", "w", encoding="utf-8") as out:
+        subprocess.run(["lmp", "-in", HERE / script, *words], cwd=place, stdout=out, check=True)
+    (place / "done").touch()
+
+
+def write_rows(path, columns, rows):
+    path.parent.mkdir(exist_ok=True)
+    with open(path, "w", encoding="utf-8", newline="") as out:
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows([f"{value:.5g}" for value in row] for row in rows)
+
+
 def run(folder):
     rows = []
     for rolling, packings in PACKINGS.items():
         for packing in packings:
             place = folder / f"r{rolling:g}-p{packing:g}"
-            if not (place / "done").exists():
-                place.mkdir(parents=True, exist_ok=True)
-                with open(place / "out.txt", "w", encoding="utf-8") as out:
-                    subprocess.run(["lmp", "-in", HERE / "shear.in", "-var", "rolling", f"{rolling:g}", "-var", "packing",
-                                    f"{packing:g}"], cwd=place, stdout=out, check=True)
-                (place / "done").touch()
+            lammps(place, "shear.in", rolling=rolling, packing=packing)
             rows.append(state(rolling, packing, np.loadtxt(place / "shear.txt")))
-    STATES.parent.mkdir(exist_ok=True)
-    with open(STATES, "w", encoding="utf-8", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        writer.writerows([f"{value:.4g}" for value in row] for row in rows)
+    write_rows(STATES, COLUMNS, rows)
+
+
+def dilation(table):
+    """Strain, packing and friction (Mohr's circle) of a run, means over strains of STRAIN."""
+    strain, packing, xx, yy, _, xy = table[:, 1:7].T
+    friction = np.hypot(0.5 * (xx - yy), xy) / (0.5 * (xx + yy))
+    place = (strain / STRAIN).astype(int)
+    return [[values[place == p].mean() for values in (strain, packing, friction)] for p in np.unique(place)]
+
+
+def dilate(folder):
+    rows = []
+    for rolling, packing, seed in DENSE:
+        place = folder / f"r{rolling:g}-p{packing:g}-s{seed}"
+        lammps(place, "dilate.in", rolling=rolling, packing=packing, seed=seed)
+        rows += [[rolling, packing, seed, *row] for row in dilation(np.loadtxt(place / "dilate.txt"))]
+    write_rows(DILATION, ("rolling", "packed_at", "seed", "strain", "packing", "friction"), rows)
+
+
+def fit_dilatancy(strain, packing, friction):
+    """k and b of a dense packing that is sheared: beta = -d ln(phi)/dgamma against the packing beyond the critical one,
+    and the friction beyond the critical one against beta, by least squares through zero, from the peak of the friction
+    until a tenth of the excess is left. Returns also the packing and the friction of the steady end."""
+    steady = strain > STEADY
+    critical, slow = packing[steady].mean(), friction[steady].mean()
+    rate = -np.gradient(np.log(packing), strain)
+    excess = packing - critical
+    used = (np.arange(len(strain)) >= friction.argmax()) & (np.cumsum(excess < 0.1 * excess[0]) == 0)
+    k = np.sum(rate[used] * excess[used]) / np.sum(excess[used] ** 2)
+    b = np.sum((friction[used] - slow) * rate[used]) / np.sum(rate[used] ** 2)
+    return k, b, critical, slow
 
 
 def fit_friction(inertial, friction):
@@ -92,11 +140,25 @@ def fit():
         print(f"rolling friction {rolling:g}: friction {slow:.3f}, fast_friction {fast:.3f}, inertial_number {scale:.2f} "
               f"(left {left:.3f}); critical_packing {critical:.4f} +- {critical_error:.4f}, "
               f"loosening {fall:.3f} +- {fall_error:.3f}")
+        print("    dense and sheared at constant pressure: " + ", ".join(
+            f"{name} {values.mean():.3f} +- {values.std(ddof=1) / np.sqrt(len(values)):.3f}"
+            for name, values in zip(("dilatancy", "dilatant_friction", "critical_packing", "friction"), dilatancy(rolling))))
+
+
+def dilatancy(rolling):
+    """What fit_dilatancy() returns, of every run."""
+    table = np.genfromtxt(DILATION, delimiter=",", names=True)
+    table = table[table["rolling"] == rolling]
+    runs = np.unique(table[["packed_at", "seed"]])
+    return np.array([fit_dilatancy(*(table[name][table[["packed_at", "seed"]] == run]
+                                     for name in ("strain", "packing", "friction"))) for run in runs]).T
 
 
 if __name__ == "__main__":
     if len(sys.argv) == 3 and sys.argv[1] == "run":
         run(Path(sys.argv[2]))
+    elif len(sys.argv) == 3 and sys.argv[1] == "dilate":
+        dilate(Path(sys.argv[2]))
     elif sys.argv[1:] == ["fit"]:
         fit()
     else:

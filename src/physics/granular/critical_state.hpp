@@ -4,7 +4,7 @@
 ///
 ///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to 1
 ///     elastic     p = 3 K e_v, e_v = ln(phi/phi_s)/3;   ds/dt = 2G (-D_dev + D^p) + W s - s W
-///     yield       |s| <= 2^(1/2) M p,  M = max(0, mu(I) + beta + Delta_mu c),  returned along s at constant p
+///     yield       |s| <= 2^(1/2) M p,  M = max(0, beta, mu(I) + b beta + Delta_mu c),  returned along s at constant p
 ///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' d (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
 ///     dilatancy   d ln phi_s = -beta dgamma,  beta = k (phi_s - phi_c(I)),   phi_c(I) = phi_c - Delta min(I, 0.3)
 ///     contacts    dc/dt = (1 - c)/T - (c/gamma_0) dgamma/dt
@@ -14,15 +14,16 @@
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
-/// that opens; (mu(I) + Delta_mu c) p dgamma/dt >= 0 is left and turns into heat (-beta p dgamma/dt >= 0 where M would
-/// be negative). Healing and coming apart change no stored energy.
+/// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + Delta_mu c) p dgamma/dt with b = 1.
+/// Healing and coming apart change no stored energy.
 ///
 /// Limits: at fixed I and p, 1/phi_s relaxes exponentially with gamma, that is, phi_s is logistic, at the rate k phi_c;
-/// the stress ratio passes mu(I) + beta and ends at mu(I). At fixed phi sheared for long, p = K ln(phi/phi_c(I)), or 0.
-/// With k = Delta = Delta_mu = 0 and mu_2 = mu_s it is elastic and perfectly plastic.
+/// the stress ratio passes mu(I) + b beta and ends at mu(I). At fixed phi sheared for long, p = K ln(phi/phi_c(I)), or
+/// 0. With k = Delta = Delta_mu = 0 and mu_2 = mu_s it is elastic and perfectly plastic.
 ///
 /// Sources. Dilatancy and the part of it in the friction: Roux & Radjai, Physics of Dry Granular Media (Kluwer, 1998),
-/// 229; k = 4 as Pailha & Pouliquen, J. Fluid Mech. 633, 115 (2009), fitted for glass beads. mu(I): Jop, Forterre &
+/// 229; k = 4 as Pailha & Pouliquen, J. Fluid Mech. 633, 115 (2009), fitted for glass beads; k = 8 to 10 and b = 0.5 of
+/// discrete elements: validation/bead-shear. mu(I): Jop, Forterre &
 /// Pouliquen, Nature 441, 727 (2006), glass beads. phi_c: Chialvo, Sun & Sundaresan, Phys. Rev. E 85, 021305 (2012), at
 /// a friction of 0.5 between beads. Fall of the packing with I, linear: da Cruz et al., Phys. Rev. E 72, 021309 (2005);
 /// Pouliquen et al., J. Stat. Mech. P07020 (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of
@@ -79,6 +80,9 @@ class CriticalState {
     visit(Parameter{"dilatancy", dimension::none, at_least(0),
                     "k, growth of volume per shear strain over the excess of the packing beyond the critical one"},
           p.dilatancy);
+    visit(Parameter{"dilatant_friction", dimension::none, between(0, 1),
+                    "b, friction beyond that of the critical packing over the growth of volume per shear strain"},
+          p.dilatant_friction);
     visit(Parameter{"strength_at_rest", dimension::none, at_least(0),
                     "Delta_mu, friction that grains at rest have beyond that in flow; 0: no hysteresis"},
           p.strength_at_rest);

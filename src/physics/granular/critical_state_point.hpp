@@ -21,6 +21,7 @@ struct CriticalStateParameters {
   double loosest_packing = 0.55;    ///< phi_min
   double loosening = 0.25;          ///< Delta
   double dilatancy = 4;             ///< k
+  double dilatant_friction = 1;     ///< b, up to 1
   double strength_at_rest = 0.08;   ///< Delta_mu
   double healing_time = 10e-3;      ///< T, s
   double breaking_strain = 0.05;    ///< gamma_0
@@ -65,13 +66,14 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
       p.reference_packing / (p.critical_packing - p.loosening * minimum(inertial, Number(c.largest_inertial_number)));
   const Number dilatancy = (p.dilatancy * p.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
   const Number friction = p.friction + (p.fast_friction - p.friction) * (inertial / (inertial + p.inertial_number)) +
-                          dilatancy + p.strength_at_rest * old.contacts;
+                          p.dilatant_friction * dilatancy + p.strength_at_rest * old.contacts;
 
   const SymmetricTensor3<Number> trial =
       transformed(deviator(old.stress), rotation_of_step(velocity_gradient, time_step)) -
       (2 * p.shear_modulus * time_step) * rate;
   const Number size = norm(trial);
-  const Number most = (c.sqrt2 * maximum(friction, Number(0.0))) * pressure;
+  // At least beta, which the pressure takes back: no heat is drawn from grains far denser than the critical packing.
+  const Number most = (c.sqrt2 * maximum(maximum(friction, dilatancy), Number(0.0))) * pressure;
   const Number slip = (1 / (c.sqrt2 * p.shear_modulus)) * maximum(size - most, Number(0.0));
 
   CriticalStatePoint<Number> point;

@@ -111,6 +111,31 @@ TEST(CriticalState, PassesAPeakThatIsItsDilatancy) {
   EXPECT_NEAR(friction_of(dense.point.stress), critical, 0.06 * std::exp(-4 * 0.585 * 2) * 1.1);
 }
 
+TEST(CriticalState, TakesAPartOfItsDilatancyIntoItsFriction) {
+  const double rate = 0.01, pressure = 1000;
+  Parameters p{.reference_packing = 0.6, .dilatancy = 8, .dilatant_friction = 0.5, .strength_at_rest = 0};
+  const double critical = friction_at(p, inertial_number(rate, pressure));
+  ShearedAtPressure dense{p, pressure};
+  double peak = 0;
+  for (int k = 0; k < 2000; ++k) {
+    dense.advance(rate, 1e-4 / rate, 1);
+    peak = std::max(peak, friction_of(dense.point.stress));
+  }
+  EXPECT_NEAR(peak - critical, 0.5 * 8 * (0.600 - 0.585), 3e-4);
+  // It dilates as fast as with all of it: 1/phi_s decays with k phi_c of the strain beyond yield.
+  const double slipped = 0.2 - peak * pressure / p.shear_modulus;
+  EXPECT_NEAR(state_packing(p, dense.point), 0.585 / (1 + (0.585 / 0.6 - 1) * std::exp(-8 * 0.585 * slipped)), 3e-5);
+  // Far beyond the critical packing the friction is what the growth of volume takes.
+  p.reference_packing = 0.7, p.friction = p.fast_friction = 0.2;
+  ShearedAtPressure tight{p, pressure};
+  peak = 0;
+  for (int k = 0; k < 100; ++k) {
+    tight.advance(rate, 1e-5 / rate, 1);
+    peak = std::max(peak, friction_of(tight.point.stress));
+  }
+  EXPECT_NEAR(peak, 8 * (0.700 - 0.585), 1e-2);
+}
+
 TEST(CriticalState, IsStrongerAtRestAndLosesThatByFlowing) {
   const double pressure = 1000, rate = 5;
   Parameters p{.reference_packing = 0.585, .loosening = 0};
@@ -187,8 +212,11 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
   // Along random paths: the work on a point is at least what is stored in it, p^2/2K + |s|^2/4G; volumes change by less
   // than a thousandth, so that the law's energy is that of small strains.
   Random random(11);
-  for (const double start : {0.57, 0.6}) {
-    const Parameters p{.reference_packing = start};
+  const Parameters loose{.reference_packing = 0.57}, dense{},
+      half{.dilatancy = 8, .dilatant_friction = 0.5},  // and one whose friction is beta alone
+      slippery{.friction = 0.1, .fast_friction = 0.1, .dilatancy = 10, .dilatant_friction = 0.2, .strength_at_rest = 0};
+  for (const auto& [p, amplitude] : {std::pair{loose, 4e-4}, {dense, 4e-4}, {half, 1e-4}, {slippery, 2e-5}}) {
+    const double start = p.reference_packing;
     const AnyLaw law = make_law(p, grain_density, diameter);
     double least_heat = 0, most_stored = 0;
     for (int trial = 0; trial < 20; ++trial) {
@@ -197,7 +225,7 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
         Tensor3<> gradient;
         for (double* component : {&gradient.xx, &gradient.xy, &gradient.xz, &gradient.yx, &gradient.yy, &gradient.yz,
                                   &gradient.zx, &gradient.zy, &gradient.zz})
-          *component = 4e-4 * (random.uniform() - 0.5);
+          *component = amplitude * (random.uniform() - 0.5);
         path.push_back({1, (k % 3 == 0 ? 20.0 : 1.0) * gradient - squeeze(trace(gradient))});
       }
       const auto points =
