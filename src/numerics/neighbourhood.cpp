@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace talus {
@@ -36,15 +35,10 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   const auto first_in_walls = std::partition_point(ghosts_.begin(), ghosts_.end(),
                                                    [&](const Ghost& ghost) { return !image(ghost).is_in_walls(); });
   const std::size_t in_walls = count + static_cast<std::size_t>(first_in_walls - ghosts_.begin());
-  const std::vector<double> distance = distances_from_vessel(team, points);
+  find_distances(team, points);
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     static constexpr Image identity;
-    if (!vessel_.is_empty() && std::isfinite(distance[i])) {
-      const auto seen = std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
-        return distance[i] + distance[j] <= norm(points[j] - points[i]) && vessel_.blocks(points[i], points[j]);
-      });
-      near = near.first(static_cast<std::size_t>(seen - near.begin()));
-    }
+    if (!vessel_.is_empty() && std::isfinite(distance_[i])) near = near.first(keep_unhidden(points, i, near));
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
     const auto end = !domain_.is_near_wall(position[i], reach_ + skin)
                          ? seldom
@@ -67,14 +61,36 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   });
 }
 
-/// Infinite beyond the reach.
-std::vector<double> Neighbourhood::distances_from_vessel(ThreadTeam& team, std::span<const Vector3> points) const {
-  if (vessel_.is_empty()) return {};
-  std::vector<double> distance(points.size(), std::numeric_limits<double>::infinity());
-  for_each(team, points.size(), [&](std::size_t n) {
-    if (const auto foot = vessel_.nearest(points[n], reach_)) distance[n] = foot->distance;
+/// Particles whose numbers follow each other are mostly near each other too: where the vessel is far from all of a
+/// group, none is asked for.
+void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> points) {
+  distance_.clear();
+  if (vessel_.is_empty()) return;
+  distance_.assign(points.size(), infinity);
+  constexpr std::size_t together = 32;
+  team.run((points.size() + together - 1) / together, [&](std::size_t group) {
+    const std::size_t begin = together * group, end = std::min(points.size(), begin + together);
+    double radius = 0;
+    for (std::size_t n = begin; n < end; ++n) radius = std::max(radius, norm(points[n] - points[begin]));
+    if (!vessel_.nearest(points[begin], (1 + 1e-9) * (radius + reach_))) return;
+    for (std::size_t n = begin; n < end; ++n)
+      if (const auto foot = vessel_.nearest(points[n], reach_)) distance_[n] = foot->distance;
   });
-  return distance;
+}
+
+/// Moves those that the vessel does not hide from point i to the front, in their order. \returns how many they are
+std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::size_t i,
+                                         std::span<std::uint32_t> near) const {
+  constexpr std::size_t most = 24;  // triangles that are tried one by one
+  thread_local std::vector<std::uint32_t> triangles;
+  bool sought = false, all = false;
+  const auto is_hidden = [&](std::uint32_t j) {
+    if (distance_[i] + distance_[j] > norm(points[j] - points[i])) return false;
+    if (!sought) all = vessel_.near(points[i], reach_, most, triangles);
+    sought = true;
+    return all ? vessel_.blocks(points[i], points[j], triangles) : vessel_.blocks(points[i], points[j]);
+  };
+  return static_cast<std::size_t>(std::remove_if(near.begin(), near.end(), is_hidden) - near.begin());
 }
 
 void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,

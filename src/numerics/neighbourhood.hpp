@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -50,8 +51,19 @@ class Neighbourhood {
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
   bool sight_may_change(std::size_t i) const { return sight_may_change_[i]; }
 
+  /// How far a particle was from the vessel when the lists were built, m; infinite beyond the reach of its neighbours.
+  double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
+  /// Whether a line between two places of the particle can meet the vessel, as far as that distance tells.
+  bool may_meet_vessel(std::size_t i, const Vector3& a, const Vector3& b) const {
+    const Vector3 from = a - reference_[i], to = b - reference_[i];
+    const double free = distance_from_vessel(i);
+    return !(dot(from, from) < free * free && dot(to, to) < free * free);
+  }
+
  private:
-  std::vector<double> distances_from_vessel(ThreadTeam& team, std::span<const Vector3> points) const;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  void find_distances(ThreadTeam& team, std::span<const Vector3> points);
+  std::size_t keep_unhidden(std::span<const Vector3> points, std::size_t i, std::span<std::uint32_t> near) const;
   void find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double largest);
 
   const Domain& domain_;
@@ -65,6 +77,7 @@ class Neighbourhood {
   NeighbourList list_;
   std::vector<std::uint32_t> first_ghost_;
   std::vector<char> sight_may_change_;
+  std::vector<double> distance_;  // from the vessel, of particles and ghosts; empty without one
 };
 
 }  // namespace talus

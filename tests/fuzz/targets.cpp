@@ -19,8 +19,10 @@
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
 #include "io/series.hpp"
+#include "io/stl.hpp"
 #include "models/cloud/forecast.hpp"
 #include "models/continuum/forecast.hpp"
+#include "numerics/surface/surface_faults.hpp"
 #include "run/run_parameters.hpp"
 
 namespace talus::fuzz {
@@ -187,6 +189,18 @@ void read_path_file(std::string_view content) {
 
 void read_reference_file(std::string_view content) {
   take_file(content, [](const std::string& path) { app::read_reference(path); });
+}
+
+void read_stl_file(std::string_view content) {
+  take_file(content, [](const std::string& path) {
+    const std::vector<Triangle> triangles = read_stl(path);
+    demand(!triangles.empty(), "a file that is accepted holds triangles");
+    for (const SurfaceFault& fault : faults_of(triangles, true)) {
+      demand(fault.triangle < triangles.size() && fault.other.value_or(0) < triangles.size(),
+             "a fault is one of the file's triangles");
+      demand(!text_of(fault.kind).empty(), "a fault has a name");
+    }
+  });
 }
 
 }  // namespace talus::fuzz

@@ -27,12 +27,16 @@ void read_path_file(std::string_view content);
 /// reference.toml of a study.
 void read_reference_file(std::string_view content);
 
-inline constexpr std::array<Target, 7> targets{{{"case", read_case},
+/// An STL file, and the check of its triangles.
+void read_stl_file(std::string_view content);
+
+inline constexpr std::array<Target, 8> targets{{{"case", read_case},
                                                 {"setting", read_setting},
                                                 {"unit", read_unit},
                                                 {"points", read_points},
                                                 {"series", read_series_file},
                                                 {"path", read_path_file},
-                                                {"reference", read_reference_file}}};
+                                                {"reference", read_reference_file},
+                                                {"stl", read_stl_file}}};
 
 }  // namespace talus::fuzz

@@ -8,7 +8,7 @@ from attack import Attack, Fault
 from hostile import PROJECT
 
 TARGETS = {"case": "cases", "setting": "", "unit": "", "points": "", "series": "", "path": "cases/law",
-           "reference": "validation"}
+           "reference": "validation", "stl": ""}
 
 
 class Fuzzing(Attack):

@@ -65,15 +65,31 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
   return forecast;
 }
 
-/// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample.
+/// Of a step, by particle.
+double measure_particle(const Parameters& p, ThreadTeam& team) {
+  Continuum model(p);
+  continuum::State& s = model.mutable_state();
+  // Walls cost more where the bed presses against them.
+  if (!p.vessel.empty())
+    for (std::size_t c = 0; c < 3; ++c)
+      std::fill(s.material.stress[c].begin(), s.material.stress[c].end(),
+                p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height);
+  model.begin(team);
+  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
+  return seconds_of(duration, [&] { model.advance(team); }) / static_cast<double>(s.position.size());
+}
+
+/// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
+/// walls of its vessel by larger particles in it.
 double measure_step(const Parameters& p, ThreadTeam& team) {
   constexpr double most = 8000;
   const double count = continuum::bed_count(p);
-  Continuum model(count <= most ? p : continuum::sample(p, most));
-  const double share = count / static_cast<double>(model.state().position.size());
-  model.begin(team);
-  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
-  return share * seconds_of(duration, [&] { model.advance(team); });
+  if (count <= most) return count * measure_particle(p, team);
+  const double inside = measure_particle(continuum::sample(p, most), team);
+  if (p.vessel.empty()) return count * inside;
+  const Parameters coarse = continuum::coarser(p, most);
+  const double by_walls = std::max(0.0, measure_particle(coarse, team) - inside);
+  return count * (inside + by_walls * p.bed.spacing / coarse.bed.spacing);
 }
 
 Problem too_large(const Parameters& p, double available) {

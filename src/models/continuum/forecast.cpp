@@ -57,13 +57,27 @@ SettlingTime settling_time(const Parameters& p) {
   return known(std::min(p.settle.longest, least + excess / rate));
 }
 
+/// Of all triangles of the vessel, m^2.
+double area_of_vessel(const Parameters& p) {
+  double area = 0;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    for (const Triangle& t : triangles_of(p, n)) area += norm(t.area());
+  return area;
+}
+
+/// In layers of a spacing beside each face, squares of 0.4 spacings for the points (vessel_walls.cpp).
+constexpr double layers_beside_wall = 2, points_on_square = 6.25;
+
 }  // namespace
 
 Forecast forecast(const Parameters& p, double end) {
+  const double squares = area_of_vessel(p) / (p.bed.spacing * p.bed.spacing), particles = bed_count(p);
   const double step = step_of(p);
   const SettlingTime settling = settling_time(p);
-  return {.particles = bed_count(p),
+  return {.particles = particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
+          .beside_walls = std::min(particles, layers_beside_wall * squares),
+          .wall_points = points_on_square * squares,
           .settling_steps = std::ceil(settling.least / step),
           .most_settling_steps = std::ceil(settling.most / step),
           .flow_steps = std::ceil(end / step)};
@@ -102,7 +116,15 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
 }
 
 double memory_of(const Forecast& f) {
-  return 22e6 + 3500 * f.particles + 900 * f.cells;  // libraries; columns, records and lists of particles and images
+  // Libraries; columns, records and lists of particles and images; sums of the particles beside walls, and their points.
+  const double of_forces = f.wall_points > 0 ? 250 * f.particles : 0;
+  return 22e6 + 3500 * f.particles + 900 * f.cells + of_forces + 2000 * f.beside_walls + 250 * f.wall_points;
+}
+
+Parameters coarser(const Parameters& p, double particles) {
+  Parameters q = p;
+  q.bed.spacing *= std::cbrt(bed_count(p) / particles);
+  return q;
 }
 
 Parameters sample(const Parameters& p, double particles) {

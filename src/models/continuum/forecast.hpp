@@ -12,6 +12,8 @@ namespace talus::continuum {
 struct Forecast {
   double particles = 0;
   double cells = 0;           ///< of the air
+  double beside_walls = 0;    ///< particles within reach of the walls of a vessel, at most
+  double wall_points = 0;     ///< of these walls
   double settling_steps = 0;  ///< until the gate opens; at least so many
   double most_settling_steps =
       0;                  ///< the same, unless the bed settles without damping: when it rests is not known then
@@ -27,6 +29,10 @@ std::vector<Problem> check_steps(const Parameters& parameters, double end);
 
 /// Bytes that a run takes, the program itself among them.
 double memory_of(const Forecast& forecast);
+
+/// The same vessel and bed with about so many, larger particles. The share of them beside the walls is that of the case
+/// times the ratio of the spacings. \pre the case has more
+Parameters coarser(const Parameters& parameters, double particles);
 
 /// A bed of the same particles and cells in a plain box, so small that a machine's speed is measured in a moment.
 /// \param particles about so many, or as many as the case has if these are fewer

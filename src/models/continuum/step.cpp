@@ -73,7 +73,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     step.stress();
   }
   reflect_at_walls(team, w.material, w.domain, w.position, s);
-  reflect_at_vessel(team, w.vessel, w.position, s);
+  reflect_at_vessel(team, w.vessel, w.sweep.neighbourhood(), w.position, s);
   step.damping();
   step.clock();
   check_state(team, p, w.domain, s, dt);

@@ -56,7 +56,7 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   neighbourhood_.build(team, position, smoothing_length, skin_);
-  vessel_.find(team, position, smoothing_length, skin_);
+  vessel_.find(team, neighbourhood_, position, smoothing_length, skin_);
   loads_.clear();
   for (const Image& image : neighbourhood_.images()) {
     ImageLoads loads{};
@@ -178,7 +178,9 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   pack(team, particles, terms != SweepTerms::gradients || prepare_sum_);
   if (!vessel_.is_empty()) {
     rates.vessel.resize(count);
-    vessel_.meet(team, particles.position, particles.smoothing_length);
+    // In half a step particles hardly move: the gradients take the walls as the forces met them.
+    if (terms != SweepTerms::gradients || !vessel_.is_met())
+      vessel_.meet(team, particles.position, particles.smoothing_length);
   }
   if (prepare_sum_) prepare_stabilisers(team, particles);
   if (terms != SweepTerms::gradients) {
@@ -222,7 +224,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     }
     if (!vessel_.is_empty())
       for (std::size_t i = first; i < first + size; ++i)
-        if (rates.vessel[i] = {}; vessel_.of(i).count > 0)
+        if (rates.vessel[i].count = 0; vessel_.of(i).count > 0)
           add_forces_of_vessel(particles, i, seen_from(i, seen), rates);
   };
   const std::size_t blocks = (count + together - 1) / together;
@@ -230,19 +232,6 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
       compute(b * together);
   });
-}
-
-SeatAtWall Sweep::seat_at_wall(std::uint32_t record, std::uint32_t part) const {
-  const std::size_t count = neighbourhood_.particles();
-  const bool ghost = record >= count;
-  const std::size_t source = ghost ? neighbourhood_.ghosts()[record - count].source : record;
-  for (const NearWall& wall : vessel_.of(source).all()) {
-    if (wall.part != part) continue;
-    if (!ghost) return {wall.normal, wall.distance, wall.share};
-    const Image& image = neighbourhood_.image(neighbourhood_.ghosts()[record - count]);
-    return {image.position(wall.normal) - image.position({}), wall.distance, wall.share};
-  }
-  return {};
 }
 
 void Sweep::add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const {
@@ -261,11 +250,11 @@ void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, c
                                  Rates& rates) const {
   const NearWalls& met = vessel_.of(i);
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
-  rates.vessel[i] = forces_of_walls(met, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  rates.vessel[i] = forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
   for (const NearWall& wall : met.all())
-    rates.acceleration[i] +=
-        force_of_images(wall, records(), i, neighbours, constants_.mass,
-                        [this](std::uint32_t record, std::uint32_t part) { return seat_at_wall(record, part); });
+    rates.acceleration[i] += vessel_.force_of_images(
+        wall, records(), i, neighbourhood_.sight_may_change(i) ? &seen : nullptr, constants_.mass);
   for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
   double beyond = 0;
   for (const NearWall& wall : met.all()) beyond += wall.sums.density;

@@ -95,8 +95,6 @@ class Sweep {
   /// Adds the forces of the vessel on a particle, and its share of the kernel's sum. \pre those of pairs are there
   void add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
                             Rates& rates) const;
-  /// Wall and normal as another particle, or an image of one, meets the same part of a wall.
-  SeatAtWall seat_at_wall(std::uint32_t record, std::uint32_t part) const;
 
   double mass_;
   double smoothing_ratio_;

@@ -89,7 +89,7 @@ std::string place_text(const Vector3& x) {
 void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& problems) {
   if (!v.drawn) return;
   std::size_t told = 0;
-  const std::vector<SurfaceFault> faults = faults_of(v.drawn->triangles);
+  const std::vector<SurfaceFault> faults = faults_of(v.drawn->triangles, v.closed);
   for (const SurfaceFault& fault : faults) {
     if (told++ == most_faults) break;
     const std::string other = fault.other ? fmt::format(" and triangle {}", *fault.other + 1) : "";
@@ -209,7 +209,7 @@ Surface surface_of(const Parameters& p) {
     const std::vector<Triangle> own = triangles_of(p, n);
     all.insert(all.end(), own.begin(), own.end());
   }
-  return Surface(std::move(all), p.vessel.size(), p.bed.spacing);
+  return Surface(std::move(all), p.vessel.size());
 }
 
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
@@ -225,7 +225,7 @@ std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
     if (v.shape == VesselShape::disc) {
       offer(v, v.height, 2 * v.radius, 2 * v.radius, true);
     } else if (v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0) {
-      const Surface plate(triangles_of(p, n), p.vessel.size(), p.bed.spacing);
+      const Surface plate(triangles_of(p, n), p.vessel.size());
       const Vector3 extent = plate.high() - plate.low();
       lowest = VesselOutlet{plate.low() + 0.5 * extent, extent.x, extent.y, false};
     }

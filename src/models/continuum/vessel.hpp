@@ -38,6 +38,7 @@ struct VesselPart {
   std::array<double, 3> corner{}, first_edge{}, second_edge{};
   std::string file;
   FileUnit unit = FileUnit::mm;
+  bool closed = false;
   std::optional<double> friction;
   bool gate = false;
   double opens_after = 0;
@@ -114,6 +115,8 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
           v.file);
     drawn(Parameter{key("unit"), {}, {}, "unit of the numbers in the file, which an STL file does not say", true},
           v.unit);
+    drawn(Parameter{key("closed"), {}, {}, "whether the surface of the file is to have no rim, as that of a body has none"},
+          v.closed);
     visit(Parameter{key("friction"), dimension::none, friction_coefficient(),
                     "coefficient of friction of this wall; left out: walls.coefficient"},
           v.friction);

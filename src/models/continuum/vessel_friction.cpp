@@ -38,11 +38,13 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& r
                              accumulate(team, state.position.size(), Impulses(state.vessel_impulse.size()), meet, sum));
 }
 
-void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, std::span<const Vector3> before, State& state) {
+void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourhood& neighbourhood,
+                       std::span<const Vector3> before, State& state) {
   if (vessel.is_empty()) return;
   constexpr int most_bounces = 4;
   const auto turn = [&](std::size_t i, Impulses& received) {
     Vector3 &x = state.position[i], &u = state.velocity[i];
+    if (!neighbourhood.may_meet_vessel(i, before[i], x)) return;
     const Vector3 moved_to = x;
     for (int bounces = 0;; ++bounces) {
       const auto met = vessel.first_crossing(before[i], x);

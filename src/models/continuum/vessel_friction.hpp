@@ -19,7 +19,9 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& parameters, const
 
 /// Particles that have crossed a triangle come back: they stand as far before it as they were behind it, and have no
 /// velocity towards it any more, as grains that strike a wall. None is left behind a wall.
-/// \param before positions at the start of the step, m
-void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, std::span<const Vector3> before, State& state);
+/// \param neighbourhood of the particles, whose lists were built before the step; \param before positions at the start
+/// of the step, m
+void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourhood& neighbourhood,
+                       std::span<const Vector3> before, State& state);
 
 }  // namespace talus::continuum

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/vessel_sum.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "numerics/sph/cubic_spline.hpp"
@@ -40,35 +39,21 @@ Vector3 evened(const NearWall& wall) {
 /// Gradient of the specific stress along x, y and z from the neighbours alone, exact for a linear field; none where
 /// they do not span the space. It is made smaller where the pressure would be gone within a smoothing length: grains
 /// that hardly bear any have none beyond the wall.
-std::array<SymmetricTensor3<>, 3> stress_gradient(const Records& records, std::size_t self,
+std::array<SymmetricTensor3<>, 3> stress_gradient(const VesselWalls& walls, const Records& records, std::size_t self,
                                                   const Neighbours& neighbours) {
   const MotionRecord& own = records.motion[self];
-  const StressRecord& loaded = records.stress[self];
-  double along[6][3] = {};
-  SymmetricTensor3<> moment;
-  const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
-  for (std::uint32_t n = 0; n < end; ++n) {
-    const MotionRecord& other = records.motion[neighbours.record[n]];
-    const StressRecord& its = records.stress[neighbours.record[n]];
-    const Vector3 d{other.position[0] - own.position[0], other.position[1] - own.position[1],
-                    other.position[2] - own.position[2]};
-    const double h = own.half_length + other.half_length, r = norm(d);
-    if (!(r < sph::support * h)) continue;
-    const double weight = -other.volume * sph::cubic_spline_slope(r, h);
-    const Vector3 wd = weight * d;
-    moment.xx += wd.x * d.x, moment.yy += wd.y * d.y, moment.zz += wd.z * d.z;
-    moment.xy += wd.x * d.y, moment.yz += wd.y * d.z, moment.zx += wd.z * d.x;
-    for (int c = 0; c < 6; ++c) {
-      const double change = its.specific_stress[c] - loaded.specific_stress[c];
-      along[c][0] += change * wd.x, along[c][1] += change * wd.y, along[c][2] += change * wd.z;
-    }
-  }
+  const double pressure = trace(stress_at(records.stress[self]));
+  if (!(pressure > 0)) return {};
+  StressSums sums;
+  walls.sum_stresses(records, self, neighbours, sums);
+  const double* m = sums.moment;
+  const SymmetricTensor3<> moment{m[0], m[1], m[2], m[3], m[4], m[5]};
   const Tensor3<> whole = full(moment);
   if (!(determinant(whole) > sph::least_moment)) return {};
   const Tensor3<> inverted = inverse(whole);
   double gradient[6][3];
   for (int c = 0; c < 6; ++c) {
-    const double* a = along[c];
+    const double* a = sums.along[c];
     gradient[c][0] = inverted.xx * a[0] + inverted.xy * a[1] + inverted.xz * a[2];
     gradient[c][1] = inverted.yx * a[0] + inverted.yy * a[1] + inverted.yz * a[2];
     gradient[c][2] = inverted.zx * a[0] + inverted.zy * a[1] + inverted.zz * a[2];
@@ -79,11 +64,8 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const Records& records, std::s
   const double fall = 2 * own.half_length *
                       std::sqrt(trace(result[0]) * trace(result[0]) + trace(result[1]) * trace(result[1]) +
                                 trace(result[2]) * trace(result[2]));
-  const double pressure = trace(stress_at(loaded));
-  if (fall > pressure) {
-    const double share = pressure > 0 ? pressure / fall : 0;
-    for (auto& component : result) component = share * component;
-  }
+  if (fall > pressure)
+    for (auto& component : result) component = (pressure / fall) * component;
   return result;
 }
 
@@ -121,14 +103,15 @@ double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSum
   return -opening;
 }
 
-WallForces forces_of_walls(const NearWalls& met, const Records& records, std::size_t self, const Neighbours& neighbours,
-                           const PairConstants& constants, double sound_speed) {
+WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
+                           const Neighbours& neighbours, const PairConstants& constants, double sound_speed) {
   WallForces forces;
+  const NearWalls& met = walls.of(self);
   if (met.count == 0) return forces;
   const MotionRecord& own = records.motion[self];
   const double density = 2 * records.stress[self].half_density;
   const SymmetricTensor3<> stress = stress_at(records.stress[self]);
-  const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(records, self, neighbours);
+  const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(walls, records, self, neighbours);
   const Vector3 velocity{own.velocity[0], own.velocity[1], own.velocity[2]};
   const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
   for (const NearWall& wall : met.all()) {
@@ -148,26 +131,6 @@ WallForces forces_of_walls(const NearWalls& met, const Records& records, std::si
     forces.of[forces.count++] = {wall.patch, n, (-density * dot(a, n)) * n};
   }
   return forces;
-}
-
-Vector3 force_of_image(const NearWall& wall, const SeatAtWall& its, const Records& records, std::size_t self,
-                       std::size_t other, double mass) {
-  const Vector3 both = wall.normal + its.normal;
-  const double size = norm(both);
-  if (!(size > 1.7)) return {};  // on different sides, or around a corner
-  const Vector3 n = (1 / size) * both;
-  const MotionRecord &own = records.motion[self], &near = records.motion[other];
-  const Vector3 d{near.position[0] - own.position[0], near.position[1] - own.position[1],
-                  near.position[2] - own.position[2]};
-  const double h = own.half_length + near.half_length;
-  const double distance = std::sqrt(dot(d, d) + 4 * wall.distance * its.distance);
-  if (!(distance < sph::support * h)) return {};
-  const Vector3 along = d - dot(d, n) * n;
-  const SymmetricTensor3<> mine = stress_at(records.stress[self]), theirs = stress_at(records.stress[other]);
-  const SymmetricTensor3<> stress = mine + theirs, difference = mine - theirs;
-  Vector3 force = times(stress, along) - (wall.distance + its.distance) * times(difference, n);
-  force -= dot(force, n) * n;
-  return (0.5 * (wall.share + its.share) * mass * sph::cubic_spline_slope(distance, h)) * force;
 }
 
 }  // namespace talus::continuum

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/compiled_for.hpp"
-#include "numerics/cell_grid.hpp"
+#include "numerics/surface/surface_points.hpp"
 #include "physics/sph/wall_integrals.hpp"
 
 namespace talus::continuum {
@@ -15,63 +16,196 @@ namespace {
 /// Distance of the points of the walls, in spacings: the push of a plane is right to 1 % from 0.4 spacings on, to 7 %
 /// from 0.25 on (WallIntegrals.AreThoseOfAPlane).
 constexpr double piece = 0.4;
+/// Groups of four such pieces are as good from twice as far on; in spacings.
+constexpr double extent_of_group = 0.9, whole_from = 1.25;
 constexpr int steps_of_h = 64;
 
 }  // namespace
 
 VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set)
-    : surface_(surface), sum_(TALUS_COMPILED_FOR(set, sum_walls)) {
+    : surface_(surface), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
   if (surface.is_empty()) return;
-  points_ = spread_points(surface, piece * spacing);
-  for (const SurfacePoint& point : points_) {
+  const PointGroups groups = grouped(spread_points(surface, piece * spacing), extent_of_group * spacing);
+  patches_.resize(surface.parts());
+  const auto add = [&](const SurfacePoint& point) {
     const Vector3 &x = point.place, &n = point.normal;
-    places_.push_back(x);
     records_.push_back({{x.x, x.y, x.z}, {n.x, n.y, n.z}, point.area, 0});
+    parts_.push_back(point.part);
+    patches_[point.part] = point.patch;
+  };
+  for (std::size_t g = 0; g < groups.whole.size(); ++g) {
+    groups_.push_back(static_cast<std::uint32_t>(records_.size()));
+    places_.push_back(groups.whole[g].place);
+    add(groups.whole[g]);
+    for (std::uint32_t n = groups.first[g]; n < groups.first[g + 1]; ++n) add(groups.points[n]);
   }
+  groups_.push_back(static_cast<std::uint32_t>(records_.size()));
   records_.push_back({{1e3, 1e3, 1e3}, {1, 0, 0}, 0, 0});
   for (int n = 0; n <= 2 * steps_of_h; ++n) plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
 }
 
-void VesselWalls::find(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-                       double skin) {
-  first_.assign(position.size() + 1, 0);
-  near_.clear();
-  if (is_empty() || position.empty()) return;
-  const double largest = *std::max_element(smoothing_length.begin(), smoothing_length.end());
-  const CellGrid grid(places_, 2 * largest + skin);
-  std::vector<std::vector<std::uint32_t>> found((position.size() + chunk_size - 1) / chunk_size);
+/// What some particles, one after the other, have found.
+struct VesselWalls::Found {
+  std::vector<std::uint32_t> near;
+  std::vector<Stand> stands;
+  std::vector<std::uint32_t> particles, stands_of;  // that have found some, and how many
+};
+
+/// Adds the records within reach of a particle, by part.
+void VesselWalls::find_points(const Vector3& position, double reach, Found& found) const {
+  const auto begin = static_cast<std::uint32_t>(found.near.size());
+  const double whole = whole_from * spacing_;
+  const auto square = [&](const Vector3& d) { return dot(d, d); };
+  const auto place = [&](std::uint32_t n) {
+    const double* x = records_[n].place;
+    return Vector3{x[0], x[1], x[2]};
+  };
+  const double farthest = reach + extent_of_group * spacing_;
+  grid_->for_each_candidate(position, [&](std::uint32_t g) {
+    const double away = square(places_[g] - position);
+    if (away > farthest * farthest || surface_.is_open(patches_[parts_[groups_[g]]])) return;
+    if (away > whole * whole) {
+      if (away <= reach * reach) found.near.push_back(groups_[g]);
+      return;
+    }
+    for (std::uint32_t n = groups_[g] + 1; n < groups_[g + 1]; ++n)
+      if (square(place(n) - position) <= reach * reach) found.near.push_back(n);
+  });
+  // In an order of their own, whatever the cells are.
+  std::sort(found.near.begin() + begin, found.near.end());
+  const auto end = static_cast<std::uint32_t>(found.near.size());
+  std::uint32_t stands = 0;
+  for (std::uint32_t n = begin; n < end; ++stands) {
+    const std::uint32_t first = n, part = parts_[found.near[n]];
+    double distance = std::numeric_limits<double>::infinity();
+    for (; n < end && parts_[found.near[n]] == part; ++n) {
+      const double* normal = records_[found.near[n]].normal;
+      const Vector3 d = place(found.near[n]) - position;
+      distance = std::min(distance, std::abs(d.x * normal[0] + d.y * normal[1] + d.z * normal[2]));
+    }
+    found.stands.push_back({first, n - first, patches_[part], part, distance});
+  }
+  found.stands_of.push_back(stands);
+}
+
+void VesselWalls::find(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
+                       std::span<const double> smoothing_length, double skin) {
+  is_met_ = false;
+  if (is_empty()) return;
+  const double largest =
+      position.empty() ? 0 : *std::max_element(smoothing_length.begin(), smoothing_length.end());
+  if (const double reach = 2 * largest + skin + extent_of_group * spacing_; !(cell_ >= reach)) {
+    cell_ = 1.1 * reach;
+    grid_.emplace(places_, cell_);
+  }
+  std::vector<Found> found((position.size() + chunk_size - 1) / chunk_size);
   team.run(found.size(), [&](std::size_t chunk) {
-    std::vector<std::uint32_t>& list = found[chunk];
     for (std::size_t i = chunk * chunk_size; i < std::min(position.size(), (chunk + 1) * chunk_size); ++i) {
-      const std::size_t begin = list.size();
-      const double reach = 2 * smoothing_length[i] + skin;
-      grid.for_each_candidate(position[i], [&](std::uint32_t n) {
-        const Vector3 d = places_[n] - position[i];
-        if (dot(d, d) <= reach * reach) list.push_back(n);
-      });
-      std::sort(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(points_[a].part, a) < std::pair(points_[b].part, b);
-      });
-      first_[i + 1] = list.size() - begin;
+      if (!std::isfinite(neighbourhood.distance_from_vessel(i))) continue;
+      find_points(position[i], 2 * smoothing_length[i] + skin, found[chunk]);
+      if (found[chunk].stands_of.back() == 0)
+        found[chunk].stands_of.pop_back();
+      else
+        found[chunk].particles.push_back(static_cast<std::uint32_t>(i));
     }
   });
-  for (std::size_t i = 0; i < position.size(); ++i) first_[i + 1] += first_[i];
-  near_.reserve(first_.back());
-  for (const auto& list : found) near_.insert(near_.end(), list.begin(), list.end());
+  near_.clear();
   slot_.assign(position.size(), -1);
   particles_.clear();
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    if (first_[i] == first_[i + 1]) continue;
-    slot_[i] = static_cast<std::int32_t>(particles_.size());
-    particles_.push_back(static_cast<std::uint32_t>(i));
+  stands_.clear();
+  first_stand_.assign(1, 0);
+  for (const Found& some : found) {
+    const auto before = static_cast<std::uint32_t>(near_.size());
+    near_.insert(near_.end(), some.near.begin(), some.near.end());
+    for (Stand stand : some.stands) {
+      stand.first += before;
+      stands_.push_back(stand);
+    }
+    for (std::size_t n = 0; n < some.particles.size(); ++n) {
+      slot_[some.particles[n]] = static_cast<std::int32_t>(particles_.size());
+      particles_.push_back(some.particles[n]);
+      first_stand_.push_back(first_stand_.back() + some.stands_of[n]);
+    }
   }
   met_.resize(particles_.size());
+  find_pairs(team, neighbourhood, position, smoothing_length, skin);
+}
+
+/// Who stands with a particle at the same part of a wall, as near to the particle's image there as the kernel reaches.
+void VesselWalls::find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
+                             std::span<const double> smoothing_length, double skin) {
+  const std::size_t count = neighbourhood.particles();
+  const auto ghosts = neighbourhood.ghosts();
+  images_.clear();
+  std::vector<std::uint32_t> seat_of_ghost(ghosts.size());  // the first of them
+  for (std::size_t g = 0; g < ghosts.size(); ++g) {
+    seat_of_ghost[g] = static_cast<std::uint32_t>(stands_.size() + images_.size());
+    if (const std::int32_t slot = slot_[ghosts[g].source]; slot >= 0)
+      for (std::uint32_t s = first_stand_[static_cast<std::size_t>(slot)];
+           s < first_stand_[static_cast<std::size_t>(slot) + 1]; ++s)
+        images_.push_back({s, neighbourhood.image(ghosts[g])});
+  }
+  seats_.assign(stands_.size() + images_.size() + 1, {});
+  const auto nobody = static_cast<std::uint32_t>(seats_.size() - 1),
+             no_record = static_cast<std::uint32_t>(count + ghosts.size());
+
+  struct Pairs {
+    std::vector<std::uint32_t> record, seat, size;
+  };
+  std::vector<Pairs> found((particles_.size() + chunk_size - 1) / chunk_size);
+  team.run(found.size(), [&](std::size_t chunk) {
+    Pairs& pairs = found[chunk];
+    for (std::size_t slot = chunk * chunk_size; slot < std::min(particles_.size(), (chunk + 1) * chunk_size); ++slot) {
+      const std::uint32_t i = particles_[slot];
+      for (std::uint32_t s = first_stand_[slot]; s < first_stand_[slot + 1]; ++s) {
+        const std::size_t begin = pairs.record.size();
+        for (const std::uint32_t record : neighbourhood.of(i)) {
+          const bool ghost = record >= count;
+          const std::uint32_t source = ghost ? ghosts[record - count].source : record;
+          if (slot_[source] < 0) continue;
+          const std::uint32_t first = first_stand_[static_cast<std::size_t>(slot_[source])],
+                              last = first_stand_[static_cast<std::size_t>(slot_[source]) + 1];
+          for (std::uint32_t t = first; t < last; ++t) {
+            if (stands_[t].part != stands_[s].part) continue;
+            const double reach = smoothing_length[i] + smoothing_length[source] + skin;
+            const Vector3 x = ghost ? neighbourhood.image(ghosts[record - count]).position(position[source])
+                                    : position[source];
+            // Each may come nearer to the wall by half the skin.
+            const double a = std::max(0.0, stands_[s].distance - 0.5 * skin),
+                         b = std::max(0.0, stands_[t].distance - 0.5 * skin);
+            if (dot(x - position[i], x - position[i]) + 4 * a * b > reach * reach) continue;
+            pairs.record.push_back(record);
+            pairs.seat.push_back(ghost ? seat_of_ghost[record - count] + (t - first) : t);
+          }
+        }
+        while ((pairs.record.size() - begin) % Neighbours::padded_to != 0)
+          pairs.record.push_back(no_record), pairs.seat.push_back(nobody);
+        pairs.size.push_back(static_cast<std::uint32_t>(pairs.record.size() - begin));
+      }
+    }
+  });
+  first_pair_.assign(1, 0);
+  pair_record_.clear();
+  pair_seat_.clear();
+  for (const Pairs& pairs : found) {
+    pair_record_.insert(pair_record_.end(), pairs.record.begin(), pairs.record.end());
+    pair_seat_.insert(pair_seat_.end(), pairs.seat.begin(), pairs.seat.end());
+    for (const std::uint32_t size : pairs.size) first_pair_.push_back(first_pair_.back() + size);
+  }
 }
 
 void VesselWalls::meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
-  for_each(team, particles_.size(), [&](std::size_t n) {
-    const std::size_t i = particles_[n];
-    meet(i, position[i], smoothing_length[i], met_[n]);
+  is_met_ = true;
+  for_each(team, particles_.size(), [&](std::size_t slot) {
+    const std::size_t i = particles_[slot];
+    meet(slot, position[i], smoothing_length[i], met_[slot]);
+  });
+  for_each(team, images_.size(), [&](std::size_t n) {
+    WallSeat& seat = seats_[stands_.size() + n];
+    seat = seats_[images_[n].stand];
+    const Image& image = images_[n].image;
+    const Vector3 normal = image.position({seat.normal[0], seat.normal[1], seat.normal[2]}) - image.position({});
+    seat.normal[0] = normal.x, seat.normal[1] = normal.y, seat.normal[2] = normal.z;
   });
 }
 
@@ -83,18 +217,17 @@ double VesselWalls::share_of_plane(double weight, double distance_over_h) const 
   return whole > 0 ? std::min(1.0, weight / whole) : 0;
 }
 
-void VesselWalls::meet(std::size_t particle, const Vector3& position, double smoothing_length, NearWalls& met) const {
+void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothing_length, NearWalls& met) {
   met.count = 0;
-  const std::size_t end = first_[particle + 1];
-  for (std::size_t n = first_[particle]; n < end;) {
-    const std::uint32_t part = points_[near_[n]].part, patch = points_[near_[n]].patch;
-    NearWall wall{.patch = patch, .part = part, .normal = {}, .distance = 0, .share = 0, .sums = {}};
-    const std::size_t first = n;
-    while (n < end && points_[near_[n]].part == part) ++n;
-    if (surface_.is_open(patch)) continue;
-    const double place[3] = {position.x, position.y, position.z};
-    sum_(records_.data(), near_.data() + first, static_cast<std::uint32_t>(n - first),
-         static_cast<std::uint32_t>(points_.size()), place, smoothing_length, wall.sums);
+  const double place[3] = {position.x, position.y, position.z};
+  for (std::uint32_t s = first_stand_[slot]; s < first_stand_[slot + 1]; ++s) {
+    const Stand& stand = stands_[s];
+    seats_[s].share = 0;
+    if (surface_.is_open(stand.patch)) continue;
+    NearWall wall;
+    wall.patch = stand.patch, wall.stand = s;
+    sweep_.points(records_.data(), near_.data() + stand.first, stand.count,
+                  static_cast<std::uint32_t>(records_.size() - 1), place, smoothing_length, wall.sums);
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
     if (!(size > 0)) continue;
@@ -110,6 +243,28 @@ void VesselWalls::meet(std::size_t particle, const Vector3& position, double smo
       if (least.sums.weight < wall.sums.weight) least = wall;
     }
   }
+  for (const NearWall& wall : met.all())
+    seats_[wall.stand] = {{wall.normal.x, wall.normal.y, wall.normal.z}, wall.distance, wall.share, {}};
+}
+
+Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
+                                     const std::span<const std::uint32_t>* seen, double mass) const {
+  const std::uint32_t first = first_pair_[wall.stand], size = first_pair_[wall.stand + 1] - first;
+  WallPairs pairs{pair_record_.data() + first, pair_seat_.data() + first, size};
+  thread_local std::vector<std::uint32_t> record, seat;
+  if (seen) {
+    record.clear(), seat.clear();
+    for (std::uint32_t n = 0; n < size; ++n)
+      if (std::binary_search(seen->begin(), seen->end(), pairs.record[n]))
+        record.push_back(pairs.record[n]), seat.push_back(pairs.seat[n]);
+    while (record.size() % Neighbours::padded_to != 0)
+      record.push_back(pair_record_[first + size - 1]), seat.push_back(static_cast<std::uint32_t>(seats_.size() - 1));
+    pairs = {record.data(), seat.data(), static_cast<std::uint32_t>(record.size())};
+  }
+  alignas(64) double acceleration[4];
+  sweep_.images(records, static_cast<std::uint32_t>(particle), seats_[wall.stand], seats_.data(), pairs, mass,
+                acceleration);
+  return {acceleration[0], acceleration[1], acceleration[2]};
 }
 
 }  // namespace talus::continuum

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The walls of a vessel as the particles near them meet them: integrals of the kernel over what lies beyond, by smooth
 /// part of the surface (physics/sph/wall_integrals.hpp), and the field that is taken to be there.
+///
+/// With the lists of neighbours the points within reach are found: those of the first layer of particles one by one,
+/// farther ones in groups of four, whose sums are as exact there. So are the particles that stand with one at the same
+/// part.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,17 +18,19 @@
 #include "base/tensor.hpp"
 #include "base/vector.hpp"
 #include "models/continuum/wall_sweep/kernel.hpp"
+#include "numerics/cell_grid.hpp"
+#include "numerics/neighbourhood.hpp"
 #include "numerics/surface/surface.hpp"
-#include "numerics/surface/surface_points.hpp"
 
 namespace talus::continuum {
 
 /// A smooth part of a wall near a particle.
 struct NearWall {
-  std::uint32_t patch = 0, part = 0;
-  Vector3 normal;       ///< unit, towards the particle; the mean of what the particle sees of it
-  double distance = 0;  ///< from it, m
-  double share = 0;     ///< that it covers of a plane without end at that distance, 0 to 1
+  std::uint32_t patch = 0;
+  std::uint32_t stand = 0;  ///< number of the particle's stand at this part
+  Vector3 normal;           ///< unit, towards the particle; the mean of what the particle sees of it
+  double distance = 0;      ///< from it, m
+  double share = 0;         ///< that it covers of a plane without end at that distance, 0 to 1
   WallTotals sums;
 
   Vector3 slope() const { return {sums.slope[0], sums.slope[1], sums.slope[2]}; }
@@ -53,31 +60,70 @@ class VesselWalls {
   bool is_empty() const { return surface_.is_empty(); }
   const Surface& surface() const { return surface_; }
 
-  /// Finds the points of the walls within reach of each particle: twice its smoothing length and the skin.
-  void find(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length, double skin);
+  /// Finds, for each particle, the points of the walls within reach, twice its smoothing length and the skin, and the
+  /// neighbours at the same parts of walls. \param neighbourhood of the particles, with lists built just now
+  void find(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
+            std::span<const double> smoothing_length, double skin);
 
   /// Takes the sums over those points, of the particles as they are now; open gates left out.
   void meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
+  /// Whether it has since the lists were built.
+  bool is_met() const { return is_met_; }
 
   /// The walls that a particle meets. \pre meet()
   const NearWalls& of(std::size_t particle) const {
     return slot_[particle] < 0 ? nothing_ : met_[static_cast<std::size_t>(slot_[particle])];
   }
 
+  /// The acceleration of a particle along a part of a wall by its neighbours' images there (vessel_sum.hpp), m/s^2.
+  /// \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
+  Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
+                          const std::span<const std::uint32_t>* seen, double mass) const;
+  /// Sums for the gradient of the stress.
+  void sum_stresses(const Records& records, std::size_t particle, const Neighbours& neighbours,
+                    StressSums& sums) const {
+    sweep_.stresses(records, static_cast<std::uint32_t>(particle), neighbours, sums);
+  }
+
  private:
-  void meet(std::size_t particle, const Vector3& position, double smoothing_length, NearWalls& met) const;
+  /// A particle at a smooth part of a wall.
+  struct Stand {
+    std::uint32_t first, count;  ///< of its points in near_
+    std::uint32_t patch, part;
+    double distance;  ///< from the plane of the nearest of them at least, m
+  };
+  struct Found;
+  void find_points(const Vector3& position, double reach, Found& found) const;
+  void find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
+                  std::span<const double> smoothing_length, double skin);
+  void meet(std::size_t slot, const Vector3& position, double smoothing_length, NearWalls& met);
   double share_of_plane(double weight, double distance_over_h) const;
 
   const Surface& surface_;
-  SumWalls* sum_;
-  std::vector<SurfacePoint> points_;
-  std::vector<Vector3> places_;     // of the points
-  std::vector<WallPoint> records_;  // of the points, and one without area
-  std::vector<std::size_t> first_ = {0};
-  std::vector<std::uint32_t> near_;       // points of every particle, by part
-  std::vector<std::int32_t> slot_;        // of every particle in met_, -1: no wall within reach
-  std::vector<std::uint32_t> particles_;  // that have a slot
-  std::vector<NearWalls> met_;
+  WallSweep sweep_;
+  double spacing_;
+  std::vector<WallPoint> records_;          // of every group the whole and then its points; at the end one without area
+  std::vector<std::uint32_t> parts_;        // of the records
+  std::vector<std::uint32_t> patches_;      // of the parts
+  std::vector<Vector3> places_;             // of the groups
+  std::vector<std::uint32_t> groups_;       // first record of each group; one more at the end
+  std::optional<CellGrid> grid_;            // of the places
+  double cell_ = 0;                         // of the grid, m
+  std::vector<std::uint32_t> near_;         // records near the particles, by stand
+  std::vector<std::int32_t> slot_;          // of every particle, -1: no wall within reach
+  std::vector<std::uint32_t> particles_;    // by slot
+  std::vector<std::uint32_t> first_stand_;  // by slot; one more at the end
+  std::vector<Stand> stands_;
+  std::vector<WallSeat> seats_;  // of the stands, of images of particles that have some, and one of nobody
+  struct ImageOfSeat {
+    std::uint32_t stand;
+    Image image;
+  };
+  std::vector<ImageOfSeat> images_;
+  std::vector<std::uint32_t> first_pair_;  // by stand; a multiple of a register; one more at the end
+  std::vector<std::uint32_t> pair_record_, pair_seat_;
+  std::vector<NearWalls> met_;  // by slot
+  bool is_met_ = false;
   NearWalls nothing_;
   std::vector<double> plane_;  // weight of a plane by its distance, in steps of h/64
 };

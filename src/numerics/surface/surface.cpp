@@ -11,7 +11,6 @@ namespace talus {
 
 namespace {
 
-constexpr double most_cells = 1e7;
 constexpr double smooth = 0.848;   // cosine of 32 degrees
 constexpr double flat = 1 - 1e-9;  // of 0.003 degrees
 
@@ -34,9 +33,8 @@ struct Edge {
 
 }  // namespace
 
-Surface::Surface(std::vector<Triangle> triangles, std::size_t patches, double cell)
-    : triangles_(std::move(triangles)), is_open_(patches, false), cell_(cell) {
-  if (!(cell > 0)) throw std::invalid_argument("the edge of a cell must be positive");
+Surface::Surface(std::vector<Triangle> triangles, std::size_t patches)
+    : triangles_(std::move(triangles)), is_open_(patches, false) {
   if (triangles_.empty()) return;
   low_ = high_ = triangles_.front().corner[0];
   for (const Triangle& t : triangles_) {
@@ -47,7 +45,7 @@ Surface::Surface(std::vector<Triangle> triangles, std::size_t patches, double ce
   }
   parts_ = joined(smooth, part_count_);
   facets_ = joined(flat, facet_count_);
-  fill_grid();
+  tree_ = TriangleTree(triangles_);
 }
 
 const Surface& Surface::none() {
@@ -86,117 +84,53 @@ std::vector<std::uint32_t> Surface::joined(double cosine, std::size_t& groups) c
   return result;
 }
 
-int Surface::along(double x, int axis) const {
-  const double n = std::floor((x - low_[axis]) / cell_);
-  const int last = count_[static_cast<std::size_t>(axis)] - 1;
-  return n < 0 ? 0 : n > last ? last : static_cast<int>(n);
-}
-
-/// The cells that overlap a box, each with its number.
-template <class Visit>
-void Surface::for_each_cell(const Vector3& low, const Vector3& high, Visit&& visit) const {
-  for (int axis = 0; axis < 3; ++axis)
-    if (high[axis] < low_[axis] || low[axis] > high_[axis]) return;
-  const int i0 = along(low.x, 0), i1 = along(high.x, 0), j0 = along(low.y, 1), j1 = along(high.y, 1),
-            k0 = along(low.z, 2), k1 = along(high.z, 2);
-  for (int k = k0; k <= k1; ++k)
-    for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i)
-        visit((static_cast<std::size_t>(k) * static_cast<std::size_t>(count_[1]) + static_cast<std::size_t>(j)) *
-                      static_cast<std::size_t>(count_[0]) +
-                  static_cast<std::size_t>(i),
-              Cell{i, j, k});
-}
-
-void Surface::fill_grid() {
-  const Vector3 extent = high_ - low_;
-  const auto cells = [&] {
-    double product = 1;
-    for (int axis = 0; axis < 3; ++axis) product *= std::floor(extent[axis] / cell_) + 1;
-    return product;
-  };
-  while (cells() > most_cells) cell_ *= 1.25;
-  for (int axis = 0; axis < 3; ++axis)
-    count_[static_cast<std::size_t>(axis)] = static_cast<int>(std::floor(extent[axis] / cell_)) + 1;
-  // Two passes: how many triangles a cell has, then which. A triangle is in the cells of its box that its plane passes.
-  const auto for_each_entry = [&](const auto& enter) {
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      const std::array<Vector3, 3>& corner = triangles_[t].corner;
-      const Vector3 low = least(corner[0], least(corner[1], corner[2]));
-      const Vector3 high = largest(corner[0], largest(corner[1], corner[2]));
-      const Vector3& n = normals_[t];
-      const double half = (0.5 + 1e-6) * cell_ * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-      for_each_cell(low, high, [&](std::size_t cell, const Cell& at) {
-        const Vector3 middle = low_ + cell_ * Vector3{at.i + 0.5, at.j + 0.5, at.k + 0.5};
-        if (std::abs(dot(n, middle - corner[0])) <= half) enter(cell, t);
-      });
-    }
-  };
-  const auto size =
-      static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]);
-  first_.assign(size + 1, 0);
-  for_each_entry([&](std::size_t cell, std::uint32_t) { ++first_[cell + 1]; });
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  of_cells_.resize(first_.back());
-  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for_each_entry([&](std::size_t cell, std::uint32_t t) { of_cells_[next[cell]++] = t; });
-}
-
 std::optional<Surface::Foot> Surface::nearest(const Vector3& x, double within) const {
   std::optional<Foot> best;
-  const Vector3 reach{within, within, within};
-  for_each_cell(x - reach, x + reach, [&](std::size_t cell, const Cell&) {
-    for (const std::uint32_t t : in_cell(cell)) {
-      if (is_open_[triangles_[t].patch]) continue;
-      const Vector3 place = nearest_place(triangles_[t], x);
-      const double distance = norm(place - x);
-      if (!(distance <= within) ||
-          (best && (distance > best->distance || (distance == best->distance && t >= best->triangle))))
-        continue;
-      best = Foot{t, place, distance};
-    }
+  tree_.near_place(x, within, [&](std::uint32_t t) {
+    if (is_open_[triangles_[t].patch]) return;
+    const Vector3 place = nearest_place(triangles_[t], x);
+    const double distance = norm(place - x);
+    if (!(distance <= within) || (best && distance == best->distance && t >= best->triangle)) return;
+    best = Foot{t, place, distance};
+    within = distance;
   });
   return best;
 }
 
 std::optional<Surface::Crossing> Surface::first_crossing(const Vector3& a, const Vector3& b) const {
-  if (triangles_.empty()) return std::nullopt;
-  // A long line is followed piece by piece; within a piece the box of cells around it is searched.
-  const double length = norm(b - a);
-  const int pieces = std::max(1, static_cast<int>(std::min(1e6, std::ceil(length / (2 * cell_)))));
-  for (int piece = 0; piece < pieces; ++piece) {
-    const double begin = static_cast<double>(piece) / pieces, end = static_cast<double>(piece + 1) / pieces;
-    const Vector3 p = a + begin * (b - a), q = a + end * (b - a);
-    const double slack = 1e-9 * (length + cell_);
-    const Vector3 margin{slack, slack, slack};
-    std::optional<Crossing> first;
-    for_each_cell(least(p, q) - margin, largest(p, q) + margin, [&](std::size_t cell, const Cell&) {
-      for (const std::uint32_t t : in_cell(cell)) {
-        if (is_open_[triangles_[t].patch]) continue;
-        const auto at = crossing(triangles_[t], a, b);
-        if (at && (!first || *at < first->at || (*at == first->at && t < first->triangle))) first = Crossing{t, *at};
-      }
-    });
-    // Beyond the piece another triangle may come first.
-    if (first && (first->at <= end || piece + 1 == pieces)) return first;
-  }
-  return std::nullopt;
-}
-
-void Surface::for_each_near_pair(const std::function<void(std::uint32_t, std::uint32_t)>& visit) const {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
-    const auto near = in_cell(cell);
-    for (std::size_t n = 0; n < near.size(); ++n)
-      for (std::size_t m = 0; m < n; ++m) pairs.emplace_back(near[m], near[n]);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  for (const auto& [a, b] : pairs) visit(a, b);
+  std::optional<Crossing> first;
+  tree_.along_line(a, b, [&](std::uint32_t t) {
+    if (is_open_[triangles_[t].patch]) return;
+    const auto at = crossing(triangles_[t], a, b);
+    if (at && (!first || *at < first->at || (*at == first->at && t < first->triangle))) first = Crossing{t, *at};
+  });
+  return first;
 }
 
 bool Surface::blocks(const Vector3& a, const Vector3& b) const {
   return order(a) < order(b) ? first_crossing(a, b).has_value() : first_crossing(b, a).has_value();
+}
+
+bool Surface::blocks(const Vector3& a, const Vector3& b, std::span<const std::uint32_t> near) const {
+  const bool forward = order(a) < order(b);
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t t) {
+    return crossing(triangles_[t], forward ? a : b, forward ? b : a).has_value();
+  });
+}
+
+bool Surface::near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  bool all = true;
+  tree_.near_place(x, within, [&](std::uint32_t t) {
+    if (is_open_[triangles_[t].patch]) return;
+    if (found.size() == most) {
+      all = false;
+      within = 0;  // enough
+    } else {
+      found.push_back(t);
+    }
+  });
+  return all;
 }
 
 }  // namespace talus

@@ -2,18 +2,17 @@
 /// A surface of triangles: the walls of a vessel. It has no thickness; grains may stand on either side of it. Its
 /// triangles belong to patches, which a gate may open, and to smooth parts, which edges bound.
 ///
-/// A uniform grid of cells finds the triangles near a place, so that the cost does not grow with their number.
+/// A tree of boxes finds the triangles near a place, so that the cost hardly grows with their number.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/vector.hpp"
 #include "numerics/surface/triangle.hpp"
+#include "numerics/surface/triangle_tree.hpp"
 
 namespace talus {
 
@@ -22,10 +21,9 @@ class Surface {
   Surface() = default;
   static const Surface& none();  ///< without triangles
 
-  /// \param triangles each with an area; \param patches how many there are; \param cell edge of the grid's cells, m; it
-  /// is raised where the grid would have more than some ten million
+  /// \param triangles each with an area; \param patches how many there are
   /// \throws std::invalid_argument for a triangle without area, of no patch, or not finite
-  Surface(std::vector<Triangle> triangles, std::size_t patches, double cell);
+  Surface(std::vector<Triangle> triangles, std::size_t patches);
 
   bool is_empty() const { return triangles_.empty(); }
   std::span<const Triangle> triangles() const { return triangles_; }
@@ -62,22 +60,14 @@ class Surface {
   std::optional<Crossing> first_crossing(const Vector3& a, const Vector3& b) const;
   /// Whether it does. The same from both ends.
   bool blocks(const Vector3& a, const Vector3& b) const;
-
-  /// Calls visit(a, b), a < b, once for each two triangles that have a cell in common.
-  void for_each_near_pair(const std::function<void(std::uint32_t a, std::uint32_t b)>& visit) const;
+  /// The same for many b around one a. \param near what near() found within |b - a| of a or more
+  bool blocks(const Vector3& a, const Vector3& b, std::span<const std::uint32_t> near) const;
+  /// Writes triangles of patches that are not open, among them all within the distance of x, up to `most` of them.
+  /// \returns whether these are all
+  bool near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const;
 
  private:
-  struct Cell {
-    int i, j, k;
-  };
   std::vector<std::uint32_t> joined(double cosine, std::size_t& count) const;
-  void fill_grid();
-  int along(double x, int axis) const;
-  template <class Visit>
-  void for_each_cell(const Vector3& low, const Vector3& high, Visit&& visit) const;
-  std::span<const std::uint32_t> in_cell(std::size_t cell) const {
-    return std::span(of_cells_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
-  }
 
   std::vector<Triangle> triangles_;
   std::vector<Vector3> normals_;
@@ -85,10 +75,7 @@ class Surface {
   std::size_t part_count_ = 0, facet_count_ = 0;
   std::vector<bool> is_open_;
   Vector3 low_, high_;
-  double cell_ = 1;
-  std::array<int, 3> count_{};
-  std::vector<std::size_t> first_ = {0};  // of each cell in of_cells_; one more at the end
-  std::vector<std::uint32_t> of_cells_;   // triangles by cell
+  TriangleTree tree_;
 };
 
 }  // namespace talus

@@ -5,8 +5,9 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
-#include "numerics/surface/surface.hpp"
+#include "numerics/surface/triangle_tree.hpp"
 
 namespace talus {
 
@@ -100,13 +101,15 @@ std::string_view text_of(Kind kind) {
       return "their normals are on different sides";
     case Kind::branching:
       return "more than two triangles meet at an edge";
+    case Kind::open_rim:
+      return "no triangle joins it at an edge: the surface is not closed there";
     case Kind::crossing_another:
       return "they pass through each other";
   }
   return "";
 }
 
-std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles) {
+std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles, bool closed) {
   std::vector<SurfaceFault> faults;
   std::vector<bool> skip(triangles.size(), false);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -115,29 +118,28 @@ std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles) {
     skip[t] = true;
     faults.push_back({finite ? Kind::without_area : Kind::not_finite, t, {}, triangles[t].middle()});
   }
-  std::vector<SurfaceFault> turned, branching;
+  std::vector<SurfaceFault> turned, branching, rims;
   const std::vector<Edge> edges = sorted_edges(triangles, skip);
   for_each_edge(edges, [&](std::size_t first, std::size_t count) {
     const Edge &a = edges[first], &b = edges[std::min(first + 1, edges.size() - 1)];
     const Vector3 middle = 0.5 * (a.from + a.to);
+    if (count == 1 && closed) rims.push_back({Kind::open_rim, a.triangle, {}, middle});
     if (count > 2) branching.push_back({Kind::branching, a.triangle, edges[first + 2].triangle, middle});
     if (count == 2 && a.reversed == b.reversed) turned.push_back({Kind::turned_over, a.triangle, b.triangle, middle});
   });
 
   std::vector<Triangle> whole;
   std::vector<std::uint32_t> number;
-  double area = 0;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     if (!skip[t]) {
       whole.push_back(triangles[t]);
       whole.back().patch = 0;
       number.push_back(t);
-      area += norm(triangles[t].area());
     }
   std::vector<SurfaceFault> twice, through;
   if (!whole.empty()) {
-    const Surface surface(whole, 1, 2 * std::sqrt(area / static_cast<double>(whole.size())));
-    surface.for_each_near_pair([&](std::uint32_t a, std::uint32_t b) {
+    TriangleTree(whole).for_each_near_pair([&](std::uint32_t a, std::uint32_t b) {
+      if (b < a) std::swap(a, b);
       const auto corners = [](std::array<Vector3, 3> c) {
         std::sort(c.begin(), c.end(), [](const Vector3& p, const Vector3& q) { return order(p) < order(q); });
         return c;
@@ -151,7 +153,7 @@ std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles) {
       }
     });
   }
-  for (std::vector<SurfaceFault>* of : {&twice, &turned, &branching, &through}) {
+  for (std::vector<SurfaceFault>* of : {&twice, &turned, &branching, &rims, &through}) {
     std::sort(of->begin(), of->end(), [](const SurfaceFault& a, const SurfaceFault& b) {
       return std::tie(a.triangle, a.other) < std::tie(b.triangle, b.other);
     });

@@ -20,6 +20,7 @@ struct SurfaceFault {
     twice,            ///< the same corners as another triangle
     turned_over,      ///< its normal is on the other side than that of its neighbour
     branching,        ///< more than two triangles at an edge
+    open_rim,         ///< one triangle alone at an edge, where the surface is to be closed
     crossing_another  ///< the surface passes through itself
   };
   Kind kind;
@@ -31,8 +32,9 @@ struct SurfaceFault {
 /// In words: "has no area".
 std::string_view text_of(SurfaceFault::Kind kind);
 
-/// All of them, by kind, and by number within a kind. A surface may have rims: a vessel is open at its top.
-/// A triangle without area counts only as that. Coordinates that belong together must be the same bits.
-std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles);
+/// All of them, by kind, and by number within a kind. A triangle without area counts only as that. Coordinates that
+/// belong together must be the same bits. \param closed the surface may have no rims; else it may: a vessel is open at
+/// its top
+std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles, bool closed = false);
 
 }  // namespace talus

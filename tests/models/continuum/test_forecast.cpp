@@ -170,6 +170,31 @@ TEST(CheckSteps, AFixedStepThatIsTooLongIsToldAsSuch) {
   }
 }
 
+TEST(ContinuumSample, OfAVesselHasItsWalls) {
+  Parameters p = section(100e-3, 60e-3);
+  p.box.depth = 100e-3, p.box.height = 100e-3;
+  const Forecast plain = forecast(p, 1);
+  VesselPart walls, floor;
+  walls.shape = VesselShape::box, floor.shape = VesselShape::disc;
+  walls.width = walls.depth = 60e-3, walls.bottom = 10e-3, walls.top = 90e-3;
+  floor.radius = 50e-3, floor.height = 10e-3;
+  p.vessel = {walls, floor};
+  ASSERT_TRUE(check(p).empty());
+  const double count = bed_count(p);
+  EXPECT_EQ(count, 24. * 24 * 24);
+  const Forecast f = forecast(p, 1);
+  const double area = 4 * 60e-3 * 80e-3 + 3.1416 * 50e-3 * 50e-3;  // of one layer: 6.25e-6 m^2 a particle
+  EXPECT_NEAR(f.wall_points, area / 1e-6, 0.01 * f.wall_points);
+  EXPECT_NEAR(f.beside_walls, 2 * area / 6.25e-6, 0.01 * f.beside_walls);
+  EXPECT_GT(memory_of(f) - memory_of(plain), 3500 * (f.particles - plain.particles));
+  const Parameters coarse = coarser(p, count / 8);
+  EXPECT_NEAR(bed_count(coarse), count / 8, 0.02 * count / 8);
+  EXPECT_EQ(coarse.vessel.size(), 2u);
+  ThreadTeam team(1);
+  Continuum model = started(coarse, team);
+  model.advance(team);
+}
+
 TEST(ContinuumSample, StartsWithoutThePlates) {
   Parameters p = small_hopper();
   make_granular(p);

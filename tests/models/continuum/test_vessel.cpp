@@ -263,6 +263,38 @@ TEST(Vessel, NothingLeaksFromASilo) {
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 }
 
+TEST(Vessel, NothingLeaksAroundACornerThatPointsIntoTheBed) {
+  // A step in the floor: grains flow over its edge, which they see from two sides.
+  Parameters p = room(12, 6, 26);
+  make_granular(p);
+  p.box.front = p.box.rear = FaceKind::symmetry;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  p.walls.friction_from = FrictionFrom::start;
+  p.bed.bottom = 4 * spacing, p.bed.height = 12 * spacing;
+  p.vessel = {plate("left", {1, -4, 8}, {0, 14, 0}, {0, 0, 16}), plate("right", {11, -4, 4}, {0, 14, 0}, {0, 0, 20}),
+              plate("step", {1, -4, 8}, {5, 0, 0}, {0, 14, 0}),  plate("riser", {6, -4, 4}, {0, 14, 0}, {0, 0, 4}),
+              plate("floor", {6, -4, 4}, {5, 0, 0}, {0, 14, 0})};
+  ASSERT_THAT(check(p), testing::IsEmpty());
+  ThreadTeam team(2);
+  Continuum model(p);
+  for (Vector3& u : model.mutable_state().velocity) u = {0.6, 0, -0.2};
+  model.begin(team);
+  const State& s = model.state();
+  const std::size_t count = s.position.size();
+  ASSERT_GT(count, 500u);
+  const Surface surface = surface_of(p);
+  while (s.time < 0.06) {
+    const auto before = by_identity(s, s.position);
+    model.advance(team);
+    const auto after = by_identity(s, s.position);
+    for (std::size_t n = 0; n < count; ++n) ASSERT_FALSE(surface.blocks(before[n], after[n])) << "at " << s.time;
+  }
+  for (const Vector3& x : s.position)
+    ASSERT_TRUE(x.z > 8 * spacing || (x.x > 6 * spacing && x.z > 4 * spacing)) << x.x << ' ' << x.z;
+  EXPECT_GT(s.vessel_impulse[1].x, 0) << "they have run against the wall on the right";
+}
+
 TEST(Vessel, TheBitsDependNeitherOnThreadsNorOnResuming) {
   const Parameters p = small_silo();
   ThreadTeam one(1), two(2);
@@ -332,6 +364,21 @@ TEST(Vessel, FaultsOfAFileNameTheTriangle) {
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].key, "vessel.4.file");
   EXPECT_THAT(problems[0].what, testing::HasSubstr("chute.stl: triangle 2 at (0.5, 0, 0) m: has no area"));
+}
+
+TEST(Vessel, ARimOfAFileThatIsToBeClosedIsAFault) {
+  Parameters p = small_silo();
+  const Vector3 a{0, 0, 0}, b{10, 0, 0}, c{0, 10, 0}, d{0, 0, 10};
+  p.vessel.push_back(drawn("body", {{{a, c, b}, 0}, {{a, b, d}, 0}, {{a, d, c}, 0}}));
+  p.vessel.back().file = "body.stl";
+  p.vessel.back().unit = FileUnit::mm;
+  EXPECT_THAT(check(p), testing::IsEmpty()) << "a vessel has rims";
+  p.vessel.back().closed = true;
+  const auto problems = check(p);
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_EQ(problems[0].key, "vessel.4.file");
+  EXPECT_EQ(problems[0].what,
+            "body.stl: triangle 1 at (5, 5, 0) mm: no triangle joins it at an edge: the surface is not closed there");
 }
 
 }  // namespace

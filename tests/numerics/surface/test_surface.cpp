@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "base/random.hpp"
 #include "numerics/surface/section.hpp"
 #include "numerics/surface/surface_points.hpp"
@@ -16,7 +19,7 @@ Vector3 anywhere(Random& random, double size) {
 }
 
 TEST(Surface, TheNearestPlaceOfABallIsTowardsItsMiddle) {
-  const Surface surface(ball(4), 1, 0.1);
+  const Surface surface(ball(4), 1);
   Random random(1);
   for (int n = 0; n < 300; ++n) {
     const Vector3 x = anywhere(random, 1.2);
@@ -29,7 +32,7 @@ TEST(Surface, TheNearestPlaceOfABallIsTowardsItsMiddle) {
 }
 
 TEST(Surface, TheNearestPlaceIsThatOfAllTriangles) {
-  const Surface surface(tube(24), 1, 0.2);
+  const Surface surface(tube(24), 1);
   Random random(2);
   for (int n = 0; n < 300; ++n) {
     const Vector3 x = anywhere(random, 1.5) + Vector3{0, 0, 2};
@@ -43,7 +46,7 @@ TEST(Surface, TheNearestPlaceIsThatOfAllTriangles) {
 
 TEST(Surface, NoLineSlipsThroughBetweenTriangles) {
   // Also lines through edges and corners: out of a closed ball every line crosses once, from both ends.
-  const Surface surface(ball(3), 1, 0.15);
+  const Surface surface(ball(3), 1);
   Random random(3);
   int found = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -65,7 +68,7 @@ TEST(Surface, NoLineSlipsThroughBetweenTriangles) {
 }
 
 TEST(Surface, TheFirstOfSeveralCrossingsIsFound) {
-  const Surface surface(tube(48), 1, 0.1);
+  const Surface surface(tube(48), 1);
   const auto met = surface.first_crossing({-3, 0.01, 1.3}, {5, 0.01, 1.7});
   ASSERT_TRUE(met);
   EXPECT_NEAR(-3 + 8 * met->at, -1, 3e-3);
@@ -75,7 +78,7 @@ TEST(Surface, TheFirstOfSeveralCrossingsIsFound) {
 TEST(Surface, AnOpenPatchIsNotThere) {
   std::vector<Triangle> triangles = square(1);
   triangles[1].patch = 1;
-  Surface surface(triangles, 2, 0.3);
+  Surface surface(triangles, 2);
   const Vector3 above{-0.5, 0.5, 1}, below{-0.5, 0.5, -1};
   EXPECT_TRUE(surface.blocks(above, below));
   surface.open(1);
@@ -85,19 +88,19 @@ TEST(Surface, AnOpenPatchIsNotThere) {
 }
 
 TEST(Surface, EdgesBoundSmoothParts) {
-  EXPECT_EQ(Surface(tube(24), 1, 1).parts(), 1u);
-  EXPECT_EQ(Surface(tube(4), 1, 1).parts(), 4u);
-  EXPECT_EQ(Surface(tube(24), 1, 1).facets(), 24u);
-  EXPECT_EQ(Surface(square(1), 1, 1).facets(), 1u);
+  EXPECT_EQ(Surface(tube(24), 1).parts(), 1u);
+  EXPECT_EQ(Surface(tube(4), 1).parts(), 4u);
+  EXPECT_EQ(Surface(tube(24), 1).facets(), 24u);
+  EXPECT_EQ(Surface(square(1), 1).facets(), 1u);
 }
 
 TEST(Surface, TrianglesWithoutAreaAreRefused) {
-  EXPECT_THROW(Surface({{{Vector3{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 0}}, 1, 1), std::invalid_argument);
-  EXPECT_THROW(Surface(square(1), 0, 1), std::invalid_argument);
+  EXPECT_THROW(Surface({{{Vector3{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 0}}, 1), std::invalid_argument);
+  EXPECT_THROW(Surface(square(1), 0), std::invalid_argument);
 }
 
 TEST(Surface, ItsSectionIsWhereThePlaneMeetsIt) {
-  const auto lines = section_at(Surface(tube(200), 1, 1), 0.3);
+  const auto lines = section_at(Surface(tube(200), 1), 0.3);
   double length = 0;
   for (const auto& [a, b] : lines) {
     EXPECT_NEAR(std::abs(a.x), std::sqrt(1 - 0.09), 1e-3);
@@ -105,6 +108,69 @@ TEST(Surface, ItsSectionIsWhereThePlaneMeetsIt) {
     length += norm(b - a);
   }
   EXPECT_NEAR(length, 8, 1e-2) << "two lines, 4 high";
+}
+
+/// A ball, long slivers across it, and a speck.
+std::vector<Triangle> jumble() {
+  std::vector<Triangle> triangles = ball(3);
+  for (int n = 0; n < 20; ++n) {
+    const double angle = 0.3 * n;
+    triangles.push_back({{Vector3{-2, std::cos(angle), std::sin(angle)}, {3, 0.1 * n - 1, 0.2}, {3, 0.1 * n - 0.99, 0.2}}, 0});
+  }
+  triangles.push_back({{Vector3{0.1, 0.1, 0.1}, {0.1001, 0.1, 0.1}, {0.1, 0.1001, 0.1}}, 0});
+  return triangles;
+}
+
+TEST(TriangleTree, FindsWhatAllTrianglesTell) {
+  const std::vector<Triangle> all = jumble();
+  const Surface surface(all, 1);
+  Random random(5);
+  for (int n = 0; n < 300; ++n) {
+    const Vector3 a = anywhere(random, 2), b = anywhere(random, 2);
+    std::optional<Surface::Crossing> first;
+    Surface::Foot foot{0, {}, 1e9};
+    for (std::uint32_t t = 0; t < all.size(); ++t) {
+      if (const auto at = crossing(all[t], a, b); at && (!first || *at < first->at)) first = Surface::Crossing{t, *at};
+      const double distance = norm(nearest_place(all[t], a) - a);
+      if (distance < foot.distance) foot = {t, {}, distance};
+    }
+    const auto met = surface.first_crossing(a, b);
+    ASSERT_EQ(met.has_value(), first.has_value());
+    if (met) EXPECT_EQ(met->triangle, first->triangle);
+    ASSERT_TRUE(surface.nearest(a, 5));
+    EXPECT_EQ(surface.nearest(a, 5)->triangle, foot.triangle);
+
+    std::vector<std::uint32_t> near;
+    ASSERT_TRUE(surface.near(a, norm(b - a), all.size(), near));
+    EXPECT_EQ(surface.blocks(a, b, near), first.has_value());
+    EXPECT_EQ(surface.near(a, norm(b - a), 3, near), near.size() < 3 || surface.near(a, norm(b - a), near.size(), near));
+  }
+}
+
+TEST(TriangleTree, PairsAreAllWhoseBoxesOverlap) {
+  const std::vector<Triangle> all = jumble();
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  TriangleTree(all).for_each_near_pair([&](std::uint32_t a, std::uint32_t b) {
+    EXPECT_NE(a, b);
+    EXPECT_TRUE(pairs.insert(std::minmax(a, b)).second) << "each once";
+  });
+  const auto overlap = [&](const Triangle& s, const Triangle& t) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax({s.corner[0][axis], s.corner[1][axis], s.corner[2][axis]});
+      const auto [from, to] = std::minmax({t.corner[0][axis], t.corner[1][axis], t.corner[2][axis]});
+      if (from > high || low > to) return false;
+    }
+    return true;
+  };
+  std::size_t expected = 0;
+  for (std::uint32_t a = 0; a < all.size(); ++a)
+    for (std::uint32_t b = 0; b < a; ++b)
+      if (overlap(all[a], all[b])) {
+        ++expected;
+        EXPECT_TRUE(pairs.contains({b, a})) << a << ' ' << b;
+      }
+  EXPECT_GT(expected, all.size());
+  EXPECT_LT(pairs.size(), all.size() * all.size() / 4);
 }
 
 double area_of(const Surface& surface) {
@@ -115,7 +181,7 @@ double area_of(const Surface& surface) {
 
 TEST(SurfacePoints, HaveTheAreaOfTheSurfaceAndItsMoments) {
   for (const auto& triangles : {ball(1), ball(5), tube(7), tube(100), square(1)}) {
-    const Surface surface(triangles, 1, 0.2);
+    const Surface surface(triangles, 1);
     const std::vector<SurfacePoint> points = spread_points(surface, 0.2);
     double area = 0;
     Vector3 moment, exact;
@@ -127,10 +193,35 @@ TEST(SurfacePoints, HaveTheAreaOfTheSurfaceAndItsMoments) {
 }
 
 TEST(SurfacePoints, AreAsManyForAnyNumberOfTriangles) {
-  const auto count = [](const std::vector<Triangle>& t) { return spread_points(Surface(t, 1, 0.2), 0.2).size(); };
+  const auto count = [](const std::vector<Triangle>& t) { return spread_points(Surface(t, 1), 0.2).size(); };
   const std::size_t coarse = count(ball(2)), fine = count(ball(6));  // 128 and 32768 triangles
   EXPECT_LT(fine, 1.6 * double(coarse));
   EXPECT_EQ(count(square(1)), 100u);
+}
+
+TEST(SurfacePoints, GroupsStandForTheirPoints) {
+  for (const auto& triangles : {ball(2), ball(5), tube(100), square(1)}) {
+    const std::vector<SurfacePoint> points = spread_points(Surface(triangles, 1), 0.1);
+    const PointGroups groups = grouped(points, 0.23);
+    ASSERT_EQ(groups.points.size(), points.size());
+    ASSERT_EQ(groups.first.size(), groups.whole.size() + 1);
+    EXPECT_LT(groups.whole.size(), 0.5 * double(points.size()));
+    for (std::size_t g = 0; g < groups.whole.size(); ++g) {
+      const SurfacePoint& whole = groups.whole[g];
+      double area = 0;
+      Vector3 moment;
+      EXPECT_LE(groups.first[g + 1] - groups.first[g], 4u);
+      for (std::uint32_t n = groups.first[g]; n < groups.first[g + 1]; ++n) {
+        const SurfacePoint& point = groups.points[n];
+        area += point.area, moment += point.area * point.place;
+        EXPECT_EQ(point.part, whole.part);
+        EXPECT_LT(norm(point.place - whole.place), 0.35);
+        EXPECT_GT(dot(point.normal, whole.normal), 0.8);
+      }
+      EXPECT_NEAR(whole.area, area, 1e-12);
+      EXPECT_NEAR(norm(area * whole.place - moment), 0, 1e-12);
+    }
+  }
 }
 
 }  // namespace

@@ -61,6 +61,22 @@ TEST(SurfaceFaults, ASurfaceThatPassesThroughItselfIsFound) {
   EXPECT_TRUE(faults_of(triangles).empty()) << "it stands on the square";
 }
 
+TEST(SurfaceFaults, RimsCountWhereASurfaceIsToBeClosed) {
+  EXPECT_TRUE(faults_of(ball(2), true).empty());
+  EXPECT_EQ(faults_of(tube(12), true).size(), 24u) << "below and above";
+  std::vector<Triangle> holed = ball(2);
+  const Triangle lost = holed[20];
+  holed.erase(holed.begin() + 20);
+  const auto faults = faults_of(holed, true);
+  ASSERT_EQ(faults.size(), 3u);
+  for (const SurfaceFault& fault : faults) {
+    EXPECT_EQ(fault.kind, Kind::open_rim);
+    EXPECT_FALSE(fault.other);
+    EXPECT_LT(norm(fault.place - lost.middle()), 0.4);
+    EXPECT_LT(norm(fault.place - holed[fault.triangle].middle()), 0.4) << "the number is that of a neighbour";
+  }
+}
+
 TEST(SurfaceFaults, AThirdTriangleAtAnEdgeIsFound) {
   std::vector<Triangle> triangles = square(1);
   triangles.push_back({{Vector3{-1, -1, 0}, {1, 1, 0}, {0, 0, 1}}, 0});

@@ -1,18 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sums over the points of a wall, a register of points at a time. Included by one file for each instruction set;
-/// its contents live in that set's namespace.
+/// The sums over the points of a wall, and over neighbours at a wall, a register at a time. Included by one file for
+/// each instruction set; its contents live in that set's namespace.
 #pragma once
 
 #include "base/simd.hpp"
 #include "models/continuum/wall_sweep/kernel.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_integrals.hpp"
 
 namespace talus::continuum {
 inline namespace TALUS_INSTRUCTION_SET {
 
-TALUS_INLINE void sum_points(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count,
+using WallNumber = SimdVector<double>;
+
+struct WallVector {
+  WallNumber x, y, z;
+};
+TALUS_INLINE WallNumber inner(const WallVector& a, const WallVector& b) {
+  return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
+}
+/// A symmetric tensor, xx yy zz xy yz zx, times a vector.
+TALUS_INLINE WallVector product(const WallNumber (&t)[6], const WallVector& v) {
+  return {inner({t[0], t[3], t[5]}, v), inner({t[3], t[1], t[4]}, v), inner({t[5], t[4], t[2]}, v)};
+}
+
+inline void sum_points(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count,
                              std::uint32_t padding, const double* position, double h, WallTotals& totals) {
-  using Number = SimdVector<double>;
+  using Number = WallNumber;
   sph::WallSums<Number> sums;
   for (std::uint32_t first = 0; first < count; first += Number::lanes) {
     Number column[8];
@@ -27,16 +41,97 @@ TALUS_INLINE void sum_points(const WallPoint* points, const std::uint32_t* numbe
     const Number n[3] = {column[3], column[4], column[5]};
     sums.add(d, n, column[6], h);
   }
-  totals.density = sum_lanes(sums.density, 0);
-  for (int a = 0; a < 3; ++a) {
-    totals.slope[a] = sum_lanes(sums.slope[a], 0);
-    totals.closing[a] = sum_lanes(sums.closing[a], 0);
-    totals.normal[a] = sum_lanes(sums.normal[a], 0);
+  const Number zero = 0.0;
+  const Number all[24] = {sums.density,    sums.slope[0],   sums.slope[1],   sums.slope[2],   sums.moment[0],
+                          sums.moment[1],  sums.moment[2],  sums.moment[3],  sums.moment[4],  sums.moment[5],
+                          sums.closing[0], sums.closing[1], sums.closing[2], sums.normal[0],  sums.normal[1],
+                          sums.normal[2],  sums.nearness,   sums.weight,     sums.distance,   zero,
+                          zero,            zero,            zero,            zero};
+  store_sums(all, &totals.density);
+}
+
+inline void sum_images(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
+                             const WallPairs& others, double mass, double* acceleration) {
+  using Number = WallNumber;
+  constexpr double least_sum = 1.7 * 1.7;  // of two normals, squared: on one side, and not around a corner
+  const MotionRecord& place = records.motion[self];
+  const StressRecord& loaded = records.stress[self];
+  const Number zero = 0.0;
+  WallVector sum{zero, zero, zero};
+  for (std::uint32_t first = 0; first < others.count; first += Number::lanes) {
+    Number motion[8], stress[8], seat[8];
+    load_columns([&](int lane) { return records.motion[others.record[first + static_cast<std::uint32_t>(lane)]].position; },
+                 motion);
+    load_columns([&](int lane) { return seats[others.seat[first + static_cast<std::uint32_t>(lane)]].normal; }, seat);
+    const WallVector both{seat[0] + Number(own.normal[0]), seat[1] + Number(own.normal[1]),
+                          seat[2] + Number(own.normal[2])};
+    const WallVector d{motion[0] - Number(place.position[0]), motion[1] - Number(place.position[1]),
+                       motion[2] - Number(place.position[2])};
+    const Number h = Number(place.half_length) + motion[3];
+    const Number size = inner(both, both);
+    // From the image: farther than from the particle itself.
+    const Number square = inner(d, d) + 4.0 * own.distance * seat[3] + 1e-30;
+    const auto acts = square < 4.0 * h * h && size > Number(least_sum) && seat[4] > zero;
+    if (lane_bits(acts) == 0) continue;
+    load_columns(
+        [&](int lane) {
+          return records.stress[others.record[first + static_cast<std::uint32_t>(lane)]].specific_stress;
+        },
+        stress);
+    const Number turned = reciprocal_sqrt(size + 1e-30);
+    const WallVector n{turned * both.x, turned * both.y, turned * both.z};
+    const Number inverse_h = 1.0 / h, inverse_distance = reciprocal_sqrt(square);
+    const Number slope =
+        sph::cubic_spline_slope_of(square * inverse_distance * inverse_h, h * inverse_distance, inverse_h);
+    Number together[6], apart[6];
+    for (int c = 0; c < 6; ++c) {
+      together[c] = Number(loaded.specific_stress[c]) + stress[c];
+      apart[c] = Number(loaded.specific_stress[c]) - stress[c];
+    }
+    const Number height = inner(d, n), farther = Number(own.distance) + seat[3];
+    const WallVector push = product(together, {d.x - height * n.x, d.y - height * n.y, d.z - height * n.z});
+    const WallVector turn = product(apart, n);
+    const WallVector f{push.x - farther * turn.x, push.y - farther * turn.y, push.z - farther * turn.z};
+    const Number through = inner(f, n);
+    const Number factor = select(acts, (0.5 * mass) * (Number(own.share) + seat[4]) * slope, zero);
+    sum = {multiply_add(factor, f.x - through * n.x, sum.x), multiply_add(factor, f.y - through * n.y, sum.y),
+           multiply_add(factor, f.z - through * n.z, sum.z)};
   }
-  for (int c = 0; c < 6; ++c) totals.moment[c] = sum_lanes(sums.moment[c], 0);
-  totals.nearness = sum_lanes(sums.nearness, 0);
-  totals.weight = sum_lanes(sums.weight, 0);
-  totals.distance = sum_lanes(sums.distance, 0);
+  acceleration[0] = sum_lanes(sum.x, 0), acceleration[1] = sum_lanes(sum.y, 0), acceleration[2] = sum_lanes(sum.z, 0);
+}
+
+inline void sum_stresses(const Records& records, std::uint32_t self, const Neighbours& neighbours,
+                               StressSums& sums) {
+  using Number = WallNumber;
+  const MotionRecord& place = records.motion[self];
+  const StressRecord& loaded = records.stress[self];
+  const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
+  Number all[24];
+  for (Number& sum : all) sum = 0.0;
+  for (std::uint32_t first = 0; first < end; first += Number::lanes) {
+    const std::uint32_t* const record = neighbours.record + first;
+    Number motion[8], stress[8];
+    load_columns([&](int lane) { return records.motion[record[lane]].position; }, motion);
+    load_columns([&](int lane) { return records.stress[record[lane]].specific_stress; }, stress);
+    const WallVector d{motion[0] - Number(place.position[0]), motion[1] - Number(place.position[1]),
+                       motion[2] - Number(place.position[2])};
+    const Number h = Number(place.half_length) + motion[3], inverse_h = 1.0 / h;
+    const Number square = inner(d, d) + 1e-30, inverse_distance = reciprocal_sqrt(square);
+    const Number weight = -1.0 * motion[7] *
+                          sph::cubic_spline_slope_of(square * inverse_distance * inverse_h, h * inverse_distance,
+                                                     inverse_h);
+    const WallVector w{weight * d.x, weight * d.y, weight * d.z};
+    all[0] = multiply_add(w.x, d.x, all[0]), all[1] = multiply_add(w.y, d.y, all[1]);
+    all[2] = multiply_add(w.z, d.z, all[2]), all[3] = multiply_add(w.x, d.y, all[3]);
+    all[4] = multiply_add(w.y, d.z, all[4]), all[5] = multiply_add(w.z, d.x, all[5]);
+    TALUS_UNROLL for (int c = 0; c < 6; ++c) {
+      const Number change = stress[c] - Number(loaded.specific_stress[c]);
+      all[6 + 3 * c] = multiply_add(change, w.x, all[6 + 3 * c]);
+      all[7 + 3 * c] = multiply_add(change, w.y, all[7 + 3 * c]);
+      all[8 + 3 * c] = multiply_add(change, w.z, all[8 + 3 * c]);
+    }
+  }
+  store_sums(all, sums.moment);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sums over the points of a wall, compiled for one instruction set.
+/// The sums of a particle at a wall, compiled for one instruction set.
 #include "models/continuum/wall_sweep/sum_walls.hpp"
 
 namespace talus::continuum {
 
-void sum_walls_avx512(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count, std::uint32_t padding,
-                      const double* position, double h, WallTotals& totals) {
-  sum_points(points, numbers, count, padding, position, h, totals);
+WallSweep wall_sweep_avx512() {
+  return {sum_points, sum_images, sum_stresses};
 }
 
 }  // namespace talus::continuum

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A tree of boxes over triangles, which finds those near a place, along a line or near each other. The time grows with
+/// the logarithm of their number, whatever their sizes are. Triangles are halved at the median of their middles along
+/// the longest extent of these, down to leaves of a few. Source: Ericson, Real-Time Collision Detection (Morgan
+/// Kaufmann, 2005), 6.2.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "numerics/surface/triangle.hpp"
+
+namespace talus {
+
+class TriangleTree {
+ public:
+  TriangleTree() = default;
+  /// \param triangles finite
+  explicit TriangleTree(std::span<const Triangle> triangles);
+
+  /// Calls visit(number) for triangles among which are all within a distance of x. The nearer of two boxes comes first,
+  /// and visit may lower the distance: what is farther than that is left out from then on.
+  template <class Visit>
+  void near_place(const Vector3& x, double& within, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    struct Entry {
+      std::uint32_t node;
+      double square;
+    };
+    std::array<Entry, most_levels> stack;
+    std::size_t size = 0;
+    stack[size++] = {0, square_distance(nodes_[0], x)};
+    while (size > 0) {
+      const auto [n, square] = stack[--size];
+      if (square * (1 - rounding) > within * within) continue;
+      const Node& node = nodes_[n];
+      if (node.second == 0) {
+        for (std::uint32_t t = node.begin; t < node.end; ++t) visit(order_[t]);
+        continue;
+      }
+      Entry nearer{n + 1, square_distance(nodes_[n + 1], x)};
+      Entry farther{node.second, square_distance(nodes_[node.second], x)};
+      if (farther.square < nearer.square) std::swap(nearer, farther);
+      stack[size++] = farther;
+      stack[size++] = nearer;
+    }
+  }
+
+  /// Calls visit(number) for triangles among which are all that the straight line from a to b meets.
+  template <class Visit>
+  void along_line(const Vector3& a, const Vector3& b, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    const Line line(a, b, margin_);
+    std::array<std::uint32_t, most_levels> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const std::uint32_t n = stack[--size];
+      const Node& node = nodes_[n];
+      if (!line.meets(node.low, node.high)) continue;
+      if (node.second == 0) {
+        for (std::uint32_t t = node.begin; t < node.end; ++t) visit(order_[t]);
+      } else {
+        stack[size++] = node.second;
+        stack[size++] = n + 1;
+      }
+    }
+  }
+
+  /// Calls visit(a, b) once for pairs of triangles among which are all whose boxes overlap.
+  template <class Visit>
+  void for_each_near_pair(Visit&& visit) const {
+    if (!nodes_.empty()) pairs_within(0, visit);
+  }
+
+ private:
+  static constexpr std::size_t leaf = 4, most_levels = 64;
+  static constexpr double rounding = 1e-12;
+
+  /// Triangles order_[begin] to order_[end - 1]. The first child follows its parent.
+  struct Node {
+    Vector3 low, high;
+    std::uint32_t begin, end;
+    std::uint32_t second;  // child; 0: a leaf
+  };
+  /// A line from its middle, and a box's separation from it along the axes and across both.
+  struct Line {
+    Vector3 middle, half, size;
+    double margin;
+
+    Line(const Vector3& a, const Vector3& b, double least)
+        : middle(0.5 * (a + b)), half(0.5 * (b - a)), size{std::abs(half.x), std::abs(half.y), std::abs(half.z)} {
+      margin = least + 1e-9 * (size.x + size.y + size.z);
+      size += Vector3{margin, margin, margin};
+    }
+    bool meets(const Vector3& low, const Vector3& high) const {
+      const Vector3 m = middle - 0.5 * (low + high), e = 0.5 * (high - low) + Vector3{margin, margin, margin};
+      if (std::abs(m.x) > e.x + size.x || std::abs(m.y) > e.y + size.y || std::abs(m.z) > e.z + size.z) return false;
+      return std::abs(m.y * half.z - m.z * half.y) <= e.y * size.z + e.z * size.y &&
+             std::abs(m.z * half.x - m.x * half.z) <= e.z * size.x + e.x * size.z &&
+             std::abs(m.x * half.y - m.y * half.x) <= e.x * size.y + e.y * size.x;
+    }
+  };
+
+  static double square_distance(const Node& node, const Vector3& x) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double below = node.low[axis] - x[axis], above = x[axis] - node.high[axis];
+      const double out = below > 0 ? below : above > 0 ? above : 0;
+      sum += out * out;
+    }
+    return sum;
+  }
+  static bool overlap(const Node& a, const Node& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+           a.low.z <= b.high.z && b.low.z <= a.high.z;
+  }
+  std::uint32_t add(std::span<const Triangle> triangles, std::span<const Vector3> middle, std::uint32_t begin,
+                    std::uint32_t end);
+  template <class Visit>
+  void pairs_within(std::uint32_t n, Visit& visit) const {
+    const Node& node = nodes_[n];
+    if (node.second != 0) {
+      pairs_within(n + 1, visit);
+      pairs_within(node.second, visit);
+      return pairs_between(n + 1, node.second, visit);
+    }
+    for (std::uint32_t a = node.begin; a < node.end; ++a)
+      for (std::uint32_t b = node.begin; b < a; ++b) visit(order_[b], order_[a]);
+  }
+  template <class Visit>
+  void pairs_between(std::uint32_t n, std::uint32_t m, Visit& visit) const {
+    const Node &a = nodes_[n], &b = nodes_[m];
+    if (!overlap(a, b)) return;
+    if (a.second == 0 && b.second == 0) {
+      for (std::uint32_t s = a.begin; s < a.end; ++s)
+        for (std::uint32_t t = b.begin; t < b.end; ++t) visit(order_[s], order_[t]);
+    } else if (b.second == 0 || (a.second != 0 && a.end - a.begin >= b.end - b.begin)) {
+      pairs_between(n + 1, m, visit);
+      pairs_between(a.second, m, visit);
+    } else {
+      pairs_between(n, m + 1, visit);
+      pairs_between(n, b.second, visit);
+    }
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;  // triangles by leaf
+  double margin_ = 0;                 // m
+};
+
+}  // namespace talus
