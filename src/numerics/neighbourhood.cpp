@@ -73,8 +73,10 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     double radius = 0;
     for (std::size_t n = begin; n < end; ++n) radius = std::max(radius, norm(points[n] - points[begin]));
     if (!vessel_.nearest(points[begin], (1 + 1e-9) * (radius + reach_))) return;
+    std::size_t last = Surface::no_triangle;
     for (std::size_t n = begin; n < end; ++n)
-      if (const auto foot = vessel_.nearest(points[n], reach_)) distance_[n] = foot->distance;
+      if (const auto foot = vessel_.nearest(points[n], reach_, last))
+        distance_[n] = foot->distance, last = foot->triangle;
   });
 }
 

@@ -177,7 +177,8 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   rates.resize(count);
   pack(team, particles, terms != SweepTerms::gradients || prepare_sum_);
   if (!vessel_.is_empty()) {
-    rates.vessel.resize(count);
+    rates.vessel.resize(vessel_.particles().size());
+    rates.at_vessel.assign(vessel_.particles().begin(), vessel_.particles().end());
     // In half a step particles hardly move: the gradients take the walls as the forces met them.
     if (terms != SweepTerms::gradients || !vessel_.is_met())
       vessel_.meet(team, particles.position, particles.smoothing_length);
@@ -204,7 +205,8 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     }
     if (terms != SweepTerms::forces) {
       if (!vessel_.is_empty())
-        for (std::size_t n = 0; n < size; ++n) add_walls_of_vessel(particles, first + n, sums[n]);
+        for (std::size_t n = 0; n < size; ++n)
+          if (vessel_.of(first + n).count > 0) add_walls_of_vessel(particles, first + n, sums[n]);
       alignas(64) double gradient[9][together];
       velocity_gradients_(sums, gradient);
       for (std::size_t c = 0; c < 9; ++c)
@@ -224,8 +226,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     }
     if (!vessel_.is_empty())
       for (std::size_t i = first; i < first + size; ++i)
-        if (rates.vessel[i].count = 0; vessel_.of(i).count > 0)
-          add_forces_of_vessel(particles, i, seen_from(i, seen), rates);
+        if (vessel_.place_of(i) >= 0) add_forces_of_vessel(particles, i, seen_from(i, seen), rates);
   };
   const std::size_t blocks = (count + together - 1) / together;
   team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
@@ -250,12 +251,15 @@ void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, c
                                  Rates& rates) const {
   const NearWalls& met = vessel_.of(i);
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
-  rates.vessel[i] = forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
+  WallForces& forces = rates.vessel[static_cast<std::size_t>(vessel_.place_of(i))];
+  forces.count = 0;
+  if (met.count == 0) return;
+  forces = forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
   const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
   for (const NearWall& wall : met.all())
     rates.acceleration[i] += vessel_.force_of_images(
         wall, records(), i, neighbourhood_.sight_may_change(i) ? &seen : nullptr, constants_.mass);
-  for (const WallForce& force : rates.vessel[i].all()) rates.acceleration[i] += force.acceleration;
+  for (const WallForce& force : forces.all()) rates.acceleration[i] += force.acceleration;
   double beyond = 0;
   for (const NearWall& wall : met.all()) beyond += wall.sums.density;
   rates.kernel_density[i] += particles.density[i] * beyond;

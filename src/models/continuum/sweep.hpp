@@ -43,7 +43,9 @@ struct Rates {
   GradientColumns velocity_gradient;
   std::vector<double> kernel_density;  ///< sum of m W over particles and images, kg/m^3
   WallAccelerations by_walls;
-  std::vector<WallForces> vessel;  ///< by the walls of the vessel, part of the acceleration; empty without one
+  /// By the walls of the vessel, part of the acceleration: of the particles that may meet some, and these.
+  std::vector<WallForces> vessel;
+  std::vector<std::uint32_t> at_vessel;
 
   void resize(std::size_t count);
 };

@@ -22,8 +22,9 @@ Impulses sum(Impulses a, const Impulses& b) {
 void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& rates, double duration, State& state) {
   if (state.vessel_impulse.empty()) return;
   const bool rough = has_wall_friction(p, state);
-  const auto meet = [&](std::size_t i, Impulses& received) {
-    for (const WallForce& wall : rates.vessel[i].all()) {
+  const auto meet = [&](std::size_t place, Impulses& received) {
+    const std::size_t i = rates.at_vessel[place];
+    for (const WallForce& wall : rates.vessel[place].all()) {
       received[wall.patch] -= (state.mass * duration) * wall.acceleration;
       const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
       if (!rough) continue;
@@ -34,8 +35,8 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& r
       state.velocity[i] = after;
     }
   };
-  state.vessel_impulse = sum(state.vessel_impulse,
-                             accumulate(team, state.position.size(), Impulses(state.vessel_impulse.size()), meet, sum));
+  state.vessel_impulse = sum(
+      state.vessel_impulse, accumulate(team, rates.at_vessel.size(), Impulses(state.vessel_impulse.size()), meet, sum));
 }
 
 void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourhood& neighbourhood,

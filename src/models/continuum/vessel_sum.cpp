@@ -16,13 +16,8 @@ Vector3 times(const SymmetricTensor3<>& t, const Vector3& v) {
 }
 
 /// As a mirror with that normal shows it.
-SymmetricTensor3<> mirrored(const SymmetricTensor3<>& t, const Vector3& n) {
-  const Vector3 a = times(t, n);
-  const double twice = 2 * dot(n, a);
-  // t - 2 (n a + a n) + 4 (n.a) n n
-  const Vector3 b = 2.0 * a - twice * n;
-  return {t.xx - 2 * n.x * b.x,         t.yy - 2 * n.y * b.y,         t.zz - 2 * n.z * b.z,
-          t.xy - n.x * b.y - n.y * b.x, t.yz - n.y * b.z - n.z * b.y, t.zx - n.z * b.x - n.x * b.z};
+Vector3 mirrored(const Vector3& v, const Vector3& n) {
+  return v - (2 * dot(v, n)) * n;
 }
 
 SymmetricTensor3<> stress_at(const StressRecord& record) {
@@ -117,18 +112,21 @@ WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std
   for (const NearWall& wall : met.all()) {
     const Vector3& n = wall.normal;
     const SymmetricTensor3<> m = wall.moment();
-    Vector3 a = times(stress + mirrored(stress, n), wall.slope());
-    a += times(mirrored(gradient[0], n), {m.xx, m.xy, m.zx});
-    a += times(mirrored(gradient[1], n), {m.xy, m.yy, m.yz});
-    a += times(mirrored(gradient[2], n), {m.zx, m.yz, m.zz});
+    // Along n, with R t R for a tensor t that a mirror shows and R n = -n: of (stress + R stress R) slope and of
+    // R gradient R moment.
+    const double upright = dot(wall.slope(), n);
+    double a = 2 * upright * dot(times(stress, n), n);
+    a -= dot(times(gradient[0], n), mirrored({m.xx, m.xy, m.zx}, n));
+    a -= dot(times(gradient[1], n), mirrored({m.xy, m.yy, m.yz}, n));
+    a -= dot(times(gradient[2], n), mirrored({m.zx, m.yz, m.zz}, n));
     // The image of the particle itself is met at twice the speed and twice the distance.
     const double approach = dot(velocity, n);
     const double mu = 2 * own.half_length * approach * wall.sums.nearness / wall.sums.weight;
     if (mu < 0) {
       const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / density;
-      a += viscosity * wall.slope();
+      a += viscosity * upright;
     }
-    forces.of[forces.count++] = {wall.patch, n, (-density * dot(a, n)) * n};
+    forces.of[forces.count++] = {wall.patch, n, (-density * a) * n};
   }
   return forces;
 }

@@ -13,11 +13,12 @@ namespace talus::continuum {
 
 namespace {
 
-/// Distance of the points of the walls, in spacings: the push of a plane is right to 1 % from 0.4 spacings on, to 7 %
-/// from 0.25 on (WallIntegrals.AreThoseOfAPlane).
-constexpr double piece = 0.4;
-/// Groups of four such pieces are as good from twice as far on; in spacings.
-constexpr double extent_of_group = 0.9, whole_from = 1.25;
+/// Distance of the points of the walls, in spacings. Of the fine ones: the push of a plane is right to 1 % from 0.4
+/// spacings on, to 7 % from 0.25 on (WallIntegrals.AreThoseOfAPlane). The coarse ones, right to 1 % from a spacing on,
+/// are for particles farther away than `coarse_from` when the lists are built. A particle takes one set only: sums over
+/// evenly spread points are exact far beyond their distance, and a border between two sets would spoil that.
+constexpr std::array<double, 2> pieces{0.4, 0.8};
+constexpr double coarse_from = 1.15;
 constexpr int steps_of_h = 64;
 
 }  // namespace
@@ -25,21 +26,20 @@ constexpr int steps_of_h = 64;
 VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set)
     : surface_(surface), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
   if (surface.is_empty()) return;
-  const PointGroups groups = grouped(spread_points(surface, piece * spacing), extent_of_group * spacing);
   patches_.resize(surface.parts());
-  const auto add = [&](const SurfacePoint& point) {
-    const Vector3 &x = point.place, &n = point.normal;
-    records_.push_back({{x.x, x.y, x.z}, {n.x, n.y, n.z}, point.area, 0});
-    parts_.push_back(point.part);
-    patches_[point.part] = point.patch;
-  };
-  for (std::size_t g = 0; g < groups.whole.size(); ++g) {
-    groups_.push_back(static_cast<std::uint32_t>(records_.size()));
-    places_.push_back(groups.whole[g].place);
-    add(groups.whole[g]);
-    for (std::uint32_t n = groups.first[g]; n < groups.first[g + 1]; ++n) add(groups.points[n]);
+  for (std::size_t n = 0; n < levels_.size(); ++n) {
+    levels_[n].first = static_cast<std::uint32_t>(records_.size());
+    std::vector<SurfacePoint> points = spread_points(surface, pieces[n] * spacing);
+    std::stable_sort(points.begin(), points.end(),
+                     [](const SurfacePoint& a, const SurfacePoint& b) { return a.part < b.part; });
+    for (const SurfacePoint& point : points) {
+      const Vector3 &x = point.place, &normal = point.normal;
+      records_.push_back({{x.x, x.y, x.z}, {normal.x, normal.y, normal.z}, point.area, 0});
+      parts_.push_back(point.part);
+      patches_[point.part] = point.patch;
+      levels_[n].places.push_back(x);
+    }
   }
-  groups_.push_back(static_cast<std::uint32_t>(records_.size()));
   records_.push_back({{1e3, 1e3, 1e3}, {1, 0, 0}, 0, 0});
   for (int n = 0; n <= 2 * steps_of_h; ++n) plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
 }
@@ -52,24 +52,12 @@ struct VesselWalls::Found {
 };
 
 /// Adds the records within reach of a particle, by part.
-void VesselWalls::find_points(const Vector3& position, double reach, Found& found) const {
+void VesselWalls::find_points(const Level& level, const Vector3& position, double reach, Found& found) const {
   const auto begin = static_cast<std::uint32_t>(found.near.size());
-  const double whole = whole_from * spacing_;
-  const auto square = [&](const Vector3& d) { return dot(d, d); };
-  const auto place = [&](std::uint32_t n) {
-    const double* x = records_[n].place;
-    return Vector3{x[0], x[1], x[2]};
-  };
-  const double farthest = reach + extent_of_group * spacing_;
-  grid_->for_each_candidate(position, [&](std::uint32_t g) {
-    const double away = square(places_[g] - position);
-    if (away > farthest * farthest || surface_.is_open(patches_[parts_[groups_[g]]])) return;
-    if (away > whole * whole) {
-      if (away <= reach * reach) found.near.push_back(groups_[g]);
-      return;
-    }
-    for (std::uint32_t n = groups_[g] + 1; n < groups_[g + 1]; ++n)
-      if (square(place(n) - position) <= reach * reach) found.near.push_back(n);
+  level.grid->for_each_candidate(position, [&](std::uint32_t n) {
+    const Vector3 d = level.places[n] - position;
+    if (dot(d, d) <= reach * reach && !surface_.is_open(patches_[parts_[level.first + n]]))
+      found.near.push_back(level.first + n);
   });
   // In an order of their own, whatever the cells are.
   std::sort(found.near.begin() + begin, found.near.end());
@@ -80,7 +68,7 @@ void VesselWalls::find_points(const Vector3& position, double reach, Found& foun
     double distance = std::numeric_limits<double>::infinity();
     for (; n < end && parts_[found.near[n]] == part; ++n) {
       const double* normal = records_[found.near[n]].normal;
-      const Vector3 d = place(found.near[n]) - position;
+      const Vector3 d = level.places[found.near[n] - level.first] - position;
       distance = std::min(distance, std::abs(d.x * normal[0] + d.y * normal[1] + d.z * normal[2]));
     }
     found.stands.push_back({first, n - first, patches_[part], part, distance});
@@ -92,17 +80,18 @@ void VesselWalls::find(ThreadTeam& team, const Neighbourhood& neighbourhood, std
                        std::span<const double> smoothing_length, double skin) {
   is_met_ = false;
   if (is_empty()) return;
-  const double largest =
-      position.empty() ? 0 : *std::max_element(smoothing_length.begin(), smoothing_length.end());
-  if (const double reach = 2 * largest + skin + extent_of_group * spacing_; !(cell_ >= reach)) {
+  const double largest = position.empty() ? 0 : *std::max_element(smoothing_length.begin(), smoothing_length.end());
+  if (const double reach = 2 * largest + skin; !(cell_ >= reach)) {
     cell_ = 1.1 * reach;
-    grid_.emplace(places_, cell_);
+    for (Level& level : levels_) level.grid.emplace(level.places, cell_);
   }
   std::vector<Found> found((position.size() + chunk_size - 1) / chunk_size);
   team.run(found.size(), [&](std::size_t chunk) {
     for (std::size_t i = chunk * chunk_size; i < std::min(position.size(), (chunk + 1) * chunk_size); ++i) {
-      if (!std::isfinite(neighbourhood.distance_from_vessel(i))) continue;
-      find_points(position[i], 2 * smoothing_length[i] + skin, found[chunk]);
+      const double distance = neighbourhood.distance_from_vessel(i);
+      if (!std::isfinite(distance)) continue;
+      find_points(levels_[distance > coarse_from * spacing_], position[i], 2 * smoothing_length[i] + skin,
+                  found[chunk]);
       if (found[chunk].stands_of.back() == 0)
         found[chunk].stands_of.pop_back();
       else
@@ -168,8 +157,8 @@ void VesselWalls::find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhoo
           for (std::uint32_t t = first; t < last; ++t) {
             if (stands_[t].part != stands_[s].part) continue;
             const double reach = smoothing_length[i] + smoothing_length[source] + skin;
-            const Vector3 x = ghost ? neighbourhood.image(ghosts[record - count]).position(position[source])
-                                    : position[source];
+            const Vector3 x =
+                ghost ? neighbourhood.image(ghosts[record - count]).position(position[source]) : position[source];
             // Each may come nearer to the wall by half the skin.
             const double a = std::max(0.0, stands_[s].distance - 0.5 * skin),
                          b = std::max(0.0, stands_[t].distance - 0.5 * skin);
@@ -219,29 +208,30 @@ double VesselWalls::share_of_plane(double weight, double distance_over_h) const 
 
 void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothing_length, NearWalls& met) {
   met.count = 0;
+  NearWall one_more;
   const double place[3] = {position.x, position.y, position.z};
   for (std::uint32_t s = first_stand_[slot]; s < first_stand_[slot + 1]; ++s) {
     const Stand& stand = stands_[s];
     seats_[s].share = 0;
     if (surface_.is_open(stand.patch)) continue;
-    NearWall wall;
-    wall.patch = stand.patch, wall.stand = s;
+    const auto least = [&] {
+      return std::min_element(met.of.begin(), met.of.end(),
+                              [](const NearWall& a, const NearWall& b) { return a.sums.weight < b.sums.weight; });
+    };
+    NearWall& wall = met.count < most_near_walls ? met.of[met.count] : one_more;
     sweep_.points(records_.data(), near_.data() + stand.first, stand.count,
                   static_cast<std::uint32_t>(records_.size() - 1), place, smoothing_length, wall.sums);
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
     if (!(size > 0)) continue;
+    wall.patch = stand.patch, wall.stand = s;
     wall.normal = (1 / size) * normal;
     wall.distance = wall.sums.distance / wall.sums.weight;
     wall.share = share_of_plane(wall.sums.weight * smoothing_length, wall.distance / smoothing_length);
-    if (met.count < most_near_walls) {
-      met.of[met.count++] = wall;
-    } else {
-      NearWall& least = *std::min_element(met.of.begin(), met.of.end(), [](const NearWall& a, const NearWall& b) {
-        return a.sums.weight < b.sums.weight;
-      });
-      if (least.sums.weight < wall.sums.weight) least = wall;
-    }
+    if (&wall != &one_more)
+      ++met.count;
+    else if (least()->sums.weight < wall.sums.weight)
+      *least() = wall;
   }
   for (const NearWall& wall : met.all())
     seats_[wall.stand] = {{wall.normal.x, wall.normal.y, wall.normal.z}, wall.distance, wall.share, {}};

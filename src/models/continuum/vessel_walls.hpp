@@ -2,9 +2,8 @@
 /// The walls of a vessel as the particles near them meet them: integrals of the kernel over what lies beyond, by smooth
 /// part of the surface (physics/sph/wall_integrals.hpp), and the field that is taken to be there.
 ///
-/// With the lists of neighbours the points within reach are found: those of the first layer of particles one by one,
-/// farther ones in groups of four, whose sums are as exact there. So are the particles that stand with one at the same
-/// part.
+/// With the lists of neighbours the points within reach are found: of a fine set for the first layer of particles, of a
+/// coarse one, as exact from there on, for others. So are the particles that stand with one at the same part.
 #pragma once
 
 #include <array>
@@ -75,6 +74,10 @@ class VesselWalls {
     return slot_[particle] < 0 ? nothing_ : met_[static_cast<std::size_t>(slot_[particle])];
   }
 
+  /// The particles that may meet walls, rising, and the place of one among them; -1: it does not.
+  std::span<const std::uint32_t> particles() const { return particles_; }
+  std::int32_t place_of(std::size_t particle) const { return slot_[particle]; }
+
   /// The acceleration of a particle along a part of a wall by its neighbours' images there (vessel_sum.hpp), m/s^2.
   /// \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
   Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
@@ -92,8 +95,14 @@ class VesselWalls {
     std::uint32_t patch, part;
     double distance;  ///< from the plane of the nearest of them at least, m
   };
+  /// Points so far apart.
+  struct Level {
+    std::uint32_t first = 0;  ///< of its records
+    std::vector<Vector3> places;
+    std::optional<CellGrid> grid;
+  };
   struct Found;
-  void find_points(const Vector3& position, double reach, Found& found) const;
+  void find_points(const Level& level, const Vector3& position, double reach, Found& found) const;
   void find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
                   std::span<const double> smoothing_length, double skin);
   void meet(std::size_t slot, const Vector3& position, double smoothing_length, NearWalls& met);
@@ -102,13 +111,11 @@ class VesselWalls {
   const Surface& surface_;
   WallSweep sweep_;
   double spacing_;
-  std::vector<WallPoint> records_;          // of every group the whole and then its points; at the end one without area
-  std::vector<std::uint32_t> parts_;        // of the records
-  std::vector<std::uint32_t> patches_;      // of the parts
-  std::vector<Vector3> places_;             // of the groups
-  std::vector<std::uint32_t> groups_;       // first record of each group; one more at the end
-  std::optional<CellGrid> grid_;            // of the places
-  double cell_ = 0;                         // of the grid, m
+  std::vector<WallPoint> records_;      // of the fine points, the coarse points, and one without area
+  std::vector<std::uint32_t> parts_;    // of the records
+  std::vector<std::uint32_t> patches_;  // of the parts
+  std::array<Level, 2> levels_;
+  double cell_ = 0;                         // of the grids, m
   std::vector<std::uint32_t> near_;         // records near the particles, by stand
   std::vector<std::int32_t> slot_;          // of every particle, -1: no wall within reach
   std::vector<std::uint32_t> particles_;    // by slot

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double smooth = 0.848;   // cosine of 32 degrees
 constexpr double flat = 1 - 1e-9;  // of 0.003 degrees
+constexpr double rounding = 1e-9;  // of places, over the length of a line
 
 Vector3 least(const Vector3& a, const Vector3& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
@@ -84,23 +85,34 @@ std::vector<std::uint32_t> Surface::joined(double cosine, std::size_t& groups) c
   return result;
 }
 
-std::optional<Surface::Foot> Surface::nearest(const Vector3& x, double within) const {
+std::optional<Surface::Foot> Surface::nearest(const Vector3& x, double within, std::size_t tried) const {
   std::optional<Foot> best;
-  tree_.near_place(x, within, [&](std::uint32_t t) {
+  const auto meet = [&](std::uint32_t t) {
     if (is_open_[triangles_[t].patch]) return;
     const Vector3 place = nearest_place(triangles_[t], x);
     const double distance = norm(place - x);
     if (!(distance <= within) || (best && distance == best->distance && t >= best->triangle)) return;
     best = Foot{t, place, distance};
     within = distance;
-  });
+  };
+  if (tried < triangles_.size()) meet(static_cast<std::uint32_t>(tried));
+  tree_.near_place(x, within, meet);
   return best;
+}
+
+/// Whether both ends of a line are clearly on one side of a triangle's plane: quicker than crossing(), which judges the
+/// others.
+bool Surface::is_on_one_side(std::uint32_t triangle, const Vector3& a, const Vector3& b, double slack) const {
+  const Vector3 &n = normals_[triangle], &p = triangles_[triangle].corner[0];
+  const double at_a = dot(n, a - p), at_b = dot(n, b - p);
+  return (at_a > slack && at_b > slack) || (at_a < -slack && at_b < -slack);
 }
 
 std::optional<Surface::Crossing> Surface::first_crossing(const Vector3& a, const Vector3& b) const {
   std::optional<Crossing> first;
+  const double slack = rounding * norm(b - a);
   tree_.along_line(a, b, [&](std::uint32_t t) {
-    if (is_open_[triangles_[t].patch]) return;
+    if (is_open_[triangles_[t].patch] || is_on_one_side(t, a, b, slack)) return;
     const auto at = crossing(triangles_[t], a, b);
     if (at && (!first || *at < first->at || (*at == first->at && t < first->triangle))) first = Crossing{t, *at};
   });
@@ -113,8 +125,9 @@ bool Surface::blocks(const Vector3& a, const Vector3& b) const {
 
 bool Surface::blocks(const Vector3& a, const Vector3& b, std::span<const std::uint32_t> near) const {
   const bool forward = order(a) < order(b);
+  const double slack = rounding * norm(b - a);
   return std::any_of(near.begin(), near.end(), [&](std::uint32_t t) {
-    return crossing(triangles_[t], forward ? a : b, forward ? b : a).has_value();
+    return !is_on_one_side(t, a, b, slack) && crossing(triangles_[t], forward ? a : b, forward ? b : a).has_value();
   });
 }
 

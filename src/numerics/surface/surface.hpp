@@ -49,8 +49,10 @@ class Surface {
     Vector3 place;    ///< of the surface, m
     double distance;  ///< m
   };
-  /// The place of the surface nearest to x, open patches left out; nothing if none is within the distance.
-  std::optional<Foot> nearest(const Vector3& x, double within) const;
+  /// The place of the surface nearest to x, open patches left out; nothing if none is within the distance. A triangle
+  /// that is near shortens the search. \param tried its number; any number without one
+  std::optional<Foot> nearest(const Vector3& x, double within, std::size_t tried = no_triangle) const;
+  static constexpr std::size_t no_triangle = static_cast<std::size_t>(-1);
 
   struct Crossing {
     std::uint32_t triangle;
@@ -67,6 +69,7 @@ class Surface {
   bool near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const;
 
  private:
+  bool is_on_one_side(std::uint32_t triangle, const Vector3& a, const Vector3& b, double slack) const;
   std::vector<std::uint32_t> joined(double cosine, std::size_t& count) const;
 
   std::vector<Triangle> triangles_;

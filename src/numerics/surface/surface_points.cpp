@@ -6,10 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <span>
 #include <tuple>
-#include <utility>
 
 #include "numerics/cell_grid.hpp"
 
@@ -213,54 +210,6 @@ std::vector<SurfacePoint> spread_points(const Surface& surface, double distance)
     point = point_of(sum, point.patch, point.part);
   }
   return points;
-}
-
-namespace {
-
-/// Groups the points with these numbers, halving them along their longest extent until they may stand together.
-void group(const std::vector<SurfacePoint>& all, double extent, std::span<std::uint32_t> numbers, PointGroups& groups) {
-  constexpr std::size_t most = 4;
-  constexpr double least_flatness = 0.97;  // of the size of the mean of their normals
-  Sum sum;
-  Vector3 low = all[numbers[0]].place, high = low;
-  for (const std::uint32_t n : numbers) {
-    const SurfacePoint& point = all[n];
-    sum.add(point.area, point.place, point.normal);
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], point.place[axis]);
-      high[axis] = std::max(high[axis], point.place[axis]);
-    }
-  }
-  const Vector3 size = high - low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (numbers.size() == 1 ||
-      (numbers.size() <= most && size[axis] <= extent && norm(sum.normal) >= least_flatness * sum.area)) {
-    for (const std::uint32_t n : numbers) groups.points.push_back(all[n]);
-    groups.first.push_back(static_cast<std::uint32_t>(groups.points.size()));
-    groups.whole.push_back(point_of(sum, all[numbers[0]].patch, all[numbers[0]].part));
-    return;
-  }
-  const auto half = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), half, numbers.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(all[a].place[axis], a) < std::pair(all[b].place[axis], b);
-  });
-  group(all, extent, {numbers.begin(), half}, groups);
-  group(all, extent, {half, numbers.end()}, groups);
-}
-
-}  // namespace
-
-PointGroups grouped(const std::vector<SurfacePoint>& points, double extent) {
-  PointGroups groups;
-  std::vector<std::uint32_t> numbers(points.size());
-  std::iota(numbers.begin(), numbers.end(), 0u);
-  std::stable_sort(numbers.begin(), numbers.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return points[a].part < points[b].part; });
-  for (std::size_t begin = 0, end = 0; begin < numbers.size(); begin = end) {
-    while (end < numbers.size() && points[numbers[end]].part == points[numbers[begin]].part) ++end;
-    group(points, extent, std::span(numbers).subspan(begin, end - begin), groups);
-  }
-  return groups;
 }
 
 }  // namespace talus

@@ -22,15 +22,4 @@ struct SurfacePoint {
 /// are about as many for a surface of any number of triangles of any shape. \param distance > 0, m
 std::vector<SurfacePoint> spread_points(const Surface& surface, double distance);
 
-/// The points, by smooth part, in groups of at most four that lie together, each with the point that can stand for it
-/// from afar: their middle, their whole area and mean normal.
-struct PointGroups {
-  std::vector<SurfacePoint> points;
-  std::vector<SurfacePoint> whole;       ///< of each group
-  std::vector<std::uint32_t> first{0};  ///< point of each group; one more at the end
-};
-
-/// \param extent the largest of a group along x, y and z, between its points, m
-PointGroups grouped(const std::vector<SurfacePoint>& points, double extent);
-
 }  // namespace talus

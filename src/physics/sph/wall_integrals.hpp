@@ -28,13 +28,22 @@ template <class Number>
 TALUS_INLINE RadialIntegrals<Number> radial_integrals(Number q, Number inverse_h) {
   // Antiderivatives of (2-t)^m t^n, each less its value at 2, and of (1-t)^m t^n, less that at 1: 0 from there on.
   const Number t = minimum(q, Number(2.0)), s = minimum(q, Number(1.0));
-  const Number t3 = t * t * t, s3 = s * s * s;
-  const Number outer_density = 16.0 / 15 - t3 * (8.0 / 3 + t * (-3.0 + t * (1.2 - t * (1.0 / 6))));
-  const Number outer_slope = 16.0 / 15 - t3 * (4.0 / 3 + t * (-1.0 + t * 0.2));
-  const Number outer_moment = 16.0 / 15 - t3 * t * (1.0 + t * (-0.8 + t * (1.0 / 6)));
-  const Number inner_density = 1.0 / 60 - s3 * (1.0 / 3 + s * (-0.75 + s * (0.6 - s * (1.0 / 6))));
-  const Number inner_slope = 1.0 / 30 - s3 * (1.0 / 3 + s * (-0.5 + s * 0.2));
-  const Number inner_moment = 1.0 / 60 - s3 * s * (0.25 + s * (-0.4 + s * (1.0 / 6)));
+  const Number t3 = t * t * t, t4 = t3 * t, s3 = s * s * s, s4 = s3 * s;
+  // Horner's rule from the last coefficient.
+  const auto series = [](const Number& x, auto... coefficients) {
+    Number sum = 0.0;
+    ((sum = multiply_add(sum, x, Number(coefficients))), ...);
+    return sum;
+  };
+  const auto less = [](double whole, const Number& a, const Number& b) {
+    return negative_multiply_add(a, b, Number(whole));
+  };
+  const Number outer_density = less(16.0 / 15, t3, series(t, -1.0 / 6, 1.2, -3.0, 8.0 / 3));
+  const Number outer_slope = less(16.0 / 15, t3, series(t, 0.2, -1.0, 4.0 / 3));
+  const Number outer_moment = less(16.0 / 15, t4, series(t, 1.0 / 6, -0.8, 1.0));
+  const Number inner_density = less(1.0 / 60, s3, series(s, -1.0 / 6, 0.6, -0.75, 1.0 / 3));
+  const Number inner_slope = less(1.0 / 30, s3, series(s, 0.2, -0.5, 1.0 / 3));
+  const Number inner_moment = less(1.0 / 60, s4, series(s, 1.0 / 6, -0.4, 0.25));
   constexpr double factor = 1 / (4 * std::numbers::pi);
   return {factor * (outer_density - 4.0 * inner_density), factor * inverse_h * (3.0 * outer_slope - 12.0 * inner_slope),
           factor * (3.0 * outer_moment - 12.0 * inner_moment)};
@@ -59,29 +68,31 @@ struct WallSums {
     // A particle nearer to a wall than the points of the wall are to each other would see them one by one: it is taken
     // to be a little farther from the wall's plane.
     const double blur = 0.0225 * h * h;  // (0.15 h)^2
-    const Number below = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
+    const Number below = multiply_add(d[0], n[0], multiply_add(d[1], n[1], d[2] * n[2]));
     const Number side = select(below > Number(0.0), Number(-1.0), Number(1.0));
-    const Number level = below * below + blur;
+    const Number level = multiply_add(below, below, Number(blur));
     const Number height = level * reciprocal_sqrt(level);
-    const Number square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + blur;
+    const Number square = multiply_add(d[0], d[0], multiply_add(d[1], d[1], multiply_add(d[2], d[2], Number(blur))));
     const Number inverse = reciprocal_sqrt(square);
     const Number cosine = height * inverse, angle = area * cosine * inverse * inverse;
     const RadialIntegrals<Number> of = radial_integrals<Number>(square * inverse * (1 / h), Number(1 / h));
-    const Number s = angle * of.slope, m = angle * of.moment, lift = below + side * height;
-    const Number e[3] = {inverse * (d[0] - lift * n[0]), inverse * (d[1] - lift * n[1]),
-                         inverse * (d[2] - lift * n[2])};
-    density = density + angle * of.density;
+    const Number s = angle * of.slope, m = angle * of.moment, lift = multiply_add(side, height, below);
+    const Number e[3] = {inverse * negative_multiply_add(lift, n[0], d[0]),
+                         inverse * negative_multiply_add(lift, n[1], d[1]),
+                         inverse * negative_multiply_add(lift, n[2], d[2])};
+    const Number towards = s * side;
+    density = multiply_add(angle, of.density, density);
     for (int a = 0; a < 3; ++a) {
       const Number me = m * e[a];
-      slope[a] = slope[a] + s * e[a];
-      moment[a] = moment[a] + me * e[a];
-      moment[3 + a] = moment[3 + a] + me * e[(a + 1) % 3];
-      closing[a] = closing[a] + me * inverse;
-      normal[a] = normal[a] + s * side * n[a];
+      slope[a] = multiply_add(s, e[a], slope[a]);
+      moment[a] = multiply_add(me, e[a], moment[a]);
+      moment[3 + a] = multiply_add(me, e[(a + 1) % 3], moment[3 + a]);
+      closing[a] = multiply_add(me, inverse, closing[a]);
+      normal[a] = multiply_add(towards, n[a], normal[a]);
     }
-    nearness = nearness + s * cosine * inverse;
+    nearness = multiply_add(s * cosine, inverse, nearness);
     weight = weight + s;
-    distance = distance + s * select(below > Number(0.0), below, -1.0 * below);
+    distance = negative_multiply_add(towards, below, distance);
   }
 };
 

@@ -115,7 +115,8 @@ std::vector<Triangle> jumble() {
   std::vector<Triangle> triangles = ball(3);
   for (int n = 0; n < 20; ++n) {
     const double angle = 0.3 * n;
-    triangles.push_back({{Vector3{-2, std::cos(angle), std::sin(angle)}, {3, 0.1 * n - 1, 0.2}, {3, 0.1 * n - 0.99, 0.2}}, 0});
+    triangles.push_back(
+        {{Vector3{-2, std::cos(angle), std::sin(angle)}, {3, 0.1 * n - 1, 0.2}, {3, 0.1 * n - 0.99, 0.2}}, 0});
   }
   triangles.push_back({{Vector3{0.1, 0.1, 0.1}, {0.1001, 0.1, 0.1}, {0.1, 0.1001, 0.1}}, 0});
   return triangles;
@@ -136,14 +137,16 @@ TEST(TriangleTree, FindsWhatAllTrianglesTell) {
     }
     const auto met = surface.first_crossing(a, b);
     ASSERT_EQ(met.has_value(), first.has_value());
-    if (met) EXPECT_EQ(met->triangle, first->triangle);
+    EXPECT_EQ(met ? met->triangle : 0, first ? first->triangle : 0);
     ASSERT_TRUE(surface.nearest(a, 5));
     EXPECT_EQ(surface.nearest(a, 5)->triangle, foot.triangle);
 
     std::vector<std::uint32_t> near;
     ASSERT_TRUE(surface.near(a, norm(b - a), all.size(), near));
     EXPECT_EQ(surface.blocks(a, b, near), first.has_value());
-    EXPECT_EQ(surface.near(a, norm(b - a), 3, near), near.size() < 3 || surface.near(a, norm(b - a), near.size(), near));
+    std::vector<std::uint32_t> few;
+    EXPECT_EQ(surface.near(a, norm(b - a), 3, few), near.size() <= 3);
+    EXPECT_LE(few.size(), 3u);
   }
 }
 
@@ -197,31 +200,6 @@ TEST(SurfacePoints, AreAsManyForAnyNumberOfTriangles) {
   const std::size_t coarse = count(ball(2)), fine = count(ball(6));  // 128 and 32768 triangles
   EXPECT_LT(fine, 1.6 * double(coarse));
   EXPECT_EQ(count(square(1)), 100u);
-}
-
-TEST(SurfacePoints, GroupsStandForTheirPoints) {
-  for (const auto& triangles : {ball(2), ball(5), tube(100), square(1)}) {
-    const std::vector<SurfacePoint> points = spread_points(Surface(triangles, 1), 0.1);
-    const PointGroups groups = grouped(points, 0.23);
-    ASSERT_EQ(groups.points.size(), points.size());
-    ASSERT_EQ(groups.first.size(), groups.whole.size() + 1);
-    EXPECT_LT(groups.whole.size(), 0.5 * double(points.size()));
-    for (std::size_t g = 0; g < groups.whole.size(); ++g) {
-      const SurfacePoint& whole = groups.whole[g];
-      double area = 0;
-      Vector3 moment;
-      EXPECT_LE(groups.first[g + 1] - groups.first[g], 4u);
-      for (std::uint32_t n = groups.first[g]; n < groups.first[g + 1]; ++n) {
-        const SurfacePoint& point = groups.points[n];
-        area += point.area, moment += point.area * point.place;
-        EXPECT_EQ(point.part, whole.part);
-        EXPECT_LT(norm(point.place - whole.place), 0.35);
-        EXPECT_GT(dot(point.normal, whole.normal), 0.8);
-      }
-      EXPECT_NEAR(whole.area, area, 1e-12);
-      EXPECT_NEAR(norm(area * whole.place - moment), 0, 1e-12);
-    }
-  }
 }
 
 }  // namespace
