@@ -20,7 +20,9 @@ constexpr double across_an_outlet = 16;   // particles; below 12 the discharge s
 
 constexpr Question diameter{"diameter", "diameter of the grains", "200 um", dimension::length, 0, 0.1};
 constexpr Question density{"density", "density of a grain", "2500 kg/m3", dimension::density, 0, 30000};
-constexpr Question friction{"friction", "friction of the grains in slow flow: the tangent of their angle of repose, less 0.08", "0.5", {}, 0, 1.3};
+constexpr Question friction{
+    "friction", "friction of the grains in slow flow: the tangent of their angle of repose, less 0.08", "0.5", {}, 0,
+    1.3};
 
 /// So many particles along a length, unless the bed would have too many.
 double spacing_of(double length, double count, double area) {
