@@ -105,7 +105,10 @@ double gate_time_of(const Series& series) {
 }
 
 Curve discharged_mass(const HopperRun& run) {
-  return run.curve("discharged_mass");
+  Curve below = run.curve("discharged_mass");
+  const Curve removed = run.curve("removed_mass");
+  for (std::size_t n = 0; n < removed.value.size(); ++n) below.value[n] += removed.value[n];
+  return below;
 }
 
 Curve passed_mass(const HopperRun& run) {
@@ -113,7 +116,11 @@ Curve passed_mass(const HopperRun& run) {
 }
 
 Curve discharged_share(const HopperRun& run) {
-  return scaled(discharged_mass(run), 1 / run.setting.mass());
+  Curve share = scaled(discharged_mass(run), 1 / run.setting.mass());
+  const Curve fed = run.curve("fed_mass");
+  for (std::size_t n = 0; n < fed.value.size(); ++n)
+    share.value[n] *= run.setting.mass() / (run.setting.mass() + fed.value[n]);
+  return share;
 }
 
 }  // namespace talus

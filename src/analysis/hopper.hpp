@@ -109,10 +109,10 @@ std::span<const Measure<HopperRun>> hopper_measures();
 /// Of two runs, the first against the second.
 std::span<const GroupMeasure<HopperRun>> hopper_pair_measures();
 
-/// Mass of the particles below the outlet against the time from the gate's opening, kg. Without points if the series
-/// lacks the column.
+/// Mass of the particles below the outlet, and of those that were taken away, against the time from the gate's opening,
+/// kg. Without points if the series lacks the column.
 Curve discharged_mass(const HopperRun& run);
-/// The same over the mass of all particles at the start.
+/// The same over the mass of all particles at the start and of those that have come in since.
 Curve discharged_share(const HopperRun& run);
 /// Integral of the discharge Q, kg: of particles spread along z by the kernel. Of this all rates are made: counted
 /// whole, the particles' layers would pass one by one, with a period h/u of their own.

@@ -83,7 +83,9 @@ double above_repose(const HopperRun& run, const Place& place, const Window& wind
 /// Of the angles of repose of bin and hopper, the one nearer to 30 degrees, or the other.
 double repose(const HopperRun& run, const Window& window, bool nearer);
 
-/// Those measures of hopper_measures() that need the air.
+/// Those measures of hopper_measures() that count mass.
+std::vector<Measure<HopperRun>> hopper_mass_measures();
+/// Those that need the air.
 std::vector<Measure<HopperRun>> hopper_air_measures();
 
 // Two runs, one of each variant.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The list of measures of grains in a vessel; those of the air stand in hopper_air_measures.cpp. A row: name, unit,
+/// The list of measures of grains in a vessel; those of the air stand in hopper_air_measures.cpp, of
+/// the mass in hopper_mass_measures.cpp. A row: name, unit,
 /// what it means, how it is made; the lengths that it takes from a place; where a summary lists it.
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
@@ -288,11 +289,6 @@ const std::vector<Row> of_grains = {
         "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
         "gravity's impulse; settling included",
         {[](const Run& r, const Place&, const Window&) { return momentum_error(r.series); }}, {{always}}),
-    Row("mass", "kg", "mass of all particles", at(mass)),
-    Row("mass_error", "1", "|mass of all particles over M − 1|", {[](const Run& r, const Place& p, const Window& w) {
-          return std::abs(value_at_window(mass, r, p, w) / r.setting.mass() - 1);
-        }},
-        {{always}}),
     Row("wall_seconds", "s", "wall time of the whole run, as its summary says",
         {[](const Run& r, const Place&, const Window&) { return r.wall_seconds; }}),
 };
@@ -312,8 +308,8 @@ const GroupMeasure<Run> of_two[] = {
 std::span<const Measure<Run>> hopper_measures() {
   static const std::vector<Row> list = [] {
     std::vector<Row> all = of_grains;
-    const std::vector<Row> of_air = hopper_air_measures();
-    all.insert(all.end(), of_air.begin(), of_air.end());
+    for (const std::vector<Row>& more : {hopper_mass_measures(), hopper_air_measures()})
+      all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
   return list;

@@ -53,6 +53,7 @@ double momentum_error(const Series& series) {
   Vector3 given = gravity;
   if (series.has("impulse_damping_x")) given -= change(series, "impulse_damping");
   if (series.has("impulse_air_x")) given += change(series, "impulse_air");
+  if (series.has("fed_momentum_x")) given += change(series, "fed_momentum") - change(series, "removed_momentum");
   for (const std::string& wall : walls_of(series)) given -= change(series, std::string(prefix) + wall);
   return norm(change(series, "momentum") - given) / norm(gravity);
 }

@@ -10,6 +10,7 @@
 #include "models/continuum/atmosphere.hpp"
 #include "models/continuum/loading.hpp"
 #include "models/continuum/material.hpp"
+#include "models/continuum/population.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -71,9 +72,10 @@ constexpr double layers_beside_wall = 2, points_on_square = 6.25;
 }  // namespace
 
 Forecast forecast(const Parameters& p, double end) {
-  const double squares = area_of_vessel(p) / (p.bed.spacing * p.bed.spacing), particles = bed_count(p);
+  const double squares = area_of_vessel(p) / (p.bed.spacing * p.bed.spacing), bed = bed_count(p);
   const double step = step_of(p);
   const SettlingTime settling = settling_time(p);
+  const double particles = bed + mass_to_come(p, end, settling.most) / lattice_of(p).mass;
   return {.particles = particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
           .beside_walls = std::min(particles, layers_beside_wall * squares),
@@ -134,6 +136,7 @@ Parameters sample(const Parameters& p, double particles) {
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear();
+  q.inlets.clear(), q.removal = {}, q.bed.mass = std::nullopt;
   q.bed.bottom = q.bed.left = q.bed.right = std::nullopt;
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;
   q.bed.height = side * lattice.spacing.z, q.box.height = 2 * q.bed.height;

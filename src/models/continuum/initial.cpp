@@ -2,6 +2,7 @@
 #include "models/continuum/initial.hpp"
 
 #include "models/continuum/atmosphere.hpp"
+#include "models/continuum/population.hpp"
 
 namespace talus::continuum {
 
@@ -18,6 +19,7 @@ State initial_state(const Parameters& parameters, const Material& material) {
   for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
   if (material.by_displacements()) state.reset_position = state.position;
+  state.population = initial_population(parameters, count);
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));
   if (parameters.air.enabled) {

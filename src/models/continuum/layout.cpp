@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "models/continuum/filling.hpp"
 #include "models/continuum/parameters.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
@@ -143,6 +144,13 @@ struct Bed {
 }  // namespace
 
 std::vector<Vector3> bed_positions(const Parameters& p) {
+  if (p.bed.mass) {  // the lowest of them
+    Parameters whole = p;
+    whole.bed.mass = std::nullopt;
+    std::vector<Vector3> positions = bed_positions(whole);
+    positions.resize(std::min(positions.size(), static_cast<std::size_t>(count_of_mass(p))));
+    return positions;
+  }
   if (!p.vessel.empty()) return bed_in_vessel(p);
   const Bed bed{p};
   const auto& count = bed.lattice.count;
@@ -160,6 +168,7 @@ double places_of(const Lattice& lattice) {
 }
 
 double bed_count(const Parameters& p) {
+  if (p.bed.mass) return count_of_mass(p);
   if (!p.vessel.empty()) {
     if (places_of(lattice_of(p)) <= most_places_of_vessel) return static_cast<double>(bed_in_vessel(p).size());
     Parameters coarser = p;

@@ -194,6 +194,12 @@ std::vector<NamedValue> Continuum::totals() const {
       add("impulse_" + wall_name(domain(), wall), s.wall_impulse[static_cast<std::size_t>(wall)]);
   for (std::size_t n = 0; n < s.vessel_impulse.size(); ++n)
     add("impulse_" + name_of(parameters_, n), s.vessel_impulse[n]);
+  if (s.population.is_active) {
+    values.push_back({"fed_mass", "kg", s.mass * static_cast<double>(s.population.fed)});
+    values.push_back({"removed_mass", "kg", s.mass * static_cast<double>(s.population.removed)});
+    add("fed_momentum", s.population.fed_momentum);
+    add("removed_momentum", s.population.removed_momentum);
+  }
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
     const PressureRange pressure = pressure_range(air);
@@ -269,6 +275,13 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
     const double pressure = largest_pressure(s);
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
+  }
+  if (parameters_.grains.material) {
+    const double pressure = largest_pressure(s), most = parameters_.grains.range.largest_pressure;
+    lines.push_back({"pressure for the material", fmt::format("{:.4g} Pa", pressure),
+                     fmt::format("largest at the end; the values of {} hold up to {:.4g} Pa",
+                                 choice_name(*parameters_.grains.material), most),
+                     pressure > most});
   }
   if (const double most = workspace_->material.range().largest_inertial_number; std::isfinite(most)) {
     const double beyond = share_above_inertial_number(parameters_, s, most);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "models/continuum/atmosphere.hpp"
+#include "models/continuum/filling.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -159,6 +160,19 @@ void check_inclined_plates(const Parameters& p, std::vector<Problem>& problems) 
   }
 }
 
+/// Walls of a material rub as the grains' material says. Without one, or on a wall that its file does not know, there
+/// is no friction to take (app/materials) unless the case gives it.
+void check_materials(const Parameters& p, std::vector<Problem>& problems) {
+  if (p.grains.material) return;
+  const auto refuse = [&](std::string key) {
+    problems.push_back(
+        {.key = std::move(key), .what = "the grains have no material", .allowed = "a wall's with grains.material"});
+  };
+  if (p.walls.material) refuse("walls.material");
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    if (p.vessel[n].material) refuse(vessel_key(n, "material"));
+}
+
 }  // namespace
 
 std::string plate_key(std::size_t n, int key) {
@@ -166,14 +180,17 @@ std::string plate_key(std::size_t n, int key) {
   return fmt::format("plates.{}.{}", n + 1, names[key]);
 }
 
-std::vector<Problem> check(const Parameters& p) {
+std::vector<Problem> check(const Parameters& given) {
   std::vector<Problem> problems;
-  check_faces(p, problems);
-  check_plate(p, problems);
-  check_wedge(p, problems);
-  check_inclined_plates(p, problems);
-  for (const Problem& problem : check_vessel(p)) problems.push_back(problem);
-  check_bed(p, problems);
+  check_faces(given, problems);
+  check_plate(given, problems);
+  check_wedge(given, problems);
+  check_inclined_plates(given, problems);
+  for (const Problem& problem : check_vessel(given)) problems.push_back(problem);
+  // How far a mass fills a vessel can be said of a sound vessel only.
+  const Parameters p = problems.empty() ? with_level(given) : given;
+  if (!p.bed.mass || p.bed.height > 0) check_bed(p, problems);
+  check_materials(p, problems);
   if (p.settle.loading_time && *p.settle.loading_time >= p.settle.longest)
     problems.push_back({.key = "settle.loading_time",
                         .what = fmt::format("{:g} s: the bed could not settle before", *p.settle.loading_time),
@@ -184,6 +201,9 @@ std::vector<Problem> check(const Parameters& p) {
     problems.push_back({.key = "collisions.form",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
                         .allowed = "none without gravity"});
+  if (!problems.empty()) return problems;
+  for (const Problem& problem : check_mass(p)) problems.push_back(problem);
+  for (const Problem& problem : check_inlets(p)) problems.push_back(problem);
   return problems;
 }
 

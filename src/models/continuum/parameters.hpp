@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +13,10 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
+#include "models/continuum/inlets.hpp"
+#include "models/continuum/inner_walls.hpp"
 #include "models/continuum/layout.hpp"
+#include "models/continuum/material_names.hpp"
 #include "models/continuum/vessel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/collisional_stress.hpp"
@@ -31,11 +33,6 @@ enum class Friction { coulomb, printed, none };
 enum class FrictionFrom { gate, start };
 enum class Method { runge_kutta, leapfrog };
 
-inline constexpr double half_turn = std::numbers::pi;
-
-/// The keys of the nth of [[plates]]: 0 from, 1 to, 2 openings, 3 opens_after.
-std::string plate_key(std::size_t n, int key);
-
 struct Parameters {
   struct BoxSize {
     double width = 0, depth = 0, height = 0;
@@ -43,35 +40,27 @@ struct Parameters {
     FaceKind front = FaceKind::symmetry, rear = FaceKind::symmetry;
     FaceKind floor = FaceKind::wall, top = FaceKind::open;
   } box;
-  struct Plate {
-    std::optional<double> height;
-    std::optional<double> slit_left, slit_right;
-  } plate;
-  struct Wedge {
-    std::optional<double> half_angle;
-    double outlet = 0;
-    double height = 0;
-  } wedge;
-  /// Of [[plates]].
-  struct InclinedPlate {
-    std::vector<double> from, to;  ///< x and z, m
-    std::vector<double> openings;  ///< where each begins and ends, in pairs, from `from` along the plate, m
-    std::optional<double> opens_after;
-  };
+  Plate plate;
+  Wedge wedge;
   std::vector<InclinedPlate> plates;
   std::vector<VesselPart> vessel;
+  std::vector<Inlet> inlets;
+  Removal removal;
   struct Gate {
     GateOpens opens = GateOpens::when_settled;
     double time = 0;
   } gate;
   struct Grains {
+    std::optional<GrainMaterial> material;
     double density = 2500;
     double diameter = 200e-6;
+    MaterialRange range;  ///< of the material. Not a key: who reads the case fills it in
   } grains;
   struct Bed {
     double packing = 0.6;
     double spacing = 0;
-    double height = 0;
+    std::optional<double> mass;
+    double height = 0;  ///< m; with a mass that which holds it (with_level, filling.hpp)
     std::optional<double> bottom;
     std::optional<double> left, right;
     std::optional<std::array<double, 3>> velocity;
@@ -91,6 +80,7 @@ struct Parameters {
   } sph;
   struct Walls {
     Friction friction = Friction::coulomb;
+    std::optional<WallMaterial> material;
     double coefficient = 0.3;
     FrictionFrom friction_from = FrictionFrom::gate;
   } walls;
@@ -140,46 +130,20 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
   visit(Parameter{"box.floor", {}, {}, "the floor"}, p.box.floor);
   visit(Parameter{"box.top", {}, {}, "the top"}, p.box.top);
-  visit(Parameter{"plate.height", dimension::length, above(0),
-                  "height of a thin horizontal plate across the box; left out: no plate"},
-        p.plate.height);
-  visit(Parameter{"plate.slit_left", dimension::length, at_least(0), "start of the slit in the plate, along x"},
-        p.plate.slit_left);
-  visit(Parameter{"plate.slit_right", dimension::length, above(0), "end of the slit in the plate"}, p.plate.slit_right);
-  visit(
-      Parameter{"wedge.half_angle",
-                dimension::angle,
-                {.least = 0, .most = half_turn / 2, .least_excluded = true, .most_excluded = true},
-                "angle to the vertical of the two walls of a wedge hopper, which reach from its outlet, in the middle "
-                "of the box, up to the left and right faces; left out: no wedge"},
-      p.wedge.half_angle);
-  visit(Parameter{"wedge.outlet", dimension::length, at_least(0),
-                  "width of the outlet of the wedge, which the gate closes"},
-        p.wedge.outlet);
-  visit(Parameter{"wedge.height", dimension::length, at_least(0), "height of the outlet above the floor"},
-        p.wedge.height);
-  for (std::size_t n = 0; n < p.plates.size(); ++n) {
-    visit(Parameter{plate_key(n, 0),
-                    dimension::length,
-                    {},
-                    "thin straight plate through the whole depth, at any angle: x and z of one end",
-                    true},
-          p.plates[n].from);
-    visit(Parameter{plate_key(n, 1), dimension::length, {}, "x and z of the other end", true}, p.plates[n].to);
-    visit(Parameter{plate_key(n, 2), dimension::length, at_least(0),
-                    "start and end of each opening, along the plate from `from`"},
-          p.plates[n].openings);
-    visit(
-        Parameter{plate_key(n, 3), dimension::time, at_least(0),
-                  "its openings are closed by gates that open so long after the gate of the case; left out: no gates"},
-        p.plates[n].opens_after);
-  }
+  for_each_parameter_of_inner_walls(visit, p);
   for_each_parameter_of_vessel(visit, p.vessel);
+  for_each_parameter_of_inlets(visit, p.inlets, p.removal);
   visit(Parameter{"gate.opens", {}, {}, "when the gate of slit, wedge or vessel opens"}, p.gate.opens);
   auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
   timed(Parameter{"gate.time", dimension::time, at_least(0),
                   "time at which the gate opens, with gate.opens = \"at-time\""},
         p.gate.time);
+  visit(Parameter{"grains.material",
+                  {},
+                  {},
+                  "what the grains are: density, diameter, packing, law and friction on walls follow where the case "
+                  "does not give them (talus materials); left out: the defaults below"},
+        p.grains.material);
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
@@ -189,11 +153,19 @@ void for_each_parameter(Visit&& visit, P& p) {
       Parameter{"bed.spacing", dimension::length, above(0),
                 "distance of the particles at the start; adjusted to whole numbers of particles along each side", true},
       p.bed.spacing);
-  visit(Parameter{"bed.height", dimension::length, above(0),
-                  "height of the bed at the start; the bed fills the region that is connected with the middle of its "
-                  "top, with no plate or wall between",
-                  true},
-        p.bed.height);
+  visit(
+      Parameter{
+          "bed.mass",
+          {0, 1, 0, 0},
+          above(0),
+          "mass of the bed, to the nearest particle, in place of bed.height: the bed fills its region from below"},
+      p.bed.mass);
+  auto filled = only_if({"bed.mass", "is given", "left out", !p.bed.mass}, visit);
+  filled(Parameter{"bed.height", dimension::length, above(0),
+                   "height of the bed at the start, where there is no bed.mass; the bed fills the region that is "
+                   "connected with the middle of its top, with no plate or wall between",
+                   true},
+         p.bed.height);
   visit(Parameter{"bed.bottom", dimension::length, at_least(0),
                   "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
         p.bed.bottom);
@@ -251,6 +223,12 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"walls.friction", {}, {}, "friction of walls and plate: Coulomb's, the printed rule, or none"},
         p.walls.friction);
   auto rough = only_if(unless("walls.friction", p.walls.friction, Friction::none), visit);
+  rough(Parameter{"walls.material",
+                  {},
+                  {},
+                  "what the walls are made of: their friction follows with grains.material, where walls.coefficient is "
+                  "not given"},
+        p.walls.material);
   rough(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
                   "coefficient of wall friction, the tangent of the angle of wall friction"},
         p.walls.coefficient);

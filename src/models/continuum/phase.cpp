@@ -11,14 +11,6 @@ namespace talus::continuum {
 
 namespace {
 
-/// Whether a particle in a free surface is as loose as the kernel, half empty there, says it is. Eq. 16 keeps what
-/// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
-/// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
-/// tension would pull its own skin in; its surfaces stay surfaces.
-bool is_loose_where_free(const Parameters& p, const Material& material) {
-  return p.sph.continuity == Continuity::printed && !material.bears_tension();
-}
-
 /// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
 void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double time = s.time - s.gate_time;
@@ -33,15 +25,26 @@ void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     s.list_position = s.position;
     s.list_smoothing_length = w.smoothing_length;
   }
-  if (!is_loose_where_free(p, w.material)) return;
+  if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] += w.rates.kernel_density[i] - before[i]; });
 }
 
+/// Whether grains are still to come in of which the case says until when, counted from the start of the run.
+bool is_being_filled(const Parameters& p, double time) {
+  return std::any_of(p.inlets.begin(), p.inlets.end(), [&](const Inlet& inlet) {
+    return inlet.clock == InletClock::start && inlet.to && time < *inlet.to;
+  });
+}
+
 }  // namespace
 
+bool is_loose_where_free(const Parameters& p) {
+  return p.sph.continuity == Continuity::printed && !Material(p).bears_tension();
+}
+
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!is_loose_where_free(p, w.material)) return;
+  if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);
   const double bed = p.bed.packing * p.grains.density;
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });
@@ -59,7 +62,7 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);
-  const bool settled = quiet && s.time - s.quiet_time >= p.settle.duration;
+  const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= p.settle.duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
     open_gates(team, p, s, w);

@@ -6,6 +6,12 @@
 
 namespace talus::continuum {
 
+/// Whether a particle in a free surface is as loose as the kernel, half empty there, says it is. Eq. 16 keeps what
+/// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
+/// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
+/// tension would pull its own skin in; its surfaces stay surfaces.
+bool is_loose_where_free(const Parameters& parameters);
+
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.
 void begin_densities(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

@@ -28,11 +28,28 @@ void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
                    weight > range.largest_pressure});
 }
 
+/// Where the values of the material hold.
+void add_range_of_material(const Parameters& p, std::vector<RegimeLine>& lines) {
+  if (!p.grains.material) return;
+  const MaterialRange& range = p.grains.range;
+  const std::string_view name = choice_name(*p.grains.material);
+  lines.push_back({"diameter of the material's grains", fmt::format("{:.4g} mm", p.grains.diameter / millimetre),
+                   fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", name,
+                               range.least_diameter / millimetre, range.largest_diameter / millimetre),
+                   !(p.grains.diameter >= range.least_diameter && p.grains.diameter <= range.largest_diameter)});
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  lines.push_back(
+      {"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
+       fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", name, range.largest_pressure),
+       weight > range.largest_pressure});
+}
+
 }  // namespace
 
 std::vector<RegimeLine> regime_of_case(const Parameters& p) {
   std::vector<RegimeLine> lines;
   add_range_of_law(p, lines);
+  add_range_of_material(p, lines);
   lines.push_back({"particle spacing over grain diameter", fmt::format("{:.3g}", p.bed.spacing / p.grains.diameter),
                    "a particle stands for many grains; below 1 it would be smaller than one",
                    p.bed.spacing < p.grains.diameter});

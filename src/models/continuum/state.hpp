@@ -45,6 +45,17 @@ struct AirAround {
   double swing_max = 0;               ///< largest difference of a cell's pressure from air.pressure since then, Pa
 };
 
+/// What has come and gone since the start.
+struct Population {
+  bool is_active = false;           ///< from the case, not a field: whether any can
+  std::uint64_t next_identity = 0;  ///< of a particle to come
+  std::uint64_t fed = 0;            ///< particles that came in
+  std::uint64_t removed = 0;        ///< that were taken away
+  Vector3 fed_momentum;             ///< what they brought, N s
+  Vector3 removed_momentum;         ///< what they took along, N s
+  std::vector<double> next_layer;   ///< of each inlet: when it is due, by its clock, s
+};
+
 struct State {
   double time = 0;         ///< s
   std::uint64_t step = 0;  ///< steps taken
@@ -70,6 +81,7 @@ struct State {
   Vector3 damping_impulse;              ///< what the damping of the settling bed took, N s
   Vector3 gravity_impulse;              ///< what gravity gave, N s
 
+  Population population;
   AirAround air;
 
   // Phases.
@@ -91,6 +103,8 @@ inline constexpr std::array<const char*, 6> collisional_names = {"collisional_st
                                                                  "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
+inline constexpr const char* fed_names[3] = {"fed_momentum_x", "fed_momentum_y", "fed_momentum_z"};
+inline constexpr const char* removed_names[3] = {"removed_momentum_x", "removed_momentum_y", "removed_momentum_z"};
 struct AirNames {
   const char *velocity, *momentum, *momentum_before, *drag, *solid_flux, *force, *impulse;
 };
@@ -137,6 +151,18 @@ void for_each_field_of_air(Visit&& visit, A& a) {
   visit(FieldInfo{"air_swing_max", "Pa"}, a.swing_max);
 }
 
+template <class Visit, class P>
+void for_each_field_of_population(Visit&& visit, P& p) {
+  visit(FieldInfo{"next_identity", "1"}, p.next_identity);
+  visit(FieldInfo{"fed_particles", "1"}, p.fed);
+  visit(FieldInfo{"removed_particles", "1"}, p.removed);
+  for (int axis = 0; axis < 3; ++axis) {
+    visit(FieldInfo{detail::fed_names[axis], "N s"}, p.fed_momentum[axis]);
+    visit(FieldInfo{detail::removed_names[axis], "N s"}, p.removed_momentum[axis]);
+  }
+  if (!p.next_layer.empty()) visit(FieldInfo{"inlet_next_layer", "s", FieldRole::kept, false, false}, p.next_layer);
+}
+
 template <class Visit, class S>
 void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"time", "s"}, s.time);
@@ -164,6 +190,7 @@ void for_each_field(Visit&& visit, S& s) {
   }
   if (!s.vessel_impulse.empty())
     visit(FieldInfo{"vessel_impulse", "N s", FieldRole::kept, false, false}, s.vessel_impulse);
+  if (s.population.is_active) for_each_field_of_population(visit, s.population);
   visit(FieldInfo{"gate_time", "s"}, s.gate_time);
   visit(FieldInfo{"quiet_time", "s"}, s.quiet_time);
   visit(FieldInfo{"list_position", "m", FieldRole::kept, false}, s.list_position);

@@ -11,6 +11,7 @@
 #include "models/continuum/displacement.hpp"
 #include "models/continuum/loading.hpp"
 #include "models/continuum/phase.hpp"
+#include "models/continuum/population.hpp"
 #include "models/continuum/vessel_friction.hpp"
 #include "models/continuum/walls.hpp"
 #include "physics/sph/pair_terms.hpp"
@@ -78,10 +79,16 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   step.clock();
   check_state(team, p, w.domain, s, dt);
   update_phase(team, p, s, w);
+  const bool whole = p.integration.method == Method::runge_kutta;
+  if (!whole) measure_shear_rate(team, s, w);  // while the gradients are in the order of the particles
+  const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
-  if (!w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) find_neighbours(team, p, s, w);
+  if (fed || !w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) {
+    if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
+    find_neighbours(team, p, s, w);
+  }
   evaluate(team, p, s, w);
-  measure_shear_rate(team, s, w);
+  if (whole) measure_shear_rate(team, s, w);
 }
 
 namespace {

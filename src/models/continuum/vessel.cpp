@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "models/continuum/parameters.hpp"
+#include "models/continuum/vessel_motion.hpp"
 #include "numerics/surface/surface_faults.hpp"
 #include "physics/granular/orifice_discharge.hpp"
 
@@ -42,7 +43,8 @@ struct Axis {
 
 Axis axis_of(const Parameters& p, const VesselPart& v) {
   if (v.centre.size() == 2) return {v.centre[0], v.centre[1]};
-  return {0.5 * p.box.width, 0.5 * p.box.depth};
+  return {0.5 * (v.along == Along::x ? p.box.depth : p.box.width),
+          0.5 * (v.along == Along::z ? p.box.depth : p.box.height)};
 }
 
 /// The number of sides is that of the largest circle of the vessel, so that parts that meet have the same corners.
@@ -60,7 +62,7 @@ std::vector<Vector3> circle(const Parameters& p, const VesselPart& v, double rad
   const double angle = 2 * std::numbers::pi / count, around = radius * std::sqrt(angle / std::sin(angle));
   std::vector<Vector3> corners;
   for (double n = 0; n < count; ++n)
-    corners.push_back({axis.x + around * std::cos(angle * n), axis.y + around * std::sin(angle * n), z});
+    corners.push_back(placed(v, {axis.x + around * std::cos(angle * n), axis.y + around * std::sin(angle * n), z}));
   return corners;
 }
 
@@ -112,6 +114,15 @@ DrawnSurface::DrawnSurface(std::vector<Triangle> of_file) : triangles(std::move(
     for (const Vector3& c : t.corner)
       for (int axis = 0; axis < 3; ++axis)
         low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
+}
+
+Vector3 placed(const VesselPart& v, const Vector3& x) {
+  return v.along == Along::z ? x : v.along == Along::x ? Vector3{x.z, x.x, x.y} : Vector3{x.x, x.z, x.y};
+}
+
+Vector3 on_axis(const Parameters& p, const VesselPart& v) {
+  const Axis axis = axis_of(p, v);
+  return placed(v, {axis.x, axis.y, 0});
 }
 
 std::string vessel_key(std::size_t n, std::string_view name) {
@@ -169,8 +180,8 @@ VesselBounds bounds_of_vessel(const Parameters& p) {
   for (const VesselPart& v : p.vessel) {
     const Axis axis = axis_of(p, v);
     const auto around = [&](double width, double depth, double bottom, double top) {
-      add({axis.x - 0.5 * width, axis.y - 0.5 * depth, bottom});
-      add({axis.x + 0.5 * width, axis.y + 0.5 * depth, top});
+      add(placed(v, {axis.x - 0.5 * width, axis.y - 0.5 * depth, bottom}));
+      add(placed(v, {axis.x + 0.5 * width, axis.y + 0.5 * depth, top}));
     };
     switch (v.shape) {
       case VesselShape::cylinder:
@@ -221,7 +232,7 @@ std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
   };
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
-    if (!v.gate) continue;
+    if (!v.gate || v.along != Along::z) continue;
     if (v.shape == VesselShape::disc) {
       offer(v, v.height, 2 * v.radius, 2 * v.radius, true);
     } else if (v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0) {
@@ -232,6 +243,7 @@ std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
   }
   if (lowest) return lowest;
   for (const VesselPart& v : p.vessel) {
+    if (v.along != Along::z) continue;
     if (v.shape == VesselShape::cone) offer(v, v.bottom, 2 * v.lower_radius, 2 * v.lower_radius, true);
     if (v.shape == VesselShape::disc) offer(v, v.height, 2 * v.hole, 2 * v.hole, true);
     if (v.shape == VesselShape::pyramid) offer(v, v.bottom, v.lower_width, v.lower_depth, false);
@@ -292,6 +304,7 @@ std::vector<Problem> check_vessel(const Parameters& p) {
       }
     for (std::size_t m = 0; m < n; ++m)
       if (name_of(p, m) == name_of(p, n)) add("name", "is that of another wall too", "a name of its own");
+    check_motion(v, n, problems);
     check_file(v, n, problems);
   }
   if (p.vessel.empty()) return problems;

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
+#include "models/continuum/material_names.hpp"
 #include "numerics/surface/surface.hpp"
 
 namespace talus::continuum {
@@ -18,6 +19,8 @@ namespace talus::continuum {
 struct Parameters;
 
 enum class VesselShape { cylinder, cone, disc, box, pyramid, plate, stl };
+/// The direction of an axis.
+enum class Along { z, x, y };
 enum class FileUnit { m, cm, mm, inch };
 
 /// The triangles of a file.
@@ -31,7 +34,8 @@ struct DrawnSurface {
 struct VesselPart {
   std::string name;
   VesselShape shape = VesselShape::cylinder;
-  std::vector<double> centre;  ///< x and y of the axis; empty: the middle of the box
+  Along along = Along::z;
+  std::vector<double> centre;  ///< of the axis, across it in the order of x, y, z; empty: the middle of the box
   double bottom = 0, top = 0, height = 0;
   double radius = 0, hole = 0, lower_radius = 0, upper_radius = 0;
   double width = 0, depth = 0, lower_width = 0, lower_depth = 0, upper_width = 0, upper_depth = 0;
@@ -39,7 +43,10 @@ struct VesselPart {
   std::string file;
   FileUnit unit = FileUnit::mm;
   bool closed = false;
+  std::optional<WallMaterial> material;
   std::optional<double> friction;
+  double spin = 0;  ///< rad/s
+  std::optional<std::array<double, 3>> belt;
   bool gate = false;
   double opens_after = 0;
 
@@ -81,7 +88,17 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
     auto tapered = only_if(of({pyramid}, "\"pyramid\""), visit);
     auto oblique = only_if(of({plate}, "\"plate\""), visit);
     auto drawn = only_if(of({stl}, "\"stl\""), visit);
-    round(Parameter{key("centre"), dimension::length, {}, "x and y of its axis; left out: the middle of the box"},
+    auto revolved = only_if(of({cylinder, cone, disc}, "\"cylinder\", \"cone\" or \"disc\""), visit);
+    revolved(Parameter{key("along"),
+                       {},
+                       {},
+                       "direction of its axis: with x or y `bottom`, `top` and `height` are places along it"},
+             v.along);
+    round(Parameter{key("centre"),
+                    dimension::length,
+                    {},
+                    "x and y of its axis, or of one along x y and z, of one along y x and z; left out: the middle of "
+                    "the box"},
           v.centre);
     upright(Parameter{key("bottom"), dimension::length, {}, "height of its lower end", true}, v.bottom);
     upright(Parameter{key("top"), dimension::length, {}, "height of its upper end", true}, v.top);
@@ -117,9 +134,28 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
           v.unit);
     drawn(Parameter{key("closed"), {}, {}, "whether the surface of the file is to have no rim, as that of a body has none"},
           v.closed);
+    visit(Parameter{key("material"),
+                    {},
+                    {},
+                    "what this wall is made of: its friction follows with grains.material, where its `friction` is not "
+                    "given; left out: as the other walls"},
+          v.material);
     visit(Parameter{key("friction"), dimension::none, friction_coefficient(),
                     "coefficient of friction of this wall; left out: walls.coefficient"},
           v.friction);
+    revolved(
+        Parameter{key("spin"),
+                  {0, 0, -1, 1},
+                  {},
+                  "angular velocity about its own axis, right-handed, from the opening of the gate of the case on: "
+                  "it takes grains along by its friction"},
+        v.spin);
+    oblique(Parameter{key("belt"),
+                      dimension::velocity,
+                      {},
+                      "velocity of its surface along itself, from the opening of the gate of the case on, as of a "
+                      "conveyor's belt; the plate stays where it is"},
+            v.belt);
     visit(Parameter{key("gate"), {}, {}, "whether it is taken away when the gate of the case opens"}, v.gate);
     auto gated = only_if(where(key("gate"), v.gate, true), visit);
     gated(Parameter{key("opens_after"), dimension::time, at_least(0), "so long after the gate of the case opens"},
@@ -137,6 +173,11 @@ std::string name_of(const Parameters& parameters, std::size_t part);
 /// Round parts are polygons whose sides are nowhere farther from the circle than a fiftieth of bed.spacing, and whose
 /// area of cross-section is the circle's.
 Surface surface_of(const Parameters& parameters);
+
+/// A place of a round part from one of a part whose axis is z.
+Vector3 placed(const VesselPart& part, const Vector3& place);
+/// A place on the axis of a round part, m.
+Vector3 on_axis(const Parameters& parameters, const VesselPart& part);
 
 /// The triangles of one part.
 std::vector<Triangle> triangles_of(const Parameters& parameters, std::size_t part);
@@ -175,6 +216,8 @@ namespace talus {
 template <>
 inline constexpr auto choices<continuum::VesselShape> =
     std::to_array<std::string_view>({"cylinder", "cone", "disc", "box", "pyramid", "plate", "stl"});
+template <>
+inline constexpr auto choices<continuum::Along> = std::to_array<std::string_view>({"z", "x", "y"});
 template <>
 inline constexpr auto choices<continuum::FileUnit> = std::to_array<std::string_view>({"m", "cm", "mm", "in"});
 }  // namespace talus

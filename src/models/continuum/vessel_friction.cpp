@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "models/continuum/vessel_motion.hpp"
 #include "models/continuum/walls.hpp"
 #include "physics/sph/wall_friction.hpp"
 
@@ -21,14 +22,21 @@ Impulses sum(Impulses a, const Impulses& b) {
 
 void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& rates, double duration, State& state) {
   if (state.vessel_impulse.empty()) return;
-  const bool rough = has_wall_friction(p, state);
+  const bool rough = has_wall_friction(p, state), moving = state.gate_time >= 0;
   const auto meet = [&](std::size_t place, Impulses& received) {
     const std::size_t i = rates.at_vessel[place];
     for (const WallForce& wall : rates.vessel[place].all()) {
       received[wall.patch] -= (state.mass * duration) * wall.acceleration;
       const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
       if (!rough) continue;
-      const Vector3 through = dot(state.velocity[i], wall.normal) * wall.normal, along = state.velocity[i] - through;
+      // Along the wall in its own frame.
+      Vector3 carried;
+      if (moving && is_moving(p.vessel[wall.patch])) {
+        carried = velocity_of_wall(p, wall.patch, state.position[i]);
+        carried -= dot(carried, wall.normal) * wall.normal;
+      }
+      const Vector3 through = carried + dot(state.velocity[i], wall.normal) * wall.normal;
+      const Vector3 along = state.velocity[i] - through;
       const Vector3 after =
           through + sph::coulomb_friction(along, duration * dot(wall.acceleration, wall.normal), coefficient);
       received[wall.patch] += state.mass * (state.velocity[i] - after);

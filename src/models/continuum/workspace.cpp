@@ -25,6 +25,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain) : nullptr),
       position(state.position.size()),
       smoothing_length(state.position.size()) {
+  for (const Inlet& inlet : parameters.inlets) inlets.push_back(layer_of(parameters, inlet, state.mass));
   if (parameters.integration.method != Method::runge_kutta) return;
   velocity.resize(state.position.size());
   density.resize(state.position.size());

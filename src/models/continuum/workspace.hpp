@@ -22,6 +22,7 @@ struct Workspace {
   double sound_speed;   ///< bound for the time step, m/s
   double loading_time;  ///< over which gravity is raised, s
   Surface vessel;       ///< empty without one
+  std::vector<InletLayer> inlets;
   Sweep sweep;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum

@@ -10,18 +10,12 @@
 #include "block_on_incline.hpp"
 #include "cases.hpp"
 #include "models/continuum/vessel.hpp"
+#include "vessel_parts.hpp"
 
 namespace talus::continuum {
 namespace {
 
 using std::numbers::pi;
-
-/// Grains in a room without faces, whose size is given in spacings.
-Parameters room(double x, double y, double z) {
-  Parameters p = column(x, y, z);
-  p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = FaceKind::open;
-  return p;
-}
 
 /// Grains without stiffness against shear.
 void make_liquid(Parameters& p) {
@@ -31,29 +25,6 @@ void make_liquid(Parameters& p) {
   p.integration.method = Method::leapfrog;
   p.integration.courant = 0.8;
   p.settle = {.speed = 2e-2, .duration = 0.01, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
-}
-
-VesselPart named(std::string name, VesselShape shape) {
-  VesselPart part;
-  part.name = std::move(name), part.shape = shape;
-  return part;
-}
-
-VesselPart plate(std::string name, std::array<double, 3> corner, std::array<double, 3> first,
-                 std::array<double, 3> second) {
-  VesselPart part = named(std::move(name), VesselShape::plate);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    part.corner[axis] = corner[axis] * spacing;
-    part.first_edge[axis] = first[axis] * spacing;
-    part.second_edge[axis] = second[axis] * spacing;
-  }
-  return part;
-}
-
-VesselPart disc(std::string name, double radius, double height) {
-  VesselPart part = named(std::move(name), VesselShape::disc);
-  part.radius = radius * spacing, part.height = height * spacing;
-  return part;
 }
 
 VesselPart drawn(std::string name, std::vector<Triangle> triangles) {

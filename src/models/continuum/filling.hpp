@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A bed of a given mass.
+#pragma once
+
+#include "models/continuum/parameters.hpp"
+
+namespace talus::continuum {
+
+/// The same with bed.height as bed.mass needs it: a whole number of spacings. Unchanged without bed.mass, and where
+/// lengths are missing or the vessel does not hold that mass (check() says so).
+Parameters with_level(const Parameters& parameters);
+
+/// Particles of bed.mass, to the nearest. \pre bed.mass is given
+double count_of_mass(const Parameters& parameters);
+
+/// What is wrong with bed.mass, if anything. \param parameters with_level()
+std::vector<Problem> check_mass(const Parameters& parameters);
+
+}  // namespace talus::continuum

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Grains that come and go: [[inlet]], [removal].
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parameter.hpp"
+#include "base/vector.hpp"
+
+namespace talus::continuum {
+
+struct Parameters;
+
+enum class InletShape { rectangle, disc };
+enum class InletClock { start, gate };
+
+/// One of [[inlet]]: a level window through which grains come down. SI.
+struct Inlet {
+  InletShape shape = InletShape::rectangle;
+  std::array<double, 3> centre{};
+  double width = 0, depth = 0, radius = 0;
+  std::array<double, 3> velocity{};
+  double rate = 0;  ///< kg/s
+  InletClock clock = InletClock::start;
+  double from = 0;
+  std::optional<double> to;
+
+  double end() const { return to.value_or(std::numeric_limits<double>::infinity()); }
+};
+
+struct Removal {
+  std::optional<double> below;
+  bool outside = false;
+
+  bool is_any() const { return below || outside; }
+};
+
+/// The key of the nth of [[inlet]], from 0.
+std::string inlet_key(std::size_t n, std::string_view name);
+
+template <class Visit, class I, class R>
+void for_each_parameter_of_inlets(Visit&& visit, I& inlets, R& removal) {
+  for (std::size_t n = 0; n < inlets.size(); ++n) {
+    auto& inlet = inlets[n];
+    const auto key = [n](std::string_view name) { return inlet_key(n, name); };
+    visit(Parameter{key("shape"), {}, {}, "level window through which grains come in: a rectangle or a disc"},
+          inlet.shape);
+    auto square = only_if(where(key("shape"), inlet.shape, InletShape::rectangle), visit);
+    auto round = only_if(where(key("shape"), inlet.shape, InletShape::disc), visit);
+    visit(Parameter{key("centre"), dimension::length, {}, "its middle", true}, inlet.centre);
+    square(Parameter{key("width"), dimension::length, above(0), "extent along x", true}, inlet.width);
+    square(Parameter{key("depth"), dimension::length, above(0), "extent along y", true}, inlet.depth);
+    round(Parameter{key("radius"), dimension::length, above(0), "radius", true}, inlet.radius);
+    visit(Parameter{key("velocity"), dimension::velocity, {}, "of the grains that come in; downwards", true},
+          inlet.velocity);
+    visit(Parameter{key("rate"),
+                    {0, 1, -1, 0},
+                    above(0),
+                    "mass that comes in a second, layer by layer. A layer for which grains leave no room waits until "
+                    "they do",
+                    true},
+          inlet.rate);
+    visit(
+        Parameter{
+            key("clock"), {}, {}, "whether its times count from the start of the run or from the opening of the gate"},
+        inlet.clock);
+    visit(Parameter{key("from"), dimension::time, at_least(0), "when grains begin to come in"}, inlet.from);
+    visit(Parameter{key("to"), dimension::time, above(0), "when they end; left out: never"}, inlet.to);
+  }
+  visit(Parameter{"removal.below",
+                  dimension::length,
+                  {},
+                  "height below which particles are taken away and counted, as by a conveyor, but for the last one; "
+                  "left out: none"},
+        removal.below);
+  visit(Parameter{"removal.outside",
+                  {},
+                  {},
+                  "whether particles two spacings beyond an open face of the box are taken away and counted"},
+        removal.outside);
+}
+
+/// Contradictions between these keys that are each valid by themselves.
+std::vector<Problem> check_inlets(const Parameters& parameters);
+
+/// What comes in together.
+struct InletLayer {
+  std::vector<Vector3> places;  ///< m
+  std::vector<double> density;  ///< bulk, of each, as the kernel sees it within the stream, kg/m^3
+  double interval = 0;          ///< between layers, s
+};
+/// Places on a lattice of bed.spacing, farther than 0.4 of it from walls. \param mass of a particle, kg
+InletLayer layer_of(const Parameters& parameters, const Inlet& inlet, double mass);
+
+}  // namespace talus::continuum
+
+namespace talus {
+template <>
+inline constexpr auto choices<continuum::InletShape> = std::to_array<std::string_view>({"rectangle", "disc"});
+template <>
+inline constexpr auto choices<continuum::InletClock> = std::to_array<std::string_view>({"start", "gate"});
+}  // namespace talus

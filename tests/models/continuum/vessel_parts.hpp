@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Walls of vessels for the tests; lengths in spacings.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "cases.hpp"
+#include "models/continuum/vessel.hpp"
+
+namespace talus::continuum {
+
+/// Grains in a room without faces, whose size is given in spacings.
+inline Parameters room(double x, double y, double z) {
+  Parameters p = column(x, y, z);
+  p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = FaceKind::open;
+  return p;
+}
+
+inline VesselPart named(std::string name, VesselShape shape) {
+  VesselPart part;
+  part.name = std::move(name), part.shape = shape;
+  return part;
+}
+
+inline VesselPart plate(std::string name, std::array<double, 3> corner, std::array<double, 3> first,
+                        std::array<double, 3> second) {
+  VesselPart part = named(std::move(name), VesselShape::plate);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    part.corner[axis] = corner[axis] * spacing;
+    part.first_edge[axis] = first[axis] * spacing;
+    part.second_edge[axis] = second[axis] * spacing;
+  }
+  return part;
+}
+
+inline VesselPart disc(std::string name, double radius, double height) {
+  VesselPart part = named(std::move(name), VesselShape::disc);
+  part.radius = radius * spacing, part.height = height * spacing;
+  return part;
+}
+
+}  // namespace talus::continuum
