@@ -34,7 +34,9 @@ std::string count_text(double count) {
 }
 
 void print_case(const PreparedCase& prepared, const CaseFile& file, std::size_t& key) {
-  const std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
+  std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
+  for (ResolvedLine& line : table)
+    if (line.origin == "default" && prepared.filled_in.contains(line.key)) line.origin = "material";
   std::size_t value = 0;
   for (const ResolvedLine& line : table) {
     key = std::max(key, line.key.size());

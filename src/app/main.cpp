@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   talus::app::add_report_command(app, action);
   talus::app::add_picture_command(app, action);
   talus::app::add_movie_command(app, action);
+  talus::app::add_materials_command(app, action);
   talus::app::add_schema_command(app, action);
   talus::app::add_completion_command(app, action);
   talus::app::add_man_command(app, action);

@@ -14,7 +14,8 @@ from program import PROGRAM, InputTest, ProgramTest
 KINDS = {
     "hopper": {"width": "100 mm", "fill": "83.333 mm", "outlet": "40 mm", "drop": "100 mm", "half-angle": None,
                "diameter": "200 um", "density": "2500 kg/m3", "friction": "0.5"},
-    "silo": {"width": "30 mm", "fill": "150 mm", "wall-friction": "0.3", "diameter": "200 um", "density": "2500 kg/m3"},
+    "silo": {"width": "65 mm", "fill": "80 mm", "outlet": "30 mm", "half-angle": "30 deg", "diameter": "0.5 mm",
+             "wall-friction": None},
     "column": {"width": "50 mm", "height": "50 mm", "floor-friction": "0.5", "diameter": "200 um", "density": "2500 kg/m3",
                "friction": "0.5"},
     "avalanche": {"grains": "2000", "radius": "5 mm", "density": "20 kg/m3", "angle": "45 deg", "fluid-density": "1.2 kg/m3",
@@ -58,7 +59,10 @@ class Cases(ProgramTest):
         self.assertNotIn("plate", case)
         self.assertNotIn("air", case)
         self.new("silo", "--wall-friction", "0.6")
-        self.assertEqual(tomllib.loads((self.folder / "new.toml").read_text())["walls"]["coefficient"], 0.6)
+        case = tomllib.loads((self.folder / "new.toml").read_text())
+        self.assertEqual(case["walls"]["coefficient"], 0.6)
+        self.assertEqual(case["grains"]["material"], "glass-beads")
+        self.assertEqual([wall["shape"] for wall in case["vessel"]], ["cylinder", "cone", "disc"])
         self.new("column", "--height", "0.2 m")
         self.assertEqual(tomllib.loads((self.folder / "new.toml").read_text())["bed"]["height"], "200 mm")
         self.new("avalanche", "--grains", "300", "--angle", "30 deg")
@@ -87,7 +91,7 @@ class Cases(ProgramTest):
 
     def test_cases_run(self):
         for kind, options in {"hopper": ("--fill", "20 mm", "--width", "40 mm", "--outlet", "20 mm", "--drop", "20 mm"),
-                              "silo": (), "column": ("--height", "20 mm", "--width", "20 mm"),
+                              "silo": ("--fill", "30 mm"), "column": ("--height", "20 mm", "--width", "20 mm"),
                               "avalanche": ("--grains", "100")}.items():
             self.new(kind, *options)
             self.talus("run", "new.toml", "--out", kind, "--set", "output.pictures=false", "--set", "output.report=false",
@@ -118,9 +122,10 @@ class Asked(ProgramTest):
                                    stdin=other, stdout=other, stderr=other, close_fds=True)
         os.close(other)
         said = ""
-        for wanted, answer in ((r"width of the silo \[30 mm\]: ", "4 kg"), (r"is no length.*width of the silo \[30 mm\]: ",
-                               "40 mm"), (r"wall friction \[0.3\]: ", ""), (r"diameter of the grains \[200 um\]: ", ""),
-                               (r"density of a grain \[2500 kg/m3\]: ", "")):
+        for wanted, answer in ((r"diameter of the silo \[65 mm\]: ", "4 kg"),
+                               (r"is no length.*diameter of the silo \[65 mm\]: ", "80 mm"),
+                               (r"diameter of the outlet \[30 mm\]: ", ""), (r"half angle of the cone, .* \[30 deg\]: ", ""),
+                               (r"diameter of the grains \[0.5 mm\]: ", ""), (r"wall friction; .* \[none\]: ", "")):
             while not re.search(wanted + r"\Z", said, re.S):
                 self.assertTrue(select.select([main], [], [], 30)[0], said)
                 said += os.read(main, 4096).decode()
@@ -128,7 +133,7 @@ class Asked(ProgramTest):
         self.assertEqual(process.wait(30), 0)
         os.close(main)
         case = tomllib.loads((self.folder / "new.toml").read_text())
-        self.assertEqual((case["box"]["width"], case["bed"]["height"]), ("40 mm", "120 mm"))
+        self.assertEqual((case["vessel"][0]["radius"], case["bed"]["height"]), ("40 mm", "120 mm"))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,10 @@ struct PreparedCase {
   std::string model;
   std::int64_t seed = 0;
   run::RunParameters run;
-  ParameterList parameters;     ///< of the model and of the run, with the values they have
-  std::string instruction_set;  ///< that the choice resolves to on this machine
-  std::string inputs;           ///< digest of what the files hold that the case names; empty if it names none
+  ParameterList parameters;                      ///< of the model and of the run, with the values they have
+  std::set<std::string, std::less<>> filled_in;  ///< keys whose values follow from the case's material
+  std::string instruction_set;                   ///< that the choice resolves to on this machine
+  std::string inputs;  ///< digest of what the files hold that the case names; empty if it names none
 
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;

@@ -12,9 +12,11 @@
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hopper_observers.hpp"
+#include "app/materials/materials.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/stl.hpp"
+#include "models/continuum/filling.hpp"
 #include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
@@ -28,7 +30,7 @@ namespace {
 using continuum::Continuum;
 using continuum::Parameters;
 
-constexpr std::size_t most_parts_of_vessel = 64;
+constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16;
 
 std::vector<NamedValue> groups(const Parameters& p) {
   const double density = p.bed.packing * p.grains.density;
@@ -127,14 +129,23 @@ std::string digest_of_files(const Parameters& p) {
   return bytes.empty() ? std::string() : digest(bytes);
 }
 
+struct ContinuumCase : ModelCase<Parameters> {
+  FilledIn filled;  ///< by the material
+};
+
 /// \throws InputError with every problem
-ModelCase<Parameters> read_continuum(const CaseFile& file) {
+ContinuumCase read_continuum(const CaseFile& file) {
   Parameters defaults;
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
+  defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
   read_surfaces(file, defaults);
+  FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
-  ModelCase<Parameters> read = read_case(reader, std::move(defaults));
+  reader.check(filled.problems);
+  ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
+  read.model = continuum::with_level(read.model);
+  set_stiffness(file, read.model, read.filled);
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
       part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
@@ -149,15 +160,17 @@ ParameterList continuum_parameters() {
   ModelCase<Parameters> defaults;
   defaults.model.plates.resize(1);  // whose keys stand for those of all
   defaults.model.vessel.resize(1);
+  defaults.model.inlets.resize(1);
   return defaults.list();
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
-  const ModelCase<Parameters> read = read_continuum(file);
+  const ContinuumCase read = read_continuum(file);
   const Parameters& p = read.model;
   PreparedCase prepared = prepared_case("continuum", read);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.inputs = digest_of_files(p);
+  prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };

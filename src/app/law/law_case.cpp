@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/materials/materials.hpp"
 #include "io/csv_table.hpp"
 #include "io/parameter_reader.hpp"
 #include "models/continuum/renamed_keys.hpp"
@@ -13,10 +14,11 @@
 namespace talus::app {
 
 LawCase read_law_case(const CaseFile& file) {
-  static constexpr std::array<std::string_view, 6> concerned{
-      "law", "collisions", "path", "grains.density", "grains.diameter", "gravity.acceleration"};
+  static constexpr std::array<std::string_view, 7> concerned{
+      "law", "collisions", "path", "grains.material", "grains.density", "grains.diameter", "gravity.acceleration"};
   const CaseFile part = file.contains("model") ? file.part(concerned) : file;
   LawCase parameters;
+  fill_in_values(file, parameters);
   std::string title;
   ParameterReader reader(part, continuum::renamed_keys);
   reader(Parameter{.key = "title", .text = "one line"}, title);

@@ -11,6 +11,7 @@
 
 #include "base/parameter.hpp"
 #include "io/case_file.hpp"
+#include "models/continuum/material_names.hpp"
 #include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
 #include "physics/granular/material_path.hpp"
@@ -23,6 +24,7 @@ struct LawCase {
   granular::LawParameters law;
   granular::CollisionParameters collisions;
   struct Grains {
+    std::optional<continuum::GrainMaterial> material;
     double density = 2500;
     double diameter = 200e-6;
   } grains;
@@ -41,6 +43,8 @@ template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_const_t<P>, LawCase> {
   granular::for_each_parameter(visit, p.law);
   granular::for_each_parameter(visit, p.collisions);
+  visit(Parameter{"grains.material", {}, {}, "what the grains are (talus materials); the law's moduli stay its own"},
+        p.grains.material);
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Hopper, silo and column: sections one particle deep of the continuum. The choices follow the cases of the papers and
-/// docs/guidance.md.
+/// Hopper and column, sections one particle deep of the continuum, and a silo in space. The choices follow the cases of
+/// the papers and docs/guidance.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -119,30 +119,52 @@ std::string write_hopper(const Answers& a) {
 // ------------------------------------------------------------------------------------------------ silo
 
 constexpr Question silo_questions[] = {
-    {"width", "width of the silo", "30 mm", dimension::length, 0, 100},
-    {"fill", "height of the bed", "150 mm", dimension::length, 0, 200},
-    {"wall-friction", "coefficient of wall friction", "0.3", {}, 0, 2, true},
-    diameter,
-    density,
+    {"width", "diameter of the silo", "65 mm", dimension::length, 0, 100},
+    {"fill", "height of the bed above the outlet", "80 mm", dimension::length, 0, 200},
+    {"outlet", "diameter of the outlet", "30 mm", dimension::length, 0, 100},
+    {"half-angle", "half angle of the cone, to the vertical", "30 deg", dimension::angle, 0, 1.5533},
+    {"diameter", "diameter of the grains", "0.5 mm", dimension::length, 0, 0.1},
+    {"wall-friction", "coefficient of wall friction; that of glass beads on steel if not given", "", {}, 0, 2, true},
 };
 
 std::string write_silo(const Answers& a) {
-  const double width = a["width"], fill = a["fill"];
-  const double spacing = spacing_of(width, 12, width * fill);
-  std::string text = head("Silo at rest", "A bed settles between two rough walls, which come to carry a part of it.");
-  text += fmt::format("# A section one particle deep.\n[box]\nwidth = {}\ndepth = {}\nheight = {}\n\n",
-                      written(width, "mm"), written(spacing, "mm"), written(1.2 * fill, "mm"));
-  text += "[gate]\nopens = \"when-settled\"\n\n" + grains(a);
-  text += fmt::format("[bed]\npacking = {}\nspacing = {}\nheight = {}\n\n", packing, written(spacing, "mm"),
-                      written(fill, "mm"));
+  const double radius = 0.5 * a["width"], outlet = a["outlet"], fill = a["fill"], drop = 2 * outlet;
+  const double volume = std::numbers::pi * radius * radius * fill;
+  const double spacing = std::max(outlet / 12, std::cbrt(volume / most_particles));
+  const double cone_top = drop + (radius - 0.5 * outlet) / std::tan(a["half-angle"]);
+  const double top = std::max(cone_top, drop + fill) + 4 * spacing, room = 2 * radius + 8 * spacing;
+  // Beverloo's rule with the grains as points, half as long again.
+  const double rate = 0.58 * std::sqrt(gravity) * std::pow(outlet, 2.5);
+  std::string text =
+      head("Silo", "Grains flow out of a silo, a cone under a cylinder, and are taken away and counted.");
+  text += fmt::format("[box]\nwidth = {0}\ndepth = {0}\nheight = {1}\nfloor = \"open\"\n\n", written(room, "mm"),
+                      written(top + 2 * spacing, "mm"));
+  if (top > cone_top)
+    text += fmt::format("[[vessel]]\nname = \"cylinder\"\nshape = \"cylinder\"\nradius = {}\nbottom = {}\ntop = {}\n\n",
+                        written(radius, "mm"), written(cone_top, "mm"), written(top, "mm"));
   text += fmt::format(
-      "# Six times softer than glass beads, so that the bed sinks far enough to slip along its walls (validation/\n"
-      "# janssen-silo); as soft at any height.\n"
-      "[law.yuu-umekage]\nscale = {:.5g}\n\n"
-      "[walls]\ncoefficient = {:.5g}\nfriction_from = \"start\"\n\n"
-      "# Damped until it has settled; then it has to stand without.\n[settle]\ndamping_time = \"5 ms\"\n\n",
-      1.5 * fill / 0.15 * a["density"] / 2500, a["wall-friction"]);
-  return text + ending(rounded_up(0.4 * std::sqrt(fill / gravity)), 5, 100);
+      "[[vessel]]\nname = \"cone\"\nshape = \"cone\"\nlower_radius = {}\nupper_radius = {}\nbottom = {}\ntop = {}\n\n",
+      written(0.5 * outlet, "mm"), written(radius, "mm"), written(drop, "mm"), written(cone_top, "mm"));
+  text += fmt::format(
+      "# It goes when the bed has settled.\n[[vessel]]\nname = \"gate\"\nshape = \"disc\"\nradius = {}\nheight = "
+      "{}\ngate = true\n\n[gate]\nopens = \"when-settled\"\n\n[removal]\nbelow = {}\n\n",
+      written(0.5 * outlet, "mm"), written(drop, "mm"), written(0.25 * drop, "mm"));
+  text += fmt::format(
+      "# Density, packing, law and wall friction with their sources: talus materials glass-beads. What stands here\n"
+      "# instead holds; the stiffness follows from the weight of the bed.\n"
+      "[grains]\nmaterial = \"glass-beads\"\ndiameter = {}\n\n[walls]\nmaterial = \"steel\"\n{}friction_from = "
+      "\"start\"\n\n",
+      written(a["diameter"], "mm"),
+      a.has("wall-friction") ? fmt::format("coefficient = {:.5g}\n", a["wall-friction"]) : std::string());
+  text += fmt::format(
+      "# {:.3g} particles across the outlet; fewer than 12 show in the discharge (talus check). In place of the "
+      "height\n"
+      "# a mass may stand.\n[bed]\nspacing = {}\nheight = {}\n\n",
+      outlet / spacing, written(spacing, "mm"), written(fill, "mm"));
+  text +=
+      "[collisions]\nform = \"none\"\n\n# As little viscosity as the scheme bears.\n[sph]\nviscosity_alpha = 0.01\n\n"
+      "[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n";
+  return text + ending(rounded_up(1.5 * volume / rate), 25, 1000);
 }
 
 // ---------------------------------------------------------------------------------------------- column
@@ -182,7 +204,7 @@ std::string write_column(const Answers& a) {
 }  // namespace
 
 const Kind hopper_kind{"hopper", "grains flow out of a hopper, in air or not", hopper_questions, write_hopper};
-const Kind silo_kind{"silo", "a tall bed stands between rough walls", silo_questions, write_silo};
+const Kind silo_kind{"silo", "grains flow out of a silo, a cone under a cylinder", silo_questions, write_silo};
 const Kind column_kind{"column", "a column of grains collapses over a floor", column_questions, write_column};
 
 }  // namespace talus::app

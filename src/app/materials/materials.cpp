@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/materials/materials.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "io/convert_value.hpp"
+#include "physics/granular/critical_state.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using continuum::GrainMaterial;
+using continuum::WallMaterial;
+
+constexpr std::pair<std::string_view, std::string_view> files[] = {
+#include "material_files.inc"  // made by the build from materials/
+};
+
+constexpr double moduli_over_weight = 1000;
+constexpr double shear_over_bulk = 0.6;  // as in the paper's law at zero strain
+
+template <class T>
+std::optional<T> read(const CaseFile& material, const std::string& key, const Parameter& parameter) {
+  const auto value = value_in(material, key, parameter, value_type<T>());
+  if (!value) return std::nullopt;
+  T member{};
+  from_value(*value, member);
+  return member;
+}
+
+/// Of a wall; nothing if the material does not know it.
+std::optional<double> friction_on(const CaseFile& material, WallMaterial wall) {
+  const std::string key = fmt::format("walls.{}.value", choice_name(wall));
+  return read<double>(material, key, Parameter{key, dimension::none, friction_coefficient()});
+}
+
+/// The choice that a key of the case names, if it is one.
+template <class Choice>
+std::optional<Choice> named(const CaseFile& file, std::string_view key) {
+  const CaseEntry* entry = file.find(key);
+  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+  for (std::size_t n = 0; name && n < choices<Choice>.size(); ++n)
+    if (choices<Choice>[n] == *name) return static_cast<Choice>(n);
+  return std::nullopt;
+}
+
+std::string known_walls(const CaseFile& material) {
+  std::vector<std::string_view> names;
+  for (std::size_t n = 0; n < choices<WallMaterial>.size(); ++n)
+    if (friction_on(material, static_cast<WallMaterial>(n))) names.push_back(choices<WallMaterial>[n]);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+continuum::MaterialRange range_of(const CaseFile& material) {
+  continuum::MaterialRange range;
+  const auto pair = [&](const char* key, Dimension unit) {
+    return read<std::vector<double>>(material, key, Parameter{key, unit});
+  };
+  if (const auto d = pair("grains.diameter.range", dimension::length))
+    range.least_diameter = d->at(0), range.largest_diameter = d->at(1);
+  if (const auto p = pair("pressure.range", dimension::pressure)) range.largest_pressure = p->at(1);
+  return range;
+}
+
+std::string plain(const CaseValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value.value)) return *text;
+  if (const auto* pair = std::get_if<std::vector<CaseValue>>(&value.value))
+    return fmt::format("{} to {}", plain(pair->at(0)), plain(pair->at(1)));
+  return as_written(value);
+}
+
+}  // namespace
+
+const CaseFile& file_of(GrainMaterial material) {
+  static const std::map<std::string_view, CaseFile> all = [] {
+    std::map<std::string_view, CaseFile> read_files;
+    for (const auto& [name, text] : files)
+      read_files.emplace(name, CaseFile::from_text(text, fmt::format("materials/{}.toml", name)));
+    return read_files;
+  }();
+  const auto found = all.find(choice_name(material));
+  if (found == all.end()) throw std::logic_error(fmt::format("materials/{}.toml is not there", choice_name(material)));
+  return found->second;
+}
+
+std::optional<GrainMaterial> material_of(const CaseFile& file) {
+  return named<GrainMaterial>(file, "grains.material");
+}
+
+std::optional<ParameterValue> value_in(const CaseFile& material, const std::string& key, const Parameter& parameter,
+                                       const ValueType& type) {
+  const CaseEntry* entry = material.find(key);
+  if (!entry) return std::nullopt;
+  ValueFault fault;
+  auto value = convert_value(*entry, parameter, type, fault);
+  if (!value) throw std::logic_error(fmt::format("{}: {} {}", material.name(), key, fault.what));
+  return value;
+}
+
+std::string title_of(GrainMaterial material) {
+  return plain(file_of(material).find("title")->value);
+}
+
+std::vector<MaterialLine> lines_of(GrainMaterial material) {
+  const CaseFile& file = file_of(material);
+  std::vector<MaterialLine> lines;
+  const auto text = [&](const std::string& key) {
+    const CaseEntry* entry = file.find(key);
+    return entry ? plain(entry->value) : std::string();
+  };
+  for (const CaseEntry& entry : file.entries()) {
+    MaterialLine line{.key = entry.key, .value = {}, .range = {}, .source = {}};
+    line.value = text(entry.key + ".value"), line.range = text(entry.key + ".range");
+    line.source = text(entry.key + ".source");
+    if (!line.value.empty() || !line.range.empty()) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults) {
+  FilledIn filled;
+  const auto grains = material_of(file);
+  if (!grains) return filled;
+  const CaseFile& material = file_of(*grains);
+  filled.keys = fill_in_values(file, defaults);
+  defaults.grains.range = range_of(material);
+  const auto rub = [&](const std::string& key, const std::string& friction_key, auto& friction) {
+    const auto wall = named<WallMaterial>(file, key);
+    if (!wall || file.contains(friction_key)) return;
+    if (const auto coefficient = friction_on(material, *wall)) {
+      friction = *coefficient;
+      filled.keys.insert(friction_key);
+    } else {
+      filled.problems.push_back(
+          {.key = key,
+           .what = fmt::format("no friction of {} on {} is known", choice_name(*grains), choice_name(*wall)),
+           .allowed = fmt::format("{}; or {}", known_walls(material), friction_key)});
+    }
+  };
+  rub("walls.material", "walls.coefficient", defaults.walls.coefficient);
+  for (std::size_t n = 0; n < defaults.vessel.size(); ++n)
+    rub(continuum::vessel_key(n, "material"), continuum::vessel_key(n, "friction"), defaults.vessel[n].friction);
+  return filled;
+}
+
+void set_stiffness(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
+  if (!p.grains.material || !p.law.is<granular::CriticalState>()) return;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  auto& law = p.law.of<granular::CriticalState>();
+  const auto set = [&](const char* key, double& modulus, double value) {
+    if (file.contains(key) || !(value > 0)) return;
+    modulus = value;
+    filled.keys.insert(key);
+  };
+  set("law.critical-state.bulk_modulus", law.bulk_modulus, moduli_over_weight * weight);
+  set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);
+}
+
+}  // namespace talus::app

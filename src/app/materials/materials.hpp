@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The materials that a case may name: their files stand in the program. A file has a table for each key of a case that
+/// it fills in, with `value`, and `range` and `source` of it; [walls.NAME] of each wall that its friction is known of;
+/// [pressure] with the range in which all of it holds.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "io/case_file.hpp"
+#include "io/parameter_value.hpp"
+#include "models/continuum/parameters.hpp"
+
+namespace talus::app {
+
+/// A line of a file, as it is written.
+struct MaterialLine {
+  std::string key;    ///< of a case, or "walls.steel", or "pressure"
+  std::string value;  ///< empty: there is a range alone
+  std::string range;  ///< "2450 kg/m3 to 2600 kg/m3"; empty: none is said
+  std::string source;
+};
+
+/// What a file says. \throws std::logic_error if it is not among the program's
+const CaseFile& file_of(continuum::GrainMaterial material);
+std::string title_of(continuum::GrainMaterial material);
+std::vector<MaterialLine> lines_of(continuum::GrainMaterial material);
+
+/// What a material has filled in.
+struct FilledIn {
+  std::set<std::string, std::less<>> keys;
+  std::vector<Problem> problems;  ///< walls of which the material does not know how its grains rub on them
+};
+
+/// Makes the values of the case's material the defaults of its keys. \param file the case
+FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults);
+
+/// The values alone, of any list of parameters with keys of a case: what of them the file has. \returns their keys
+template <class P>
+std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
+
+/// The moduli of grains of a material, where the case gives none: a thousand times the weight of the bed over its area,
+/// the stress that they are to bear. Discharge, surfaces and heaps are then those of stiff grains
+/// (docs/decisions/0023-softer-grains.md). \param parameters as read
+void set_stiffness(const CaseFile& file, continuum::Parameters& parameters, FilledIn& filled);
+
+// ------------------------------------------------------------------------------------------------------------------
+
+/// The material that the case names; nothing if it names none of the program's.
+std::optional<continuum::GrainMaterial> material_of(const CaseFile& file);
+
+/// Whether the file of a material has a value for a key, and which. \throws std::logic_error if it is not one
+std::optional<ParameterValue> value_in(const CaseFile& material, const std::string& key, const Parameter& parameter,
+                                       const ValueType& type);
+
+/// Reads the values that the file of a material has.
+struct MaterialValues {
+  const CaseFile& material;
+  std::set<std::string, std::less<>> keys = {};
+
+  template <class T>
+  void operator()(const Parameter& parameter, T& member) {
+    const auto value = value_in(material, parameter.key + ".value", parameter, value_type<T>());
+    if (!value) return;
+    from_value(*value, member);
+    keys.insert(parameter.key);
+  }
+};
+
+template <class P>
+std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters) {
+  const auto material = material_of(file);
+  if (!material) return {};
+  MaterialValues values{file_of(*material)};
+  for_each_parameter(values, parameters);
+  return std::move(values.keys);
+}
+
+}  // namespace talus::app

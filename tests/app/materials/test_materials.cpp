@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/materials/materials.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace talus::app {
+namespace {
+
+using continuum::GrainMaterial;
+using continuum::Parameters;
+
+constexpr std::size_t count = choices<GrainMaterial>.size();
+
+CaseFile a_case(const std::string& text) {
+  return CaseFile::from_text("model = \"continuum\"\n" + text, "case.toml");
+}
+
+TEST(Materials, EveryNameHasAFileAndEveryFileAName) {
+  std::set<std::string> names, files;
+  for (const auto& name : choices<GrainMaterial>) names.emplace(name);
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(TALUS_SOURCE_DIR) + "/materials"))
+    files.insert(entry.path().stem());
+  EXPECT_EQ(names, files);
+}
+
+TEST(Materials, EveryValueHasASourceAndLiesInItsRange) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto material = static_cast<GrainMaterial>(n);
+    EXPECT_FALSE(title_of(material).empty());
+    std::set<std::string> keys;
+    for (const MaterialLine& line : lines_of(material)) {
+      keys.insert(line.key);
+      if (line.key != "law.name") EXPECT_FALSE(line.source.empty()) << line.key;
+      if (line.value.empty() || line.range.empty()) continue;
+      const std::string middle = " to ";
+      const auto at = line.range.find(middle);
+      ASSERT_NE(at, std::string::npos) << line.range;
+      const double value = parse_quantity(line.value)->value, low = parse_quantity(line.range.substr(0, at))->value;
+      const double high = parse_quantity(line.range.substr(at + middle.size()))->value;
+      EXPECT_LE(low, value) << line.key;
+      EXPECT_LE(value, high) << line.key;
+    }
+    EXPECT_THAT(keys, testing::IsSupersetOf({"grains.density", "grains.diameter", "bed.packing", "pressure",
+                                             "law.critical-state.friction", "walls.steel", "walls.concrete"}));
+  }
+}
+
+TEST(Materials, EveryEntryOfAFileIsTaken) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const auto material = static_cast<GrainMaterial>(n);
+    Parameters p;
+    const auto filled =
+        fill_in_material(a_case("[grains]\nmaterial = \"" + std::string(choices<GrainMaterial>[n]) + "\"\n"), p);
+    EXPECT_TRUE(filled.problems.empty());
+    for (const MaterialLine& line : lines_of(material)) {
+      if (line.key == "pressure" || line.key.starts_with("walls.")) continue;
+      EXPECT_TRUE(filled.keys.contains(line.key)) << "no key of a case: " << line.key;
+    }
+    EXPECT_GT(p.grains.range.least_diameter, 0);
+    EXPECT_LE(p.grains.range.least_diameter, p.grains.diameter);
+    EXPECT_GE(p.grains.range.largest_diameter, p.grains.diameter);
+    EXPECT_LT(p.grains.range.largest_pressure, 1e6);
+  }
+}
+
+TEST(Materials, WallsRubAsTheirMaterialSays) {
+  Parameters p;
+  p.vessel.resize(3);
+  const CaseFile file = a_case(
+      "[grains]\nmaterial = \"sand\"\n[walls]\nmaterial = \"steel\"\n"
+      "[[vessel]]\nmaterial = \"concrete\"\n[[vessel]]\nmaterial = \"acrylic\"\nfriction = 0.1\n"
+      "[[vessel]]\nmaterial = \"glass\"\n");
+  const FilledIn filled = fill_in_material(file, p);
+  EXPECT_EQ(p.walls.coefficient, 0.48);
+  EXPECT_EQ(p.vessel[0].friction, 0.57);
+  EXPECT_FALSE(p.vessel[1].friction) << "what the case gives is the reader's";
+  ASSERT_EQ(filled.problems.size(), 1u);
+  EXPECT_EQ(filled.problems[0].key, "vessel.3.material");
+  EXPECT_THAT(filled.problems[0].what, testing::HasSubstr("no friction of sand on glass is known"));
+  EXPECT_THAT(filled.problems[0].allowed, testing::HasSubstr("steel, acrylic, concrete"));
+}
+
+TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
+  const CaseFile file = a_case("[grains]\nmaterial = \"wheat\"\n");
+  Parameters p;
+  FilledIn filled = fill_in_material(file, p);
+  p.bed.height = 2;
+  p.gravity.acceleration = 10;
+  set_stiffness(file, p, filled);
+  const auto& law = p.law.of<granular::CriticalState>();
+  EXPECT_NEAR(law.bulk_modulus, 1000 * 0.6 * 1350 * 10 * 2, 1e-3);
+  EXPECT_NEAR(law.shear_modulus, 0.6 * law.bulk_modulus, 1e-3);
+  const CaseFile given = a_case("[grains]\nmaterial = \"wheat\"\n[law.critical-state]\nbulk_modulus = \"1 MPa\"\n");
+  p.law.of<granular::CriticalState>().bulk_modulus = 1e6;
+  set_stiffness(given, p, filled);
+  EXPECT_EQ(law.bulk_modulus, 1e6);
+  EXPECT_NEAR(law.shear_modulus, 0.6e6, 1e-6);
+}
+
+}  // namespace
+}  // namespace talus::app
