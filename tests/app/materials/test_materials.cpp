@@ -22,8 +22,8 @@ CaseFile a_case(const std::string& text) {
 
 TEST(Materials, EveryNameHasAFileAndEveryFileAName) {
   std::set<std::string> names, files;
-  for (const auto& name : choices<GrainMaterial>) names.emplace(name);
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(TALUS_SOURCE_DIR) + "/materials"))
+  for (const std::string_view name : choices<GrainMaterial>) names.insert(std::string(name));
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(TALUS_SOURCE_DIR) / "materials"))
     files.insert(entry.path().stem());
   EXPECT_EQ(names, files);
 }
@@ -35,7 +35,7 @@ TEST(Materials, EveryValueHasASourceAndLiesInItsRange) {
     std::set<std::string> keys;
     for (const MaterialLine& line : lines_of(material)) {
       keys.insert(line.key);
-      if (line.key != "law.name") EXPECT_FALSE(line.source.empty()) << line.key;
+      EXPECT_TRUE(line.key == "law.name" || !line.source.empty()) << line.key;
       if (line.value.empty() || line.range.empty()) continue;
       const std::string middle = " to ";
       const auto at = line.range.find(middle);

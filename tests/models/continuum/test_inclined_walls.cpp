@@ -60,6 +60,7 @@ double acceleration_down(double angle, double coefficient) {
   p.box.width = 3;
   p.bed = {.packing = 0.6,
            .spacing = spacing,
+           .mass = {},
            .height = spacing,
            .bottom = 9,
            .left = 0.5,
