@@ -88,6 +88,7 @@ TEST(Materials, WallsRubAsTheirMaterialSays) {
 TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
   const CaseFile file = a_case("[grains]\nmaterial = \"wheat\"\n");
   Parameters p;
+  p.grains.material = GrainMaterial::wheat;
   FilledIn filled = fill_in_material(file, p);
   p.bed.height = 2;
   p.gravity.acceleration = 10;
