@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/band_loads.hpp"
 #include "analysis/granular_state.hpp"
 #include "analysis/hopper_regions.hpp"
 #include "analysis/measure.hpp"
@@ -34,9 +35,11 @@ struct HopperSetting {
   /// The walls of a vessel in space, where the plane through its middle meets them, m; empty: what is seen from the
   /// side is all there is.
   std::vector<std::array<Vector3, 2>> section = {};
-  double middle = 0;          ///< y of that plane, m
-  double hand_discharge = 0;  ///< by a hand formula, kg/s; 0: none for this outlet
-  double stress_share = 1;    ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
+  double middle = 0;                   ///< y of that plane, m
+  double outlet_length = 0;            ///< of an outlet that is not round, its longer side, m; 0: round, or none
+  std::vector<BandOfWall> bands = {};  ///< of the vessel's walls
+  double hand_discharge = 0;           ///< by a hand formula, kg/s; 0: none for this outlet
+  double stress_share = 1;  ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }
 };

@@ -87,6 +87,19 @@ double repose(const HopperRun& run, const Window& window, bool nearer);
 std::vector<Measure<HopperRun>> hopper_mass_measures();
 /// Those that need the air.
 std::vector<Measure<HopperRun>> hopper_air_measures();
+/// Those of a vessel in space.
+std::vector<Measure<HopperRun>> hopper_vessel_measures();
+
+/// The particles that flow: below the outlet, or faster than a tenth of the mean of those above it. \param speed of
+/// each, nan where not known, which does not move \pre there is an outlet
+std::vector<bool> moving_particles(const HopperSnapshot& s, std::span<const double> speed);
+/// The stress across the upright walls of the settled bed over its vertical stress there, of the bands that it fills;
+/// nan without such walls, or without a snapshot of it.
+double wall_pressure_ratio(const HopperRun& run, const Place& place, const Window& window);
+/// Height of the settled bed: half a spacing above its 99.5th percentile, m; nan without a snapshot of it.
+double settled_top(const HopperRun& run);
+/// Share of the particles above the outlet that do; nan without a snapshot before.
+double share_that_moves(const HopperSnapshot& s, const Place& place);
 
 // Two runs, one of each variant.
 using Pair = std::span<const std::vector<HopperRun>>;

@@ -308,7 +308,7 @@ const GroupMeasure<Run> of_two[] = {
 std::span<const Measure<Run>> hopper_measures() {
   static const std::vector<Row> list = [] {
     std::vector<Row> all = of_grains;
-    for (const std::vector<Row>& more : {hopper_mass_measures(), hopper_air_measures()})
+    for (const std::vector<Row>& more : {hopper_mass_measures(), hopper_vessel_measures(), hopper_air_measures()})
       all.insert(all.end(), more.begin(), more.end());
     return all;
   }();

@@ -11,7 +11,10 @@
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
+#include "app/runs/refinement.hpp"
 #include "app/runs/run_case.hpp"
+#include "base/terminal.hpp"
+#include "io/run_folder.hpp"
 
 namespace talus::app {
 
@@ -21,8 +24,24 @@ struct RunOptions {
   CaseOptions case_options;
   RunRequest request;
   std::string out;
-  bool resume = false, overwrite = false;
+  bool resume = false, overwrite = false, refine = false;
 };
+
+/// The same case with a finer spacing in the folder beside, and what both say of none.
+ExitStatus run_finer(const PreparedCase& prepared, const RunRequest& coarse) {
+  RunRequest request = coarse;
+  request.folder += "-refined";
+  print("Now with the spacing divided by {}: {}\n", refinement, request.folder.string());
+  if (request.existing == Existing::resume && !std::filesystem::exists(RunFolder(request.folder).manifest()))
+    request.existing = Existing::refuse;
+  if (const ExitStatus status = run_case(prepared, request); status != ExitStatus::done || request.dry_run)
+    return status;
+  const std::vector<RefinedQuantity> quantities = extrapolated(
+      read_summary(RunFolder(coarse.folder).summary()), read_summary(RunFolder(request.folder).summary()), refinement);
+  write_refinement(coarse.folder / "analysis" / "refinement.json", quantities);
+  print("{}", table_of(quantities));
+  return ExitStatus::done;
+}
 
 ExitStatus run(const RunOptions& options) {
   CaseFile file = options.case_options.read();
@@ -34,7 +53,12 @@ ExitStatus run(const RunOptions& options) {
   if (options.resume) keep_snapshot_interval(file, request.folder);
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
-  return run_case(prepared, request);
+  if (!options.refine) return run_case(prepared, request);
+  const CaseFile finer = refined_case(file);
+  const PreparedCase prepared_finer = prepare_case(finer);
+  check_memory(prepared_finer, finer);
+  const ExitStatus status = run_case(prepared, request);
+  return status == ExitStatus::done ? run_finer(prepared_finer, request) : status;
 }
 
 }  // namespace
@@ -48,6 +72,8 @@ void add_run_command(CLI::App& app, Action& action) {
   auto* resume = command->add_flag("--resume", options->resume, "go on with the run in the folder");
   command->add_flag("--overwrite", options->overwrite, "replace the run in the folder")->excludes(resume);
   command->add_flag("--dry-run", options->request.dry_run, "read and check the case, build its start, write nothing");
+  command->add_flag("--refine", options->refine,
+                    "run it again with bed.spacing divided by 1.5, in the folder DIR-refined, and extrapolate");
   command
       ->add_option("--walltime", options->request.walltime,
                    "leave with a checkpoint after so many seconds of wall time")

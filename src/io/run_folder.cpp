@@ -133,7 +133,7 @@ void check_snapshots_are_listed(const RunFolder& folder) {
   const std::optional<FileList> list = FileList::read(folder.path());
   if (!list || !fs::is_directory(folder.snapshots())) return;
   for (const std::string& name : names_in(folder.snapshots()))
-    for (const std::string_view kind : {"particles", "air"})
+    for (const std::string_view kind : {"particles", "air", "walls"})
       if (snapshot_number(name, kind) && !list->holds("snapshots/" + name))
         refuse(folder.snapshots() / name,
                fmt::format("is there, and {} does not say that Talus wrote it", FileList::file_name),

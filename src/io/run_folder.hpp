@@ -2,8 +2,8 @@
 /// The folder of a run: where each of its files is, and who may write into it.
 ///
 ///     manifest.json  series.csv  checkpoint_a.h5  checkpoint_b.h5  summary.json  report.html  log.txt  stop
-///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf ...
-///     analysis/*.csv  pictures/*.png  files.txt (what of these Talus wrote: file_list.hpp)
+///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf, walls_0000.vtkhdf
+///     ... analysis/*.csv  pictures/*.png  files.txt (what of these Talus wrote: file_list.hpp)
 #pragma once
 
 #include <filesystem>
@@ -42,7 +42,7 @@ class RunFolder {
   std::filesystem::path stop() const { return path_ / "stop"; }  ///< made by the user to end a run
   std::filesystem::path snapshots() const { return path_ / "snapshots"; }
 
-  /// \param kind "particles" or "air"; \param number >= 0
+  /// \param kind "particles", "air" or "walls"; \param number >= 0
   std::filesystem::path snapshot(int number, std::string_view kind = "particles") const;
 
   /// What ParaView is given to open (snapshot_index.hpp).

@@ -15,6 +15,7 @@
 #include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 #include "numerics/snapshot_of.hpp"
+#include "numerics/surface_snapshot.hpp"
 
 namespace talus::run {
 
@@ -29,8 +30,9 @@ class AnyModel {
   virtual NumericalError::Report step_limit() const = 0;
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
-  virtual Snapshot snapshot() const = 0;                 ///< valid until the next step
-  virtual std::optional<GridSnapshot> grid() const = 0;  ///< of the air; nothing where there is none
+  virtual Snapshot snapshot() const = 0;                     ///< valid until the next step
+  virtual std::optional<GridSnapshot> grid() const = 0;      ///< of the air; nothing where there is none
+  virtual std::optional<SurfaceSnapshot> walls() const = 0;  ///< of a vessel; nothing where there is none
   virtual std::vector<NamedValue> totals() const = 0;
   virtual std::vector<RegimeLine> regime(const RunRecord& record) const = 0;
   virtual void save(CheckpointWriter& checkpoint) const = 0;
@@ -57,6 +59,10 @@ class ModelAdapter final : public AnyModel {
   }
   std::optional<GridSnapshot> grid() const override {
     if constexpr (requires { model_.grid(); }) return model_.grid();
+    return std::nullopt;
+  }
+  std::optional<SurfaceSnapshot> walls() const override {
+    if constexpr (requires { model_.walls(); }) return model_.walls();
     return std::nullopt;
   }
   std::vector<NamedValue> totals() const override { return model_.totals(); }

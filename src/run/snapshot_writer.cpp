@@ -12,12 +12,13 @@
 #include "io/snapshot_index.hpp"
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_grid.hpp"
+#include "io/vtkhdf_surface.hpp"
 
 namespace talus::run {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kinds{"particles", "air"};
+constexpr std::array<std::string_view, 3> kinds{"particles", "air", "walls"};
 
 std::string entry_of(std::string_view kind) {
   return fmt::format("run/sums_of_{}", kind);
@@ -43,6 +44,12 @@ void SnapshotWriter::write(const AnyModel& model) {
     write_grid(path, *air);
     keep_sum(1, path);
     index_snapshots(folder_, number, "air");
+  }
+  if (const std::optional<SurfaceSnapshot> walls = model.walls()) {
+    const std::filesystem::path path = folder_.snapshot(number, "walls");
+    write_surface(path, *walls);
+    keep_sum(2, path);
+    index_snapshots(folder_, number, "walls");
   }
 }
 

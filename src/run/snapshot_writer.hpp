@@ -42,7 +42,7 @@ class SnapshotWriter {
   std::uint64_t taken_ = 0;
   std::uint64_t step_ = 0;  ///< of the last one
   double next_time_ = 0;
-  std::array<std::vector<std::int64_t>, 2> sums_;  ///< of particles and air, by number
+  std::array<std::vector<std::int64_t>, 3> sums_;  ///< of particles, air and walls, by number
 };
 
 /// What a run's files are, compared with its newest whole checkpoint.

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A vessel from an STL file, as a user gives it: a sound one runs, of a faulty one every triangle is named."""
+import csv
+import json
 import math
 import unittest
+
+import h5py
 
 from program import ProgramTest
 
@@ -72,6 +76,31 @@ class DrawnVessel(ProgramTest):
         columns = (self.folder / "run/series.csv").read_text().splitlines()[0]
         for name in ("impulse_drawn_x", "impulse_drawn_y", "impulse_drawn_z", "impulse_lid_z"):
             self.assertIn(name, columns)
+
+    def test_loads_and_fields_are_files(self):
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        self.talus("run", "case.toml", "--set", "run.end=30 ms", "--set", "output.snapshots=5 ms", "--set", "output.pictures=true",
+                   "--out", "run")
+        run = self.folder / "run"
+        with open(run / "analysis/wall_loads.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([float(row["patch [1]"]) for row in rows], [1, 1, 2], "40 mm of wall are two bands of four spacings")
+        self.assertAlmostEqual(sum(float(row["area [m2]"]) for row in rows[:2]), 24 * 0.04 * 0.04 * math.sin(math.pi / 24), 9)
+        series = (run / "series.csv").read_text().splitlines()
+        self.assertIn("shear_impulse_drawn.2 [N s]", series[0])
+        self.assertNotIn("shear_impulse_lid", series[0], "it is level")
+        with h5py.File(sorted((run / "snapshots").glob("walls_*.vtkhdf"))[-1]) as file:
+            cells = file["VTKHDF/CellData"]
+            self.assertEqual(len(cells["pressure_largest"]), int(file["VTKHDF/NumberOfCells"][0]))
+            self.assertGreater(cells["pressure_largest"][()].max(), 0)
+            self.assertLessEqual(cells["time_of_largest"][()].max(), 0.031)
+        with h5py.File(run / "analysis/fields.vtkhdf") as file:
+            self.assertGreater(file["VTKHDF/PointData/packing"][()].max(), 0.3)
+        for picture in ("wall_loads", "fields"):
+            self.assertTrue((run / f"pictures/{picture}.png").exists(), picture)
+        summary = json.loads((run / "summary.json").read_text())["quantities"]
+        self.assertIn("discharge_steady", summary)
+        self.assertIn("share_that_moves", summary)
 
     def test_of_a_faulty_one_every_triangle_is_named(self):
         triangles = round_wall()

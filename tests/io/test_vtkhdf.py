@@ -12,7 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import VTK_VERTEX
+from vtkmodules.vtkCommonDataModel import VTK_TRIANGLE, VTK_VERTEX
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
 WRITER = sys.argv.pop()
@@ -48,6 +48,16 @@ class Files(unittest.TestCase):
         reader.Update()
         self.assertEqual(reader.GetErrorCode(), 0)
         return reader.GetOutput()
+
+    def test_vtk_sees_the_triangles_of_a_surface(self):
+        for frame in (0, 1):
+            grid = self.read_with_vtk(Path(self.folder.name) / f"walls_000{frame}.vtkhdf")
+            self.assertEqual(grid.GetNumberOfPoints(), 4)
+            self.assertEqual([grid.GetCellType(n) for n in range(grid.GetNumberOfCells())], [VTK_TRIANGLE] * 2)
+            self.assertEqual([grid.GetCell(1).GetPointId(c) for c in range(3)], [0, 2, 3])
+            cells = grid.GetCellData()
+            np.testing.assert_array_equal(vtk_to_numpy(cells.GetArray("pressure")), [7, 8 + frame])
+            np.testing.assert_array_equal(vtk_to_numpy(cells.GetArray("shear")), [[1, 2, 3], [4, 5, 6]])
 
     def test_vtk_sees_points_cells_and_columns(self):
         for frame, file in enumerate(self.files):

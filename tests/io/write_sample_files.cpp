@@ -4,6 +4,7 @@
 #include "io/checkpoint.hpp"
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_grid.hpp"
+#include "io/vtkhdf_surface.hpp"
 
 int main(int, char** arguments) {
   for (int frame = 0; frame < 2; ++frame) {
@@ -38,6 +39,15 @@ int main(int, char** arguments) {
     // The same cells as a section: six long, one deep, four high.
     grid.count = {6, 1, 4};
     talus::write_grid(std::string(arguments[1]) + "/section_000" + std::to_string(frame) + ".vtkhdf", grid);
+    // A square of two triangles.
+    const talus::SurfaceSnapshot surface{
+        .time = 0.25 * frame,
+        .step = points.step,
+        .points = {{0, 0, 1}, {2, 0, 1}, {2, 3, 1}, {0, 3, 1}},
+        .triangles = {{0, 1, 2}, {0, 2, 3}},
+        .columns = {{"pressure", "Pa", std::vector<double>{7.0, 8.0 + frame}},
+                    {"shear", "Pa", std::vector<talus::Vector3>{{1, 2, 3}, {4, 5, 6}}}}};
+    talus::write_surface(std::string(arguments[1]) + "/walls_000" + std::to_string(frame) + ".vtkhdf", surface);
     talus::CheckpointWriter checkpoint("f00d");
     checkpoint(talus::FieldInfo{"position", "m"}, position);
     checkpoint(talus::FieldInfo{"step", "1"}, points.step);

@@ -87,7 +87,7 @@ def measured(out):
 
 def table(diameter, found, rows):
     coarse, fine = REFERENCE["spacings"]
-    lines = ["| D | particles across | Q, spacing %.3g mm | spacing %.3g mm | extrapolated | Beverloo | C (%.3g mm) | C extrapolated |"
+    lines = ["| D | particles across | Q, spacing %.3g mm | %.3g mm | extrapolated | Beverloo | C (%.3g mm) | C extrapolated |"
              % (coarse, fine, fine), "|---|---|---|---|---|---|---|---|"]
     for n, d in enumerate(diameter):
         hand = C * DENSITY * np.sqrt(GRAVITY) * (d - K * GRAIN) ** 2.5

@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "analysis/discharge.hpp"
+#include "analysis/residence.hpp"
 #include "app/case/run_tables.hpp"
+#include "app/continuum/wall_loads.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -90,6 +92,35 @@ void write_surfaces(const std::filesystem::path& path, const HopperSurfaces& sur
   write_table(path, {{"x", "m"}, {"bin_surface", "m"}, {"hopper_surface", "m"}}, rows);
 }
 
+/// When layers of the bed at the opening of the gate leave it.
+void write_residence(const std::filesystem::path& path, const HopperRun& run,
+                     const std::vector<std::filesystem::path>& snapshots) {
+  constexpr std::size_t layers = 10;
+  const std::vector<double>& time = run.snapshots.time();
+  std::optional<Residence> residence;
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    if (n + 1 < time.size() && time[n + 1] <= 0) continue;
+    const PointSet points = read_points(snapshots[n]);
+    if (residence)
+      residence->take(points.view(), time[n]);
+    else
+      residence.emplace(points.view(), run.setting.shape.plate->height, layers);
+  }
+  if (!residence) return;
+  std::vector<std::vector<double>> rows;
+  for (const LayerResidence& layer : residence->layers())
+    rows.push_back({layer.low, layer.high, layer.particles, layer.share_out, layer.first, layer.mean, layer.last});
+  write_table(path,
+              {{"low", "m"},
+               {"high", "m"},
+               {"particles", "1"},
+               {"share_out", "1"},
+               {"first", "s"},
+               {"mean", "s"},
+               {"last", "s"}},
+              rows);
+}
+
 }  // namespace
 
 HopperSetting hopper_setting(const continuum::Parameters& p) {
@@ -117,6 +148,9 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
     continuum::open_gates(p, surface, std::numeric_limits<double>::infinity());
     setting.section = section_at(surface, setting.middle);
     setting.hand_discharge = continuum::discharge_by_hand(p);
+    setting.bands = bands_of(p);
+    if (const auto outlet = continuum::outlet_of_vessel(p); outlet && !outlet->round)
+      setting.outlet_length = std::max(outlet->width, outlet->depth);
   }
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};
@@ -150,6 +184,7 @@ std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folde
     write_table(folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
                 mean_rates(passed_mass(run), 20e-3, 5e-3, 0, run.end()));
   if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
+    if (setting.shape.plate && !setting.section.empty()) write_residence(folder / "residence.csv", run, paths);
     const PointSet last = read_points(paths.back());
     write_surfaces(folder / "surfaces.csv", HopperSnapshot(setting, last.view(), run.gate_time).surfaces());
   }

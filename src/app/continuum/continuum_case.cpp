@@ -12,6 +12,8 @@
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hopper_observers.hpp"
+#include "app/continuum/vessel_fields.hpp"
+#include "app/continuum/wall_loads.hpp"
 #include "app/materials/materials.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
@@ -196,7 +198,19 @@ Scene scene_of_continuum(const CaseFile& resolved) {
 }
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  return analyze_continuum(folder, hopper_setting_of(resolved));
+  const Parameters p = read_continuum(resolved).model;
+  const HopperSetting setting = hopper_setting(p);
+  std::vector<NamedValue> quantities = analyze_continuum(folder, setting);
+  if (!p.vessel.empty()) {
+    const HopperRun run = read_hopper(folder, setting);
+    const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
+    const auto within = [&](const Vector3& x) {
+      return Vector3{std::clamp(x.x, 0.0, p.box.width), std::clamp(x.y, 0.0, p.box.depth), x.z};
+    };
+    write_wall_loads(folder, run, p);
+    write_fields(folder, run, within(around.low), within(around.high));
+  }
+  return quantities;
 }
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {

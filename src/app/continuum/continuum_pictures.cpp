@@ -7,9 +7,14 @@
 #include <cmath>
 
 #include "analysis/curve.hpp"
+#include "analysis/displacement.hpp"
+#include "analysis/hopper_estimators.hpp"
 #include "app/case/run_tables.hpp"
 #include "app/case/scene.hpp"
 #include "app/continuum/air_pictures.hpp"
+#include "app/continuum/continuum_analysis.hpp"
+#include "app/continuum/vessel_fields.hpp"
+#include "app/continuum/wall_loads.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
 #include "io/file_list.hpp"
@@ -169,6 +174,35 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
   write_png(figure, path);
 }
 
+/// The section of a vessel while it flows, by speed: what rests is seen. False without two snapshots to tell.
+bool draw_flow(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
+               const std::filesystem::path& path) {
+  constexpr double between = 20e-3;  // s, as share_that_moves
+  const Frames frames = snapshots_of(run_folder);
+  const talus::Window flow = hopper::while_it_flows(read_hopper(run_folder, setting));
+  if (frames.time.size() < 2 || !flow.at) return false;
+  const std::size_t n = std::max<std::size_t>(1, nearest_point(frames.time, *flow.at));
+  const std::size_t earlier = nearest_point(std::span(frames.time).first(n), frames.time[n] - between);
+  const PointSet now = read_points(frames.paths[n]), before = read_points(frames.paths[earlier]);
+  const std::vector<double> speed = mean_speeds(before.view(), now.view());
+  const auto positions = now.view().positions();
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < speed.size(); ++i)
+    if (positions[i].z >= setting.shape.plate->height && std::isfinite(speed[i])) sum += speed[i], ++count;
+  if (!(sum > 0)) return false;
+  const std::vector<std::size_t> seen = seen_particles(setting, positions);
+  const std::vector<Vector3> places = picked(positions, seen);
+  std::vector<double> over_mean = picked(std::span<const double>(speed), seen);
+  for (double& v : over_mean) v *= count / sum;
+  const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
+  ParticlePicture picture =
+      particle_picture(setting, places, radii,
+                       {.values = over_mean, .label = "speed over its mean; at rest below 0.1", .low = 0, .high = 0.2});
+  picture.title = title_of(frames.time[n]);
+  write_png({.title = title, .panels = {picture}}, path);
+  return true;
+}
+
 }  // namespace
 
 figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span<const Vector3> positions,
@@ -197,7 +231,11 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
     draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
   if (draw_air(run_folder, setting, title, pictures / "air.png")) drawn.push_back(pictures / "air.png");
+  if (draw_wall_loads(run_folder, title, pictures / "wall_loads.png")) drawn.push_back(pictures / "wall_loads.png");
+  if (draw_fields(run_folder, setting, title, pictures / "fields.png")) drawn.push_back(pictures / "fields.png");
   if (!setting.shape.plate) return drawn;
+  if (!setting.section.empty() && draw_flow(run_folder, setting, title, pictures / "flow.png"))
+    drawn.push_back(pictures / "flow.png");
   if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,
                  pictures / "discharge.png"))
     drawn.push_back(pictures / "discharge.png");

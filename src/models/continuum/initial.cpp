@@ -18,6 +18,7 @@ State initial_state(const Parameters& parameters, const Material& material) {
   for (auto& column : state.material.stress) column.assign(count, 0.0);
   for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
+  state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count());
   if (material.by_displacements()) state.reset_position = state.position;
   state.population = initial_population(parameters, count);
   state.slots = material.slots();

@@ -194,6 +194,8 @@ std::vector<NamedValue> Continuum::totals() const {
       add("impulse_" + wall_name(domain(), wall), s.wall_impulse[static_cast<std::size_t>(wall)]);
   for (std::size_t n = 0; n < s.vessel_impulse.size(); ++n)
     add("impulse_" + name_of(parameters_, n), s.vessel_impulse[n]);
+  for (NamedValue& value : totals_of(workspace_->load_bands, workspace_->load_fields, s.wall_loads))
+    values.push_back(std::move(value));
   if (s.population.is_active) {
     values.push_back({"fed_mass", "kg", s.mass * static_cast<double>(s.population.fed)});
     values.push_back({"removed_mass", "kg", s.mass * static_cast<double>(s.population.removed)});
@@ -246,6 +248,14 @@ std::optional<GridSnapshot> Continuum::grid() const {
                       {"solid_fraction", "1", std::move(fraction)},
                       {"grain_velocity", "m/s", std::move(grains)},
                       {"drag", "N/m3", std::move(drag)}};
+  return snapshot;
+}
+
+std::optional<SurfaceSnapshot> Continuum::walls() const {
+  if (parameters_.vessel.empty()) return std::nullopt;
+  SurfaceSnapshot snapshot =
+      loads_on(workspace_->load_mesh, workspace_->load_fields, state_.wall_loads, state_.time, state_.gate_time);
+  snapshot.step = state_.step;
   return snapshot;
 }
 

@@ -47,6 +47,9 @@ class Continuum {
   /// of the grains (0 where there are none), drag on the grains in a unit volume (N/m3). Nothing in a vacuum.
   std::optional<GridSnapshot> grid() const;
 
+  /// What the walls of the vessel bear (vessel_loads.hpp). Nothing without one.
+  std::optional<SurfaceSnapshot> walls() const;
+
   /// How far the run is from what the model assumes: Courant and Mach numbers, packing range, inertial numbers.
   std::vector<RegimeLine> regime(const RunRecord& record) const;
 

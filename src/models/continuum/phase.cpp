@@ -65,6 +65,7 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
   const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= p.settle.duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
+    begin_flow(s.time, s.wall_loads);
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
     throw NumericalError(

@@ -12,6 +12,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
+constexpr double fewest_across = 12;  // particles
 
 /// The law's range: its grains, and the pressure at which its fit ends.
 void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
@@ -55,9 +56,12 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
                    p.bed.spacing < p.grains.diameter});
   const auto outlet = outlet_of(p);
   if (const double width = outlet ? outlet->right - outlet->left : 0; width > 0) {
-    lines.push_back({"particles across the outlet", fmt::format("{:.3g}", width / p.bed.spacing),
-                     "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)",
-                     width < 12 * (1 - 1e-9) * p.bed.spacing});
+    const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;
+    const std::string advice =
+        few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
+    lines.push_back(
+        {"particles across the outlet", fmt::format("{:.3g}", width / p.bed.spacing),
+         "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)" + advice, few});
     lines.push_back({"grains across the outlet", fmt::format("{:.3g}", width / p.grains.diameter),
                      "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
   }

@@ -9,6 +9,7 @@
 
 #include "base/vector.hpp"
 #include "models/air/state.hpp"
+#include "models/continuum/vessel_loads.hpp"
 #include "numerics/field.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/material_point.hpp"
@@ -78,6 +79,7 @@ struct State {
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
   std::array<Vector3, most_walls> wall_impulse{};
   std::vector<Vector3> vessel_impulse;  ///< the same by patch of the vessel; empty without one
+  WallLoads wall_loads;                 ///< the same by field of its surface
   Vector3 damping_impulse;              ///< what the damping of the settling bed took, N s
   Vector3 gravity_impulse;              ///< what gravity gave, N s
 
@@ -163,6 +165,26 @@ void for_each_field_of_population(Visit&& visit, P& p) {
   if (!p.next_layer.empty()) visit(FieldInfo{"inlet_next_layer", "s", FieldRole::kept, false, false}, p.next_layer);
 }
 
+template <class Visit, class W>
+void for_each_field_of_loads(Visit&& visit, W& w) {
+  const auto column = [&](const char* name, const char* unit, auto& values) {
+    visit(FieldInfo{name, unit, FieldRole::kept, false, false}, values);
+  };
+  column("load_push", "N s", w.push);
+  column("load_received", "N s", w.received);
+  column("load_window_push", "N s", w.window_push);
+  column("load_window_received", "N s", w.window_received);
+  column("load_gate_push", "N s", w.gate_push);
+  column("load_gate_received", "N s", w.gate_received);
+  column("load_pressure", "Pa", w.pressure);
+  column("load_traction", "Pa", w.traction);
+  column("load_rest_pressure", "Pa", w.rest_pressure);
+  column("load_rest_traction", "Pa", w.rest_traction);
+  column("load_largest", "Pa", w.largest);
+  column("load_largest_time", "s", w.largest_time);
+  visit(FieldInfo{"load_window_start", "s"}, w.window_start);
+}
+
 template <class Visit, class S>
 void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"time", "s"}, s.time);
@@ -191,6 +213,7 @@ void for_each_field(Visit&& visit, S& s) {
   if (!s.vessel_impulse.empty())
     visit(FieldInfo{"vessel_impulse", "N s", FieldRole::kept, false, false}, s.vessel_impulse);
   if (s.population.is_active) for_each_field_of_population(visit, s.population);
+  if (!s.wall_loads.push.empty()) for_each_field_of_loads(visit, s.wall_loads);
   visit(FieldInfo{"gate_time", "s"}, s.gate_time);
   visit(FieldInfo{"quiet_time", "s"}, s.quiet_time);
   visit(FieldInfo{"list_position", "m", FieldRole::kept, false}, s.list_position);

@@ -74,7 +74,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     step.stress();
   }
   reflect_at_walls(team, w.material, w.domain, w.position, s);
-  reflect_at_vessel(team, w.vessel, w.sweep.neighbourhood(), w.position, s);
+  reflect_at_vessel(team, w.vessel, w.sweep.neighbourhood(), w.load_fields, w.position, s);
   step.damping();
   step.clock();
   check_state(team, p, w.domain, s, dt);
@@ -195,7 +195,7 @@ void Step::stress() const {
 /// Friction, and the loads of the walls.
 void Step::walls(double duration) const {
   apply_wall_friction(team, p, w.domain, w.rates, w.position, duration, s);
-  apply_vessel_friction(team, p, w.rates, duration, s);
+  apply_vessel_friction(team, p, w.load_fields, w.rates, w.position, duration, s);
 }
 
 void Step::damping() const {
@@ -213,6 +213,7 @@ void Step::damping() const {
 
 void Step::clock() const {
   s.time += dt;
+  close_window(w.load_fields, s.time, s.wall_loads);
   s.last_step = dt;
   ++s.step;
 }

@@ -269,8 +269,15 @@ double discharge_by_hand(const Parameters& p) {
   for (const VesselPart& v : p.vessel)
     if (v.shape == VesselShape::cone && v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
       factor = granular::factor_of_cone((v.upper_radius - v.lower_radius) / (v.top - v.bottom));
-  return factor * granular::orifice_discharge(outlet->width, p.bed.packing * p.grains.density, p.gravity.acceleration,
-                                              p.grains.diameter);
+  // Of a vessel cut by planes of symmetry, the part that is computed.
+  const auto inside = [](double middle, double width, double extent) {
+    return (std::min(middle + 0.5 * width, extent) - std::max(middle - 0.5 * width, 0.0)) / width;
+  };
+  const double share =
+      inside(outlet->middle.x, outlet->width, p.box.width) * inside(outlet->middle.y, outlet->depth, p.box.depth);
+  return share * factor *
+         granular::orifice_discharge(outlet->width, p.bed.packing * p.grains.density, p.gravity.acceleration,
+                                     p.grains.diameter);
 }
 
 std::vector<Problem> check_vessel(const Parameters& p) {

@@ -13,6 +13,18 @@ namespace {
 
 using Impulses = std::vector<Vector3>;  // by patch
 
+/// What fields received, by chunk of particles, each of which one thread goes through in order.
+using Noted = std::vector<std::vector<LoadOfField>>;
+
+Noted none_noted(std::size_t particles) {
+  return Noted((particles + chunk_size - 1) / chunk_size);
+}
+
+void add(const Noted& noted, WallLoads& loads) {
+  for (const auto& of_chunk : noted)
+    for (const LoadOfField& load : of_chunk) add_load(load, loads);
+}
+
 Impulses sum(Impulses a, const Impulses& b) {
   for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
   return a;
@@ -20,13 +32,18 @@ Impulses sum(Impulses a, const Impulses& b) {
 
 }  // namespace
 
-void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& rates, double duration, State& state) {
+void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const SurfaceFields& fields, const Rates& rates,
+                           std::span<const Vector3> position, double duration, State& state) {
   if (state.vessel_impulse.empty()) return;
+  Noted noted = none_noted(rates.at_vessel.size());
   const bool rough = has_wall_friction(p, state), moving = state.gate_time >= 0;
   const auto meet = [&](std::size_t place, Impulses& received) {
     const std::size_t i = rates.at_vessel[place];
     for (const WallForce& wall : rates.vessel[place].all()) {
+      const double push = state.mass * duration * dot(wall.acceleration, wall.normal);
       received[wall.patch] -= (state.mass * duration) * wall.acceleration;
+      std::vector<LoadOfField>& of_chunk = noted[place / chunk_size];
+      of_chunk.push_back({fields.at(wall.part, position[i] - wall.distance * wall.normal), push, -push * wall.normal});
       const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
       if (!rough) continue;
       // Along the wall in its own frame.
@@ -40,16 +57,19 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& r
       const Vector3 after =
           through + sph::coulomb_friction(along, duration * dot(wall.acceleration, wall.normal), coefficient);
       received[wall.patch] += state.mass * (state.velocity[i] - after);
+      of_chunk.back().received += state.mass * (state.velocity[i] - after);
       state.velocity[i] = after;
     }
   };
   state.vessel_impulse = sum(
       state.vessel_impulse, accumulate(team, rates.at_vessel.size(), Impulses(state.vessel_impulse.size()), meet, sum));
+  add(noted, state.wall_loads);
 }
 
 void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourhood& neighbourhood,
-                       std::span<const Vector3> before, State& state) {
+                       const SurfaceFields& fields, std::span<const Vector3> before, State& state) {
   if (vessel.is_empty()) return;
+  Noted noted = none_noted(before.size());
   constexpr int most_bounces = 4;
   const auto turn = [&](std::size_t i, Impulses& received) {
     Vector3 &x = state.position[i], &u = state.velocity[i];
@@ -62,7 +82,9 @@ void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourh
       const Vector3& normal = vessel.normal(met->triangle);
       const double beyond = dot(normal, x - triangle.corner[0]);  // of the other sign than where it came from
       if (const double speed = dot(u, normal); speed * beyond > 0) {
-        received[triangle.patch] += (state.mass * speed) * normal;
+        const Vector3 impulse = (state.mass * speed) * normal, place = before[i] + met->at * (x - before[i]);
+        received[triangle.patch] += impulse;
+        noted[i / chunk_size].push_back({fields.at(vessel.part(met->triangle), place), norm(impulse), impulse});
         u -= speed * normal;
       }
       x -= (2 * beyond) * normal;
@@ -72,6 +94,7 @@ void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourh
   };
   state.vessel_impulse =
       sum(state.vessel_impulse, accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum));
+  add(noted, state.wall_loads);
 }
 
 }  // namespace talus::continuum

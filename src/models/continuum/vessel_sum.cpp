@@ -126,7 +126,7 @@ WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std
       const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / density;
       a += viscosity * upright;
     }
-    forces.of[forces.count++] = {wall.patch, n, (-density * a) * n};
+    forces.of[forces.count++] = {wall.patch, wall.part, wall.distance, n, (-density * a) * n};
   }
   return forces;
 }

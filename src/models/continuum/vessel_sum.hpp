@@ -23,7 +23,8 @@ namespace talus::continuum {
 
 /// The force of a smooth part of a wall on a particle.
 struct WallForce {
-  std::uint32_t patch = 0;
+  std::uint32_t patch = 0, part = 0;
+  double distance = 0;   ///< of the particle from it, m
   Vector3 normal;        ///< unit, towards the particle
   Vector3 acceleration;  ///< m/s^2
 };

@@ -25,7 +25,7 @@ namespace talus::continuum {
 
 /// A smooth part of a wall near a particle.
 struct NearWall {
-  std::uint32_t patch = 0;
+  std::uint32_t patch = 0, part = 0;
   std::uint32_t stand = 0;  ///< number of the particle's stand at this part
   Vector3 normal;           ///< unit, towards the particle; the mean of what the particle sees of it
   double distance = 0;      ///< from it, m

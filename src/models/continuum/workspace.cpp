@@ -12,6 +12,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr std::uint64_t builds_between_sorts = 16;
+constexpr double edge_of_drawn_field = 3;  // in spacings
 
 }  // namespace
 
@@ -21,6 +22,9 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
       vessel(surface_of(parameters)),
+      load_fields(continuum::load_fields(parameters, vessel)),
+      load_bands(continuum::load_bands(parameters, load_fields)),
+      load_mesh(mesh_of(vessel, load_fields, edge_of_drawn_field * parameters.bed.spacing)),
       sweep(parameters, domain, state.mass, sound_speed, vessel),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain) : nullptr),
       position(state.position.size()),

@@ -11,6 +11,7 @@
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "models/continuum/sweep.hpp"
+#include "models/continuum/vessel_loads.hpp"
 
 namespace talus::continuum {
 
@@ -23,6 +24,9 @@ struct Workspace {
   double loading_time;  ///< over which gravity is raised, s
   Surface vessel;       ///< empty without one
   std::vector<InletLayer> inlets;
+  SurfaceFields load_fields;  ///< of the vessel
+  std::vector<LoadBand> load_bands;
+  FieldMesh load_mesh;
   Sweep sweep;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum

@@ -2,6 +2,7 @@
 #include "models/continuum/regime.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -67,6 +68,19 @@ TEST(RegimeOfCase, WarnsOfAnOutletTooNarrowForParticlesOrGrains) {
   EXPECT_TRUE(warns(p, "grains-across-the-outlet"));
   p.plate.slit_left = p.plate.slit_right = std::nullopt;
   EXPECT_FALSE(warns(p, "particles-across-the-outlet")) << "there is no outlet";
+}
+
+TEST(RegimeOfCase, SaysWhichSpacingANarrowOutletNeeds) {
+  Parameters p = hopper();
+  p.plate.slit_right = 0.03 + 6 * p.bed.spacing;
+  const auto meaning = [&] {
+    for (const RegimeLine& line : regime_of_case(p))
+      if (line.quantity == "particles across the outlet") return line.meaning;
+    return std::string();
+  };
+  EXPECT_THAT(meaning(), testing::HasSubstr(fmt::format("bed.spacing = \"{:.3g} mm\"", 500 * p.bed.spacing)));
+  p.plate.slit_right = 0.03 + 12 * p.bed.spacing;
+  EXPECT_THAT(meaning(), testing::Not(testing::HasSubstr("bed.spacing")));
 }
 
 TEST(RegimeOfCase, WarnsOfParticlesSmallerThanAGrain) {

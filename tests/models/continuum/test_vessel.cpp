@@ -10,6 +10,7 @@
 #include "block_on_incline.hpp"
 #include "cases.hpp"
 #include "models/continuum/vessel.hpp"
+#include "models/continuum/vessel_loads.hpp"
 #include "vessel_parts.hpp"
 
 namespace talus::continuum {
@@ -69,6 +70,66 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   EXPECT_LT(force[0].x, 0);
   EXPECT_GT(force[3].y, 0);
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
+
+  // The fields of a wall together received what it did; their mean pressure is that of their depth.
+  const Surface surface = surface_of(p);
+  const SurfaceFields fields = load_fields(p, surface);
+  ASSERT_EQ(s.wall_loads.push.size(), fields.count());
+  std::vector<Vector3> received(p.vessel.size());
+  for (std::size_t n = 0; n < fields.count(); ++n) received[fields.all()[n].patch] += s.wall_loads.received[n];
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    EXPECT_LT(norm(received[n] - s.vessel_impulse[n]), 1e-12 * norm(s.vessel_impulse[n])) << n;
+  const double top = 4 * spacing + 8 * spacing, gamma = bulk_density(p) * 9.81;
+  const auto bands = load_bands(p, fields);
+  ASSERT_EQ(bands.size(), 4 * 4 + 1u) << "16 spacings high: four bands of four";
+  EXPECT_EQ(bands[0].name, "left.1");
+  EXPECT_EQ(bands.back().name, "floor");
+  EXPECT_TRUE(bands.back().is_level());
+  EXPECT_NEAR(bands[0].sine, 0, 1e-12);
+  for (const LoadBand& band : bands) {
+    double area = 0, pressure = 0;
+    for (const std::uint32_t n : band.fields) {
+      area += fields.all()[n].area;
+      pressure += fields.all()[n].area * s.wall_loads.pressure[n];
+    }
+    pressure /= area;
+    EXPECT_NEAR(area, band.area, 1e-12 * area);
+    const double depth = band.is_level() ? 8 * spacing : std::max(0.0, top - 0.5 * (band.low + band.high));
+    EXPECT_NEAR(pressure, gamma * depth, 0.05 * gamma * 8 * spacing) << band.name;
+  }
+}
+
+TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
+  Parameters p = room(4, 4, 8);
+  p.vessel = {plate("floor", {0, 0, 2}, {4, 0, 0}, {0, 4, 0})};
+  const SurfaceFields fields = load_fields(p, surface_of(p));
+  ASSERT_EQ(fields.count(), 4u);
+  WallLoads loads = no_loads(4);
+  const double area = fields.all()[2].area;
+  double time = 0;
+  const auto press = [&](double force, int windows) {
+    for (int n = 0; n < 10 * windows; ++n) {
+      add_load({2, force * 1e-3, {0.25 * force * 1e-3, 0, -force * 1e-3}}, loads);
+      close_window(fields, time += 1.0001e-3, loads);
+    }
+  };
+  press(3, 1), press(1, 2);
+  EXPECT_NEAR(loads.largest[2], 3 / area, 1e-3 * 3 / area);
+  EXPECT_NEAR(loads.largest_time[2], 5e-3, 1e-4);
+  begin_flow(time, loads);
+  EXPECT_NEAR(loads.rest_pressure[2], 1 / area, 1e-3 / area);
+  EXPECT_NEAR(loads.rest_traction[2].x, 0.25 / area, 1e-3 / area);
+  EXPECT_EQ(loads.largest[2], 0);
+  press(2, 1), press(0, 1);
+  EXPECT_NEAR(loads.largest[2], 2 / area, 1e-3 * 2 / area);
+  EXPECT_NEAR(loads.largest_time[2], 35e-3, 1e-4);
+  const FieldMesh mesh = mesh_of(surface_of(p), fields, 3 * spacing);
+  const SurfaceSnapshot shown = loads_on(mesh, fields, loads, time, 30.003e-3);
+  const auto& in_flow = std::get<std::vector<double>>(shown.columns[4].values);
+  ASSERT_EQ(shown.columns[4].name, "pressure_in_flow");
+  for (std::size_t n = 0; n < mesh.field.size(); ++n)
+    EXPECT_NEAR(in_flow[n], mesh.field[n] == 2 ? 1 / area : 0, 1e-3 / area);
+  EXPECT_EQ(loads.push[0], 0);
 }
 
 TEST(Vessel, FloorAndWallOfACylinderBearTheHydrostaticLoad) {

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/wall_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analysis/hopper_estimators.hpp"
+#include "app/case/run_tables.hpp"
+#include "io/figure/figure.hpp"
+#include "io/series.hpp"
+#include "models/continuum/vessel_loads.hpp"
+#include "physics/granular/silo_pressure.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using continuum::VesselPart;
+using continuum::VesselShape;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double usual_angle = 30 * std::numbers::pi / 180;  // of internal friction, where the law has none of its own
+
+double friction_of(const continuum::Parameters& p, const VesselPart& v) {
+  return p.walls.friction == continuum::Friction::none ? 0 : v.friction.value_or(p.walls.coefficient);
+}
+
+double internal_friction(const continuum::Parameters& p) {
+  double friction = 0;
+  if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().friction;
+  if (p.law.is<granular::DruckerPrager>()) friction = p.law.of<granular::DruckerPrager>().friction;
+  return friction > 0 ? std::atan(friction) : usual_angle;
+}
+
+/// Area over circumference of upright walls; 0 for others.
+double hydraulic_radius(const VesselPart& v) {
+  if (v.shape == VesselShape::cylinder) return 0.5 * v.radius;
+  if (v.shape == VesselShape::box) return 0.5 * v.width * v.depth / (v.width + v.depth);
+  return 0;
+}
+
+/// The upright walls that hold a height, or stand next above it.
+const VesselPart* upright_at(const continuum::Parameters& p, double height) {
+  const VesselPart* nearest = nullptr;
+  for (const VesselPart& v : p.vessel)
+    if (hydraulic_radius(v) > 0 && v.top > height && (!nearest || v.bottom < nearest->bottom)) nearest = &v;
+  return nearest;
+}
+
+/// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
+double janssen_at(const continuum::Parameters& p, double ratio, double top, double height) {
+  const VesselPart* v = upright_at(p, height);
+  if (!v || v->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
+  const double friction = friction_of(p, *v);
+  const double length = friction > 0 ? hydraulic_radius(*v) / (friction * ratio) : infinity;
+  return granular::janssen_stress(p.bed.packing * p.grains.density * p.gravity.acceleration, length, top - height);
+}
+
+PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart& v, double ratio, double top,
+                                double height) {
+  const double angle = std::atan((v.upper_radius - v.lower_radius) / (v.top - v.bottom)), mu = friction_of(p, v);
+  const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
+  const double above = top > v.top ? janssen_at(p, ratio, top, v.top) : 0;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration;
+  const auto pressure = [&](const granular::ConeBearing& bearing) {
+    return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
+  };
+  return {pressure(granular::cone_at_rest(angle, mu)),
+          pressure(granular::cone_in_flow(angle, mu, internal_friction(p)))};
+}
+
+}  // namespace
+
+std::vector<BandOfWall> bands_of(const continuum::Parameters& p) {
+  std::vector<BandOfWall> bands;
+  for (const continuum::LoadBand& band : load_bands(p, load_fields(p, surface_of(p))))
+    bands.push_back({band.name, band.patch, band.low, band.high, band.area, band.sine});
+  return bands;
+}
+
+PressureByHand pressure_by_hand(const continuum::Parameters& p, const BandOfWall& band, double ratio, double top,
+                                double height) {
+  if (!(height < top)) return {};
+  const VesselPart& v = p.vessel[band.patch];
+  if (v.shape == VesselShape::cone && v.upper_radius > v.lower_radius)
+    return pressure_of_cone(p, v, ratio, top, height);
+  const double vertical = janssen_at(p, ratio, top, height);
+  if (hydraulic_radius(v) > 0) return {ratio * vertical, ratio * vertical};
+  return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none} : PressureByHand{};
+}
+
+void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Parameters& p) {
+  const std::vector<BandOfWall>& bands = run.setting.bands;
+  if (bands.empty()) return;
+  const Window flow = hopper::while_it_flows(run);
+  const double ratio = hopper::wall_pressure_ratio(run, {}, {}), top = hopper::settled_top(run);
+  std::vector<std::vector<double>> rows;
+  std::vector<SeriesColumn> columns = {{"time", "s"}};
+  std::vector<Curve> curves;
+  for (const BandOfWall& band : bands) {
+    if (!(band.area > 0)) continue;
+    const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to);
+    const PressureByHand hand = pressure_by_hand(p, band, ratio, top, 0.5 * (band.low + band.high));
+    rows.push_back({static_cast<double>(band.patch + 1), band.low, band.high, band.area, load.pressure_at_rest,
+                    load.shear_at_rest, load.pressure_in_flow, load.shear_in_flow, load.pressure_largest,
+                    load.time_of_largest, hand.at_rest, hand.in_flow});
+    BandCurves of_band = curves_of(run.series, band, run.gate_time);
+    for (auto& [name, curve] : {std::pair{"pressure_", &of_band.pressure}, std::pair{"shear_", &of_band.shear}}) {
+      if (curve->time.empty()) continue;
+      columns.push_back({name + band.name, "Pa"});
+      curves.push_back(std::move(*curve));
+    }
+  }
+  const std::filesystem::path folder = run_folder / "analysis";
+  write_table(folder / "wall_loads.csv",
+              {{"patch", "1"},
+               {"low", "m"},
+               {"high", "m"},
+               {"area", "m2"},
+               {"pressure_at_rest", "Pa"},
+               {"shear_at_rest", "Pa"},
+               {"pressure_in_flow", "Pa"},
+               {"shear_in_flow", "Pa"},
+               {"pressure_largest", "Pa"},
+               {"time_of_largest", "s"},
+               {"pressure_at_rest_by_hand", "Pa"},
+               {"pressure_in_flow_by_hand", "Pa"}},
+              rows);
+  if (curves.empty()) return;
+  std::vector<std::vector<double>> against_time;
+  for (std::size_t n = 0; n < curves.front().time.size(); ++n) {
+    against_time.push_back({curves.front().time[n]});
+    for (const Curve& curve : curves) against_time.back().push_back(curve.value[n]);
+  }
+  write_table(folder / "wall_stress.csv", columns, against_time);
+}
+
+bool draw_wall_loads(const std::filesystem::path& run_folder, const std::string& title,
+                     const std::filesystem::path& path) {
+  using namespace figure;
+  const std::filesystem::path table = run_folder / "analysis" / "wall_loads.csv";
+  if (!std::filesystem::exists(table)) return false;
+  const talus::Series loads = read_series(table);
+  const auto low = loads.column("low"), high = loads.column("high");
+  Chart chart{
+      .title = title, .x = {.label = "pressure on the wall", .unit = "Pa"}, .y = {.label = "*z*", .unit = "mm"}};
+  const auto add = [&](const char* column, const char* label, Dash dash, bool marked) {
+    const auto pressure = loads.column(column);
+    std::vector<std::pair<double, double>> points;
+    for (std::size_t n = 0; n < pressure.size(); ++n)
+      if (high[n] > low[n] && std::isfinite(pressure[n])) points.push_back({500 * (low[n] + high[n]), pressure[n]});
+    std::sort(points.begin(), points.end());
+    Line line{.label = label, .dash = dash, .marked = marked};
+    for (const auto& [z, p] : points) line.x.push_back(p), line.y.push_back(z);
+    if (!points.empty()) chart.series.emplace_back(std::move(line));
+  };
+  add("pressure_at_rest", "at rest", Dash::solid, true);
+  add("pressure_at_rest_by_hand", "by hand: Janssen, Walker", Dash::dashed, false);
+  add("pressure_in_flow", "in flow", Dash::solid, true);
+  add("pressure_in_flow_by_hand", "by hand, in flow", Dash::dashed, false);
+  add("pressure_largest", "largest 10 ms mean", Dash::dotted, false);
+  if (chart.series.empty()) return false;
+  write_png({.panels = {chart}}, path);
+  return true;
+}
+
+}  // namespace talus::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/granular/silo_pressure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+
+namespace talus::granular {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+TEST(JanssenStress, BeginsAsInALiquidAndTendsToWhatItsWallsLeave) {
+  EXPECT_NEAR(janssen_stress(15e3, 0.1, 1e-5), 0.15, 1e-4 * 0.15);
+  EXPECT_NEAR(janssen_stress(15e3, 0.1, 10), 1500, 1e-9);
+  EXPECT_NEAR(janssen_stress(15e3, 0.1, 0.1), 1500 * (1 - 1 / std::numbers::e), 1e-9);
+  EXPECT_NEAR(janssen_stress(15e3, 0.1, 0.1, 1500), 1500, 1e-9) << "a bed that bears its own end stays as it is";
+  EXPECT_EQ(janssen_stress(15e3, std::numeric_limits<double>::infinity(), 2, 7), 30e3 + 7);
+}
+
+TEST(ConeStress, IsThatOfALiquidInAFilledConeWhateverItsWalls) {
+  for (const double friction : {0.0, 0.3, 0.6}) {
+    const ConeBearing bearing = cone_at_rest(30 * degree, friction);
+    EXPECT_NEAR(bearing.exponent, 0, 1e-12);
+    EXPECT_NEAR(cone_stress(bearing, 15e3, 0.1, 0.4, 500), 15e3 * 0.3 + 500, 1e-9);
+  }
+  EXPECT_NEAR(cone_at_rest(30 * degree, 0).ratio, 1, 1e-12) << "smooth walls bear the vertical stress itself";
+}
+
+TEST(ConeStress, BalancesEverySlice) {
+  const ConeBearing bearing = cone_in_flow(25 * degree, 0.3, 30 * degree);
+  const double weight = 15e3, top = 0.5, step = 1e-6;
+  for (const double x : {0.1, 0.3, 0.45}) {
+    const auto p = [&](double at) { return cone_stress(bearing, weight, at, top, 800); };
+    const double slope = (p(x + step) - p(x - step)) / (2 * step);
+    EXPECT_NEAR(slope, bearing.exponent * p(x) / x - weight, 1e-4 * weight);
+  }
+  EXPECT_NEAR(cone_stress(bearing, weight, top, top, 800), 800, 1e-9);
+}
+
+TEST(ConeStress, IsContinuousWhereItsExponentIsOne) {
+  const ConeBearing one{0.5, 1}, nearly{0.5, 1 + 1e-6};
+  EXPECT_NEAR(cone_stress(one, 15e3, 0.2, 0.5, 100), cone_stress(nearly, 15e3, 0.2, 0.5, 100), 0.02);
+}
+
+TEST(ConeInFlow, IsWalkersRatio) {
+  // A smooth wall: eps = 0, F = (1 + sin phi)/(1 - sin phi cos 2 beta).
+  EXPECT_NEAR(cone_in_flow(20 * degree, 0, 30 * degree).ratio, 1.5 / (1 - 0.5 * std::cos(40 * degree)), 1e-12);
+  // As rough as the grains: eps = phi + 90 degrees.
+  const double rough = (1 - 0.5 * std::sin(30 * degree)) / (1 + 0.5 * std::sin(70 * degree));
+  EXPECT_NEAR(cone_in_flow(20 * degree, std::tan(30 * degree), 30 * degree).ratio, rough, 1e-9);
+  EXPECT_NEAR(cone_in_flow(20 * degree, 5, 30 * degree).ratio, rough, 1e-9) << "no rougher than they";
+}
+
+}  // namespace
+}  // namespace talus::granular
