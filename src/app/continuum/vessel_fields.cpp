@@ -39,10 +39,13 @@ void write_fields(const std::filesystem::path& run_folder, const HopperRun& run,
   CellMeans means(cells_over(low, high, size_of_cell * run.setting.shape.spacing), run.setting.grain_diameter,
                   run.setting.grain_density);
   const auto paths = snapshot_paths(run_folder);
+  if (paths.empty()) return;
+  const double middle = 0.5 * (window.from + window.to);
+  const std::size_t nearest = nearest_point(run.snapshots.time(), middle);
   for (std::size_t n = 0; n < paths.size(); ++n)
-    if (const double time = run.snapshots.time()[n]; time >= window.from && time <= window.to)
+    if (const double time = run.snapshots.time()[n]; n == nearest || (time >= window.from && time <= window.to))
       means.take(read_points(paths[n]).view());
-  if (means.snapshots() > 0) write_grid(path_of(run_folder), means.result(0.5 * (window.from + window.to)));
+  write_grid(path_of(run_folder), means.result(middle));
 }
 
 bool draw_fields(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,

@@ -10,7 +10,8 @@
 namespace talus::app {
 
 /// Writes analysis/fields.vtkhdf, cells of two spacings over the vessel, of the snapshots while 10 to 50 % of the bed
-/// leave it; without an outlet of those since the gate opened. Nothing without snapshots then. \throws FileError
+/// leave it; without an outlet of those since the gate opened; of the snapshot nearest to the middle of that time if
+/// there is none within. Nothing without snapshots. \throws FileError
 void write_fields(const std::filesystem::path& run_folder, const HopperRun& run, const Vector3& low,
                   const Vector3& high);
 
