@@ -63,46 +63,61 @@ def exponent(discharge, diameter):
 
 
 def measured(out):
-    """All numbers of the study: by spacing Q, its uncertainty, C; the rows of the reference by name."""
-    diameter = 1e-3 * np.array(REFERENCE["outlets"], dtype=float)
+    """All numbers of the study: by set ("coarse", "fine", "extrapolated") D, Q, its uncertainty, C; the rows by name."""
     found = {}
-    for spacing in REFERENCE["spacings"]:
-        means = [rates(folder_of(out, outlet, spacing)) for outlet in REFERENCE["outlets"]]
+    for name in ("coarse", "fine"):
+        chosen = REFERENCE[name]
+        diameter = 1e-3 * np.array(chosen["outlets"], dtype=float)
+        means = [rates(folder_of(out, outlet, chosen["spacing"])) for outlet in chosen["outlets"]]
         discharge = np.array([m.mean() for m, _ in means])
         error = np.array([2 * m.std(ddof=1) / np.sqrt(len(m)) for m, _ in means])
         drift = np.array([np.polyfit(t, m, 1)[0] * (REFERENCE["window"][1] - REFERENCE["window"][0]) / m.mean() for m, t in means])
         # Q^(2/5) is a line in D; where it meets 0 is the width that the edges take.
         slope, intercept = np.polyfit(diameter, discharge ** 0.4, 1)
-        found[spacing] = {"Q": discharge, "error": error, "drift": drift, "C": constants(discharge, diameter),
-                          "lost": -intercept / slope / (1e-3 * spacing)}
-    coarse, fine = REFERENCE["spacings"]
-    extrapolated = found[fine]["Q"] + (found[fine]["Q"] - found[coarse]["Q"]) / (coarse / fine - 1)
-    found["extrapolated"] = {"Q": extrapolated, "C": constants(extrapolated, diameter)}
-    c = found[fine]["C"]
-    rows = {"exponent": exponent(found[fine]["Q"], diameter), "exponent-extrapolated": exponent(extrapolated, diameter),
+        found[name] = {"D": diameter, "Q": discharge, "error": error, "drift": drift, "C": constants(discharge, diameter),
+                       "lost": -intercept / slope / (1e-3 * chosen["spacing"])}
+    coarse, fine = found["coarse"], found["fine"]
+    both = [d for d in fine["D"] if d in coarse["D"]]
+    q = {name: np.array([of["Q"][list(of["D"]).index(d)] for d in both]) for name, of in found.items()}
+    ratio = REFERENCE["coarse"]["spacing"] / REFERENCE["fine"]["spacing"]
+    extrapolated, both = q["fine"] + (q["fine"] - q["coarse"]) / (ratio - 1), np.array(both)
+    found["extrapolated"] = {"D": both, "Q": extrapolated, "C": constants(extrapolated, both)}
+    c = fine["C"]
+    rows = {"exponent": exponent(fine["Q"], fine["D"]), "exponent-extrapolated": exponent(extrapolated, both),
             "constant": c.mean(), "constant-extrapolated": found["extrapolated"]["C"].mean(),
-            "scatter": np.abs(c / c.mean() - 1).max(), "plateau": np.abs(found[fine]["drift"]).max()}
-    return diameter, found, rows
+            "scatter": np.abs(c / c.mean() - 1).max(), "plateau": np.abs(fine["drift"]).max()}
+    return found, rows
 
 
-def table(diameter, found, rows):
-    coarse, fine = REFERENCE["spacings"]
-    lines = ["| D | particles across | Q, spacing %.3g mm | %.3g mm | extrapolated | Beverloo | C (%.3g mm) | C extrapolated |"
-             % (coarse, fine, fine), "|---|---|---|---|---|---|---|---|"]
-    for n, d in enumerate(diameter):
+def table(found, rows):
+    spacing = {name: REFERENCE[name]["spacing"] for name in ("coarse", "fine")}
+    lines = ["| D | particles across | Q, kg/s, spacing %.3g mm | %.3g mm | extrapolated | Beverloo | C (%.3g mm) | C (%.3g mm) | "
+             "C extrapolated |" % (spacing["coarse"], spacing["fine"], spacing["coarse"], spacing["fine"]),
+             "|---|---|---|---|---|---|---|---|---|"]
+
+    def of(name, column, d, text):
+        diameters = list(found[name]["D"])
+        if d not in diameters:
+            return "-"
+        n = diameters.index(d)
+        return text % (found[name][column][n], found[name]["error"][n]) if "±" in text else text % found[name][column][n]
+
+    for d in sorted({*found["coarse"]["D"], *found["fine"]["D"]}):
         hand = C * DENSITY * np.sqrt(GRAVITY) * (d - K * GRAIN) ** 2.5
-        lines.append("| %.0f mm | %.3g, %.3g | %.3f ± %.3f | %.3f ± %.3f | %.3f | %.3f | %.3f | %.3f |"
-                     % (1e3 * d, 1e3 * d / coarse, 1e3 * d / fine, found[coarse]["Q"][n], found[coarse]["error"][n],
-                        found[fine]["Q"][n], found[fine]["error"][n], found["extrapolated"]["Q"][n], hand, found[fine]["C"][n],
-                        found["extrapolated"]["C"][n]))
+        lines.append("| %.0f mm | %.3g, %.3g | %s | %s | %s | %.3f | %s | %s | %s |"
+                     % (1e3 * d, 1e3 * d / spacing["coarse"], 1e3 * d / spacing["fine"], of("coarse", "Q", d, "%.3f ± %.3f"),
+                        of("fine", "Q", d, "%.3f ± %.3f"), of("extrapolated", "Q", d, "%.3f"), hand, of("coarse", "C", d, "%.3f"),
+                        of("fine", "C", d, "%.3f"), of("extrapolated", "C", d, "%.3f")))
     lines += ["", "| what | computed | value, tolerance | |", "|---|---|---|---|"]
     for name, value in rows.items():
         reference = REFERENCE[name]
         lines.append("| %s | %.3f | %g ± %g | %s |" % (reference["says"], value, reference["value"], reference["tolerance"],
                                                     "met" if is_met(name, value) else "**not met**"))
-    lines += ["", "Width that the edges take (where the line through Q^(2/5) against D meets 0): %.2f spacings at %.3g mm, "
-              "%.2f at %.3g mm." % (found[coarse]["lost"], coarse, found[fine]["lost"], fine),
-              "Exponent at %.3g mm: %.3f." % (coarse, exponent(found[coarse]["Q"], diameter))]
+    coarse = found["coarse"]
+    lines += ["", "Spacing %.3g mm: exponent %.3f, C %.3f. Width that the edges take (where the line through Q^(2/5) against D meets "
+              "0): %.2f mm with %.3g mm, %.2f mm with %.3g mm."
+              % (spacing["coarse"], exponent(coarse["Q"], coarse["D"]), coarse["C"].mean(), coarse["lost"] * spacing["coarse"],
+                 spacing["coarse"], found["fine"]["lost"] * spacing["fine"], spacing["fine"])]
     return "\n".join(lines) + "\n"
 
 
@@ -110,22 +125,25 @@ def is_met(name, value):
     return abs(value - REFERENCE[name]["value"]) <= REFERENCE[name]["tolerance"]
 
 
-def draw(path, diameter, found):
+def draw(path, found):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import pyplot as plt
-    coarse, fine = REFERENCE["spacings"]
     figure, axes = plt.subplots(figsize=(5, 3.6), layout="constrained")
-    line = np.linspace(0.9 * diameter[0], 1.08 * diameter[-1], 50)
+    diameter = found["coarse"]["D"]
+    line = np.linspace(0.95 * diameter[0], 1.05 * diameter[-1], 50)
     for c, style in ((0.55, ":"), (0.58, "-"), (0.65, ":")):
         axes.loglog(1e3 * line, c * DENSITY * np.sqrt(GRAVITY) * (line - K * GRAIN) ** 2.5, style, color="0.5",
                     label="Beverloo, C = 0.58 (0.55, 0.65)" if style == "-" else None)
-    axes.errorbar(1e3 * diameter, found[coarse]["Q"], found[coarse]["error"], fmt="s", mfc="none", label=f"spacing {coarse:.3g} mm")
-    axes.errorbar(1e3 * diameter, found[fine]["Q"], found[fine]["error"], fmt="o", label=f"spacing {fine:.3g} mm")
-    axes.loglog(1e3 * diameter, found["extrapolated"]["Q"], "k+", ms=10, label="extrapolated")
+    for name, mark in (("coarse", "s"), ("fine", "o")):
+        axes.errorbar(1e3 * found[name]["D"], found[name]["Q"], found[name]["error"], fmt=mark, mfc="none",
+                      label="spacing %.3g mm" % REFERENCE[name]["spacing"])
+    axes.loglog(1e3 * found["extrapolated"]["D"], found["extrapolated"]["Q"], "k+", ms=9, label="extrapolated")
     axes.set(xlabel="D, mm", ylabel="Q, kg/s")
     axes.set_xticks(1e3 * diameter, [f"{1e3 * d:.0f}" for d in diameter])
     axes.set_xticks([], minor=True)
+    axes.set_yticks([0.4, 0.6, 0.8, 1, 1.4], ["0.4", "0.6", "0.8", "1", "1.4"])
+    axes.set_yticks([], minor=True)
     axes.legend(frameon=False)
     figure.savefig(path, dpi=150)
 
@@ -137,16 +155,16 @@ def main():
     parser.add_argument("--markdown", type=Path)
     parser.add_argument("--picture", type=Path)
     options = parser.parse_args()
-    for spacing in REFERENCE["spacings"]:
-        for outlet in REFERENCE["outlets"]:
-            run(options.program, options.out, outlet, spacing)
-    diameter, found, rows = measured(options.out)
-    text = table(diameter, found, rows)
+    for name in ("coarse", "fine"):
+        for outlet in REFERENCE[name]["outlets"]:
+            run(options.program, options.out, outlet, REFERENCE[name]["spacing"])
+    found, rows = measured(options.out)
+    text = table(found, rows)
     print(text, end="")
     if options.markdown:
         options.markdown.write_text(text, encoding="utf-8")
     if options.picture:
-        draw(options.picture, diameter, found)
+        draw(options.picture, found)
     return 0 if all(is_met(name, value) for name, value in rows.items()) else 1
 
 

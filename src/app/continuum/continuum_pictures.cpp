@@ -231,7 +231,8 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
     draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
   if (draw_air(run_folder, setting, title, pictures / "air.png")) drawn.push_back(pictures / "air.png");
-  if (draw_wall_loads(run_folder, title, pictures / "wall_loads.png")) drawn.push_back(pictures / "wall_loads.png");
+  if (draw_wall_loads(run_folder, setting.shape.plate.has_value(), title, pictures / "wall_loads.png"))
+    drawn.push_back(pictures / "wall_loads.png");
   if (draw_fields(run_folder, setting, title, pictures / "fields.png")) drawn.push_back(pictures / "fields.png");
   if (!setting.shape.plate) return drawn;
   if (!setting.section.empty() && draw_flow(run_folder, setting, title, pictures / "flow.png"))

@@ -137,7 +137,7 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   write_table(folder / "wall_stress.csv", columns, against_time);
 }
 
-bool draw_wall_loads(const std::filesystem::path& run_folder, const std::string& title,
+bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const std::string& title,
                      const std::filesystem::path& path) {
   using namespace figure;
   const std::filesystem::path table = run_folder / "analysis" / "wall_loads.csv";
@@ -146,21 +146,23 @@ bool draw_wall_loads(const std::filesystem::path& run_folder, const std::string&
   const auto low = loads.column("low"), high = loads.column("high");
   Chart chart{
       .title = title, .x = {.label = "pressure on the wall", .unit = "Pa"}, .y = {.label = "*z*", .unit = "mm"}};
-  const auto add = [&](const char* column, const char* label, Dash dash, bool marked) {
+  const auto add = [&](const char* column, const char* label, const Colour& colour, Dash dash, bool marked) {
     const auto pressure = loads.column(column);
     std::vector<std::pair<double, double>> points;
     for (std::size_t n = 0; n < pressure.size(); ++n)
       if (high[n] > low[n] && std::isfinite(pressure[n])) points.push_back({500 * (low[n] + high[n]), pressure[n]});
     std::sort(points.begin(), points.end());
-    Line line{.label = label, .dash = dash, .marked = marked};
+    Line line{.label = label, .colour = colour, .dash = dash, .marked = marked};
     for (const auto& [z, p] : points) line.x.push_back(p), line.y.push_back(z);
     if (!points.empty()) chart.series.emplace_back(std::move(line));
   };
-  add("pressure_at_rest", "at rest", Dash::solid, true);
-  add("pressure_at_rest_by_hand", "by hand: Janssen, Walker", Dash::dashed, false);
-  add("pressure_in_flow", "in flow", Dash::solid, true);
-  add("pressure_in_flow_by_hand", "by hand, in flow", Dash::dashed, false);
-  add("pressure_largest", "largest 10 ms mean", Dash::dotted, false);
+  add("pressure_at_rest", "at rest", blue, Dash::solid, true);
+  add("pressure_at_rest_by_hand", "by hand: Janssen, Walker", blue, Dash::dashed, false);
+  if (flows) {
+    add("pressure_in_flow", "in flow", vermillion, Dash::solid, true);
+    add("pressure_in_flow_by_hand", "by hand, in flow", vermillion, Dash::dashed, false);
+    add("pressure_largest", "largest 10 ms mean", muted, Dash::dotted, false);
+  }
   if (chart.series.empty()) return false;
   write_png({.panels = {chart}}, path);
   return true;

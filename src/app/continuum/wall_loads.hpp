@@ -30,8 +30,9 @@ PressureByHand pressure_by_hand(const continuum::Parameters& parameters, const B
 void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& run,
                       const continuum::Parameters& parameters);
 
-/// pictures/wall_loads.png: pressure against height at rest, in flow and by hand. \returns false without the table
-bool draw_wall_loads(const std::filesystem::path& run_folder, const std::string& title,
+/// pictures/wall_loads.png: pressure against height at rest, in flow and by hand. \param flows whether there is an
+/// outlet \returns false without the table
+bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const std::string& title,
                      const std::filesystem::path& path);
 
 }  // namespace talus::app
