@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "numerics/surface/surface_fields.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace talus {
@@ -9,18 +11,45 @@ namespace {
 
 constexpr double reach = 1.5;  // in sizes: so near a field's middle is to any of its places, but for rests
 
-std::vector<Vector3> middles(std::span<const SurfacePoint> fields) {
-  std::vector<Vector3> places;
-  for (const SurfacePoint& field : fields) places.push_back(field.place);
-  return places;
-}
+constexpr double most_cells = 2e6;
 
 }  // namespace
 
 SurfaceFields::SurfaceFields(const Surface& surface, double size) : size_(size) {
   if (surface.is_empty()) return;
   fields_ = spread_points(surface, size);
-  grid_ = std::make_unique<CellGrid>(middles(fields_), reach * size);
+  low_ = surface.low();
+  const Vector3 extent = surface.high() - low_;
+  cell_ = reach * size;
+  const auto along = [&](double length) { return std::floor(length / cell_) + 1; };
+  while (along(extent.x) * along(extent.y) * along(extent.z) > most_cells) cell_ *= 2;
+  for (int axis = 0; axis < 3; ++axis) count_[static_cast<std::size_t>(axis)] = static_cast<int>(along(extent[axis]));
+  std::vector<std::size_t> cell;
+  for (const SurfacePoint& field : fields_) {
+    const auto [i, j, k] = cell_of(field.place);
+    cell.push_back(number(i, j, k));
+  }
+  first_.assign(number(count_[0] - 1, count_[1] - 1, count_[2] - 1) + 2, 0);
+  for (const std::size_t c : cell) ++first_[c + 1];
+  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  of_cells_.resize(fields_.size());
+  for (std::uint32_t n = 0; n < fields_.size(); ++n) of_cells_[next[cell[n]]++] = n;
+}
+
+std::array<int, 3> SurfaceFields::cell_of(const Vector3& x) const {
+  std::array<int, 3> cell{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    cell[a] = static_cast<int>(std::clamp(std::floor((x[axis] - low_[axis]) / cell_), 0.0, double(count_[a] - 1)));
+  }
+  return cell;
+}
+
+std::size_t SurfaceFields::number(int i, int j, int k) const {
+  return static_cast<std::size_t>(i) +
+         static_cast<std::size_t>(count_[0]) *
+             (static_cast<std::size_t>(j) + static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(k));
 }
 
 std::uint32_t SurfaceFields::at(std::uint32_t part, const Vector3& place) const {
@@ -32,7 +61,11 @@ std::uint32_t SurfaceFields::at(std::uint32_t part, const Vector3& place) const 
     const double distance = dot(d, d);
     if (distance < closest || (distance == closest && n < best)) closest = distance, best = n;
   };
-  grid_->for_each_candidate(place, offer);
+  const auto [x, y, z] = cell_of(place);
+  const int first = std::max(0, x - 1), last = std::min(count_[0] - 1, x + 1);
+  for (int k = std::max(0, z - 1); k <= std::min(count_[2] - 1, z + 1); ++k)
+    for (int j = std::max(0, y - 1); j <= std::min(count_[1] - 1, y + 1); ++j)
+      for (std::uint32_t n = first_[number(first, j, k)]; n < first_[number(last, j, k) + 1]; ++n) offer(of_cells_[n]);
   if (closest <= reach * reach * size_ * size_) return best;
   for (std::uint32_t n = 0; n < fields_.size(); ++n) offer(n);
   return best;

@@ -2,13 +2,12 @@
 /// A surface cut into fields of about one size, on which is noted what acts there.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/vector.hpp"
-#include "numerics/cell_grid.hpp"
 #include "numerics/surface/surface.hpp"
 #include "numerics/surface/surface_points.hpp"
 
@@ -30,7 +29,13 @@ class SurfaceFields {
  private:
   double size_ = 0;
   std::vector<SurfacePoint> fields_;
-  std::unique_ptr<CellGrid> grid_;  // of their middles
+  // Their middles in the cells of a dense grid: a search is made for every particle at a wall in every step.
+  Vector3 low_;
+  double cell_ = 1;
+  std::array<int, 3> count_{};
+  std::vector<std::uint32_t> first_, of_cells_;
+  std::array<int, 3> cell_of(const Vector3& x) const;
+  std::size_t number(int i, int j, int k) const;
 };
 
 /// The triangles of a surface, cut until no edge is longer than a length, each with the field in whose part and nearest
