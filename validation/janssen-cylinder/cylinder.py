@@ -60,15 +60,17 @@ def measured(folder):
     ratio = (pressure * bands["area"][wall])[filled].sum() / (vertical * bands["area"][wall])[filled].sum()
     length = DIAMETER / (4 * FRICTION * ratio)
 
-    def janssen(z):
+    def janssen(z, length=length):
         return DENSITY * GRAVITY * length * (1 - np.exp(-np.maximum(top - z, 0) / length))
 
     floor = -force("impulse_floor_of_it_z")
     upward = -force("impulse_cylinder_z")
     middle = 0.5 * (low + high)
+    mobilised = shear.sum() / (pressure * bands["area"][wall]).sum()
     rows = {"balance": (floor + upward) / weight - 1, "patches": shear.sum() / upward - 1,
-            "mobilised": shear.sum() / (pressure * bands["area"][wall]).sum(),
+            "mobilised": mobilised,
             "floor": floor / (janssen(FLOOR) * AREA) - 1,
+            "floor-mobilised": floor / (janssen(FLOOR, DIAMETER / (4 * mobilised * ratio)) * AREA) - 1,
             "bands": np.abs(pressure - ratio * janssen(middle))[filled].max() / pressure.max()}
     profile = {"z": middle, "depth": top - middle, "pressure": pressure, "shear": shear / bands["area"][wall], "vertical": vertical,
                "janssen": janssen(middle), "filled": filled, "K": ratio, "L": length, "floor_share": floor / weight,
