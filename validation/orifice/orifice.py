@@ -49,7 +49,7 @@ def rates(folder):
     passed = np.concatenate([[0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(time))])
     begin, end = REFERENCE["window"]
     edges = np.linspace(begin, end, round((end - begin) / MEAN) + 1)
-    if time[-1] < end - 1e-3:
+    if time[-1] < end:
         sys.exit(f"{folder}: ends at {time[-1]:.3f} s, before the window does")
     return QUARTERS * np.diff(np.interp(edges, time, passed)) / np.diff(edges), 0.5 * (edges[1:] + edges[:-1])
 
