@@ -23,7 +23,7 @@ std::vector<Triangle> tube_with_floor() {
 }
 
 TEST(SurfaceFields, CoverTheSurface) {
-  const Surface surface(tube_with_floor(), 2, 0.3);
+  const Surface surface(tube_with_floor(), 2);
   const SurfaceFields fields(surface, 0.4);
   double area = 0;
   for (const SurfacePoint& field : fields.all()) area += field.area;
@@ -32,7 +32,7 @@ TEST(SurfaceFields, CoverTheSurface) {
 }
 
 TEST(SurfaceFields, APlaceBelongsToTheNearestOfItsPart) {
-  const Surface surface(tube_with_floor(), 2, 0.3);
+  const Surface surface(tube_with_floor(), 2);
   const SurfaceFields fields(surface, 0.4);
   for (int n = 0; n < 200; ++n) {
     const Vector3 place{std::cos(0.7 * n), std::sin(0.7 * n), 0.02 * n};
@@ -48,7 +48,7 @@ TEST(SurfaceFields, APlaceBelongsToTheNearestOfItsPart) {
 }
 
 TEST(SurfaceFields, TheMeshIsTheSurfaceCutFine) {
-  const Surface surface(tube_with_floor(), 2, 0.3);
+  const Surface surface(tube_with_floor(), 2);
   const SurfaceFields fields(surface, 0.4);
   const FieldMesh mesh = mesh_of(surface, fields, 0.5);
   EXPECT_NEAR(area_of(mesh.triangles), area_of(tube_with_floor()), 1e-10);
