@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Walls of any shape in space: loads, friction, gates, and that nothing gets through.
+/// (longer than 400 lines because its tests share rooms, walls and runs that settle)
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
