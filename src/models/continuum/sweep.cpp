@@ -198,10 +198,14 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     PairSums sums[together];
     const std::size_t size = std::min(together, count - first);
     for (std::size_t n = 0; n < together; ++n) {
-      if (n < size)
-        sum(all, static_cast<std::uint32_t>(first + n), seen_from(first + n, seen), constants_, sums[n]);
-      else
+      if (n >= size) {
         sums[n] = {};
+        continue;
+      }
+      const Neighbours neighbours = seen_from(first + n, seen);
+      sum(all, static_cast<std::uint32_t>(first + n), neighbours, constants_, sums[n]);
+      if (terms != SweepTerms::gradients && !vessel_.is_empty() && vessel_.place_of(first + n) >= 0)
+        add_forces_of_vessel(particles, first + n, neighbours, sums[n], rates);
     }
     if (terms != SweepTerms::forces) {
       if (!vessel_.is_empty())
@@ -224,9 +228,6 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       std::copy_n(sums[n].wall_acceleration, first_wall_[i + 1] - first_wall_[i],
                   rates.by_walls.value.data() + first_wall_[i]);
     }
-    if (!vessel_.is_empty())
-      for (std::size_t i = first; i < first + size; ++i)
-        if (vessel_.place_of(i) >= 0) add_forces_of_vessel(particles, i, seen_from(i, seen), rates);
   };
   const std::size_t blocks = (count + together - 1) / together;
   team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
@@ -248,7 +249,7 @@ void Sweep::add_walls_of_vessel(const ParticleView& particles, std::size_t i, Pa
 }
 
 void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
-                                 Rates& rates) const {
+                                 PairSums& sums, Rates& rates) const {
   const NearWalls& met = vessel_.of(i);
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
   WallForces& forces = rates.vessel[static_cast<std::size_t>(vessel_.place_of(i))];
@@ -256,13 +257,16 @@ void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, c
   if (met.count == 0) return;
   forces = forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
   const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
-  for (const NearWall& wall : met.all())
-    rates.acceleration[i] += vessel_.force_of_images(
-        wall, records(), i, neighbourhood_.sight_may_change(i) ? &seen : nullptr, constants_.mass);
-  for (const WallForce& force : forces.all()) rates.acceleration[i] += force.acceleration;
+  Vector3 acceleration;
   double beyond = 0;
-  for (const NearWall& wall : met.all()) beyond += wall.sums.density;
-  rates.kernel_density[i] += particles.density[i] * beyond;
+  for (const NearWall& wall : met.all()) {
+    acceleration += vessel_.force_of_images(wall, records(), i, neighbourhood_.sight_may_change(i) ? &seen : nullptr,
+                                            constants_.mass);
+    beyond += wall.sums.density;
+  }
+  for (const WallForce& force : forces.all()) acceleration += force.acceleration;
+  for (int axis = 0; axis < 3; ++axis) sums.acceleration[axis] += acceleration[axis];
+  sums.kernel_density += particles.density[i] * beyond;
 }
 
 }  // namespace talus::continuum

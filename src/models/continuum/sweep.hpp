@@ -95,7 +95,7 @@ class Sweep {
   /// Adds the walls of the vessel to the sums of a particle's velocity gradient and density rate.
   void add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const;
   /// Adds the forces of the vessel on a particle, and its share of the kernel's sum. \pre those of pairs are there
-  void add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
+  void add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours, PairSums& sums,
                             Rates& rates) const;
 
   double mass_;

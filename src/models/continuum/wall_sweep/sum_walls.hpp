@@ -25,7 +25,7 @@ TALUS_INLINE WallVector product(const WallNumber (&t)[6], const WallVector& v) {
 }
 
 inline void sum_points(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count,
-                             std::uint32_t padding, const double* position, double h, WallTotals& totals) {
+                       std::uint32_t padding, const double* position, double h, WallTotals& totals) {
   using Number = WallNumber;
   sph::WallSums<Number> sums;
   for (std::uint32_t first = 0; first < count; first += Number::lanes) {
@@ -38,20 +38,41 @@ inline void sum_points(const WallPoint* points, const std::uint32_t* numbers, st
         column);
     const Number d[3] = {column[0] - Number(position[0]), column[1] - Number(position[1]),
                          column[2] - Number(position[2])};
+    if (lane_bits(inner({d[0], d[1], d[2]}, {d[0], d[1], d[2]}) < Number(sph::support * sph::support * h * h)) == 0)
+      continue;
     const Number n[3] = {column[3], column[4], column[5]};
     sums.add(d, n, column[6], h);
   }
   const Number zero = 0.0;
-  const Number all[24] = {sums.density,    sums.slope[0],   sums.slope[1],   sums.slope[2],   sums.moment[0],
-                          sums.moment[1],  sums.moment[2],  sums.moment[3],  sums.moment[4],  sums.moment[5],
-                          sums.closing[0], sums.closing[1], sums.closing[2], sums.normal[0],  sums.normal[1],
-                          sums.normal[2],  sums.nearness,   sums.weight,     sums.distance,   zero,
-                          zero,            zero,            zero,            zero};
+  const Number all[24] = {sums.density,
+                          sums.slope[0],
+                          sums.slope[1],
+                          sums.slope[2],
+                          sums.moment[0],
+                          sums.moment[1],
+                          sums.moment[2],
+                          sums.moment[3],
+                          sums.moment[4],
+                          sums.moment[5],
+                          sums.closing[0],
+                          sums.closing[1],
+                          sums.closing[2],
+                          sums.normal[0],
+                          sums.normal[1],
+                          sums.normal[2],
+                          sums.nearness,
+                          sums.weight,
+                          sums.distance,
+                          zero,
+                          zero,
+                          zero,
+                          zero,
+                          zero};
   store_sums(all, &totals.density);
 }
 
 inline void sum_images(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
-                             const WallPairs& others, double mass, double* acceleration) {
+                       const WallPairs& others, double mass, double* acceleration) {
   using Number = WallNumber;
   constexpr double least_sum = 1.7 * 1.7;  // of two normals, squared: on one side, and not around a corner
   const MotionRecord& place = records.motion[self];
@@ -60,8 +81,9 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
   WallVector sum{zero, zero, zero};
   for (std::uint32_t first = 0; first < others.count; first += Number::lanes) {
     Number motion[8], stress[8], seat[8];
-    load_columns([&](int lane) { return records.motion[others.record[first + static_cast<std::uint32_t>(lane)]].position; },
-                 motion);
+    load_columns(
+        [&](int lane) { return records.motion[others.record[first + static_cast<std::uint32_t>(lane)]].position; },
+        motion);
     load_columns([&](int lane) { return seats[others.seat[first + static_cast<std::uint32_t>(lane)]].normal; }, seat);
     const WallVector both{seat[0] + Number(own.normal[0]), seat[1] + Number(own.normal[1]),
                           seat[2] + Number(own.normal[2])};
@@ -100,8 +122,7 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
   acceleration[0] = sum_lanes(sum.x, 0), acceleration[1] = sum_lanes(sum.y, 0), acceleration[2] = sum_lanes(sum.z, 0);
 }
 
-inline void sum_stresses(const Records& records, std::uint32_t self, const Neighbours& neighbours,
-                               StressSums& sums) {
+inline void sum_stresses(const Records& records, std::uint32_t self, const Neighbours& neighbours, StressSums& sums) {
   using Number = WallNumber;
   const MotionRecord& place = records.motion[self];
   const StressRecord& loaded = records.stress[self];
@@ -117,9 +138,9 @@ inline void sum_stresses(const Records& records, std::uint32_t self, const Neigh
                        motion[2] - Number(place.position[2])};
     const Number h = Number(place.half_length) + motion[3], inverse_h = 1.0 / h;
     const Number square = inner(d, d) + 1e-30, inverse_distance = reciprocal_sqrt(square);
-    const Number weight = -1.0 * motion[7] *
-                          sph::cubic_spline_slope_of(square * inverse_distance * inverse_h, h * inverse_distance,
-                                                     inverse_h);
+    const Number weight =
+        -1.0 * motion[7] *
+        sph::cubic_spline_slope_of(square * inverse_distance * inverse_h, h * inverse_distance, inverse_h);
     const WallVector w{weight * d.x, weight * d.y, weight * d.z};
     all[0] = multiply_add(w.x, d.x, all[0]), all[1] = multiply_add(w.y, d.y, all[1]);
     all[2] = multiply_add(w.z, d.z, all[2]), all[3] = multiply_add(w.x, d.y, all[3]);
