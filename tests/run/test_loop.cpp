@@ -41,6 +41,7 @@ class Falling final : public AnyModel {
     return {.time = time_, .step = step_, .columns = {{"position", "m", std::span<const Vector3>(position_)}}};
   }
   std::optional<GridSnapshot> grid() const override { return std::nullopt; }
+  std::optional<SurfaceSnapshot> walls() const override { return std::nullopt; }
   std::vector<NamedValue> totals() const override { return {{"z", "m", position_[0].z}}; }
   std::vector<RegimeLine> regime(const RunRecord&) const override { return {}; }
   void save(CheckpointWriter& checkpoint) const override {
