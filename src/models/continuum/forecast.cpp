@@ -118,7 +118,8 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
 }
 
 double memory_of(const Forecast& f) {
-  // Libraries; columns, records and lists of particles and images; sums of the particles beside walls, and their points.
+  // Libraries; columns, records and lists of particles and images; sums of the particles beside walls, and their
+  // points.
   const double of_forces = f.wall_points > 0 ? 250 * f.particles : 0;
   return 22e6 + 3500 * f.particles + 900 * f.cells + of_forces + 2000 * f.beside_walls + 250 * f.wall_points;
 }

@@ -132,8 +132,10 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
           v.file);
     drawn(Parameter{key("unit"), {}, {}, "unit of the numbers in the file, which an STL file does not say", true},
           v.unit);
-    drawn(Parameter{key("closed"), {}, {}, "whether the surface of the file is to have no rim, as that of a body has none"},
-          v.closed);
+    drawn(
+        Parameter{
+            key("closed"), {}, {}, "whether the surface of the file is to have no rim, as that of a body has none"},
+        v.closed);
     visit(Parameter{key("material"),
                     {},
                     {},

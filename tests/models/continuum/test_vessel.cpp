@@ -306,7 +306,7 @@ TEST(Vessel, NothingLeaksAroundACornerThatPointsIntoTheBed) {
   p.walls.friction_from = FrictionFrom::start;
   p.bed.bottom = 4 * spacing, p.bed.height = 12 * spacing;
   p.vessel = {plate("left", {1, -4, 8}, {0, 14, 0}, {0, 0, 16}), plate("right", {11, -4, 4}, {0, 14, 0}, {0, 0, 20}),
-              plate("step", {1, -4, 8}, {5, 0, 0}, {0, 14, 0}),  plate("riser", {6, -4, 4}, {0, 14, 0}, {0, 0, 4}),
+              plate("step", {1, -4, 8}, {5, 0, 0}, {0, 14, 0}), plate("riser", {6, -4, 4}, {0, 14, 0}, {0, 0, 4}),
               plate("floor", {6, -4, 4}, {5, 0, 0}, {0, 14, 0})};
   ASSERT_THAT(check(p), testing::IsEmpty());
   ThreadTeam team(2);
