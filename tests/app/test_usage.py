@@ -8,7 +8,7 @@ import unittest
 from program import PROGRAM, ProgramTest
 
 COMMANDS = ("new", "run", "check", "ensemble", "compare", "analyze", "law", "reproduce", "report", "picture", "movie",
-            "schema", "completion", "man")
+            "schema", "materials", "completion", "man")
 COMPLETE = """source ./talus.bash
 COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1))
 compopt() { echo "asks for: $*"; }
