@@ -40,7 +40,7 @@ class NeighbourList {
 
   /// Behind each list the number of all points stands until a multiple of `padded_to` is reached, so that whole
   /// registers can be read.
-  static constexpr std::size_t padded_to = 8;
+  static constexpr std::size_t padded_to = 16;
 
  private:
   double skin_ = -1;

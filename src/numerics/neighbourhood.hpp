@@ -40,6 +40,7 @@ class Neighbourhood {
   /// closer than a_i + a_j is missing. False for a position that is not finite.
   bool holds(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) const;
 
+  double reach() const { return reach_; }  ///< of the lists: no pair in them was farther apart, m
   std::size_t particles() const { return reference_.size(); }
   std::span<const Ghost> ghosts() const { return ghosts_; }
   std::span<const Image> images() const { return images_; }

@@ -13,6 +13,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
+#include "models/continuum/choices.hpp"
 #include "models/continuum/inlets.hpp"
 #include "models/continuum/inner_walls.hpp"
 #include "models/continuum/layout.hpp"
@@ -24,14 +25,6 @@
 #include "physics/sph/balance.hpp"
 
 namespace talus::continuum {
-
-enum class GateOpens { when_settled, at_time, from_the_start };
-enum class Smoothing { local, fixed };
-enum class Continuity { printed, corrected };
-enum class ViscositySpeed { largest, local };
-enum class Friction { coulomb, printed, none };
-enum class FrictionFrom { gate, start };
-enum class Method { runge_kutta, leapfrog };
 
 struct Parameters {
   struct BoxSize {
@@ -104,6 +97,7 @@ struct Parameters {
     double courant = 0.3;
     std::optional<double> step;
     double skin = 0.2;
+    PairPrecision pair_precision = PairPrecision::in_double;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
 };
@@ -278,6 +272,12 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "skin of the neighbour lists, in particle spacings: with a larger one lists are rebuilt less often "
                   "but are longer"},
         p.integration.skin);
+  visit(Parameter{"integration.pair_precision",
+                  {},
+                  {},
+                  "arithmetic of a pair of particles: double, or single precision with differences of places as good, "
+                  "some 1e-6 of a sum, twice the lanes; the state is double either way"},
+        p.integration.pair_precision);
   visit(
       Parameter{
           "integration.instruction_set", {}, {}, "instruction set of the sums over neighbours; the bits depend on it"},
@@ -288,21 +288,3 @@ void for_each_parameter(Visit&& visit, P& p) {
 std::vector<Problem> check(const Parameters& parameters);
 
 }  // namespace talus::continuum
-
-namespace talus {
-template <>
-inline constexpr auto choices<continuum::GateOpens> = std::to_array<std::string_view>({"when-settled", "at-time",
-                                                                                       "from-the-start"});
-template <>
-inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
-template <>
-inline constexpr auto choices<continuum::Continuity> = std::to_array<std::string_view>({"printed", "corrected"});
-template <>
-inline constexpr auto choices<continuum::ViscositySpeed> = std::to_array<std::string_view>({"largest", "local"});
-template <>
-inline constexpr auto choices<continuum::Friction> = std::to_array<std::string_view>({"coulomb", "printed", "none"});
-template <>
-inline constexpr auto choices<continuum::FrictionFrom> = std::to_array<std::string_view>({"gate", "start"});
-template <>
-inline constexpr auto choices<continuum::Method> = std::to_array<std::string_view>({"runge-kutta", "leapfrog"});
-}  // namespace talus

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Input of the stabilisers of the sums: gradients of density and velocity, computed from the packed records in a
 /// separate sweep, so that they depend only on the state.
+#include <algorithm>
+
 #include "models/continuum/material.hpp"
 #include "models/continuum/sweep.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
@@ -22,12 +24,12 @@ Vector3 displaced(const Image& image, const Vector3& d) {
 void Sweep::prepare_stabilisers(ThreadTeam& team, const ParticleView& particles) {
   const std::size_t count = particles.position.size();
   const auto ghosts = neighbourhood_.ghosts();
-  stabilisers_.assign(motion_.size(), {});
+  stabilisers_.assign(count + ghosts.size() + 1, {});
   const Records all = records();
   for_each(team, count, [&](std::size_t i) {
     thread_local Seen seen;
     PairSums sums;
-    prepare_sum_(all, static_cast<std::uint32_t>(i), seen_from(i, seen), constants_, sums);
+    prepare_sum_(all, static_cast<std::uint32_t>(i), seen_from(particles.position, i, seen), constants_, sums);
     const double *m = sums.moment, *v = sums.velocity, *r = sums.density_gradient;
     const SymmetricTensor3<> moment{m[0], m[1], m[2], m[3], m[4], m[5]};
     const Tensor3<> l = sph::velocity_gradient({moment, {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]}});
@@ -58,6 +60,16 @@ void Sweep::prepare_stabilisers(ThreadTeam& team, const ParticleView& particles)
       for (int row = 0; row < 3; ++row) l[3 * row + axis] = across[row];
     }
     stabilisers_[count + g] = ghost;
+  });
+  if (precision_ != PairPrecision::in_single) return;
+  single_stabilisers_.resize(stabilisers_.size());
+  for_each(team, stabilisers_.size(), [&](std::size_t r) {
+    const StabiliserRecord& from = stabilisers_[r];
+    SingleStabiliserRecord& to = single_stabilisers_[r];
+    std::copy_n(from.density_gradient, 3, to.density_gradient);
+    std::copy_n(from.velocity_gradient, 9, to.velocity_gradient);
+    to.sound_speed = static_cast<float>(from.sound_speed);
+    to.loaded = static_cast<float>(from.loaded), to.dense = static_cast<float>(from.dense);
   });
 }
 

@@ -29,6 +29,7 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
       skin_(p.integration.skin * p.bed.spacing),
       stress_form_(p.sph.stress_form),
       corrected_continuity_(p.sph.continuity == Continuity::corrected),
+      precision_(p.integration.pair_precision),
       constants_{.mass = mass,
                  .sound_speed = sound_speed,
                  .viscosity_alpha = p.sph.viscosity_alpha,
@@ -41,10 +42,11 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
-    sum_[static_cast<std::size_t>(terms)] =
-        TALUS_COMPILED_FOR(set, sum_neighbours)(terms, stabilised ? Stabilisers::acting : Stabilisers::none);
+    sum_[static_cast<std::size_t>(terms)] = TALUS_COMPILED_FOR(set, sum_neighbours)(
+        terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_);
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
-  if (stabilised) prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared);
+  if (stabilised)
+    prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared, precision_);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -56,15 +58,10 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                             std::span<const double> smoothing_length) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   neighbourhood_.build(team, position, smoothing_length, skin_);
+  quantum_ = quantum_for(neighbourhood_.reach());
   vessel_.find(team, neighbourhood_, position, smoothing_length, skin_);
-  loads_.clear();
-  for (const Image& image : neighbourhood_.images()) {
-    ImageLoads loads{};
-    const auto found = neighbourhood_.domain().loads(image);
-    for (std::size_t n = 0; n < found.size(); ++n)
-      loads.load[n] = {found[n].wall, {found[n].part.x, found[n].part.y, found[n].part.z}};
-    loads_.push_back(loads);
-  }
+  loads_of_images_.clear();
+  for (const Image& image : neighbourhood_.images()) loads_of_images_.push_back(neighbourhood_.domain().loads(image));
   find_groups();
 }
 
@@ -77,6 +74,8 @@ void Sweep::find_groups() {
   groups_.clear();
   longest_ = 1;
   first_group_.assign(1, 0);
+  loads_.clear();
+  first_load_.assign(1, 0);
   walls_.clear();
   first_wall_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -90,69 +89,52 @@ void Sweep::find_groups() {
         const std::uint32_t image = ghosts[neighbours[n] - count].image;
         groups_.push_back({0, static_cast<std::int32_t>(image)});
         group_end = end[image];
-        for (const ImageLoad& load : loads_[image].load)
+        for (const Domain::Load& load : loads_of_images_[image])
           if (load.wall >= 0) walls |= 1u << load.wall;
       }
       groups_.back().end = static_cast<std::uint32_t>(n + 1);
     }
+    add_loads(std::span(groups_).subspan(first_group_.back()), walls, loads_);
     first_group_.push_back(static_cast<std::uint32_t>(groups_.size()));
+    first_load_.push_back(static_cast<std::uint32_t>(loads_.size()));
     walls_.push_back(walls);
     first_wall_.push_back(first_wall_.back() + static_cast<std::uint32_t>(std::popcount(walls)));
   }
 }
 
-/// Records of images are made from those of their sources. What only forces read is packed for them only.
-void Sweep::pack(ThreadTeam& team, const ParticleView& particles, bool stresses) {
-  const std::size_t count = particles.position.size();
-  const auto ghosts = neighbourhood_.ghosts();
-  motion_.resize(count + ghosts.size() + 1);
-  stress_.resize(motion_.size());
-  for_each(team, count, [&](std::size_t i) {
-    const double density = particles.density[i];
-    const Vector3 &x = particles.position[i], &u = particles.velocity[i];
-    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, mass_ / density};
-    if (!stresses) return;
-    const SymmetricTensor3<> s =
-        sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
-    stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
-  });
-  for_each(team, ghosts.size(), [&](std::size_t g) {
-    const Image& image = neighbourhood_.image(ghosts[g]);
-    const MotionRecord& source = motion_[ghosts[g].source];
-    const Vector3 x = image.position({source.position[0], source.position[1], source.position[2]});
-    const Vector3 u = image.vector({source.velocity[0], source.velocity[1], source.velocity[2]});
-    motion_[count + g] = {{x.x, x.y, x.z}, source.half_length, {u.x, u.y, u.z}, source.volume};
-    if (!stresses) return;
-    const double* s = stress_[ghosts[g].source].specific_stress;
-    const SymmetricTensor3<> t = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
-    stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, stress_[ghosts[g].source].half_density, 0};
-  });
-  constexpr double far_away = 1e3;  // m
-  motion_.back() = {{far_away, far_away, far_away}, motion_.front().half_length, {}, 0};
-  stress_.back() = {{}, 0.5 * particles.density.front(), 0};
-}
-
-Records Sweep::records() const {
-  return {motion_.data(), stress_.data(), stabilisers_.data(), loads_.data()};
+/// Which neighbours load which wall. \param walls a bit for each that the images of the groups load
+void Sweep::add_loads(std::span<const NeighbourGroup> groups, std::uint32_t walls, std::vector<WallLoad>& loads) const {
+  for (std::size_t g = 1; g < groups.size(); ++g)
+    for (const Domain::Load& load : loads_of_images_[static_cast<std::size_t>(groups[g].image)]) {
+      if (load.wall < 0) break;
+      const auto slot = static_cast<std::uint8_t>(std::popcount(walls & ((1u << load.wall) - 1)));
+      for (int axis = 0; axis < 3; ++axis)
+        for (std::uint32_t n = groups[g - 1].end; load.part[axis] != 0 && n < groups[g].end; n += WallLoad::at_most)
+          loads.push_back({n, static_cast<std::uint8_t>(std::min(WallLoad::at_most, groups[g].end - n)),
+                           static_cast<std::uint8_t>(axis), slot, load.part[axis]});
+    }
 }
 
 /// The neighbours of a particle that it sees. Near a wall they are picked into `seen`.
-Neighbours Sweep::seen_from(std::size_t i, Seen& seen) const {
+Neighbours Sweep::seen_from(std::span<const Vector3> position, std::size_t i, Seen& seen) const {
   static constexpr Image identity;
   const auto neighbours = neighbourhood_.of(i);
   const NeighbourGroup* const group = groups_.data() + first_group_[i];
   const auto count = static_cast<int>(first_group_[i + 1] - first_group_[i]);
-  seen.scratch.resize(3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to));
+  const std::size_t lines = 3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to);
+  seen.scratch.resize(lines + 1);
   Neighbours found{neighbours.data(),
                    group,
                    count,
-                   walls_[i],
+                   loads_.data() + first_load_[i],
+                   static_cast<int>(first_load_[i + 1] - first_load_[i]),
+                   static_cast<int>(first_wall_[i + 1] - first_wall_[i]),
                    seen.scratch.front().number,
-                   static_cast<std::uint32_t>(Neighbours::padded_to * seen.scratch.size())};
+                   static_cast<std::uint32_t>(Neighbours::padded_to * lines)};
   if (!neighbourhood_.sight_may_change(i)) return found;
-  const auto place = [this](std::size_t r) {
-    const double* x = motion_[r].position;
-    return Vector3{x[0], x[1], x[2]};
+  const auto place = [&](std::size_t record, const Image& image) {
+    if (record < position.size()) return position[record];
+    return image.position(position[neighbourhood_.ghosts()[record - position.size()].source]);
   };
   seen.record.clear();
   seen.group.clear();
@@ -161,14 +143,18 @@ Neighbours Sweep::seen_from(std::size_t i, Seen& seen) const {
     const Image& image =
         group[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(group[g].image)];
     for (; n < group[g].end; ++n)
-      if (neighbourhood_.domain().is_visible(place(i), place(neighbours[n]), image))
+      if (neighbourhood_.domain().is_visible(position[i], place(neighbours[n], image), image))
         seen.record.push_back(neighbours[n]);
     seen.group.push_back({static_cast<std::uint32_t>(seen.record.size()), group[g].image});
   }
   while (seen.record.size() % Neighbours::padded_to != 0)
-    seen.record.push_back(static_cast<std::uint32_t>(motion_.size() - 1));
+    seen.record.push_back(static_cast<std::uint32_t>(position.size() + neighbourhood_.ghosts().size()));
   found.record = seen.record.data();
   found.group = seen.group.data();
+  seen.load.clear();
+  add_loads(seen.group, walls_[i], seen.load);
+  found.load = seen.load.data();
+  found.loads = static_cast<int>(seen.load.size());
   return found;
 }
 
@@ -191,7 +177,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
   }
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
   const Records all = records();
-  constexpr std::size_t together = Neighbours::padded_to, blocks_at_once = 16;
+  constexpr std::size_t together = PairSums::together, blocks_at_once = 16;
   const auto compute = [&](std::size_t first) {
     thread_local Seen of_thread;
     Seen& seen = of_thread;
@@ -202,7 +188,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
         sums[n] = {};
         continue;
       }
-      const Neighbours neighbours = seen_from(first + n, seen);
+      const Neighbours neighbours = seen_from(particles.position, first + n, seen);
       sum(all, static_cast<std::uint32_t>(first + n), neighbours, constants_, sums[n]);
       if (terms != SweepTerms::gradients && !vessel_.is_empty() && vessel_.place_of(first + n) >= 0)
         add_forces_of_vessel(particles, first + n, neighbours, sums[n], rates);

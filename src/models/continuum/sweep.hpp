@@ -77,20 +77,26 @@ class Sweep {
   void operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates);
 
  private:
-  void pack(ThreadTeam& team, const ParticleView& particles, bool stresses);
+  void pack(ThreadTeam& team, const ParticleView& particles, bool stresses);  // pack.cpp
+  void pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses);
+  void pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses);
+  SymmetricTensor3<> specific_stress(const ParticleView& particles, std::size_t i) const;
+  static double quantum_for(double reach);
   /// Computes the gradients that the stabilisers need from the packed records, and packs them (stabilise.cpp).
   void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
+  void add_loads(std::span<const NeighbourGroup> groups, std::uint32_t walls, std::vector<WallLoad>& loads) const;
   /// What of a particle's list it sees at present, where that can change while the list holds; memory of the sums.
   struct Seen {
     struct alignas(64) Line {
-      double number[Neighbours::padded_to];
+      std::byte number[Neighbours::padded_to * sizeof(double)];
     };
     std::vector<Line> scratch;
     std::vector<std::uint32_t> record;
     std::vector<NeighbourGroup> group;
+    std::vector<WallLoad> load;
   };
-  Neighbours seen_from(std::size_t i, Seen& seen) const;
+  Neighbours seen_from(std::span<const Vector3> position, std::size_t i, Seen& seen) const;
   Records records() const;
   /// Adds the walls of the vessel to the sums of a particle's velocity gradient and density rate.
   void add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const;
@@ -105,6 +111,7 @@ class Sweep {
   double skin_;
   sph::StressForm stress_form_;
   bool corrected_continuity_;
+  PairPrecision precision_;
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_;  // by SweepTerms
   VelocityGradients* velocity_gradients_;
@@ -113,12 +120,18 @@ class Sweep {
   std::vector<StabiliserRecord> stabilisers_;  // of every record
   Neighbourhood neighbourhood_;
   VesselWalls vessel_;
-  std::vector<ImageLoads> loads_;     // by image
+  std::vector<std::array<Domain::Load, 3>> loads_of_images_;
   std::vector<MotionRecord> motion_;  // particles, images, padding
   std::vector<StressRecord> stress_;
+  double quantum_ = 0;  // of the places in single precision, m
+  std::vector<SingleMotionRecord> single_motion_;
+  std::vector<SingleStressRecord> single_stress_;
+  std::vector<SingleStabiliserRecord> single_stabilisers_;
   std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other
   std::size_t longest_ = 1;                 // list of neighbours
   std::vector<std::uint32_t> first_group_;  // of a particle; one more than particles
+  std::vector<WallLoad> loads_;             // of every particle's neighbours
+  std::vector<std::uint32_t> first_load_;   // of a particle; one more than particles
   std::vector<std::uint32_t> walls_;        // WallAccelerations::walls
   std::vector<std::uint32_t> first_wall_;   // WallAccelerations::first
 };

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "base/cube_root.hpp"
 #include "base/simd.hpp"
 
 namespace talus::sph {
@@ -15,7 +16,7 @@ inline constexpr double support = 2;
 /// Smoothing length of a particle, h = (m/rho_b)^(1/3): the distance between particles. Yuu & Umekage 2011, below
 /// Eq. 16. \param mass kg; \param density bulk density, kg/m^3; \returns m
 inline double smoothing_length(double mass, double density) {
-  return std::cbrt(mass / density);
+  return cube_root(mass / density);
 }
 
 /// W(r, h) from q = r/h and 1/h. \returns 1/m^3

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/logarithm.hpp"
 #include "base/tensor.hpp"
 #include "physics/granular/rotation.hpp"
 
@@ -51,7 +52,6 @@ template <class Number>
 CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const CriticalStatePoint<Number>& old,
                                    const Tensor3<Number>& velocity_gradient, const Number& density, double time_step) {
   const CriticalStateParameters& p = c.parameters;
-  using std::log;
   using std::sqrt;
   const SymmetricTensor3<Number> rate = deviator(symmetric_part(velocity_gradient));
   // Volumes of a grain's share of space, in units of that at the reference packing: now, and just touching.
@@ -59,7 +59,7 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const auto touch = volume < 1.0 + old.expansion;
   const Number apart = minimum(volume, Number(c.largest_volume));
   const Number touching = select(touch, 1.0 + old.expansion, maximum(1.0 + old.expansion, apart));
-  const Number pressure = select(touch, p.bulk_modulus * log(touching / volume), Number(0.0));
+  const Number pressure = select(touch, p.bulk_modulus * log_near_one(touching / volume), Number(0.0));
 
   const Number inertial = c.grain_inertia * norm(rate) / sqrt(maximum(pressure, Number(c.tiny)));
   const Number critical_volume =

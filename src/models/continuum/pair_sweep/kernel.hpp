@@ -3,6 +3,7 @@
 /// numbers only.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace talus::continuum {
@@ -32,14 +33,34 @@ struct alignas(128) StabiliserRecord {
   double unused;
 };
 
-/// What the force of an image adds to the load of a wall: the part of the force along `part`.
-struct ImageLoad {
-  int wall;  ///< -1: none, nor behind it
-  double part[3];
+/// The same in single precision. Places are whole numbers of quanta: what two of them differ by is as good as a float,
+/// wherever they are. The numbers wrap around far beyond the reach of a particle.
+struct alignas(32) SingleMotionRecord {
+  std::uint32_t position[3];  ///< in quanta, modulo 2^32
+  float half_length;
+  float velocity[3];
+  float volume;
 };
-/// The loads of an image.
-struct ImageLoads {
-  ImageLoad load[3];
+struct alignas(32) SingleStressRecord {
+  float specific_stress[6];
+  float half_density;
+  float unused;
+};
+struct alignas(64) SingleStabiliserRecord {
+  float density_gradient[3];
+  float velocity_gradient[9];
+  float sound_speed, loaded, dense, unused;
+};
+
+/// Neighbours of a particle, up to `at_most` that follow each other in its list, which load a wall: the component of
+/// their accelerations along `axis`, times `part`, goes to that of the wall. A loop over these has one end to guess.
+struct WallLoad {
+  static constexpr std::uint32_t at_most = 16;
+  std::uint32_t first;  ///< place in the list
+  std::uint8_t count;
+  std::uint8_t axis;
+  std::uint8_t slot;  ///< in PairSums::wall_acceleration
+  double part;
 };
 
 /// What all pairs have in common.
@@ -51,12 +72,20 @@ struct PairConstants {
   double hourglass_damping = 0;            ///< zeta c, m/s
 };
 
-/// All records, particles first, then images; the last one is far away from all others.
+struct SingleRecords {
+  const SingleMotionRecord* motion = nullptr;
+  const SingleStressRecord* stress = nullptr;
+  const SingleStabiliserRecord* stabilisers = nullptr;
+  double quantum = 0;  ///< m, a power of two
+};
+
+/// All records, particles first, then images; the last one is far away from all others (in single precision, where
+/// nothing is: with so large a smoothing length that kernel and slope vanish).
 struct Records {
   const MotionRecord* motion;
   const StressRecord* stress;
   const StabiliserRecord* stabilisers;  ///< null where stabilisers do not act
-  const ImageLoads* loads;              ///< of every image
+  SingleRecords single;                 ///< of the sums in single precision
 };
 
 /// Of the neighbours of a particle those up to `end` that are particles (image -1) or seen in one image.
@@ -68,13 +97,15 @@ struct NeighbourGroup {
 /// Neighbours of a particle, by number of their records: first particles, then images, one group after the other. The
 /// list goes on to a multiple of `padded_to` with the number of the last record.
 struct Neighbours {
-  static constexpr std::uint32_t padded_to = 8;
+  static constexpr std::uint32_t padded_to = 16;
   const std::uint32_t* record;
   const NeighbourGroup* group;
   int groups;
-  std::uint32_t walls;         ///< a bit for each wall that the images of the groups load
-  double* scratch;             ///< aligned to 64 bytes
-  std::uint32_t scratch_size;  ///< three times the longest list, padded
+  const WallLoad* load;
+  int loads;
+  int walls;                   ///< that these load
+  std::byte* scratch;          ///< aligned to 64 bytes
+  std::uint32_t scratch_size;  ///< in numbers, three times the longest list, padded; WallLoad::at_most more follow
 };
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
@@ -86,9 +117,14 @@ struct alignas(64) PairSums {
   double acceleration[3];      ///< Eq. 17 without gravity, m/s^2
   double kernel_density;       ///< sum of m W without the particle itself, kg/m^3
   double wall_acceleration[20];  ///< that by images, along the normals of the walls that they load, these in order
+
+  static constexpr std::uint32_t together = 8;  ///< particles whose sums go on together
 };
 
 enum class SweepTerms { all, gradients, forces };
+
+/// Precision of the arithmetic of pairs.
+enum class PairPrecision { in_double, in_single };
 
 /// Whether stabilisers act; before they can, the gradients that they take are measured.
 enum class Stabilisers { none, prepared, acting };
@@ -98,13 +134,13 @@ using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const
                                const PairConstants& constants, PairSums& sums);
 
 /// The corrected velocity gradients (numerics/sph/velocity_gradient.hpp) of as many particles as there are sums.
-/// \param sums of Neighbours::padded_to particles \param gradient as many numbers for each component, 1/s: xx xy xz yx
+/// \param sums of PairSums::together particles \param gradient as many numbers for each component, 1/s: xx xy xz yx
 /// yy yz zx zy zz
-using VelocityGradients = void(const PairSums* sums, double (*gradient)[Neighbours::padded_to]);
+using VelocityGradients = void(const PairSums* sums, double (*gradient)[PairSums::together]);
 VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
 /// \param stabilisers prepared: of `gradients` only
-using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers);
+using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

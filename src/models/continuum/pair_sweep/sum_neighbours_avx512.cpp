@@ -4,11 +4,11 @@
 
 namespace talus::continuum {
 
-SumNeighbours sum_neighbours_avx512(SweepTerms terms, Stabilisers stabilisers) {
-  return choose(terms, stabilisers);
+SumNeighbours sum_neighbours_avx512(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision) {
+  return choose(terms, stabilisers, precision);
 }
 
-void velocity_gradients_avx512(const PairSums* sums, double (*gradient)[Neighbours::padded_to]) {
+void velocity_gradients_avx512(const PairSums* sums, double (*gradient)[PairSums::together]) {
   velocity_gradients(sums, gradient);
 }
 

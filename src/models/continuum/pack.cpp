@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The records that the sums over pairs read, from the columns of the particles.
+#include <cmath>
+
+#include "models/continuum/material.hpp"
+#include "models/continuum/sweep.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+/// Whole quanta to the nearest, modulo 2^32.
+std::uint32_t whole_quanta(double quanta) {
+  return static_cast<std::uint32_t>(static_cast<std::int64_t>(quanta + std::copysign(0.5, quanta)));
+}
+
+SingleMotionRecord single(const Vector3& x, const Vector3& u, float half_length, float volume, double per_quantum) {
+  return {{whole_quanta(per_quantum * x.x), whole_quanta(per_quantum * x.y), whole_quanta(per_quantum * x.z)},
+          half_length,
+          {static_cast<float>(u.x), static_cast<float>(u.y), static_cast<float>(u.z)},
+          volume};
+}
+
+SingleStressRecord single(const SymmetricTensor3<>& s, float half_density) {
+  return {{static_cast<float>(s.xx), static_cast<float>(s.yy), static_cast<float>(s.zz), static_cast<float>(s.xy),
+           static_cast<float>(s.yz), static_cast<float>(s.zx)},
+          half_density,
+          0};
+}
+
+}  // namespace
+
+/// Particles near each other are within the reach, at the middle of a step a little beyond: a quarter of the range.
+double Sweep::quantum_for(double reach) {
+  return std::exp2(std::ceil(std::log2(reach)) + 2 - 32);
+}
+
+SymmetricTensor3<> Sweep::specific_stress(const ParticleView& particles, std::size_t i) const {
+  const double density = particles.density[i];
+  return sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
+}
+
+/// Walls of a vessel read the records in double precision whatever that of the pairs.
+void Sweep::pack(ThreadTeam& team, const ParticleView& particles, bool stresses) {
+  const bool in_single = precision_ == PairPrecision::in_single;
+  if (in_single) pack_single(team, particles, stresses);
+  if (!in_single || !vessel_.is_empty()) pack_double(team, particles, stresses);
+}
+
+/// Records of images are made from those of their sources. What only forces read is packed for them only.
+void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses) {
+  const std::size_t count = particles.position.size();
+  const auto ghosts = neighbourhood_.ghosts();
+  motion_.resize(count + ghosts.size() + 1);
+  stress_.resize(motion_.size());
+  for_each(team, count, [&](std::size_t i) {
+    const double density = particles.density[i];
+    const Vector3 &x = particles.position[i], &u = particles.velocity[i];
+    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, mass_ / density};
+    if (!stresses) return;
+    const SymmetricTensor3<> s = specific_stress(particles, i);
+    stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
+  });
+  for_each(team, ghosts.size(), [&](std::size_t g) {
+    const Image& image = neighbourhood_.image(ghosts[g]);
+    const MotionRecord& source = motion_[ghosts[g].source];
+    const Vector3 x = image.position({source.position[0], source.position[1], source.position[2]});
+    const Vector3 u = image.vector({source.velocity[0], source.velocity[1], source.velocity[2]});
+    motion_[count + g] = {{x.x, x.y, x.z}, source.half_length, {u.x, u.y, u.z}, source.volume};
+    if (!stresses) return;
+    const double* s = stress_[ghosts[g].source].specific_stress;
+    const SymmetricTensor3<> t = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
+    stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, stress_[ghosts[g].source].half_density, 0};
+  });
+  constexpr double far_away = 1e3;  // m
+  motion_.back() = {{far_away, far_away, far_away}, motion_.front().half_length, {}, 0};
+  stress_.back() = {{}, 0.5 * particles.density.front(), 0};
+}
+
+Records Sweep::records() const {
+  return {motion_.data(),
+          stress_.data(),
+          stabilisers_.data(),
+          {single_motion_.data(), single_stress_.data(), single_stabilisers_.data(), quantum_}};
+}
+
+void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses) {
+  const std::size_t count = particles.position.size();
+  const auto ghosts = neighbourhood_.ghosts();
+  const double per_quantum = 1 / quantum_;
+  single_motion_.resize(count + ghosts.size() + 1);
+  single_stress_.resize(single_motion_.size());
+  for_each(team, count, [&](std::size_t i) {
+    const double density = particles.density[i];
+    single_motion_[i] =
+        single(particles.position[i], particles.velocity[i], static_cast<float>(0.5 * particles.smoothing_length[i]),
+               static_cast<float>(mass_ / density), per_quantum);
+    if (stresses) single_stress_[i] = single(specific_stress(particles, i), static_cast<float>(0.5 * density));
+  });
+  for_each(team, ghosts.size(), [&](std::size_t g) {
+    const Image& image = neighbourhood_.image(ghosts[g]);
+    const std::size_t source = ghosts[g].source;
+    single_motion_[count + g] =
+        single(image.position(particles.position[source]), image.vector(particles.velocity[source]),
+               single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
+    if (!stresses) return;
+    const float* s = single_stress_[source].specific_stress;
+    single_stress_[count + g] =
+        single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
+  });
+  constexpr float vast = 1e15F;  // m; its fifth power is beyond the range of a float, its square is not
+  single_motion_.back() = {{}, vast, {}, 0};
+  single_stress_.back() = {{}, single_stress_.front().half_density, 0};
+}
+
+}  // namespace talus::continuum
