@@ -97,16 +97,22 @@ CellGrid::Index CellGrid::cell_of(const Vector3& x) const {
   return {whole(d.x / cell_size_), whole(d.y / cell_size_), whole(d.z / cell_size_)};
 }
 
-std::span<const std::uint32_t> CellGrid::points_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
+std::span<const CellGrid::Cell> CellGrid::cells_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
                                                        std::int64_t k) const {
-  first = std::max(first, first_.i);
-  last = std::min(last, last_.i);
   if (first > last) return {};
   const auto begin = std::lower_bound(cells_.begin(), cells_.end(), cell_key(first, j, k),
                                       [](const Cell& cell, std::uint64_t key) { return cell.key < key; });
   auto end = begin;  // the cell at the end of all stops it
   while (end->key <= cell_key(last, j, k)) ++end;
-  return order().subspan(begin->begin, end->begin - begin->begin);
+  return {begin, end};
+}
+
+std::span<const std::uint32_t> CellGrid::points_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
+                                                       std::int64_t k) const {
+  const auto cells = cells_in_row(std::max(first, first_.i), std::min(last, last_.i), j, k);
+  if (cells.empty()) return {};
+  // Behind the last of them stands another cell, if only that at the end of all.
+  return order().subspan(cells.front().begin, (&cells.back() + 1)->begin - cells.front().begin);
 }
 
 std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell_size) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,28 @@ class CellGrid {
         for (const std::uint32_t point : points_in_row(centre.i - 1, centre.i + 1, j, k)) visit(point);
   }
 
+  /// Calls visit(number of the cell, square of its least distance, m^2) for each cell that holds points and is at most
+  /// `range` cells from one, itself among them. The order is fixed by the points alone.
+  template <class Visit>
+  void for_each_cell_near(std::size_t cell, std::int64_t range, Visit&& visit) const {
+    constexpr std::uint64_t digits = 0x1fffff;
+    const std::uint64_t key = cells_[cell].key;
+    const Index centre{static_cast<std::int64_t>(key & digits), static_cast<std::int64_t>(key >> 21 & digits),
+                       static_cast<std::int64_t>(key >> 42)};
+    const auto gap = [&](std::int64_t a, std::int64_t b) {
+      const double cells = static_cast<double>(std::max<std::int64_t>(std::abs(a - b) - 1, 0));
+      return cells * cells * cell_size_ * cell_size_;
+    };
+    for (std::int64_t k = std::max(centre.k - range, first_.k); k <= std::min(centre.k + range, last_.k); ++k)
+      for (std::int64_t j = std::max(centre.j - range, first_.j); j <= std::min(centre.j + range, last_.j); ++j) {
+        const auto cells =
+            cells_in_row(std::max(centre.i - range, first_.i), std::min(centre.i + range, last_.i), j, k);
+        for (const Cell& near : cells)
+          visit(static_cast<std::size_t>(&near - cells_.data()),
+                gap(static_cast<std::int64_t>(near.key & digits), centre.i) + gap(j, centre.j) + gap(k, centre.k));
+      }
+  }
+
   /// The points in the order of their cells, x fastest; those of a cell by number.
   std::span<const std::uint32_t> order() const { return order_; }
 
@@ -47,6 +70,7 @@ class CellGrid {
     std::size_t begin;  // its first point in the order
   };
   Index cell_of(const Vector3& x) const;
+  std::span<const Cell> cells_in_row(std::int64_t first, std::int64_t last, std::int64_t j, std::int64_t k) const;
   std::span<const std::uint32_t> points_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
                                                std::int64_t k) const;
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/compiled_for.hpp"
 #include "numerics/cell_grid.hpp"
@@ -40,15 +42,45 @@ class NumberSet {
   std::vector<std::uint64_t> words_, used_;
 };
 
+/// Points in cells that are as wide as most points reach. A few that reach farther do not make all cells wider: they
+/// are looked for in more cells, and each cell knows the largest radius in it.
+struct Cells {
+  double farthest;  ///< that a pair may be apart, m
+  double edge;      ///< m
+  CellGrid grid;
+  std::int64_t range;           ///< how many cells a pair is apart at most
+  std::vector<double> largest;  ///< radius of the points of each cell, m
+
+  Cells(std::span<const Vector3> position, std::span<const double> radius, double skin)
+      : farthest(2 * *std::max_element(radius.begin(), radius.end()) + skin),
+        edge(std::min(farthest, std::max(farthest / 4, 2.24 * mean(radius) + skin))),
+        grid(position, edge),
+        range(static_cast<std::int64_t>(std::ceil(farthest / edge))),
+        largest(grid.cells(), 0.0) {
+    for (std::size_t c = 0; c < largest.size(); ++c)
+      for (const std::uint32_t n : grid.points_of(c)) largest[c] = std::max(largest[c], radius[n]);
+  }
+
+ private:
+  static double mean(std::span<const double> radius) {
+    return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
+  }
+};
+
 /// The points around a cell, sorted by number.
 class Surroundings {
  public:
-  /// \param listed points of one cell, sorted
-  void gather(const CellGrid& grid, std::span<const Vector3> position, std::span<const double> radius,
-              std::span<const std::uint32_t> listed) {
+  /// \param cells \param cell, listed one of them and its points, sorted
+  void gather(const Cells& cells, std::span<const Vector3> position, std::span<const double> radius, double skin,
+              std::size_t cell, std::span<const std::uint32_t> listed) {
     std::size_t count = 0;
     numbers_.allow(position.size());
-    grid.for_each_candidate(position[listed.front()], [&](std::uint32_t j) { numbers_.insert(j), ++count; });
+    cells.grid.for_each_cell_near(cell, cells.range, [&](std::size_t near, double square) {
+      const double reach = cells.largest[cell] + cells.largest[near] + skin;
+      constexpr double rounding = 1 - 1e-9;
+      if (rounding * square > reach * reach) return;
+      for (const std::uint32_t j : cells.grid.points_of(near)) numbers_.insert(j), ++count;
+    });
     size_ = (count + PointBlock::size - 1) / PointBlock::size;
     if (blocks_.size() < size_) blocks_.resize(size_), near_.resize(PointBlock::size * size_);
     places_.clear();
@@ -82,51 +114,48 @@ class Surroundings {
 
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
                           double skin, std::size_t count, const Keep& keep) {
-  reference_.assign(position.begin(), position.end());
-  skin_ = skin;
-  first_.assign(count + 1, 0);
+  skin_ = -1;
+  first_.assign(count, nullptr);
   length_.assign(count, 0);
-  if (count == 0) return neighbours_.clear();
+  if (count == 0) return lists_.clear();
 
-  const double largest = *std::max_element(radius.begin(), radius.end());
-  const CellGrid grid(position, 2 * largest + skin);
+  const Cells cells(position, radius, skin);
+  const CellGrid& grid = cells.grid;
   constexpr std::size_t cells_at_once = 32;
   const std::size_t chunks = (grid.cells() + cells_at_once - 1) / cells_at_once;
   const auto for_each_listed = [&](std::size_t chunk, const auto& visit) {  // the listed points of one cell at a time
     for (std::size_t c = chunk * cells_at_once; c < std::min(grid.cells(), (chunk + 1) * cells_at_once); ++c) {
       const auto points = grid.points_of(c);
       const auto ghosts = std::lower_bound(points.begin(), points.end(), count);
-      if (ghosts != points.begin()) visit(std::span(points.begin(), ghosts));
+      if (ghosts != points.begin()) visit(c, std::span(points.begin(), ghosts));
     }
   };
   static PickNear* const pick_near = TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), pick_near);
-  found_.resize(std::max(chunks, found_.size()));
+  lists_.resize(chunks);
   team.run(chunks, [&](std::size_t chunk) {
-    thread_local Surroundings of_thread;
-    Surroundings& around = of_thread;  // its address is looked up once
-    std::vector<std::uint32_t>& list = found_[chunk];
+    thread_local Surroundings around_of_thread;
+    thread_local std::vector<std::uint32_t> list_of_thread;
+    Surroundings& around = around_of_thread;  // their addresses are looked up once
+    std::vector<std::uint32_t>& list = list_of_thread;
     list.clear();
-    for_each_listed(chunk, [&](std::span<const std::uint32_t> listed) {
-      around.gather(grid, position, radius, listed);
+    for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
+      around.gather(cells, position, radius, skin, cell, listed);
       for (std::size_t n = 0; n < listed.size(); ++n) {
         const std::span<std::uint32_t> near = around.near(pick_near, n, skin);
         const std::size_t length = keep ? keep(listed[n], near) : near.size();
         list.insert(list.end(), near.begin(), near.begin() + static_cast<std::ptrdiff_t>(length));
+        list.resize((list.size() + padded_to - 1) / padded_to * padded_to, static_cast<std::uint32_t>(position.size()));
         length_[listed[n]] = static_cast<std::uint32_t>(length);
       }
     });
-  });
-  for (std::size_t i = 0; i < count; ++i)
-    first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
-  // Sums go through the particles by number: in that order their lists lie in memory.
-  neighbours_.resize(first_[count]);
-  team.run(chunks, [&](std::size_t chunk) {
-    const std::uint32_t* list = found_[chunk].data();
-    for_each_listed(chunk, [&](std::span<const std::uint32_t> listed) {
+    std::vector<std::uint32_t>& lists = lists_[chunk];
+    if (lists.capacity() < list.size() || lists.capacity() > 2 * list.size()) lists = {};  // no more than it takes
+    lists.assign(list.begin(), list.end());
+    const std::uint32_t* first = lists.data();
+    for_each_listed(chunk, [&](std::size_t, std::span<const std::uint32_t> listed) {
       for (const std::uint32_t i : listed) {
-        std::uint32_t* const end = std::copy_n(list, length_[i], neighbours_.data() + first_[i]);
-        std::fill(end, neighbours_.data() + first_[i + 1], static_cast<std::uint32_t>(position.size()));
-        list += length_[i];
+        first_[i] = first;
+        first += (length_[i] + padded_to - 1) / padded_to * padded_to;
       }
     });
   });

@@ -16,13 +16,20 @@ namespace talus {
 
 class NeighbourList {
  public:
+  NeighbourList() = default;
+  NeighbourList(NeighbourList&&) = default;
+  NeighbourList& operator=(NeighbourList&&) = default;
+
   /// Builds a full list (each pair appears twice).
   /// \param position, radius in m, one entry per particle; \param skin >= 0, in m
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
     build(team, position, radius, skin, position.size(), nullptr);
+    skin_ = skin;
+    reference_.assign(position.begin(), position.end());
   }
 
-  /// The same, with neighbours among all for the first `listed` particles only: those behind them are ghosts.
+  /// The same, with neighbours among all for the first `listed` particles only: those behind them are ghosts. Notes no
+  /// reference positions: such a list never holds by itself.
   /// \param keep moves those of the particles near i that i may ever interact with to the front, in their order, and
   /// returns how many they are; none: all stay
   using Keep = std::function<std::size_t(std::size_t i, std::span<std::uint32_t> near)>;
@@ -34,9 +41,7 @@ class NeighbourList {
   /// False for a position that is not finite.
   bool holds(ThreadTeam& team, std::span<const Vector3> position) const;
 
-  std::span<const std::uint32_t> of(std::size_t i) const {
-    return std::span(neighbours_).subspan(first_[i], length_[i]);
-  }
+  std::span<const std::uint32_t> of(std::size_t i) const { return {first_[i], length_[i]}; }
 
   /// Behind each list the number of all points stands until a multiple of `padded_to` is reached, so that whole
   /// registers can be read.
@@ -45,10 +50,9 @@ class NeighbourList {
  private:
   double skin_ = -1;
   std::vector<Vector3> reference_;
-  std::vector<std::uint32_t> neighbours_;
-  std::vector<std::size_t> first_ = {0};  // a multiple of `padded_to`
+  std::vector<std::vector<std::uint32_t>> lists_;  // of some cells each
+  std::vector<const std::uint32_t*> first_;        // of every point, into these
   std::vector<std::uint32_t> length_;
-  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory
 };
 
 }  // namespace talus

@@ -8,27 +8,27 @@
 namespace talus {
 
 void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                          double skin) {
+                          std::span<const double> margin) {
   const std::size_t count = position.size();
-  const double largest = count == 0 ? 0.0 : *std::max_element(radius.begin(), radius.end());
-  skin_ = skin;
-  reach_ = 2 * largest + skin;
+  most_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) most_[i] = radius[i] + margin[i];
+  largest_margin_ = count == 0 ? 0.0 : *std::max_element(margin.begin(), margin.end());
+  reach_ = count == 0 ? 0.0 : 2 * *std::max_element(most_.begin(), most_.end());
+  built_ = true;
   if (!(reach_ <= domain_.largest_reach()))
     throw std::invalid_argument("a particle reaches farther than walls and faces are apart");
   reference_.assign(position.begin(), position.end());
-  reference_radius_.assign(radius.begin(), radius.end());
 
   images_ = domain_.images(reach_);
-  find_ghosts(team, position, radius, largest);
+  find_ghosts(team, position);
 
-  std::vector<Vector3> points(position.begin(), position.end());
-  std::vector<double> radii(radius.begin(), radius.end());
-  points.resize(count + ghosts_.size());
-  radii.resize(count + ghosts_.size());
+  reference_.resize(count + ghosts_.size());
+  most_.resize(count + ghosts_.size());
   for_each(team, ghosts_.size(), [&](std::size_t g) {
-    points[count + g] = image(ghosts_[g]).position(position[ghosts_[g].source]);
-    radii[count + g] = radius[ghosts_[g].source];
+    reference_[count + g] = image(ghosts_[g]).position(position[ghosts_[g].source]);
+    most_[count + g] = most_[ghosts_[g].source];
   });
+  const std::span<const Vector3> points = reference_;
   sight_may_change_.assign(count, 0);
   // Images in walls are the last ones, and seen from near walls only. A step evaluates rates where the particles are in
   // its middle, a little farther away than the list allows for its ends.
@@ -40,18 +40,19 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     static constexpr Image identity;
     if (!vessel_.is_empty() && std::isfinite(distance_[i])) near = near.first(keep_unhidden(points, i, near));
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
-    const auto end = !domain_.is_near_wall(position[i], reach_ + skin)
+    const auto end = !domain_.is_near_wall(position[i], reach_ + 2 * largest_margin_)
                          ? seldom
                          : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
-                             const auto sight = domain_.sight(points[i], points[j],
-                                                              j < count ? identity : image(ghosts_[j - count]), skin);
+                             const auto sight =
+                                 domain_.sight(points[i], points[j], j < count ? identity : image(ghosts_[j - count]),
+                                               2 * largest_margin_);
                              if (sight == Domain::Sight::may_change) sight_may_change_[i] = 1;
                              return sight == Domain::Sight::never;
                            });
     return static_cast<std::size_t>(end - near.begin());
   };
   const bool all_seen = domain_.walls().empty() && vessel_.is_empty();
-  list_.build(team, points, radii, skin, count, all_seen ? nullptr : keep_visible);
+  list_.build(team, points, most_, 0, count, all_seen ? nullptr : keep_visible);
 
   first_ghost_.resize(count);
   for_each(team, count, [&](std::size_t i) {
@@ -95,8 +96,7 @@ std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::s
   return static_cast<std::size_t>(std::remove_if(near.begin(), near.end(), is_hidden) - near.begin());
 }
 
-void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                                double largest) {
+void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> position) {
   // Particles whose numbers follow each other are mostly near each other too: those of a sphere that is far from all
   // that an image is seen in need no test.
   struct Sphere {
@@ -125,7 +125,7 @@ void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> posit
     for (std::size_t s = 0; s < spheres.size(); ++s)
       if (domain_.is_near(image, image.position(spheres[s].centre), rounding * (reach_ + spheres[s].radius)))
         within(s, [&](std::size_t j) {
-          if (domain_.is_near(image, image.position(position[j]), largest + radius[j] + skin_))
+          if (domain_.is_near(image, image.position(position[j]), 0.5 * reach_ + most_[j]))
             found[n].push_back({static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(n)});
         });
   });
@@ -134,12 +134,10 @@ void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> posit
 }
 
 bool Neighbourhood::holds(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) const {
-  if (skin_ < 0 || reference_.size() != position.size()) return false;
+  if (!built_ || particles() != position.size()) return false;
   return reduce(
       team, position.size(), true,
-      [&](std::size_t i) {
-        return norm(position[i] - reference_[i]) + (radius[i] - reference_radius_[i]) <= 0.5 * skin_;
-      },
+      [&](std::size_t i) { return norm(position[i] - reference_[i]) + radius[i] <= most_[i]; },
       [](bool a, bool b) { return a && b; });
 }
 

@@ -31,17 +31,23 @@ class Neighbourhood {
 
   const Domain& domain() const { return domain_; }
 
-  /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + a_j + skin.
-  /// \param position inside the domain, m; \param radius m; one entry per particle; \param skin >= 0, m
-  /// \throws std::invalid_argument if the largest reach, 2 a + skin, passes the domain's, or a position is not finite
-  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin);
+  /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + m_i + a_j + m_j.
+  /// \param position inside the domain, m; \param radius a, m; \param margin m >= 0 by which a particle may move and
+  /// grow while the lists hold, m; one entry per particle
+  /// \throws std::invalid_argument if the largest reach, 2 (a + m), passes the domain's, or a position is not finite
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
+             std::span<const double> margin);
+  /// The same with half of a skin for all, m.
+  void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
+    build(team, position, radius, std::vector<double>(position.size(), 0.5 * skin));
+  }
 
-  /// True if no particle has moved and grown by more than half the skin since the list was built, so that no pair
-  /// closer than a_i + a_j is missing. False for a position that is not finite.
+  /// True if no particle has moved and grown by more than its margin since the list was built, so that no pair closer
+  /// than a_i + a_j is missing. False for a position that is not finite.
   bool holds(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) const;
 
   double reach() const { return reach_; }  ///< of the lists: no pair in them was farther apart, m
-  std::size_t particles() const { return reference_.size(); }
+  std::size_t particles() const { return first_ghost_.size(); }
   std::span<const Ghost> ghosts() const { return ghosts_; }
   std::span<const Image> images() const { return images_; }
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
@@ -65,14 +71,15 @@ class Neighbourhood {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   void find_distances(ThreadTeam& team, std::span<const Vector3> points);
   std::size_t keep_unhidden(std::span<const Vector3> points, std::size_t i, std::span<std::uint32_t> near) const;
-  void find_ghosts(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double largest);
+  void find_ghosts(ThreadTeam& team, std::span<const Vector3> position);
 
   const Domain& domain_;
   const Surface& vessel_;
-  double skin_ = -1;
+  bool built_ = false;
+  double largest_margin_ = 0;
   double reach_ = 0;
-  std::vector<Vector3> reference_;
-  std::vector<double> reference_radius_;
+  std::vector<Vector3> reference_;  // of particles and ghosts
+  std::vector<double> most_;        // that one may have moved, and its radius be, together, m
   std::vector<Image> images_;
   std::vector<Ghost> ghosts_;
   NeighbourList list_;

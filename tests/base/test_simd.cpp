@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SimdVector of the instruction set that the tests are compiled for. The others run in the tests of the sum over
 /// pairs.
+#include "base/cube_root.hpp"
+#include "base/logarithm.hpp"
 #include "base/simd.hpp"
 
 #include <gtest/gtest.h>
@@ -90,12 +92,12 @@ TYPED_TEST(SimdVectors, ReciprocalSquareRootOverTheRangeOfDistances) {
   EXPECT_FALSE(std::isfinite(reciprocal_sqrt(SimdVector<T>(0)).row[0][0]));
 }
 
-TEST(SimdVectors, LoadColumnsOfRowsAndSumTheirLanes) {
-  using Number = SimdVector<double>;
+TYPED_TEST(SimdVectors, LoadColumnsOfRowsAndSumTheirLanes) {
+  using Number = SimdVector<TypeParam>;
   constexpr int columns = 16;
-  alignas(64) double row[Number::lanes][columns];
+  alignas(64) TypeParam row[Number::lanes][columns];
   for (int k = 0; k < Number::lanes; ++k)
-    for (int c = 0; c < columns; ++c) row[k][c] = 100 * k + c;
+    for (int c = 0; c < columns; ++c) row[k][c] = static_cast<TypeParam>(100 * k + c);
   Number column[columns];
   load_columns([&](int lane) { return row[Number::lanes - 1 - lane]; }, column);
   alignas(64) double sum[columns];
@@ -104,6 +106,28 @@ TEST(SimdVectors, LoadColumnsOfRowsAndSumTheirLanes) {
     for (int k = 0; k < Number::lanes; ++k) EXPECT_EQ(column[c].row[0][k], 100 * (Number::lanes - 1 - k) + c);
     EXPECT_EQ(sum[c], Number::lanes * c + 50 * Number::lanes * (Number::lanes - 1));
   }
+}
+
+TEST(CubeRoot, IsThatOfTheLibraryOverAllMagnitudes) {
+  for (double x = 1e-300; x < 1e300; x *= 1.7)
+    EXPECT_NEAR(static_cast<double>(cube_root(x) / std::cbrt(static_cast<long double>(x))), 1, 3e-16) << x;
+  for (const double x : {0.0, -8.0, 5e-324}) EXPECT_EQ(cube_root(x), std::cbrt(x));
+  EXPECT_TRUE(std::isnan(cube_root(NAN)));
+}
+
+TEST(LogNearOne, IsThatOfTheLibraryWithTheSameBitsInVectors) {
+  using Number = SimdVector<double>;
+  for (double x = 0.01; x < 100; x *= 1.003) {
+    const double found = log_near_one(x);
+    const auto exact = static_cast<double>(std::log(static_cast<long double>(x)));
+    EXPECT_NEAR(found, exact, 5e-16 * std::abs(exact)) << x;
+    Number several = 1.1;  // of which one may lie outside
+    several.row[0][0] = x;
+    EXPECT_EQ(log_near_one(several).row[0][0], found);
+    EXPECT_EQ(log_near_one(several).row[0][1], log_near_one(1.1));
+  }
+  EXPECT_NEAR(log_near_one(1 + 0x1p-40), 0x1p-40, 0x1p-80);
+  EXPECT_EQ(log_near_one(1.0), 0);
 }
 
 }  // namespace

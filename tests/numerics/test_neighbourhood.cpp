@@ -108,6 +108,22 @@ TEST(Neighbourhood, HoldsUntilMotionAndGrowthTogetherPassHalfTheSkin) {
   EXPECT_FALSE(around.holds(team, x, a));
 }
 
+TEST(Neighbourhood, EachParticleHasAMarginOfItsOwn) {
+  const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
+  ThreadTeam team(1);
+  const Domain domain(box);
+  Neighbourhood around(domain);
+  std::vector<Vector3> x = {{5, 5, 5}, {7.25, 5, 5}, {2.85, 5, 5}};
+  const std::vector<double> a = {1, 1, 1}, margin = {0.1, 0.2, 0};
+  around.build(team, x, a, margin);
+  EXPECT_EQ(around.of(0).size(), 1u);
+  EXPECT_EQ(around.of(0)[0], 1u);
+  x[1].y += 0.19;
+  EXPECT_TRUE(around.holds(team, x, a));
+  x[0].y += 0.11;
+  EXPECT_FALSE(around.holds(team, x, a));
+}
+
 TEST(Neighbourhood, RefusesAReachThatPassesFromPlateToFloor) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
   ThreadTeam team(1);

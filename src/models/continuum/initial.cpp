@@ -16,7 +16,8 @@ State initial_state(const Parameters& parameters, const Material& material) {
   state.density.assign(count, parameters.bed.packing * parameters.grains.density);
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
   for (auto& column : state.material.stress) column.assign(count, 0.0);
-  for (auto& column : state.material.collisional) column.assign(count, 0.0);
+  if (parameters.collisions.form != granular::Collisions::none)
+    for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
   state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count());
   if (material.by_displacements()) state.reset_position = state.position;

@@ -142,7 +142,8 @@ double Material::strain(const MaterialColumns& columns, std::size_t i) const {
 
 void Material::mirror(MaterialColumns& columns, std::size_t particle, const Image& image) const {
   set(columns.stress, particle, image.tensor(tensor_at(columns.stress, particle)));
-  set(columns.collisional, particle, image.tensor(tensor_at(columns.collisional, particle)));
+  if (!columns.collisional[0].empty())
+    set(columns.collisional, particle, image.tensor(tensor_at(columns.collisional, particle)));
   const auto remembered = slots();
   constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
   const auto begins_tensor = [&](std::size_t k) {

@@ -65,7 +65,8 @@ inline SymmetricTensor3<> tensor_at(const std::array<std::vector<double>, 6>& s,
 
 /// The whole stress of a particle, Eq. 7: the law's and that by collisions, Pa.
 inline SymmetricTensor3<> stress_of(const MaterialColumns& columns, std::size_t i) {
-  return tensor_at(columns.stress, i) + tensor_at(columns.collisional, i);
+  const SymmetricTensor3<> stress = tensor_at(columns.stress, i);
+  return columns.collisional[0].empty() ? stress : stress + tensor_at(columns.collisional, i);
 }
 
 }  // namespace talus::continuum

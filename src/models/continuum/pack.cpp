@@ -37,7 +37,8 @@ double Sweep::quantum_for(double reach) {
 
 SymmetricTensor3<> Sweep::specific_stress(const ParticleView& particles, std::size_t i) const {
   const double density = particles.density[i];
-  return sph::specific_stress(stress_of(particles.material, i), density, density / grain_density_, stress_form_);
+  const double packing = stress_form_ == sph::StressForm::printed ? density / grain_density_ : 1;  // else unused
+  return sph::specific_stress(stress_of(particles.material, i), density, packing, stress_form_);
 }
 
 /// Walls of a vessel read the records in double precision whatever that of the pairs.

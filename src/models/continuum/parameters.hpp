@@ -96,7 +96,7 @@ struct Parameters {
     Method method = Method::runge_kutta;
     double courant = 0.3;
     std::optional<double> step;
-    double skin = 0.2;
+    double skin = 0.4;
     PairPrecision pair_precision = PairPrecision::in_double;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
@@ -268,10 +268,12 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.courant", dimension::none, above(0),
                   "time step times the speed of pressure waves over the smallest smoothing length"},
         p.integration.courant);
-  visit(Parameter{"integration.skin", dimension::none, between(0, 2),
-                  "skin of the neighbour lists, in particle spacings: with a larger one lists are rebuilt less often "
-                  "but are longer"},
-        p.integration.skin);
+  visit(
+      Parameter{"integration.skin", dimension::none, between(0, 2),
+                "largest skin of the neighbour lists, in particle spacings, that of particles which would move half of "
+                "it in ten steps; those at rest have a quarter: with a larger one lists are rebuilt less often but "
+                "are longer"},
+      p.integration.skin);
   visit(Parameter{"integration.pair_precision",
                   {},
                   {},

@@ -21,9 +21,8 @@ void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   w.domain.open_gates(time);
   open_gates(p, w.vessel, time);
   if (in_vessel) {  // who was hidden by the gate is a neighbour now
-    w.sweep.find_neighbours(team, s.position, w.smoothing_length);
-    s.list_position = s.position;
-    s.list_smoothing_length = w.smoothing_length;
+    set_list_reference(s, w);
+    w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
   }
   if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);

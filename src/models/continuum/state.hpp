@@ -19,7 +19,7 @@ namespace talus::continuum {
 /// What the law knows of each particle, column by column.
 struct MaterialColumns {
   std::array<std::vector<double>, 6> stress;       ///< the law's, Pa, compression positive: xx yy zz xy yz zx
-  std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order
+  std::array<std::vector<double>, 6> collisional;  ///< by collisions, Pa, the same order; empty without them
   std::vector<std::vector<double>> history;        ///< one column per slot of the law
 };
 
@@ -93,6 +93,7 @@ struct State {
   // Where the neighbour lists were built: kept, so that a resumed run has the same lists.
   std::vector<Vector3> list_position;
   std::vector<double> list_smoothing_length;
+  std::vector<double> list_margin;  ///< by which each particle may move and grow while they hold, m
   std::uint64_t list_builds = 0;
   double last_step = 0;  ///< s, length of the last step; 0 before the first
 };
@@ -194,7 +195,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"density", "kg/m3"}, s.density);
   visit(FieldInfo{"identity", "1"}, s.identity);
   for (std::size_t c = 0; c < 6; ++c) visit(FieldInfo{detail::stress_names[c], "Pa"}, s.material.stress[c]);
-  for (std::size_t c = 0; c < 6; ++c)
+  for (std::size_t c = 0; c < 6 && !s.material.collisional[c].empty(); ++c)
     visit(FieldInfo{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
   for (std::size_t k = 0; k < s.slots.size(); ++k)
     visit(FieldInfo{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
@@ -218,6 +219,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"quiet_time", "s"}, s.quiet_time);
   visit(FieldInfo{"list_position", "m", FieldRole::kept, false}, s.list_position);
   visit(FieldInfo{"list_smoothing_length", "m", FieldRole::kept, false}, s.list_smoothing_length);
+  visit(FieldInfo{"list_margin", "m", FieldRole::kept, false}, s.list_margin);
   visit(FieldInfo{"list_builds", "1"}, s.list_builds);
   visit(FieldInfo{"last_step", "s"}, s.last_step);
   if (!s.air.flow.pressure.empty()) for_each_field_of_air(visit, s.air);

@@ -239,7 +239,7 @@ void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     open_gates(p, w.vessel, s.time - s.gate_time);
   }
   update_smoothing_lengths(team, s, w);
-  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
+  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
   evaluate(team, p, s, w);
 }
 

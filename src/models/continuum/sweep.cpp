@@ -55,9 +55,9 @@ double Sweep::smoothing_length(double density) const {
 }
 
 void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
-                            std::span<const double> smoothing_length) {
+                            std::span<const double> smoothing_length, std::span<const double> margin) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
-  neighbourhood_.build(team, position, smoothing_length, skin_);
+  neighbourhood_.build(team, position, smoothing_length, margin);
   quantum_ = quantum_for(neighbourhood_.reach());
   vessel_.find(team, neighbourhood_, position, smoothing_length, skin_);
   loads_of_images_.clear();
@@ -117,21 +117,24 @@ void Sweep::add_loads(std::span<const NeighbourGroup> groups, std::uint32_t wall
 
 /// The neighbours of a particle that it sees. Near a wall they are picked into `seen`.
 Neighbours Sweep::seen_from(std::span<const Vector3> position, std::size_t i, Seen& seen) const {
-  static constexpr Image identity;
-  const auto neighbours = neighbourhood_.of(i);
-  const NeighbourGroup* const group = groups_.data() + first_group_[i];
-  const auto count = static_cast<int>(first_group_[i + 1] - first_group_[i]);
   const std::size_t lines = 3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to);
-  seen.scratch.resize(lines + 1);
-  Neighbours found{neighbours.data(),
-                   group,
-                   count,
+  if (seen.scratch.size() < lines + 1) seen.scratch.resize(lines + 1);
+  Neighbours found{neighbourhood_.of(i).data(),
+                   groups_.data() + first_group_[i],
+                   static_cast<int>(first_group_[i + 1] - first_group_[i]),
                    loads_.data() + first_load_[i],
                    static_cast<int>(first_load_[i + 1] - first_load_[i]),
                    static_cast<int>(first_wall_[i + 1] - first_wall_[i]),
                    seen.scratch.front().number,
                    static_cast<std::uint32_t>(Neighbours::padded_to * lines)};
-  if (!neighbourhood_.sight_may_change(i)) return found;
+  if (neighbourhood_.sight_may_change(i)) pick_seen(position, i, seen, found);
+  return found;
+}
+
+void Sweep::pick_seen(std::span<const Vector3> position, std::size_t i, Seen& seen, Neighbours& found) const {
+  static constexpr Image identity;
+  const std::uint32_t* const neighbours = found.record;
+  const NeighbourGroup* const group = found.group;
   const auto place = [&](std::size_t record, const Image& image) {
     if (record < position.size()) return position[record];
     return image.position(position[neighbourhood_.ghosts()[record - position.size()].source]);
@@ -139,7 +142,7 @@ Neighbours Sweep::seen_from(std::span<const Vector3> position, std::size_t i, Se
   seen.record.clear();
   seen.group.clear();
   std::uint32_t n = 0;
-  for (int g = 0; g < count; ++g) {
+  for (int g = 0; g < found.groups; ++g) {
     const Image& image =
         group[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(group[g].image)];
     for (; n < group[g].end; ++n)
@@ -155,7 +158,6 @@ Neighbours Sweep::seen_from(std::span<const Vector3> position, std::size_t i, Se
   add_loads(seen.group, walls_[i], seen.load);
   found.load = seen.load.data();
   found.loads = static_cast<int>(seen.load.size());
-  return found;
 }
 
 void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {

@@ -69,8 +69,15 @@ class Sweep {
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
 
-  /// Builds the neighbour lists.
-  void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
+  /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
+  /// of the skin
+  void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
+                       std::span<const double> margin);
+  /// The same with half of the skin for all.
+  void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
+    find_neighbours(team, position, smoothing_length, std::vector<double>(position.size(), 0.5 * skin_));
+  }
+  double skin() const { return skin_; }  ///< m
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
 
   /// Packs the records, then computes the requested rates.
@@ -97,6 +104,7 @@ class Sweep {
     std::vector<WallLoad> load;
   };
   Neighbours seen_from(std::span<const Vector3> position, std::size_t i, Seen& seen) const;
+  void pick_seen(std::span<const Vector3> position, std::size_t i, Seen& seen, Neighbours& found) const;
   Records records() const;
   /// Adds the walls of the vessel to the sums of a particle's velocity gradient and density rate.
   void add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/workspace.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "models/continuum/loading.hpp"
@@ -42,6 +43,16 @@ void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
            [&](std::size_t i) { w.smoothing_length[i] = w.sweep.smoothing_length(s.density[i]); });
 }
 
+void set_list_reference(State& s, const Workspace& w) {
+  constexpr double steps = 10, least_share = 0.25;  // of half of the skin
+  const double most = 0.5 * w.sweep.skin();
+  s.list_position = s.position;
+  s.list_smoothing_length = w.smoothing_length;
+  s.list_margin.resize(s.position.size());
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), least_share * most, most);
+}
+
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (s.list_builds % builds_between_sorts == 0) {
     sort_for_locality(s, sph::support * p.bed.spacing);
@@ -52,10 +63,9 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
     if (!s.reset_position.empty()) s.reset_position[i] += wrapped - s.position[i];
     s.position[i] = wrapped;
   }
-  s.list_position = s.position;
-  s.list_smoothing_length = w.smoothing_length;
+  set_list_reference(s, w);
   ++s.list_builds;
-  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length);
+  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {

@@ -50,6 +50,10 @@ struct Workspace {
 /// Those of the workspace, from the densities of the state.
 void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& workspace);
 
+/// Notes where neighbour lists are built, and how far each particle may move before the next ones: those that are fast
+/// farther than those at rest, so that lists of a bed are short and those of a stream hold for some steps.
+void set_list_reference(State& state, const Workspace& workspace);
+
 /// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 

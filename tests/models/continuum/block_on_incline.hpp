@@ -22,7 +22,8 @@ inline double acceleration_of_block(Continuum& model, const State& one, const Ve
   const auto repeat = [&](auto& column) { column.assign(30, column[0]); };
   repeat(s.position), repeat(s.velocity), repeat(s.density), repeat(s.identity);
   for (auto& column : s.material.stress) repeat(column);
-  for (auto& column : s.material.collisional) repeat(column);
+  for (auto& column : s.material.collisional)
+    if (!column.empty()) repeat(column);
   for (auto& column : s.material.history) repeat(column);
   for (std::size_t n = 0; n < 30; ++n) {
     s.identity[n] = std::int64_t(n);
