@@ -115,9 +115,9 @@ class Surroundings {
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
                           double skin, std::size_t count, const Keep& keep) {
   skin_ = -1;
-  first_.assign(count, nullptr);
+  first_.assign(count + 1, 0);
   length_.assign(count, 0);
-  if (count == 0) return lists_.clear();
+  if (count == 0) return neighbours_.clear();
 
   const Cells cells(position, radius, skin);
   const CellGrid& grid = cells.grid;
@@ -131,12 +131,11 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
     }
   };
   static PickNear* const pick_near = TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), pick_near);
-  lists_.resize(chunks);
+  found_.resize(std::max(chunks, found_.size()));
   team.run(chunks, [&](std::size_t chunk) {
-    thread_local Surroundings around_of_thread;
-    thread_local std::vector<std::uint32_t> list_of_thread;
-    Surroundings& around = around_of_thread;  // their addresses are looked up once
-    std::vector<std::uint32_t>& list = list_of_thread;
+    thread_local Surroundings of_thread;
+    Surroundings& around = of_thread;  // its address is looked up once
+    std::vector<std::uint32_t>& list = found_[chunk];
     list.clear();
     for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
       around.gather(cells, position, radius, skin, cell, listed);
@@ -144,18 +143,21 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
         const std::span<std::uint32_t> near = around.near(pick_near, n, skin);
         const std::size_t length = keep ? keep(listed[n], near) : near.size();
         list.insert(list.end(), near.begin(), near.begin() + static_cast<std::ptrdiff_t>(length));
-        list.resize((list.size() + padded_to - 1) / padded_to * padded_to, static_cast<std::uint32_t>(position.size()));
         length_[listed[n]] = static_cast<std::uint32_t>(length);
       }
     });
-    std::vector<std::uint32_t>& lists = lists_[chunk];
-    if (lists.capacity() < list.size() || lists.capacity() > 2 * list.size()) lists = {};  // no more than it takes
-    lists.assign(list.begin(), list.end());
-    const std::uint32_t* first = lists.data();
+  });
+  for (std::size_t i = 0; i < count; ++i)
+    first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
+  // Sums go through the particles by number: in that order their lists lie in memory.
+  neighbours_.resize(first_[count]);
+  team.run(chunks, [&](std::size_t chunk) {
+    const std::uint32_t* list = found_[chunk].data();
     for_each_listed(chunk, [&](std::size_t, std::span<const std::uint32_t> listed) {
       for (const std::uint32_t i : listed) {
-        first_[i] = first;
-        first += (length_[i] + padded_to - 1) / padded_to * padded_to;
+        std::uint32_t* const end = std::copy_n(list, length_[i], neighbours_.data() + first_[i]);
+        std::fill(end, neighbours_.data() + first_[i + 1], static_cast<std::uint32_t>(position.size()));
+        list += length_[i];
       }
     });
   });

@@ -16,10 +16,6 @@ namespace talus {
 
 class NeighbourList {
  public:
-  NeighbourList() = default;
-  NeighbourList(NeighbourList&&) = default;
-  NeighbourList& operator=(NeighbourList&&) = default;
-
   /// Builds a full list (each pair appears twice).
   /// \param position, radius in m, one entry per particle; \param skin >= 0, in m
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
@@ -41,7 +37,7 @@ class NeighbourList {
   /// False for a position that is not finite.
   bool holds(ThreadTeam& team, std::span<const Vector3> position) const;
 
-  std::span<const std::uint32_t> of(std::size_t i) const { return {first_[i], length_[i]}; }
+  std::span<const std::uint32_t> of(std::size_t i) const { return {neighbours_.data() + first_[i], length_[i]}; }
 
   /// Behind each list the number of all points stands until a multiple of `padded_to` is reached, so that whole
   /// registers can be read.
@@ -50,9 +46,10 @@ class NeighbourList {
  private:
   double skin_ = -1;
   std::vector<Vector3> reference_;
-  std::vector<std::vector<std::uint32_t>> lists_;  // of some cells each
-  std::vector<const std::uint32_t*> first_;        // of every point, into these
+  std::vector<std::uint32_t> neighbours_;
+  std::vector<std::size_t> first_;  // a multiple of `padded_to`
   std::vector<std::uint32_t> length_;
+  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory
 };
 
 }  // namespace talus

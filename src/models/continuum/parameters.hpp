@@ -271,7 +271,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(
       Parameter{"integration.skin", dimension::none, between(0, 2),
                 "largest skin of the neighbour lists, in particle spacings, that of particles which would move half of "
-                "it in ten steps; those at rest have a quarter: with a larger one lists are rebuilt less often but "
+                "it in twenty steps; those at rest have a quarter: with a larger one lists are rebuilt less often but "
                 "are longer"},
       p.integration.skin);
   visit(Parameter{"integration.pair_precision",

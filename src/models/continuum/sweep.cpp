@@ -109,16 +109,20 @@ void Sweep::add_loads(std::span<const NeighbourGroup> groups, std::uint32_t wall
       if (load.wall < 0) break;
       const auto slot = static_cast<std::uint8_t>(std::popcount(walls & ((1u << load.wall) - 1)));
       for (int axis = 0; axis < 3; ++axis)
-        for (std::uint32_t n = groups[g - 1].end; load.part[axis] != 0 && n < groups[g].end; n += WallLoad::at_most)
-          loads.push_back({n, static_cast<std::uint8_t>(std::min(WallLoad::at_most, groups[g].end - n)),
+        for (std::uint32_t n = groups[g - 1].end; load.part[axis] != 0 && n < groups[g].end;) {
+          const std::uint32_t first = n / WallLoad::block * WallLoad::block;
+          const std::uint32_t end = std::min(groups[g].end, first + WallLoad::block);
+          loads.push_back({first, static_cast<std::uint8_t>(n - first), static_cast<std::uint8_t>(end - first),
                            static_cast<std::uint8_t>(axis), slot, load.part[axis]});
+          n = end;
+        }
     }
 }
 
 /// The neighbours of a particle that it sees. Near a wall they are picked into `seen`.
 Neighbours Sweep::seen_from(std::span<const Vector3> position, std::size_t i, Seen& seen) const {
   const std::size_t lines = 3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to);
-  if (seen.scratch.size() < lines + 1) seen.scratch.resize(lines + 1);
+  if (seen.scratch.size() < lines) seen.scratch.resize(lines);
   Neighbours found{neighbourhood_.of(i).data(),
                    groups_.data() + first_group_[i],
                    static_cast<int>(first_group_[i + 1] - first_group_[i]),

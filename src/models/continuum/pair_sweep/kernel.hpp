@@ -52,12 +52,13 @@ struct alignas(64) SingleStabiliserRecord {
   float sound_speed, loaded, dense, unused;
 };
 
-/// Neighbours of a particle, up to `at_most` that follow each other in its list, which load a wall: the component of
-/// their accelerations along `axis`, times `part`, goes to that of the wall. A loop over these has one end to guess.
+/// Neighbours of a particle that load a wall, of those `block` in its list that begin at a multiple of it: the
+/// component of their accelerations along `axis`, times `part`, goes to that of the wall. A loop over these has one end
+/// to guess, and reads registers as they were written.
 struct WallLoad {
-  static constexpr std::uint32_t at_most = 16;
-  std::uint32_t first;  ///< place in the list
-  std::uint8_t count;
+  static constexpr std::uint32_t block = 16;
+  std::uint32_t first;      ///< place of the block in the list
+  std::uint8_t begin, end;  ///< places in the block
   std::uint8_t axis;
   std::uint8_t slot;  ///< in PairSums::wall_acceleration
   double part;
@@ -105,7 +106,7 @@ struct Neighbours {
   int loads;
   int walls;                   ///< that these load
   std::byte* scratch;          ///< aligned to 64 bytes
-  std::uint32_t scratch_size;  ///< in numbers, three times the longest list, padded; WallLoad::at_most more follow
+  std::uint32_t scratch_size;  ///< in numbers, three times the longest list, padded
 };
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.

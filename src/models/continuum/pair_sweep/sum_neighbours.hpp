@@ -44,11 +44,11 @@ struct PairAccelerations {
   }
   /// The sum over what loads a wall, lane by lane.
   TALUS_INLINE Number sum(const WallLoad& load) const {
-    const Number count = static_cast<double>(load.count);
+    const Number begin = load.begin - 0.5, end = load.end - 0.5;
     Number all = 0.0;
-    TALUS_UNROLL for (std::uint32_t n = 0; n < WallLoad::at_most; n += Number::lanes) {
-      const Number values = Number::load_unaligned(component[load.axis] + load.first + n);
-      all = all + select(count > Number::ramp(n), values, Number(0.0));
+    TALUS_UNROLL for (std::uint32_t n = 0; n < WallLoad::block; n += Number::lanes) {
+      const Number values = Number::load(component[load.axis] + load.first + n), place = Number::ramp(n);
+      all = all + select(place > begin && end > place, values, Number(0.0));
     }
     return Number(load.part) * all;
   }
