@@ -2,7 +2,6 @@
 /// The cube root without calls, for loops over many numbers.
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -15,7 +14,7 @@ inline double cube_root(double x) {
   // A third of the exponent's bias is lacking after the division: two thirds of 1023 * 2^52, less what centres the
   // error.
   constexpr std::uint64_t lacking = 0x2a9f7893ull << 32;
-  double y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) / 3 + lacking);
+  double y = __builtin_bit_cast(double, __builtin_bit_cast(std::uint64_t, x) / 3 + lacking);
   for (int step = 0; step < 3; ++step) {
     const double cubed = y * y * y;
     y -= y * ((cubed - x) / (2 * cubed + x));

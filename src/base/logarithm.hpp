@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <initializer_list>
 
 #include "base/simd.hpp"
 
@@ -14,8 +13,9 @@ namespace talus {
 template <class Number>
 TALUS_INLINE Number log_near_one(Number x) {
   const Number s = (x - 1.0) / (x + 1.0), t = s * s;
+  constexpr double terms[] = {1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3};
   Number sum = 1.0 / 17;
-  for (const double term : {1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3}) sum = sum * t + term;
+  for (const double term : terms) sum = sum * t + term;
   const Number near = 2.0 * (s + s * (t * sum));
   const auto within = x > Number(0.8) && x < Number(1.25);
   if (all(within)) return near;

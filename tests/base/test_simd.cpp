@@ -4,6 +4,7 @@
 #include "base/cube_root.hpp"
 #include "base/logarithm.hpp"
 #include "base/simd.hpp"
+#include "base/simd_columns.hpp"
 
 #include <gtest/gtest.h>
 

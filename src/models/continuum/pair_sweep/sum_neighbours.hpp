@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/simd.hpp"
+#include "base/simd_columns.hpp"
 #include "base/tensor.hpp"
 #include "models/continuum/pair_sweep/kernel.hpp"
 #include "numerics/sph/cubic_spline.hpp"

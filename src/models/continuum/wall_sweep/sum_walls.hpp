@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/simd.hpp"
+#include "base/simd_columns.hpp"
 #include "models/continuum/wall_sweep/kernel.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_integrals.hpp"
