@@ -124,7 +124,9 @@ TEST(PairPrecision, AWaveConvergesInSinglePrecisionAsInDouble) {
   for (const int particles : {10, 20, 40}) {
     const double error = wave_period(particles, PairPrecision::in_single) - 1;
     EXPECT_NEAR(error, wave_period(particles, PairPrecision::in_double) - 1, 1e-5);
-    if (coarser != 0) EXPECT_NEAR(coarser / error, 4, 0.4);
+    if (coarser != 0) {
+      EXPECT_NEAR(coarser / error, 4, 0.4);
+    }
     coarser = error;
   }
 }
