@@ -27,7 +27,7 @@ constexpr double contact_rate_on_slope = 3.2;  // over contact_rate(), in a plan
 // The same in space over the number of grains to this power: heaps of 60 to 10,000 grains, whose evaluations it gives
 // within 1.4 times.
 constexpr double contact_rate_in_heap = 0.2, heap_power = 0.53;
-constexpr double stiffness_estimates = 0.4;    // evaluations a step, of one in five
+constexpr double stiffness_estimates = 0.4;  // evaluations a step, of one in five
 
 bool lies_on_slope(const Parameters& p) {
   return p.slope.enabled && p.contact.enabled && p.motion != Motion::xy;
@@ -36,8 +36,8 @@ bool lies_on_slope(const Parameters& p) {
 double stiffest_rate(const Parameters& p, double grains) {
   const double floor = contact_rate(p);
   if (!lies_on_slope(p) || p.fluid.mobility == hydrodynamics::Mobility::none) return floor;
-  return floor *
-         (p.motion == Motion::xyz ? std::max(1.0, contact_rate_in_heap * std::pow(grains, heap_power)) : contact_rate_on_slope);
+  return floor * (p.motion == Motion::xyz ? std::max(1.0, contact_rate_in_heap * std::pow(grains, heap_power))
+                                          : contact_rate_on_slope);
 }
 
 double longest_step(const Parameters& p, double rate) {
