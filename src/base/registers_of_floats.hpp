@@ -96,8 +96,8 @@ TALUS_INLINE FloatRegister sums(const FloatRegister (&x)[floats]) {
 #endif
   }
   const auto two = [](FloatRegister a, FloatRegister b) {
-    return __builtin_shufflevector(a, b, TALUS_QUADS(0, n, 1, n + 1)) +
-           __builtin_shufflevector(a, b, TALUS_QUADS(2, n + 2, 3, n + 3));
+    return __builtin_shufflevector(a, b, TALUS_QUADS(0, floats, 1, floats + 1)) +
+           __builtin_shufflevector(a, b, TALUS_QUADS(2, floats + 2, 3, floats + 3));
   };
   const FloatRegister a = two(quads[0], quads[1]), b = two(quads[2], quads[3]);
   return __builtin_shufflevector(a, b, TALUS_QUADS(0, 1, n, n + 1)) +

@@ -108,13 +108,14 @@ std::vector<LoadBand> load_bands(const Parameters& p, const SurfaceFields& field
       }
   std::vector<LoadBand> bands;
   std::vector<std::size_t> first;
-  for (const auto& [patch, e] : extent) {
+  for (const auto& [patch, heights] : extent) {
+    const double low = heights.low, extent_up = heights.high - low;
     const long count =
-        std::clamp(std::lround(std::floor((e.high - e.low) / (height_of_band * p.bed.spacing))), 1L, most_bands);
+        std::clamp(std::lround(std::floor(extent_up / (height_of_band * p.bed.spacing))), 1L, most_bands);
     first.push_back(bands.size());
     for (long k = 0; k < count; ++k) {
       const auto height = [&](long border) {
-        return e.low + (e.high - e.low) * static_cast<double>(border) / static_cast<double>(count);
+        return low + extent_up * static_cast<double>(border) / static_cast<double>(count);
       };
       const std::string name = name_of(p, patch);
       bands.push_back({.name = count == 1 ? name : fmt::format("{}.{}", name, k + 1),

@@ -111,9 +111,9 @@ struct PairGeometry {
                                                    const Number* other) {
     const Number quantum = records.quantum;
     const auto along = [&](int axis) {
-      Number d;
-      d.row[0] = registers::differences_of_bits(other[axis].row[0], own.position[axis]);
-      return quantum * d;
+      Number quanta;
+      quanta.row[0] = registers::differences_of_bits(other[axis].row[0], own.position[axis]);
+      return quantum * quanta;
     };
     return {along(0), along(1), along(2)};
   }
