@@ -90,9 +90,9 @@ std::vector<Measure<HopperRun>> hopper_air_measures();
 /// Those of a vessel in space.
 std::vector<Measure<HopperRun>> hopper_vessel_measures();
 
-/// The particles that flow: below the outlet, or faster than a tenth of the mean of those above it. \param speed of
-/// each, nan where not known, which does not move \pre there is an outlet
-std::vector<bool> moving_particles(const HopperSnapshot& s, std::span<const double> speed);
+/// Mean speed of the particles at the height and above. \param speed of each, nan where not known; those do not count.
+/// \returns nan without any
+double mean_speed_above(double height, std::span<const Vector3> positions, std::span<const double> speed);
 /// The stress across the upright walls of the settled bed over its vertical stress there, of the bands that it fills;
 /// nan without such walls, or without a snapshot of it.
 double wall_pressure_ratio(const HopperRun& run, const Place& place, const Window& window);

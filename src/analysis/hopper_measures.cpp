@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The list of measures of grains in a vessel; those of the air stand in hopper_air_measures.cpp, of
-/// the mass in hopper_mass_measures.cpp. A row: name, unit,
-/// what it means, how it is made; the lengths that it takes from a place; where a summary lists it.
+/// The list of measures of grains in a vessel; those of the mass stand in hopper_mass_measures.cpp, of the air in
+/// hopper_air_measures.cpp, of a vessel in space in hopper_vessel_measures.cpp. A row: name, unit, what it means, how
+/// it is made; the lengths that it takes from a place; where a summary lists it.
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
 #include "analysis/statistics.hpp"

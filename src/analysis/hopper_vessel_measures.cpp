@@ -83,27 +83,23 @@ double wall_pressure_ratio(const HopperRun& run, const Place&, const Window&) {
   return of_bed > 0 ? of_walls / of_bed : none;
 }
 
-std::vector<bool> moving_particles(const HopperSnapshot& s, std::span<const double> speed) {
-  const auto position = s.now.positions();
+double mean_speed_above(double height, std::span<const Vector3> positions, std::span<const double> speed) {
   double sum = 0, count = 0;
-  for (std::size_t i = 0; i < position.size(); ++i)
-    if (position[i].z >= s.shape().plate->height && std::isfinite(speed[i])) sum += speed[i], ++count;
-  std::vector<bool> moving(position.size());
-  for (std::size_t i = 0; i < position.size(); ++i)
-    moving[i] = position[i].z < s.shape().plate->height || speed[i] > hardly * sum / count;
-  return moving;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i].z >= height && std::isfinite(speed[i])) sum += speed[i], ++count;
+  return sum / count;
 }
 
 double share_that_moves(const HopperSnapshot& s, const Place&) {
   const Snapshot* before = s.before ? s.before() : nullptr;
   if (!before || !s.shape().plate) return none;
   const std::vector<double> speed = mean_speeds(*before, s.now);
-  const std::vector<bool> moving = moving_particles(s, speed);
-  const auto position = s.now.positions();
-  double above = 0, of_them = 0;
-  for (std::size_t i = 0; i < position.size(); ++i)
-    if (position[i].z >= s.shape().plate->height) ++above, of_them += moving[i];
-  return above > 0 ? of_them / above : none;
+  const auto positions = s.now.positions();
+  const double outlet = s.shape().plate->height, rests = hardly * mean_speed_above(outlet, positions, speed);
+  double above = 0, moving = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i].z >= outlet) ++above, moving += speed[i] > rests;
+  return above > 0 ? moving / above : none;
 }
 
 std::vector<Row> hopper_vessel_measures() {

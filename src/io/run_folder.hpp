@@ -2,8 +2,10 @@
 /// The folder of a run: where each of its files is, and who may write into it.
 ///
 ///     manifest.json  series.csv  checkpoint_a.h5  checkpoint_b.h5  summary.json  report.html  log.txt  stop
-///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf  snapshots/air_0000.vtkhdf, walls_0000.vtkhdf
-///     ... analysis/*.csv  pictures/*.png  files.txt (what of these Talus wrote: file_list.hpp)
+///     files.txt (what of these Talus wrote: file_list.hpp)
+///     snapshots/particles.hdf.series  snapshots/particles_0000.vtkhdf ...
+///     snapshots/air.hdf.series        snapshots/air_0000.vtkhdf ...        the same of walls
+///     analysis/*.csv  pictures/*.png
 #pragma once
 
 #include <filesystem>

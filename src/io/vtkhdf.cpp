@@ -9,33 +9,24 @@
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/hdf5.hpp"
+#include "io/vtkhdf_unstructured.hpp"
 
 namespace talus {
 
 namespace {
 
-constexpr std::uint8_t vtk_vertex = 1;  // vtkCellType.h
+using vtkhdf::root;
 
-const std::string root = "VTKHDF";
+constexpr std::uint8_t vtk_vertex = 1;  // vtkCellType.h
 
 }  // namespace
 
 void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
   const std::size_t count = snapshot.size();
   hdf5::Writer file(path);
-  file.group(root);
-  file.attribute(root, "Type", "UnstructuredGrid");
-  file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
-
-  const std::vector<std::int64_t> one{static_cast<std::int64_t>(count)};
-  file.write(root + "/NumberOfPoints", one);
-  file.write(root + "/NumberOfCells", one);
-  file.write(root + "/NumberOfConnectivityIds", one);
   std::vector<std::int64_t> numbers(count + 1);
   std::iota(numbers.begin(), numbers.end(), 0);
-  file.write(root + "/Offsets", numbers);
-  file.write(root + "/Connectivity", std::span<const std::int64_t>(numbers).first(count));
-  file.write(root + "/Types", std::vector<std::uint8_t>(count, vtk_vertex));
+  vtkhdf::write_cells(file, count, vtk_vertex, numbers, std::span(numbers).first(count));
 
   file.group(root + "/PointData");
   for (const ColumnView& column : snapshot.columns) {
@@ -50,9 +41,7 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
         column.values);
   }
 
-  file.write(root + "/FieldData/time", std::vector<double>{snapshot.time}, "s");
-  file.write(root + "/FieldData/TimeValue", std::vector<double>{snapshot.time}, "s");
-  file.write(root + "/FieldData/step", std::vector<std::int64_t>{static_cast<std::int64_t>(snapshot.step)}, "1");
+  vtkhdf::write_time(file, snapshot.time, snapshot.step);
   write_atomically(path, file.image());
 }
 

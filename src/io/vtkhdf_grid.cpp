@@ -11,12 +11,14 @@
 #include "base/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/hdf5.hpp"
+#include "io/vtkhdf_unstructured.hpp"
 
 namespace talus {
 
 namespace {
 
-const std::string root = "VTKHDF";
+using vtkhdf::root;
+
 const std::string point_data = root + "/PointData";
 
 std::vector<double> numbers(const Vector3& v) {

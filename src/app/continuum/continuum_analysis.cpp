@@ -175,8 +175,8 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
   return run;
 }
 
-std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting) {
-  const HopperRun run = read_hopper(run_folder, setting);
+std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperRun& run) {
+  const HopperSetting& setting = run.setting;
   const std::filesystem::path folder = run_folder / "analysis";
   make_folder(folder);
   write_snapshots(folder / "snapshots.csv", run, hopper_measures(), "s");

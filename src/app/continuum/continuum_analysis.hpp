@@ -22,6 +22,6 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
 /// and, with a plate, analysis/discharge.csv (20 ms means, one every 5 ms); with the outlet of a vessel
 /// analysis/residence.csv (when ten layers of the bed leave it); returns the summary's quantities.
 /// \throws FileError
-std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting);
+std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperRun& run);
 
 }  // namespace talus::app

@@ -199,10 +199,9 @@ Scene scene_of_continuum(const CaseFile& resolved) {
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
   const Parameters p = read_continuum(resolved).model;
-  const HopperSetting setting = hopper_setting(p);
-  std::vector<NamedValue> quantities = analyze_continuum(folder, setting);
+  const HopperRun run = read_hopper(folder, hopper_setting(p));
+  std::vector<NamedValue> quantities = analyze_continuum(folder, run);
   if (!p.vessel.empty()) {
-    const HopperRun run = read_hopper(folder, setting);
     const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
     const auto within = [&](const Vector3& x) {
       return Vector3{std::clamp(x.x, 0.0, p.box.width), std::clamp(x.y, 0.0, p.box.depth), x.z};
@@ -215,7 +214,7 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
   const auto read = read_continuum(resolved);
-  return draw_continuum(folder, hopper_setting(read.model), read.run.title);
+  return draw_continuum(folder, read_hopper(folder, hopper_setting(read.model)), read.run.title);
 }
 
 }  // namespace talus::app

@@ -39,11 +39,8 @@ struct Frames {
   std::vector<double> time;  // from the gate's opening
 };
 
-Frames snapshots_of(const std::filesystem::path& run_folder) {
-  Frames frames{snapshot_paths(run_folder), {}};
-  const double gate = gate_time_of(read_series(RunFolder(run_folder).series()));
-  for (const auto& path : frames.paths) frames.time.push_back(read_points_time(path) - gate);
-  return frames;
+Frames snapshots_of(const std::filesystem::path& run_folder, const HopperRun& run) {
+  return {snapshot_paths(run_folder), run.snapshots.time()};
 }
 
 /// So opaque that a settled bed looks alike, however many dots lie on each other: 0.25 at 18 dots a square millimetre.
@@ -132,10 +129,8 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
 }
 
 /// The grains over time, particles as dots.
-void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
+void draw_grains(const Frames& frames, const HopperSetting& setting, const std::string& title,
                  const std::filesystem::path& path) {
-  const Frames frames = snapshots_of(run_folder);
-  if (frames.paths.empty()) throw FileError(run_folder.string(), "holds no snapshots");
   const std::vector<std::size_t> chosen = chosen_snapshots(frames.time, pictures_of_a_run);
   std::vector<std::vector<Vector3>> dots;
   double top = 0;
@@ -175,25 +170,23 @@ void draw_grains(const std::filesystem::path& run_folder, const HopperSetting& s
 }
 
 /// The section of a vessel while it flows, by speed: what rests is seen. False without two snapshots to tell.
-bool draw_flow(const std::filesystem::path& run_folder, const HopperSetting& setting, const std::string& title,
+bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& title,
                const std::filesystem::path& path) {
   constexpr double between = 20e-3;  // s, as share_that_moves
-  const Frames frames = snapshots_of(run_folder);
-  const talus::Window flow = hopper::while_it_flows(read_hopper(run_folder, setting));
+  const HopperSetting& setting = run.setting;
+  const talus::Window flow = hopper::while_it_flows(run);
   if (frames.time.size() < 2 || !flow.at) return false;
   const std::size_t n = std::max<std::size_t>(1, nearest_point(frames.time, *flow.at));
   const std::size_t earlier = nearest_point(std::span(frames.time).first(n), frames.time[n] - between);
   const PointSet now = read_points(frames.paths[n]), before = read_points(frames.paths[earlier]);
   const std::vector<double> speed = mean_speeds(before.view(), now.view());
   const auto positions = now.view().positions();
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < speed.size(); ++i)
-    if (positions[i].z >= setting.shape.plate->height && std::isfinite(speed[i])) sum += speed[i], ++count;
-  if (!(sum > 0)) return false;
+  const double mean = hopper::mean_speed_above(setting.shape.plate->height, positions, speed);
+  if (!(mean > 0)) return false;
   const std::vector<std::size_t> seen = seen_particles(setting, positions);
   const std::vector<Vector3> places = picked(positions, seen);
   std::vector<double> over_mean = picked(std::span<const double>(speed), seen);
-  for (double& v : over_mean) v *= count / sum;
+  for (double& v : over_mean) v /= mean;
   const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
   ParticlePicture picture =
       particle_picture(setting, places, radii,
@@ -219,14 +212,16 @@ figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span
   return picture;
 }
 
-std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperSetting& setting,
+std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperRun& run,
                                                   const std::string& title) {
+  const HopperSetting& setting = run.setting;
   const std::filesystem::path pictures = run_folder / "pictures", tables = run_folder / "analysis";
   make_folder(pictures);
   std::vector<std::filesystem::path> drawn;
-  if (const Frames frames = snapshots_of(run_folder); !frames.paths.empty()) {
+  const Frames frames = snapshots_of(run_folder, run);
+  if (!frames.paths.empty()) {
     drawn.push_back(pictures / "frames.png");
-    draw_grains(run_folder, setting, title, drawn.back());
+    draw_grains(frames, setting, title, drawn.back());
     drawn.push_back(pictures / "packing.png");
     draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
@@ -235,7 +230,7 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
     drawn.push_back(pictures / "wall_loads.png");
   if (draw_fields(run_folder, setting, title, pictures / "fields.png")) drawn.push_back(pictures / "fields.png");
   if (!setting.shape.plate) return drawn;
-  if (!setting.section.empty() && draw_flow(run_folder, setting, title, pictures / "flow.png"))
+  if (!setting.section.empty() && draw_flow(frames, run, title, pictures / "flow.png"))
     drawn.push_back(pictures / "flow.png");
   if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,
                  pictures / "discharge.png"))

@@ -23,13 +23,13 @@
 ///
 /// Sources. Dilatancy and the part of it in the friction: Roux & Radjai, Physics of Dry Granular Media (Kluwer, 1998),
 /// 229; k = 4 as Pailha & Pouliquen, J. Fluid Mech. 633, 115 (2009), fitted for glass beads; k = 8 to 10 and b = 0.5 of
-/// discrete elements: validation/bead-shear. mu(I): Jop, Forterre &
-/// Pouliquen, Nature 441, 727 (2006), glass beads. phi_c: Chialvo, Sun & Sundaresan, Phys. Rev. E 85, 021305 (2012), at
-/// a friction of 0.5 between beads. Fall of the packing with I, linear: da Cruz et al., Phys. Rev. E 72, 021309 (2005);
-/// Pouliquen et al., J. Stat. Mech. P07020 (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of
-/// ageing of Dieterich and Ruina (Ruina, J. Geophys. Res. 88, 10359, 1983), with a strain in place of a length; slopes
-/// of glass beads start some 2 to 5 degrees above where they stop (Forterre & Pouliquen, Annu. Rev. Fluid Mech. 40, 1,
-/// 2008). Range: dry beads, I up to 0.3. completed: Delta_mu, T, gamma_0 and phi_min are choices.
+/// discrete elements: validation/bead-shear. mu(I): Jop, Forterre & Pouliquen, Nature 441, 727 (2006), glass beads.
+/// phi_c: Chialvo, Sun & Sundaresan, Phys. Rev. E 85, 021305 (2012), at a friction of 0.5 between beads. Fall of the
+/// packing with I, linear: da Cruz et al., Phys. Rev. E 72, 021309 (2005); Pouliquen et al., J. Stat. Mech. P07020
+/// (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of ageing of Dieterich and Ruina (Ruina, J.
+/// Geophys. Res. 88, 10359, 1983), with a strain in place of a length; slopes of glass beads start some 2 to 5 degrees
+/// above where they stop (Forterre & Pouliquen, Annu. Rev. Fluid Mech. 40, 1, 2008). Range: dry beads, I up to 0.3.
+/// completed: Delta_mu, T, gamma_0 and phi_min are choices.
 #pragma once
 
 #include <string_view>

@@ -2,6 +2,7 @@
 /// A state whose columns a test sets by hand, and the sums over neighbours of it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -62,6 +63,21 @@ struct Evaluation {
     for (const double rho : state.density) h.push_back(sweep.smoothing_length(rho));
     sweep.find_neighbours(team, state.position, h);
     sweep(team, {state.position, state.velocity, state.density, h, state.material}, terms, rates);
+  }
+
+  /// Summed over the particles: of all forces, of the walls' alone, and of the sizes of all.
+  struct Accelerations {
+    Vector3 total, by_walls;
+    double size = 0;
+  };
+  Accelerations accelerations() const {
+    Accelerations sums;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+      sums.total += rates.acceleration[i];
+      sums.size += norm(rates.acceleration[i]);
+      rates.by_walls.of(i, [&](int wall, double a) { sums.by_walls[std::min(wall / 2, 2)] += a; });
+    }
+    return sums;
   }
 };
 

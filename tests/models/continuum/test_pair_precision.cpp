@@ -82,14 +82,8 @@ TEST(PairPrecision, PlacesAreAsGoodFarFromTheOrigin) {
 TEST(PairPrecision, InSinglePrecisionForcesCancelToTheRoundOffOfFloats) {
   DisturbedBed e(PairPrecision::in_single, InstructionSet::automatic, false);
   e.evaluate();
-  Vector3 total, by_walls;
-  double size = 0;
-  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
-    total += e.rates.acceleration[i];
-    size += norm(e.rates.acceleration[i]);
-    e.rates.by_walls.of(i, [&](int wall, double a) { by_walls[std::min(wall / 2, 2)] += a; });
-  }
-  EXPECT_LT(norm(total - by_walls), 1e-7 * size);
+  const Evaluation::Accelerations sums = e.accelerations();
+  EXPECT_LT(norm(sums.total - sums.by_walls), 1e-7 * sums.size);
 }
 
 /// Period of a small standing pressure wave in a closed column, over its length and the speed of the continuum's.

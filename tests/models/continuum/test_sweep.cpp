@@ -92,15 +92,9 @@ TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   e.disturb(0.3);
   e.randomise(0.9);
   e.evaluate();
-  Vector3 total, by_walls;
-  double size = 0;
-  for (std::size_t i = 0; i < e.state.position.size(); ++i) {
-    total += e.rates.acceleration[i];
-    size += norm(e.rates.acceleration[i]);
-    e.rates.by_walls.of(i, [&](int wall, double a) { by_walls[std::min(wall / 2, 2)] += a; });
-  }
-  EXPECT_LT(norm(total - by_walls), 1e-13 * size);
-  EXPECT_GT(norm(by_walls), 1e-6 * size);
+  const Evaluation::Accelerations sums = e.accelerations();
+  EXPECT_LT(norm(sums.total - sums.by_walls), 1e-13 * sums.size);
+  EXPECT_GT(norm(sums.by_walls), 1e-6 * sums.size);
 }
 
 TEST(Sweep, ThePlatesTwoSidesDoNotFeelEachOther) {
