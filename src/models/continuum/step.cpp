@@ -169,13 +169,14 @@ void Step::drift(double duration, std::span<const Vector3> velocity) const {
   });
 }
 
-/// Eq. 16. The gradients of a grain that is all but alone at a wall of a vessel are those of one or two neighbours, and
-/// what they open beyond the wall would thin it out without end, the more the farther its kernel then reaches: it is
-/// held where the kernel is three times as wide as the bed's.
+/// Eq. 16. The gradients of a particle that is all but alone are those of one or two neighbours, and what they open
+/// where there are none, beyond a wall above all, would thin it out without end, the more the farther its kernel then
+/// reaches: it is held where the kernel is three times as wide as the bed's.
 void Step::density() const {
-  const double thinnest = w.vessel.is_empty() ? 0 : p.bed.packing * p.grains.density / 27;
+  const double thinnest = p.bed.packing * p.grains.density / 27;
   for_each(team, s.density.size(), [&](std::size_t i) {
-    s.density[i] = std::max(thinnest, sph::density_after(s.density[i], dt * w.rates.density_rate[i]));
+    // In this order a density that is no number stays one, and is found.
+    s.density[i] = std::max(sph::density_after(s.density[i], dt * w.rates.density_rate[i]), thinnest);
   });
 }
 

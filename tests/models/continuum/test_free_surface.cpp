@@ -2,6 +2,8 @@
 /// Densities where a bed faces nothing (docs/decisions/0013-density-at-a-free-surface.md).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cases.hpp"
 #include "models/continuum/step.hpp"
 
@@ -56,6 +58,21 @@ TEST(Advance, WhatLayOnAGateIsLooserWithoutIt) {
     looser += lay_on_it;
   }
   EXPECT_EQ(looser, 8u);
+}
+
+TEST(Advance, WhatFliesApartThinsOutUntilTheKernelIsThreeTimesAsWide) {
+  Parameters p = free_block(4, 4, 4);
+  make_granular(p);
+  p.gravity.acceleration = 0;
+  ThreadTeam team(1);
+  Continuum model(p);
+  State& s = model.mutable_state();
+  const Vector3 middle{0.5, 0.5 * p.box.depth, 5 + 2 * spacing};
+  for (std::size_t i = 0; i < s.position.size(); ++i) s.velocity[i] = 50 * (s.position[i] - middle);
+  model.begin(team);
+  while (s.time < 0.1) model.advance(team);  // six times as far apart
+  const double least = *std::min_element(s.density.begin(), s.density.end());
+  EXPECT_DOUBLE_EQ(least, bulk_density(p) / 27);
 }
 
 TEST(Advance, ABuriedSurfaceIsAsDenseAsTheGrainsAroundIt) {
