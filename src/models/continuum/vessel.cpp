@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "models/continuum/parameters.hpp"
+#include "models/continuum/state.hpp"
 #include "models/continuum/vessel_motion.hpp"
 #include "numerics/surface/surface_faults.hpp"
 #include "physics/granular/orifice_discharge.hpp"
@@ -304,11 +305,10 @@ std::vector<Problem> check_vessel(const Parameters& p) {
       add("upper_depth", "the pyramid has no depth", "one of both above 0");
     if (v.shape == VesselShape::plate && !(norm(cross(vector_of(v.first_edge), vector_of(v.second_edge))) > 0))
       add("second_edge", "the plate has no area", "an edge at an angle to first_edge");
-    for (const char c : v.name)
-      if (!(std::isalnum(static_cast<unsigned char>(c)) || c == '_')) {
-        add("name", fmt::format("\"{}\" cannot name a column", v.name), "letters, digits and _");
-        break;
-      }
+    if (!std::all_of(v.name.begin(), v.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; }))
+      add("name", fmt::format("\"{}\" cannot name a column", v.name), "letters, digits and _");
+    if (std::find(wall_names.begin(), wall_names.end(), v.name) != wall_names.end())
+      add("name", fmt::format("\"{}\" is a wall of the box", v.name), "a name of its own");
     for (std::size_t m = 0; m < n; ++m)
       if (name_of(p, m) == name_of(p, n)) add("name", "is that of another wall too", "a name of its own");
     check_motion(v, n, problems);

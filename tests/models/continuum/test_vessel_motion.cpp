@@ -21,7 +21,7 @@ Parameters layer_on_a_floor() {
   p.box.floor = FaceKind::open;
   p.walls.coefficient = 0.2;
   p.walls.friction_from = FrictionFrom::start;
-  p.vessel = {plate("floor", {-4, -4, 2}, {14, 0, 0}, {0, 14, 0})};
+  p.vessel = {plate("bottom", {-4, -4, 2}, {14, 0, 0}, {0, 14, 0})};
   p.bed.bottom = 2 * spacing;
   return p;
 }
