@@ -39,6 +39,7 @@ struct HopperSetting {
   double outlet_length = 0;            ///< of an outlet that is not round, its longer side, m; 0: round, or none
   std::vector<BandOfWall> bands = {};  ///< of the vessel's walls
   double hand_discharge = 0;           ///< by a hand formula, kg/s; 0: none for this outlet
+  double mass_flow_half_angle = std::numeric_limits<double>::quiet_NaN();  ///< by a hand formula, rad; nan: none
   double stress_share = 1;  ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }

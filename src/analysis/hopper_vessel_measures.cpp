@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The answers about a vessel in space: the third part of the list of hopper_measures.cpp.
 #include <cmath>
+#include <numbers>
 
 #include "analysis/discharge.hpp"
 #include "analysis/displacement.hpp"
@@ -28,6 +29,10 @@ bool vessel_with_outlet(const Run& run) {
 }
 bool vessel_with_slit(const Run& run) {
   return vessel_with_outlet(run) && run.setting.outlet_length > 0;
+}
+
+bool cone(const Run& run) {
+  return !std::isnan(run.setting.mass_flow_half_angle);
 }
 
 bool has_upright_walls(const Run& run) {
@@ -123,6 +128,13 @@ std::vector<Row> hopper_vessel_measures() {
           "since the snapshot about 20 ms before, over the time between. From 0.99 on it is mass flow, below that "
           "funnel flow",
           at(share_that_moves), {{vessel_with_outlet, while_it_flows}}),
+      Row("mass_flow_half_angle_jenike", "deg",
+          "half angle, from the vertical, up to which a cone empties in mass flow by hand: 90° − ½ acos((1 − sin φ)/(2 "
+          "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ of the grains, φ_w = atan μ of the cone's wall",
+          {[](const Run& r, const Place&, const Window&) {
+            return r.setting.mass_flow_half_angle * 180 / std::numbers::pi;
+          }},
+          {{cone}}),
       Row("wall_pressure_ratio", "1",
           "K: stress across the upright walls, from their impulses over 20 ms before the gate opened, over the mean "
           "τ_zz of the bed at the same heights, in the last snapshot before",

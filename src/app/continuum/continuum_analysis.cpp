@@ -9,6 +9,7 @@
 #include "analysis/discharge.hpp"
 #include "analysis/residence.hpp"
 #include "app/case/run_tables.hpp"
+#include "app/continuum/hand_formulas.hpp"
 #include "app/continuum/wall_loads.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
@@ -141,13 +142,14 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .has_floor = is_mirror(p.box.floor),
                         .level_ground = !p.wedge.half_angle && p.plates.empty() && p.vessel.empty(),
                         .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
+  setting.hand_discharge = discharge_by_hand(p);
   if (!p.vessel.empty()) {
     const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
     setting.middle = 0.5 * (around.low.y + around.high.y);
     Surface surface = continuum::surface_of(p);
     continuum::open_gates(p, surface, std::numeric_limits<double>::infinity());
     setting.section = section_at(surface, setting.middle);
-    setting.hand_discharge = continuum::discharge_by_hand(p);
+    setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(p);
     setting.bands = bands_of(p);
     if (const auto outlet = continuum::outlet_of_vessel(p); outlet && !outlet->round)
       setting.outlet_length = std::max(outlet->width, outlet->depth);

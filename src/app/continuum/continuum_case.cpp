@@ -11,6 +11,7 @@
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
+#include "app/continuum/hand_formulas.hpp"
 #include "app/continuum/hopper_observers.hpp"
 #include "app/continuum/vessel_fields.hpp"
 #include "app/continuum/wall_loads.hpp"
@@ -49,8 +50,7 @@ std::vector<NamedValue> groups(const Parameters& p) {
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
-  if (const double rate = continuum::discharge_by_hand(p); rate > 0)
-    groups.push_back({"discharge_by_hand", "kg/s", rate});
+  if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
     groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
   return groups;

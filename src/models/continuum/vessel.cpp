@@ -13,7 +13,6 @@
 #include "models/continuum/state.hpp"
 #include "models/continuum/vessel_motion.hpp"
 #include "numerics/surface/surface_faults.hpp"
-#include "physics/granular/orifice_discharge.hpp"
 
 namespace talus::continuum {
 
@@ -261,24 +260,6 @@ bool has_gates_due(const Parameters& p, const Surface& surface, double time) {
 void open_gates(const Parameters& p, Surface& surface, double time) {
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
     if (p.vessel[n].gate && time >= p.vessel[n].opens_after) surface.open(n);
-}
-
-double discharge_by_hand(const Parameters& p) {
-  const auto outlet = outlet_of_vessel(p);
-  if (!outlet || !outlet->round) return 0;
-  double factor = 1;
-  for (const VesselPart& v : p.vessel)
-    if (v.shape == VesselShape::cone && v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
-      factor = granular::factor_of_cone((v.upper_radius - v.lower_radius) / (v.top - v.bottom));
-  // Of a vessel cut by planes of symmetry, the part that is computed.
-  const auto inside = [](double middle, double width, double extent) {
-    return (std::min(middle + 0.5 * width, extent) - std::max(middle - 0.5 * width, 0.0)) / width;
-  };
-  const double share =
-      inside(outlet->middle.x, outlet->width, p.box.width) * inside(outlet->middle.y, outlet->depth, p.box.depth);
-  return share * factor *
-         granular::orifice_discharge(outlet->width, p.bed.packing * p.grains.density, p.gravity.acceleration,
-                                     p.grains.diameter);
 }
 
 std::vector<Problem> check_vessel(const Parameters& p) {

@@ -199,10 +199,6 @@ struct VesselOutlet {
 };
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
 
-/// What leaves by a hand formula (physics/granular/orifice_discharge.hpp) where the outlet is round, kg/s; else 0. Of
-/// an axis in a plane of symmetry, what leaves on this side of it.
-double discharge_by_hand(const Parameters& parameters);
-
 /// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top by steps
 /// from place to place that no wall crosses; those nearer to a wall than 0.4 spacings are moved off it to that
 /// distance.

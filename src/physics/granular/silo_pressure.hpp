@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace talus::granular {
 
@@ -46,6 +47,18 @@ inline ConeBearing cone_in_flow(double half_angle, double friction, double inter
   return detail::cone_bearing(
       (1 + std::sin(internal) * std::cos(turned)) / (1 - std::sin(internal) * std::cos(2 * half_angle + turned)),
       half_angle, friction);
+}
+
+/// The largest half angle of a cone, from the vertical, in which all grains move while it empties, rad: pi/2 -
+/// acos((1 - sin phi)/(2 sin phi))/2 - (phi_w + asin(sin phi_w/sin phi))/2. Farther from the vertical there is no
+/// stress field of the whole cone in flow, and grains at its wall stay. Source: Jenike, Bull. 108, Univ. of Utah Eng.
+/// Exp. Stn. (1961), in closed form as in Leung et al., J. Pharm. Sci. 108, 464 (2019), Eqs 5 and 6. \param friction of
+/// the wall \param internal phi, rad; the form holds from 19.5 degrees on \returns 0 if there is no such cone
+inline double mass_flow_half_angle(double friction, double internal) {
+  const double wall = std::min(std::atan(friction), internal), sine = std::sin(internal);
+  const double turned = wall + std::asin(std::clamp(std::sin(wall) / sine, 0.0, 1.0));
+  const double largest = 0.5 * (std::numbers::pi - std::acos(std::clamp((1 - sine) / (2 * sine), 0.0, 1.0)));
+  return std::max(0.0, largest - 0.5 * turned);
 }
 
 /// The vertical stress in a cone, Pa: that of slices, dp/dx = n p/x - rho_b g, x the height above the apex.

@@ -53,5 +53,13 @@ TEST(ConeInFlow, IsWalkersRatio) {
   EXPECT_NEAR(cone_in_flow(20 * degree, 5, 30 * degree).ratio, rough, 1e-9) << "no rougher than they";
 }
 
+TEST(MassFlowHalfAngle, IsJenikes) {
+  // By hand: 90 - acos(0.1527)/2 - (20 + asin(0.4465))/2.
+  EXPECT_NEAR(mass_flow_half_angle(std::tan(20 * degree), 50 * degree) / degree, 90 - 40.61 - 23.26, 0.02);
+  EXPECT_NEAR(mass_flow_half_angle(0, 30 * degree) / degree, 60, 1e-9) << "smooth walls";
+  EXPECT_NEAR(mass_flow_half_angle(std::tan(30 * degree), 30 * degree), 0, 1e-7) << "as rough as the grains";
+  EXPECT_EQ(mass_flow_half_angle(2, 50 * degree), 0) << "no rougher than they";
+}
+
 }  // namespace
 }  // namespace talus::granular

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/hand_formulas.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "physics/granular/orifice_discharge.hpp"
+#include "physics/granular/silo_pressure.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using continuum::VesselPart;
+using continuum::VesselShape;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double usual_angle = 30 * std::numbers::pi / 180;  // of internal friction, where the law has none of its own
+
+double friction_of(const continuum::Parameters& p, const VesselPart& v) {
+  return p.walls.friction == continuum::Friction::none ? 0 : v.friction.value_or(p.walls.coefficient);
+}
+
+double internal_friction(const continuum::Parameters& p) {
+  double friction = 0;
+  if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().friction;
+  if (p.law.is<granular::DruckerPrager>()) friction = p.law.of<granular::DruckerPrager>().friction;
+  return friction > 0 ? std::atan(friction) : usual_angle;
+}
+
+/// Area over circumference of upright walls; 0 for others.
+double hydraulic_radius(const VesselPart& v) {
+  if (v.shape == VesselShape::cylinder) return 0.5 * v.radius;
+  if (v.shape == VesselShape::box) return 0.5 * v.width * v.depth / (v.width + v.depth);
+  return 0;
+}
+
+/// The upright walls that hold a height, or stand next above it.
+const VesselPart* upright_at(const continuum::Parameters& p, double height) {
+  const VesselPart* nearest = nullptr;
+  for (const VesselPart& v : p.vessel)
+    if (hydraulic_radius(v) > 0 && v.top > height && (!nearest || v.bottom < nearest->bottom)) nearest = &v;
+  return nearest;
+}
+
+/// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
+double janssen_at(const continuum::Parameters& p, double ratio, double top, double height) {
+  const VesselPart* v = upright_at(p, height);
+  if (!v || v->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
+  const double friction = friction_of(p, *v);
+  const double length = friction > 0 ? hydraulic_radius(*v) / (friction * ratio) : infinity;
+  return granular::janssen_stress(p.bed.packing * p.grains.density * p.gravity.acceleration, length, top - height);
+}
+
+PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart& v, double ratio, double top,
+                                double height) {
+  const double angle = std::atan((v.upper_radius - v.lower_radius) / (v.top - v.bottom)), mu = friction_of(p, v);
+  const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
+  const double above = top > v.top ? janssen_at(p, ratio, top, v.top) : 0;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration;
+  const auto pressure = [&](const granular::ConeBearing& bearing) {
+    return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
+  };
+  return {pressure(granular::cone_at_rest(angle, mu)),
+          pressure(granular::cone_in_flow(angle, mu, internal_friction(p)))};
+}
+
+/// The cone through which the vessel empties.
+const VesselPart* emptying_cone(const continuum::Parameters& p) {
+  const auto outlet = continuum::outlet_of_vessel(p);
+  for (const VesselPart& v : p.vessel)
+    if (outlet && outlet->round && v.shape == VesselShape::cone && v.along == continuum::Along::z &&
+        v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
+      return &v;
+  return nullptr;
+}
+
+double tangent_of(const VesselPart& cone) {
+  return (cone.upper_radius - cone.lower_radius) / (cone.top - cone.bottom);
+}
+
+double bulk_density(const continuum::Parameters& p) {
+  return p.bed.packing * p.grains.density;
+}
+
+/// What a slit of a plate across the box discharges: half of one twice as wide where it begins at a face.
+double discharge_of_slit(const continuum::Parameters& p) {
+  if (!p.plate.height || p.wedge.half_angle || !p.plates.empty()) return 0;
+  const auto outlet = continuum::outlet_of(p);
+  if (!outlet) return 0;
+  const auto cut = [](FaceKind face, double distance) { return face != FaceKind::open && distance <= 0; };
+  const double halves = cut(p.box.left, outlet->left) || cut(p.box.right, p.box.width - outlet->right) ? 2 : 1;
+  return granular::rectangular_discharge(halves * (outlet->right - outlet->left), p.box.depth, true, bulk_density(p),
+                                         p.gravity.acceleration, p.grains.diameter) /
+         halves;
+}
+
+}  // namespace
+
+double discharge_by_hand(const continuum::Parameters& p) {
+  const auto outlet = continuum::outlet_of_vessel(p);
+  if (!outlet) return p.vessel.empty() ? discharge_of_slit(p) : 0;
+  const auto inside = [](double middle, double width, double extent) {
+    return (std::min(middle + 0.5 * width, extent) - std::max(middle - 0.5 * width, 0.0)) / width;
+  };
+  const double share =
+      inside(outlet->middle.x, outlet->width, p.box.width) * inside(outlet->middle.y, outlet->depth, p.box.depth);
+  if (!outlet->round)
+    return share * granular::rectangular_discharge(outlet->width, outlet->depth, false, bulk_density(p),
+                                                   p.gravity.acceleration, p.grains.diameter);
+  const VesselPart* cone = emptying_cone(p);
+  return share * (cone ? granular::factor_of_cone(tangent_of(*cone)) : 1) *
+         granular::orifice_discharge(outlet->width, bulk_density(p), p.gravity.acceleration, p.grains.diameter);
+}
+
+double mass_flow_half_angle_by_hand(const continuum::Parameters& p) {
+  const VesselPart* cone = emptying_cone(p);
+  return cone ? granular::mass_flow_half_angle(friction_of(p, *cone), internal_friction(p)) : HopperRun::none;
+}
+
+PressureByHand pressure_by_hand(const continuum::Parameters& p, const BandOfWall& band, double ratio, double top,
+                                double height) {
+  if (!(height < top)) return {};
+  const VesselPart& v = p.vessel[band.patch];
+  if (v.shape == VesselShape::cone && v.upper_radius > v.lower_radius)
+    return pressure_of_cone(p, v, ratio, top, height);
+  const double vertical = janssen_at(p, ratio, top, height);
+  if (hydraulic_radius(v) > 0) return {ratio * vertical, ratio * vertical};
+  return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none} : PressureByHand{};
+}
+
+}  // namespace talus::app

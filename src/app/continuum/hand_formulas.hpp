@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What an engineer would compute by hand for a case, to stand beside what Talus computes.
+#pragma once
+
+#include "analysis/hopper.hpp"
+#include "models/continuum/parameters.hpp"
+
+namespace talus::app {
+
+/// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with a round or rectangular outlet; of a
+/// level plate with a slit, which goes on beyond the faces that it ends at. Of an outlet that is cut by planes of
+/// symmetry, what leaves on this side of them. \returns 0 where there is no formula, as for a wedge
+double discharge_by_hand(const continuum::Parameters& parameters);
+
+/// The largest half angle of mass flow in a cone (physics/granular/silo_pressure.hpp), rad; nan if the vessel empties
+/// through no cone. The friction inside is the law's, 30 degrees where it has none.
+double mass_flow_half_angle_by_hand(const continuum::Parameters& parameters);
+
+/// The pressure on a band by hand, Pa; nan where there is no formula for it.
+struct PressureByHand {
+  double at_rest = HopperRun::none, in_flow = HopperRun::none;
+};
+
+/// On upright round or square walls K times Janssen's stress; on a level band that stress; on a cone Walker's pressure,
+/// the bed above it a surcharge by Janssen. \param ratio K, as measured in the bed at rest \param top of the bed, m
+/// \param height of the place, m
+PressureByHand pressure_by_hand(const continuum::Parameters& parameters, const BandOfWall& band, double ratio,
+                                double top, double height);
+
+}  // namespace talus::app

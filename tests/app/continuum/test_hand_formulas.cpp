@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/hand_formulas.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/continuum/wall_loads.hpp"
+#include "physics/granular/orifice_discharge.hpp"
+#include "physics/granular/silo_pressure.hpp"
+#include "small_silo.hpp"
+
+namespace talus::app {
+namespace {
+
+constexpr double weight = 0.6 * 2500 * 9.81, ratio = 0.5, friction = 0.3, top = 0.15;
+
+TEST(DischargeByHand, OfAConeIsBeverloosTimesRoseAndTanakas) {
+  continuum::Parameters p = small_silo();
+  const double whole = granular::orifice_discharge(2 * p.vessel[1].lower_radius, 1500, 9.81, p.grains.diameter) *
+                       granular::factor_of_cone(std::tan(std::numbers::pi / 6));
+  EXPECT_NEAR(discharge_by_hand(p), whole, 1e-12);
+  for (continuum::VesselPart& v : p.vessel) v.centre = {0, 0};
+  EXPECT_NEAR(discharge_by_hand(p), 0.25 * whole, 1e-12) << "a quarter between planes of symmetry";
+}
+
+TEST(DischargeByHand, OfARectangularGateHasEdgesOnFourSides) {
+  continuum::Parameters p = small_silo();
+  p.vessel.erase(p.vessel.begin() + 1);
+  p.vessel[1].shape = continuum::VesselShape::plate;
+  p.vessel[1].corner = {0.04, 0.045, 0.09}, p.vessel[1].first_edge = {0.02, 0, 0},
+  p.vessel[1].second_edge = {0, 0.01, 0};
+  EXPECT_NEAR(discharge_by_hand(p), granular::rectangular_discharge(0.02, 0.01, false, 1500, 9.81, p.grains.diameter),
+              1e-12);
+}
+
+TEST(DischargeByHand, OfASlitInAPlateIsThatOfAnEndlessOne) {
+  continuum::Parameters p;
+  p.box.width = 0.1, p.box.depth = 5e-3, p.box.height = 0.25;
+  p.plate.height = 0.1, p.plate.slit_left = 0.03, p.plate.slit_right = 0.07;
+  const double whole = granular::rectangular_discharge(0.04, 5e-3, true, 1500, 9.81, p.grains.diameter);
+  EXPECT_NEAR(discharge_by_hand(p), whole, 1e-12);
+  EXPECT_NEAR(whole, 0.19, 0.01) << "the paper's hopper";
+  p.plate.slit_left = 0, p.plate.slit_right = 0.02;
+  EXPECT_NEAR(discharge_by_hand(p), 0.5 * whole, 1e-12) << "half of it, cut by its plane of symmetry";
+  p.plate.slit_left.reset(), p.plate.slit_right.reset();
+  EXPECT_EQ(discharge_by_hand(p), 0);
+}
+
+TEST(MassFlowByHand, IsOfTheConeAndItsWall) {
+  continuum::Parameters p = small_silo();
+  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p), granular::mass_flow_half_angle(friction, std::numbers::pi / 6));
+  p.vessel[1].friction = 0.1;
+  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p), granular::mass_flow_half_angle(0.1, std::numbers::pi / 6));
+  p.vessel.erase(p.vessel.begin() + 1);
+  EXPECT_TRUE(std::isnan(mass_flow_half_angle_by_hand(p)));
+}
+
+TEST(PressureByHand, IsJanssensAndWalkers) {
+  const continuum::Parameters p = small_silo();
+  const std::vector<BandOfWall> bands = bands_of(p);
+  const double length = 0.06 / (4 * friction * ratio);
+  const PressureByHand upright = pressure_by_hand(p, bands[2], ratio, top, 0.11);
+  EXPECT_NEAR(upright.at_rest, ratio * granular::janssen_stress(weight, length, top - 0.11), 1e-9);
+  EXPECT_EQ(upright.at_rest, upright.in_flow);
+  EXPECT_TRUE(std::isnan(pressure_by_hand(p, bands[7], ratio, top, 0.16).at_rest)) << "above the bed";
+  // At the cone's top the bed above is all that it bears.
+  const double above = granular::janssen_stress(weight, length, top - 0.09), angle = continuum::half_turn / 6;
+  const PressureByHand cone = pressure_by_hand(p, bands[10], ratio, top, 0.09);
+  EXPECT_NEAR(cone.at_rest, granular::cone_at_rest(angle, friction).ratio * above, 1e-6);
+  EXPECT_NEAR(cone.in_flow, granular::cone_in_flow(angle, friction, 30 * continuum::half_turn / 180).ratio * above,
+              1e-6);
+  EXPECT_TRUE(std::isnan(pressure_by_hand(p, bands.back(), ratio, top, 0.06).at_rest))
+      << "no formula of the lid of a cone";
+}
+
+TEST(PressureByHand, SmoothWallsLeaveTheWholeWeightToTheFloor) {
+  continuum::Parameters p = small_silo();
+  p.walls.friction = continuum::Friction::none;
+  p.vessel[2].height = 0.09, p.vessel[2].radius = 0.03;
+  p.vessel.erase(p.vessel.begin() + 1);
+  const std::vector<BandOfWall> bands = bands_of(p);
+  EXPECT_NEAR(pressure_by_hand(p, bands.back(), ratio, top, 0.09).at_rest, weight * (top - 0.09), 1e-9);
+}
+
+}  // namespace
+}  // namespace talus::app
