@@ -30,9 +30,9 @@ Parameters with_moving_walls(Parameters p) {
 
 }  // namespace
 
-AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls)
+AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls, const Surface& surface)
     : parameters_(with_moving_walls(parameters)),
-      apertures_(grid, parameters_.boundaries, walls),
+      apertures_(grid, parameters_.boundaries, walls, surface),
       convection_(apertures_),
       viscosity_(apertures_),
       solver_(grid, periodic_axes(parameters.boundaries)),
@@ -43,8 +43,8 @@ AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vect
     *field = grid.face_field();
 }
 
-void AirFlow::set_walls(const std::vector<Wall>& walls) {
-  apertures_ = FaceApertures(apertures_.grid, parameters_.boundaries, walls);
+void AirFlow::set_walls(const std::vector<Wall>& walls, const Surface& surface) {
+  apertures_ = FaceApertures(apertures_.grid, parameters_.boundaries, walls, surface);
 }
 
 void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {

@@ -31,13 +31,14 @@ namespace talus::air {
 
 class AirFlow {
  public:
-  /// \param walls the air passes through their openings
-  AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls = {});
+  /// \param walls the air passes through their openings \param surface and through its open patches
+  AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls = {},
+          const Surface& surface = Surface::none());
   AirFlow(const AirFlow&) = delete;
   AirFlow& operator=(const AirFlow&) = delete;
 
   /// Replaces the walls after a gate has opened.
-  void set_walls(const std::vector<Wall>& walls);
+  void set_walls(const std::vector<Wall>& walls, const Surface& surface = Surface::none());
 
   /// Initial momentum from the velocities of the state.
   void begin(ThreadTeam& team, const Solids& solids, AirState& state);

@@ -118,6 +118,12 @@ std::vector<Problem> check_air(const Parameters& p) {
           fmt::format("is {}periodic, but box.{} is {}", grains[face] == FaceKind::periodic ? "not " : "", names[face],
                       choice_name(grains[face])),
           "periodic for both air and grains, or for neither");
+  for (std::size_t face = 0; face < 6; ++face)
+    if (grains[face] == FaceKind::symmetry && p.air.gas.boundaries.kind[face] != FlowBoundary::free_slip)
+      add(fmt::format("air.{}", names[face]),
+          fmt::format("is {}, but box.{} is a plane of symmetry", choice_name(p.air.gas.boundaries.kind[face]),
+                      names[face]),
+          "free-slip, as there");
   for (int axis = 0; axis < 3; ++axis) {
     const int count = grid.count[static_cast<std::size_t>(axis)];
     if (std::abs(grid.spacing[axis] / cell_size(p) - 1) > 0.5)

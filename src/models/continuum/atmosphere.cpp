@@ -9,6 +9,8 @@ namespace talus::continuum {
 
 namespace {
 
+constexpr double random_close_packing = 0.64;
+
 air::Parameters gas_of(const Parameters& p) {
   air::Parameters gas = p.air.gas;
   gas.grain_diameter = p.grains.diameter;
@@ -18,14 +20,22 @@ air::Parameters gas_of(const Parameters& p) {
 
 }  // namespace
 
-Atmosphere::Atmosphere(const Parameters& p, const Domain& domain)
+Atmosphere::Atmosphere(const Parameters& p, const Domain& domain, const Surface& vessel)
     : domain_(domain),
-      openings_(domain.openings()),
+      vessel_(vessel),
+      openings_(openings()),
       grain_density_(p.grains.density),
+      most_solid_(std::max(random_close_packing, p.bed.packing)),
       medium_(gas_of(p).medium()),
-      deposition_(air_grid(p), domain_),
-      flow_(air_grid(p), gas_of(p), domain_.walls()),
+      deposition_(air_grid(p), domain_, vessel_),
+      flow_(air_grid(p), gas_of(p), domain_.walls(), vessel_),
       per_solid_volume_(air_grid(p).face_field()) {}
+
+int Atmosphere::openings() const {
+  int open = domain_.openings();
+  for (std::size_t n = 0; n < vessel_.patches(); ++n) open += vessel_.is_open(n);
+  return open;
+}
 
 void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
   if (is_due(s)) move_air(team, dt, s);
@@ -35,9 +45,9 @@ void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
 
 void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
   AirAround& a = s.air;
-  if (openings_ != domain_.openings()) {
-    openings_ = domain_.openings();
-    flow_.set_walls(domain_.walls());
+  if (openings_ != openings()) {
+    openings_ = openings();
+    flow_.set_walls(domain_.walls(), vessel_);
   }
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
@@ -55,6 +65,8 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   const double duration = static_cast<double>(a.steps_left) * dt;
   try {
     flow_.advance(team, duration, a.solids, a.flow, per_solid_volume_);
+    for (const auto& [cell, share] : overfull_)
+      for (CellField& component : per_solid_volume_) component[cell] *= share;
   } catch (const NumericalError& error) {
     NumericalError::Report report = error.report();
     report.step = s.step, report.time = s.time;
@@ -79,6 +91,22 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
   deposition_.find_weights(team, s.position, smoothing_length);
   deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+  if (!vessel_.is_empty()) leave_overfull(s.air.solids);
+}
+
+/// A cell whose centre is within the vessel has the grains of the cells next to it that the wall cuts, too. What is
+/// more than grains can fill stands beyond the wall: the air meets the rest, as fast, and what it exchanges with that
+/// goes to all of them.
+void Atmosphere::leave_overfull(air::Solids& solids) {
+  overfull_.clear();
+  for (std::size_t c = 0; c < solids.fraction.size(); ++c) {
+    double& fraction = solids.fraction[c];
+    if (!(fraction > most_solid_)) continue;
+    const double share = most_solid_ / fraction;
+    overfull_.push_back({c, share});
+    fraction = most_solid_;
+    for (CellField& component : solids.flux) component[c] *= share;
+  }
 }
 
 void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {

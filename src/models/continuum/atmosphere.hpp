@@ -13,6 +13,7 @@
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "numerics/surface/surface.hpp"
 #include "physics/coupling/deposition.hpp"
 
 namespace talus::continuum {
@@ -26,8 +27,8 @@ std::vector<Problem> check_air(const Parameters& parameters);
 
 class Atmosphere {
  public:
-  /// \param domain outlives the atmosphere; gates opened in it are open to the air from its next step on
-  Atmosphere(const Parameters& parameters, const Domain& domain);
+  /// \param domain, vessel outlive the atmosphere; gates opened in them are open to the air from its next step on
+  Atmosphere(const Parameters& parameters, const Domain& domain, const Surface& vessel);
 
   /// Air at rest around the particles of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
@@ -54,11 +55,21 @@ class Atmosphere {
  private:
   void move_air(ThreadTeam& team, double dt, State& state);
   void deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
+  void leave_overfull(air::Solids& solids);
   void measure_slip(ThreadTeam& team, State& state);
 
+  int openings() const;
+
   const Domain& domain_;
-  int openings_;  // of the domain, known to the air
+  const Surface& vessel_;
+  int openings_;  // of both, known to the air
   double grain_density_;
+  double most_solid_;  // of a cell beside the vessel
+  struct Overfull {
+    std::size_t cell;
+    double share;  // of its grains, that the air meets
+  };
+  std::vector<Overfull> overfull_;
   coupling::DragMedium medium_;
   coupling::Deposition deposition_;
   air::AirFlow flow_;

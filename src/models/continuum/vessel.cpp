@@ -299,7 +299,8 @@ std::vector<Problem> check_vessel(const Parameters& p) {
   const auto refuse = [&](bool given, std::string key, std::string what, std::string allowed) {
     if (given) problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
-  refuse(p.air.enabled, "air.enabled", "air does not know the walls of a [[vessel]] yet", "false with a [[vessel]]");
+  const bool moves = std::any_of(p.vessel.begin(), p.vessel.end(), is_moving);
+  refuse(p.air.enabled && moves, "air.enabled", "air does not know walls that move", "false with spin or belt");
   refuse(p.plate.height.has_value(), "plate.height", "a plate across the box and a [[vessel]]", "one of them");
   refuse(p.wedge.half_angle.has_value(), "wedge.half_angle", "a wedge and a [[vessel]]", "one of them");
   refuse(p.walls.friction == Friction::printed, "walls.friction", "the printed rule in a [[vessel]]",

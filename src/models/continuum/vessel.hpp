@@ -199,9 +199,9 @@ struct VesselOutlet {
 };
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
 
-/// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top by steps
-/// from place to place that no wall crosses; those nearer to a wall than 0.4 spacings are moved off it to that
-/// distance.
+/// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top, as far
+/// as the vessel takes it in, by steps from place to place that no wall crosses; those nearer to a wall than 0.4
+/// spacings are moved off it to that distance.
 std::vector<Vector3> bed_in_vessel(const Parameters& parameters);
 
 /// Whether a gate is still shut whose time has come. \param time from the opening of the gate of the case, s

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The bed in a vessel.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -34,6 +35,20 @@ struct Places {
       x[axis] += (static_cast<double>(n[static_cast<std::size_t>(axis)]) + 0.5) * lattice.spacing[axis];
     return x;
   }
+  /// In the highest layer, in the middle of what the vessel takes of the lattice.
+  Index top() const {
+    const VesselBounds around = bounds_of_vessel(parameters);
+    Index n{0, 0, lattice.count[2] - 1};
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      const double low = lattice.corner[axis], extent = static_cast<double>(lattice.count[a]) * lattice.spacing[axis];
+      const double from = std::max(low, around.low[axis]), to = std::min(low + extent, around.high[axis]);
+      const double middle = from < to ? 0.5 * (from + to) : low + 0.5 * extent;
+      n[a] = std::clamp<std::int64_t>(static_cast<std::int64_t>((middle - low) / lattice.spacing[axis]), 0,
+                                      lattice.count[a] - 1);
+    }
+    return n;
+  }
   bool is_clear(const Vector3& x) const {
     return !surface.nearest(x, on_the_wall * parameters.bed.spacing) &&
            !domain.is_near_wall(x, 0.25 * parameters.bed.spacing);
@@ -52,7 +67,7 @@ struct Places {
 std::vector<Vector3> bed_in_vessel(const Parameters& p) {
   Places places{p};
   const auto& count = places.lattice.count;
-  const Places::Index top{count[0] / 2, count[1] / 2, count[2] - 1};
+  const Places::Index top = places.top();
   std::vector<Places::Index> border;
   if (places.is_clear(places.at(top))) border.push_back(top), places.taken[places.number(top)] = 1;
   while (!border.empty()) {

@@ -43,9 +43,32 @@ void close_faces(const FaceApertures& apertures, const Wall& wall, FaceField& op
   }
 }
 
+/// The same of a surface.
+void close_faces(const FaceApertures& apertures, const Surface& surface, FaceField& open) {
+  const Grid& grid = apertures.grid;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    Vector3 step;
+    step[axis] = grid.spacing[axis];
+    Place low{}, high{};
+    for (int b = 0; b < 3; ++b) {
+      const auto n = static_cast<std::size_t>(b);
+      const int faces = apertures.faces(axis, b);
+      const auto place = [&](double x) { return (x - grid.low[b]) / grid.spacing[b] - 0.5; };
+      low[n] = static_cast<int>(std::clamp(std::floor(place(surface.low()[b])), 0.0, static_cast<double>(faces)));
+      high[n] = static_cast<int>(std::clamp(std::ceil(place(surface.high()[b])) + 2, 0.0, static_cast<double>(faces)));
+    }
+    for_each_place(low, high, [&](const Place& at) {
+      const Vector3 after = grid.centre(at[0], at[1], at[2]);
+      if (open[a][index(grid, at)] > 0 && surface.blocks(after - step, after)) open[a][index(grid, at)] = 0;
+    });
+  }
+}
+
 }  // namespace
 
-FaceApertures::FaceApertures(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Wall>& walls)
+FaceApertures::FaceApertures(const Grid& cells, const FlowBoundaries& bounds, const std::vector<Wall>& walls,
+                             const Surface& surface)
     : grid(cells), boundaries(bounds), open(grid.face_field()), wall(open), drive(open), inner(grid.cell_field()) {
   link = {open, open, open}, wide = link;
   for (int axis = 0; axis < 3; ++axis) {
@@ -58,6 +81,7 @@ FaceApertures::FaceApertures(const Grid& cells, const FlowBoundaries& bounds, co
     });
   }
   for (const Wall& solid : walls) close_faces(*this, solid, open);
+  if (!surface.is_empty()) close_faces(*this, surface, open);
   for (auto& faces_of_axis : open) wrap(faces_of_axis);
 
   for_each_place({0, 0, 0}, grid.count, [&](const Place& at) {

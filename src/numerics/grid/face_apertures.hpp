@@ -14,6 +14,7 @@
 
 #include "numerics/geometry/wall.hpp"
 #include "numerics/grid/grid.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus {
 
@@ -48,8 +49,10 @@ struct FaceApertures {
   FaceField drive;  ///< sum of 2/width^2 times the velocity of those walls, 1/(m s)
   CellField inner;  ///< 1: a cell without a face open to outside the grid
 
+  /// \param surface walls of any shape, open patches left out: what it encloses on the grid is tight
   /// \throws std::invalid_argument for a periodic face without its opposite
-  FaceApertures(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls);
+  FaceApertures(const Grid& grid, const FlowBoundaries& boundaries, const std::vector<Wall>& walls,
+                const Surface& surface = Surface::none());
 
   /// Faces of an axis along a second one: one more than cells along the axis itself, unless it is periodic.
   int faces(int axis, int along) const {

@@ -47,6 +47,8 @@ struct Deposition::Scratch {
   std::array<Along, 3> along;
   std::vector<double> sum;  // by slots along x, y, z
   std::vector<Seen> seen;   // by cells along x and z: whose share each one's is
+  std::vector<double> all;  // what `sum` was before cells behind the surface were left out
+  std::vector<std::uint32_t> near;
 };
 
 void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, double x, double reach) {
@@ -105,7 +107,8 @@ std::optional<std::size_t> Deposition::Scratch::Along::slot_at(const Grid& grid,
   return static_cast<std::size_t>(found - cell.begin());
 }
 
-Deposition::Deposition(const Grid& grid, const Domain& domain) : grid_(grid), domain_(domain) {
+Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& surface)
+    : grid_(grid), domain_(domain), surface_(surface) {
   const auto nearly_equal = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
   for (int axis = 0; axis < 3; ++axis) {
     const double width = grid.spacing[axis];
@@ -172,6 +175,7 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   // In a corner too narrow for a cell's centre a particle sees none: then it has all.
   if (beside_wall && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
     add_weights(false);
+  if (!surface_.is_empty()) leave_out_hidden(x, reach, columns, scratch);
 
   if (block.first.size() < block.rows + rows * along_z.cell.size())
     block.first.resize(2 * (block.rows + rows * along_z.cell.size()));
@@ -208,6 +212,40 @@ void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
       const auto column = along_x.slot_at(grid_, 0, end->x), row = along_z.slot_at(grid_, 2, end->z);
       if (column && row) scratch.seen[i + k * along_x.slot.size()] = Scratch::Slots{*column, *row};
     }
+}
+
+/// Takes the weights of cells behind the surface, unless there are no others. A cell that stands for one beyond a
+/// mirror is seen as it is itself: where the surface meets the mirror, both are seen or neither.
+void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t columns, Scratch& scratch) const {
+  constexpr std::size_t most_triangles = 64;
+  const std::optional<Surface::Foot> foot = surface_.nearest(x, reach);
+  if (!foot) return;
+  scratch.near.clear();
+  const bool are_all = surface_.near(x, reach, most_triangles, scratch.near);
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  const auto centre = [&](const Scratch::Along& along, int axis, std::size_t n) {
+    const double width = grid_.spacing[axis], length = width * grid_.count[static_cast<std::size_t>(axis)];
+    const double c = grid_.low[axis] + (along.cell[n] + 0.5) * width;
+    return domain_.box().face(axis, 0) == FaceKind::periodic ? c - length * std::round((c - x[axis]) / length) : c;
+  };
+  scratch.all = scratch.sum;
+  bool has_seen = false;
+  for (std::size_t k = 0; k < along_z.cell.size(); ++k)
+    for (std::size_t j = 0; j < along_y.cell.size(); ++j)
+      for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
+        double& weight = scratch.sum[i + columns * (j + along_y.cell.size() * k)];
+        const bool left = along_x.cell[i] == Scratch::Along::left || along_y.cell[j] == Scratch::Along::left ||
+                          along_z.cell[k] == Scratch::Along::left;
+        if (!(weight > 0) || left) continue;
+        const Vector3 c{centre(along_x, 0, i), centre(along_y, 1, j), centre(along_z, 2, k)};
+        const bool hidden =
+            norm(c - x) > foot->distance && (are_all ? surface_.blocks(x, c, scratch.near) : surface_.blocks(x, c));
+        if (hidden)
+          weight = 0;
+        else
+          has_seen = true;
+      }
+  if (!has_seen) scratch.sum = scratch.all;
 }
 
 /// Calls body(particle, what it has, rows, cells of its rows, their weights).

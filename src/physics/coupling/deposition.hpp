@@ -8,7 +8,7 @@
 /// underestimated; those beyond a periodic face enter at the opposite one. Contributions beyond an open face are lost,
 /// so that the weights of a leaving particle vanish continuously and a stream is as dense at the face as inside. Behind
 /// a wall that is not aligned with the cells there are no cells for the images: their contributions go to the visible
-/// cells.
+/// cells. So do those behind a surface.
 #pragma once
 
 #include <array>
@@ -19,14 +19,15 @@
 #include "base/parallel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/grid/grid.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus::coupling {
 
 class Deposition {
  public:
   /// \throws std::invalid_argument if the grid does not fill the domain's box
-  /// \param domain outlives it
-  Deposition(const Grid& grid, const Domain& domain);
+  /// \param domain, surface outlive it
+  Deposition(const Grid& grid, const Domain& domain, const Surface& surface = Surface::none());
 
   /// Finds the weights. \param smoothing_length of each particle, m; the kernel reaches twice as far
   void find_weights(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
@@ -58,11 +59,13 @@ class Deposition {
   struct Scratch;
   void find_weights(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
   void find_seen(const Vector3& position, Scratch& scratch) const;
+  void leave_out_hidden(const Vector3& position, double reach, std::size_t columns, Scratch& scratch) const;
   template <class Body>
   void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
 
   Grid grid_;
   const Domain& domain_;
+  const Surface& surface_;
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
 };

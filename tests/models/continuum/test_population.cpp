@@ -64,6 +64,19 @@ TEST(Filling, AMassFillsTheVesselFromBelow) {
   }
 }
 
+TEST(Filling, AQuarterIsFilledInsideWhereverTheBoxEnds) {
+  for (const double side : {11, 14, 16}) {  // spacings; the middle of the box within the cylinder, at it and beyond
+    Parameters p = column(side, side, 6, 4);
+    p.box.left = p.box.front = FaceKind::symmetry;
+    VesselPart wall;
+    wall.shape = VesselShape::cylinder, wall.radius = 10 * spacing, wall.top = 9 * spacing, wall.centre = {0, 0};
+    p.vessel = {wall};
+    const State s = Continuum(p).state();
+    EXPECT_NEAR(static_cast<double>(s.position.size()), 6 * 25 * half_turn, 12) << side;
+    for (const Vector3& x : s.position) ASSERT_LT(std::hypot(x.x, x.y), 10 * spacing) << side;
+  }
+}
+
 TEST(Filling, AMassThatDoesNotFitIsRefusedWithTheLargestThatDoes) {
   Parameters p = small_silo();
   p.bed.height = 0;

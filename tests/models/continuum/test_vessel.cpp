@@ -383,6 +383,7 @@ TEST(Vessel, ContradictionsAreToldAllAtOnce) {
   p.vessel[2].hole = 2 * p.vessel[2].radius;
   p.vessel.push_back(p.vessel[2]);
   p.air.enabled = true;
+  p.vessel[0].spin = 1;
   std::vector<std::string> keys;
   for (const Problem& problem : check(p)) keys.push_back(problem.key);
   EXPECT_THAT(keys, testing::IsSupersetOf({"vessel.1.top", "vessel.2.centre", "vessel.2.name", "vessel.3.hole",
