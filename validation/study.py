@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the figure scripts of the studies share: the runs and rows that `talus compare --json` has put in order, the page
-that shows them, and the command line. The papers' figures themselves are in validation/STUDY/figures.py."""
+"""What the scripts of the studies share.
+
+Figures of a reproduction (validation/STUDY/figures.py): the runs and rows that `talus compare --json` has put in order, the
+page that shows them, and the command line, `main`. Studies by one script that runs its cases itself (validation/orifice,
+janssen-cylinder, drum): runs, columns, the table of rows beside their reference, and the command line, `compare`."""
 import argparse
+import csv
 import json
 import os
 import re
+import subprocess
 import sys
 import textwrap
 from dataclasses import dataclass, field
@@ -12,6 +17,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
+import numpy as np  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 
@@ -163,6 +169,62 @@ def main(draw, script):
     except talus.RunError as error:
         sys.exit(f"figures: {error}")
     print(f"Page: {page}\nFigures: {len(album.pages)} in {album.folder}")
+
+
+def columns_of(path):
+    """The columns of a CSV file of numbers, by name without the unit."""
+    with open(path, encoding="utf-8") as file:
+        rows = list(csv.reader(file))
+    return dict(zip([name.split(" [")[0] for name in rows[0]], np.array(rows[1:], dtype=float).T))
+
+
+def run_once(program, case, folder, settings=()):
+    """Runs a case into a folder, or goes on there; a run that is done is not made again. \\param settings KEY=VALUE ..."""
+    if (folder / "summary.json").exists() and json.loads((folder / "summary.json").read_text("utf-8"))["status"] == "done":
+        return
+    command = [program, "run", case, *(word for setting in settings for word in ("--set", setting)), "--out", folder]
+    subprocess.run(command + ["--resume"] if (folder / "manifest.json").exists() else command, check=True)
+
+
+def is_met(row, value):
+    return abs(value - row["value"]) <= row["tolerance"]
+
+
+def table_of_numbers(reference, numbers, digits=3):
+    """A line for each number beside its row of the reference: `says`, `value`, `tolerance`."""
+    lines = [["what", "computed", "value, tolerance", ""], ["---"] * 4]
+    for name, value in numbers.items():
+        row = reference[name]
+        lines.append([row["says"], f"{value:.{digits}f}", f"{row['value']:g} ± {row['tolerance']:g}",
+                      "met" if is_met(row, value) else "**not met**"])
+    return _lines(lines)
+
+
+def compare(script, text, out, reference, simulate, measure, tell, draw, arguments=None):
+    """The command line of a study that runs its cases itself; returns the exit status, 1 if a row is not met.
+    \\param script its path \\param text its help \\param out folder of its runs if no other is named
+    \\param simulate function of (options), makes the runs that are missing
+    \\param measure function of (options), returns the numbers by row of the reference, and all that was found
+    \\param tell function of (numbers, found), returns Markdown \\param draw function of (found), returns a figure
+    \\param arguments function of (parser), adds its own"""
+    parser = argparse.ArgumentParser(prog=Path(script).name, description=text,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default="build/talus")
+    parser.add_argument("--out", type=Path, default=Path(out))
+    parser.add_argument("--markdown", type=Path, help="file of the tables")
+    parser.add_argument("--picture", type=Path)
+    if arguments:
+        arguments(parser)
+    options = parser.parse_args()
+    simulate(options)
+    numbers, found = measure(options)
+    told = tell(numbers, found)
+    print(told, end="")
+    if options.markdown:
+        options.markdown.write_text(told, encoding="utf-8")
+    if options.picture:
+        draw(found).savefig(options.picture, dpi=150)
+    return 0 if all(is_met(reference[name], value) for name, value in numbers.items()) else 1
 
 
 def _lines(cells):

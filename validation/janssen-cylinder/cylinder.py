@@ -7,9 +7,6 @@
 
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy, python3-h5py and
 python3-matplotlib."""
-import argparse
-import csv
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
@@ -18,26 +15,21 @@ import h5py
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import study  # noqa: E402
+
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 DENSITY, GRAVITY, DIAMETER, FRICTION, FLOOR = 1500.0, 9.81, 0.03, 0.3, 0.01  # SI
 AREA = np.pi * DIAMETER ** 2 / 4
 
 
-def series_of(folder):
-    with open(folder / "series.csv", encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    names = [name.split(" [")[0] for name in rows[0]]
-    return dict(zip(names, np.array(rows[1:], dtype=float).T))
+def simulate(options):
+    study.run_once(options.program, HERE / "cylinder.toml", options.out, [f"bed.spacing={options.spacing:g} mm"])
 
 
-def table_of(path):
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    return dict(zip([name.split(" [")[0] for name in rows[0]], np.array(rows[1:], dtype=float).T))
-
-
-def measured(folder):
-    series, bands = series_of(folder), table_of(folder / "analysis" / "wall_loads.csv")
+def measure(options):
+    folder = options.out
+    series, bands = study.columns_of(folder / "series.csv"), study.columns_of(folder / "analysis" / "wall_loads.csv")
     time = series["time"]
 
     def force(column):
@@ -80,18 +72,15 @@ def measured(folder):
 
 def particle_mass(folder, particles):
     """kg, from the impulse that gravity gave all of them at the end, when it is full."""
-    series = series_of(folder)
+    series = study.columns_of(folder / "series.csv")
     rate = np.polyfit(series["time"][-20:], series["impulse_gravity_z"][-20:], 1)[0]
     return -rate / GRAVITY / particles
 
 
-def text_of(rows, profile):
+def tell(rows, profile):
     lines = ["%d particles. K = %.3f, L = %.1f mm. The floor bears %.3f of the weight; Janssen %.3f."
              % (profile["particles"], profile["K"], 1e3 * profile["L"], profile["floor_share"], profile["janssen_share"]), "",
-             "| what | computed | value, tolerance | |", "|---|---|---|---|"]
-    for name, value in rows.items():
-        lines.append("| %s | %.4f | %g ± %g | %s |" % (REFERENCE[name]["says"], value, REFERENCE[name]["value"],
-                                                     REFERENCE[name]["tolerance"], "met" if is_met(name, value) else "**not met**"))
+             study.table_of_numbers(REFERENCE, rows, digits=4).rstrip()]
     lines += ["", "| depth, mm | stress across the wall, Pa | K σ of Janssen | along the wall | mean vertical stress | Janssen |",
               "|---|---|---|---|---|---|"]
     for n in np.argsort(profile["depth"]):
@@ -102,13 +91,7 @@ def text_of(rows, profile):
     return "\n".join(lines) + "\n"
 
 
-def is_met(name, value):
-    return abs(value - REFERENCE[name]["value"]) <= REFERENCE[name]["tolerance"]
-
-
-def draw(path, profile):
-    import matplotlib
-    matplotlib.use("Agg")
+def draw(profile):
     from matplotlib import pyplot as plt
     figure, axes = plt.subplots(figsize=(4.6, 3.8), layout="constrained")
     order = np.argsort(profile["z"])
@@ -121,29 +104,12 @@ def draw(path, profile):
     axes.plot(FRICTION * profile["K"] * profile["janssen"][order], z, "k-", lw=1)
     axes.set(xlabel="stress, Pa", ylabel="z, mm", xlim=(0, None))
     axes.legend(frameon=False)
-    figure.savefig(path, dpi=150)
+    return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default="build/talus")
-    parser.add_argument("--out", type=Path, default=Path("results/janssen-cylinder"))
-    parser.add_argument("--spacing", type=float, default=2.5)
-    parser.add_argument("--markdown", type=Path)
-    parser.add_argument("--picture", type=Path)
-    options = parser.parse_args()
-    if not (options.out / "summary.json").exists():
-        subprocess.run([options.program, "run", HERE / "cylinder.toml", "--set", f"bed.spacing={options.spacing:g} mm", "--out",
-                        options.out], check=True)
-    rows, profile = measured(options.out)
-    text = text_of(rows, profile)
-    print(text, end="")
-    if options.markdown:
-        options.markdown.write_text(text, encoding="utf-8")
-    if options.picture:
-        draw(options.picture, profile)
-    return 0 if all(is_met(name, value) for name, value in rows.items()) else 1
+def arguments(parser):
+    parser.add_argument("--spacing", type=float, default=2.5, help="of the particles, mm")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(study.compare(__file__, __doc__, "results/janssen-cylinder", REFERENCE, simulate, measure, tell, draw, arguments))
