@@ -3,13 +3,11 @@
 
 Figures of a reproduction (validation/STUDY/figures.py): the runs and rows that `talus compare --json` has put in order, the
 page that shows them, and the command line, `main`. Studies by one script that runs its cases itself (validation/orifice,
-janssen-cylinder, drum): runs, columns, the table of rows beside their reference, and the command line, `compare`."""
+janssen-cylinder, drum): the table of numbers beside their reference, and the command line, `compare`."""
 import argparse
-import csv
 import json
 import os
 import re
-import subprocess
 import sys
 import textwrap
 from dataclasses import dataclass, field
@@ -17,7 +15,6 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
-import numpy as np  # noqa: E402
 import matplotlib  # noqa: E402
 matplotlib.use("Agg")
 
@@ -171,21 +168,6 @@ def main(draw, script):
     print(f"Page: {page}\nFigures: {len(album.pages)} in {album.folder}")
 
 
-def columns_of(path):
-    """The columns of a CSV file of numbers, by name without the unit."""
-    with open(path, encoding="utf-8") as file:
-        rows = list(csv.reader(file))
-    return dict(zip([name.split(" [")[0] for name in rows[0]], np.array(rows[1:], dtype=float).T))
-
-
-def run_once(program, case, folder, settings=()):
-    """Runs a case into a folder, or goes on there; a run that is done is not made again. \\param settings KEY=VALUE ..."""
-    if (folder / "summary.json").exists() and json.loads((folder / "summary.json").read_text("utf-8"))["status"] == "done":
-        return
-    command = [program, "run", case, *(word for setting in settings for word in ("--set", setting)), "--out", folder]
-    subprocess.run(command + ["--resume"] if (folder / "manifest.json").exists() else command, check=True)
-
-
 def is_met(row, value):
     return abs(value - row["value"]) <= row["tolerance"]
 
@@ -200,24 +182,30 @@ def table_of_numbers(reference, numbers, digits=3):
     return _lines(lines)
 
 
-def compare(script, text, out, reference, simulate, measure, tell, draw, arguments=None):
+def compare(script, text, out, reference, cases, measure, tell, draw, arguments=None):
     """The command line of a study that runs its cases itself; returns the exit status, 1 if a row is not met.
     \\param script its path \\param text its help \\param out folder of its runs if no other is named
-    \\param simulate function of (options), makes the runs that are missing
+    \\param cases function of (options), returns the case, the folder and the settings of each run; those that are done are
+           not made again
     \\param measure function of (options), returns the numbers by row of the reference, and all that was found
     \\param tell function of (numbers, found), returns Markdown \\param draw function of (found), returns a figure
     \\param arguments function of (parser), adds its own"""
     parser = argparse.ArgumentParser(prog=Path(script).name, description=text,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default="build/talus")
+    parser.add_argument("--program", help="left out: as talus.find_program says")
+    parser.add_argument("--threads", type=int)
     parser.add_argument("--out", type=Path, default=Path(out))
     parser.add_argument("--markdown", type=Path, help="file of the tables")
     parser.add_argument("--picture", type=Path)
     if arguments:
         arguments(parser)
     options = parser.parse_args()
-    simulate(options)
-    numbers, found = measure(options)
+    try:
+        for case, folder, settings in cases(options):
+            talus.simulate(case, folder, settings, threads=options.threads, existing="resume", program=options.program)
+        numbers, found = measure(options)
+    except talus.RunError as error:
+        sys.exit(f"{parser.prog}: {error}")
     told = tell(numbers, found)
     print(told, end="")
     if options.markdown:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the cylinder and puts its loads beside Janssen's.
 
-    validation/janssen-cylinder/cylinder.py [--program build/talus] [--out results/janssen-cylinder] [--spacing MM] [--markdown FILE]
-                                            [--picture FILE]
+    validation/janssen-cylinder/cylinder.py [--out results/janssen-cylinder] [--threads N] [--spacing MM]
+                                            [--markdown FILE] [--picture FILE]
 
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy, python3-h5py and
 python3-matplotlib."""
@@ -11,35 +11,33 @@ import sys
 import tomllib
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
+import talus  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 DENSITY, GRAVITY, DIAMETER, FRICTION, FLOOR = 1500.0, 9.81, 0.03, 0.3, 0.01  # SI
 AREA = np.pi * DIAMETER ** 2 / 4
 
 
-def simulate(options):
-    study.run_once(options.program, HERE / "cylinder.toml", options.out, [f"bed.spacing={options.spacing:g} mm"])
+def cases(options):
+    return [(HERE / "cylinder.toml", options.out, {"bed.spacing": f"{options.spacing:g} mm"})]
 
 
 def measure(options):
-    folder = options.out
-    series, bands = study.columns_of(folder / "series.csv"), study.columns_of(folder / "analysis" / "wall_loads.csv")
+    run = talus.Run(options.out)
+    series, bands = run.series, run.table("wall_loads")
     time = series["time"]
 
     def force(column):
         return (series[column][-1] - np.interp(time[-1] - REFERENCE["window"], time, series[column])) / REFERENCE["window"]
 
-    path = sorted((folder / "snapshots").glob("particles_*.vtkhdf"))[-1]
-    with h5py.File(path) as file:
-        height, stress = file["VTKHDF/Points"][:, 2], file["VTKHDF/PointData/stress_zz"][()]
-    mass = len(height) * particle_mass(folder, len(height))
-    weight = mass * GRAVITY
+    height, stress = np.asarray(run.snapshots[-1].positions)[:, 2], run.snapshots[-1]["stress_zz"]
+    weight = -np.polyfit(time[-20:], series["impulse_gravity_z"][-20:], 1)[0]  # at the end, when gravity is full
+    mass = weight / GRAVITY
     wall = np.flatnonzero(bands["patch"] == 1)
     names = [f"cylinder.{n + 1}" for n in range(len(wall))]
     top = FLOOR + mass / (DENSITY * AREA)
@@ -68,13 +66,6 @@ def measure(options):
                "janssen": janssen(middle), "filled": filled, "K": ratio, "L": length, "floor_share": floor / weight,
                "janssen_share": janssen(FLOOR) * AREA / weight, "particles": len(height)}
     return rows, profile
-
-
-def particle_mass(folder, particles):
-    """kg, from the impulse that gravity gave all of them at the end, when it is full."""
-    series = study.columns_of(folder / "series.csv")
-    rate = np.polyfit(series["time"][-20:], series["impulse_gravity_z"][-20:], 1)[0]
-    return -rate / GRAVITY / particles
 
 
 def tell(rows, profile):
@@ -112,4 +103,4 @@ def arguments(parser):
 
 
 if __name__ == "__main__":
-    sys.exit(study.compare(__file__, __doc__, "results/janssen-cylinder", REFERENCE, simulate, measure, tell, draw, arguments))
+    sys.exit(study.compare(__file__, __doc__, "results/janssen-cylinder", REFERENCE, cases, measure, tell, draw, arguments))

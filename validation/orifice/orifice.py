@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the outlets, fits Beverloo's law and draws it.
 
-    validation/orifice/orifice.py [--program build/talus] [--out results/orifice] [--markdown FILE] [--picture FILE]
+    validation/orifice/orifice.py [--out results/orifice] [--threads N] [--markdown FILE] [--picture FILE]
 
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy and
 python3-matplotlib."""
@@ -15,6 +15,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 import study  # noqa: E402
+import talus  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 DENSITY, GRAVITY, GRAIN, K, C = 1500.0, 9.81, 0.2e-3, 1.5, 0.58  # SI
@@ -27,18 +28,18 @@ def folder_of(out, outlet, spacing):
     return out / f"D{outlet:g}-h{spacing:g}"
 
 
-def simulate(options):
+def cases(options):
     for spacing, outlet in ((REFERENCE[name]["spacing"], outlet) for name in SETS for outlet in REFERENCE[name]["outlets"]):
         radius = f"{outlet / 2:g} mm"
-        study.run_once(options.program, HERE / "orifice.toml", folder_of(options.out, outlet, spacing),
-                       [f"vessel.2.hole={radius}", f"vessel.3.radius={radius}", f"bed.spacing={spacing:.9g} mm",
-                        f"title=Discharge through a round hole of {outlet:g} mm"])
+        yield (HERE / "orifice.toml", folder_of(options.out, outlet, spacing),
+               {"vessel.2.hole": radius, "vessel.3.radius": radius, "bed.spacing": f"{spacing:.9g} mm",
+                "title": f"Discharge through a round hole of {outlet:g} mm"})
 
 
 def rates(folder):
     """Means of the discharge of the whole vessel over 20 ms within the window, kg/s, and their middles, s."""
-    columns = study.columns_of(folder / "series.csv")
-    time, rate = columns["time"] - columns["gate_time"][-1], columns["discharge_rate"]
+    run = talus.Run(folder)
+    time, rate = run.series["time"] - run.gate_time, run.series["discharge_rate"]
     passed = np.concatenate([[0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(time))])
     begin, end = REFERENCE["window"]
     edges = np.linspace(begin, end, round((end - begin) / MEAN) + 1)
@@ -122,4 +123,4 @@ def draw(found):
 
 
 if __name__ == "__main__":
-    sys.exit(study.compare(__file__, __doc__, "results/orifice", REFERENCE, simulate, measure, tell, draw))
+    sys.exit(study.compare(__file__, __doc__, "results/orifice", REFERENCE, cases, measure, tell, draw))
