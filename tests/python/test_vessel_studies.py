@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The studies of vessels measure what they say, on numbers made up for it.
+
+Usage: test_vessel_studies.py TALUS
+"""
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+sys.argv.pop()
+
+import numpy as np  # noqa: E402
+
+VALIDATION = pathlib.Path(__file__).resolve().parents[2] / "validation"
+sys.path[:0] = [str(VALIDATION), *(str(VALIDATION / name) for name in ("orifice", "drum"))]
+import drum  # noqa: E402
+import orifice  # noqa: E402
+import study  # noqa: E402
+
+
+class Drum(unittest.TestCase):
+    def test_the_surface_of_a_lattice_has_the_angle_and_the_level_that_it_was_cut_at(self):
+        spacing = 2e-3
+        for degrees in (-31.0, 27.0):
+            n = np.arange(-60, 61) * spacing
+            along, across = (0.5 * spacing + part.ravel() for part in np.meshgrid(n, n))
+            keep = across < -0.03
+            lattice = np.stack([along[keep], across[keep]], axis=1)
+            x = drum.turned(lattice, -np.radians(degrees))
+            angle, level = drum.surface_of(x, spacing, np.radians(degrees + 5))
+            self.assertAlmostEqual(np.degrees(angle), degrees, delta=0.1)
+            self.assertAlmostEqual(level, -0.03, delta=0.5 * spacing)
+
+
+class Orifice(unittest.TestCase):
+    def test_beverloos_law_has_its_exponent_and_its_constant(self):
+        diameter = np.array([0.03, 0.034, 0.039, 0.045])
+        rate = 0.6 * orifice.DENSITY * orifice.GRAVITY ** 0.5 * (diameter - orifice.K * orifice.GRAIN) ** 2.5
+        self.assertAlmostEqual(orifice.exponent(rate, diameter), 2.5)
+        np.testing.assert_allclose(orifice.constants(rate, diameter), 0.6)
+        self.assertAlmostEqual(orifice.lost(rate, diameter), orifice.K * orifice.GRAIN)
+
+
+class Comparison(unittest.TestCase):
+    REFERENCE = {"row": {"says": "what", "value": 1.0, "tolerance": 0.1}}
+
+    def compared(self, value):
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()) as said:
+            told = pathlib.Path(folder) / "table.md"
+            with mock.patch("sys.argv", ["study.py", "--markdown", str(told)]):
+                status = study.compare("study.py", "", folder, self.REFERENCE, lambda options: [],
+                                       lambda options: ({"row": value}, None),
+                                       lambda numbers, found: study.table_of_numbers(self.REFERENCE, numbers), None)
+            self.assertEqual(told.read_text(encoding="utf-8"), said.getvalue())
+        return status, said.getvalue()
+
+    def test_a_row_within_its_tolerance_is_met(self):
+        status, said = self.compared(1.09)
+        self.assertEqual(status, 0)
+        self.assertIn("| what | 1.090 | 1 ± 0.1 | met |", said)
+
+    def test_a_row_outside_of_it_fails_the_study(self):
+        status, said = self.compared(1.11)
+        self.assertEqual(status, 1)
+        self.assertIn("**not met**", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
