@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """The studies of vessels measure what they say, on numbers made up for it.
 
