@@ -71,8 +71,8 @@ def measure(options):
     distance, along = np.concatenate(distance), np.concatenate(along)
 
     def velocity(at):
-        return np.array([along[np.abs(distance - d) < REFERENCE["near"]].mean() if (np.abs(distance - d) < REFERENCE["near"]).any()
-                         else np.nan for d in at])
+        near = [along[np.abs(distance - d) < REFERENCE["near"]] for d in at]
+        return np.array([some.mean() if len(some) else np.nan for some in near])
 
     measured = {"distance": 1e-3 * np.array(REFERENCE["profile"]["distance"]),
                 "velocity": np.array(REFERENCE["profile"]["velocity"])}
@@ -85,18 +85,19 @@ def measure(options):
     numbers = {"angle": np.degrees(abs(angle)), "rest": -1e3 * rest,
                "profile-deviation": np.sqrt(np.mean(apart ** 2)) / measured["velocity"].max(),
                "turning": np.mean(velocity(deep) / (SPIN * deep)) - 1}
-    found = {"times": [t for t, _, _ in frames], "angles": np.degrees(np.abs(surfaces[:, 0])), "level": -1e3 * level,
-             "centre": np.degrees(abs(guess)), "at": at, "profile": profile, "measured": measured, "last": frames[-1], "angle": angle,
-             "line": level, "particles": len(frames[-1][1]), "here": velocity(measured["distance"])}
+    found = {"angles": np.degrees(np.abs(surfaces[:, 0])), "centre": np.degrees(abs(guess)), "at": at, "profile": profile,
+             "measured": measured, "here": velocity(measured["distance"]), "last": frames[-1], "angle": angle, "level": level,
+             "particles": len(frames[-1][1])}
     return numbers, found
 
 
 def tell(numbers, found):
-    lines = ["%d particles. Angle of the %d snapshots %.1f ± %.1f degrees (standard deviation); by the centre of mass %.1f. The surface "
-             "is %.1f mm from the axis." % (found["particles"], len(found["times"]), found["angles"].mean(),
-                                            found["angles"].std(ddof=1), found["centre"], found["level"]),
-             "", study.table_of_numbers(REFERENCE, numbers), "| below the axis, mm | velocity along the surface, m/s | experiment |",
-             "|---|---|---|"]
+    angles = found["angles"]
+    lines = ["%d particles. Angle of the %d snapshots %.1f ± %.1f degrees (standard deviation); by the centre of mass %.1f. The "
+             "surface is %.1f mm from the axis." % (found["particles"], len(angles), angles.mean(), angles.std(ddof=1),
+                                                    found["centre"], -1e3 * found["level"]),
+             "", study.table_of_numbers(REFERENCE, numbers),
+             "| below the axis, mm | velocity along the surface, m/s | experiment |", "|---|---|---|"]
     for n in range(0, len(found["here"]), 3):
         lines.append("| %.0f | %.3f | %.3f |" % (-1e3 * found["measured"]["distance"][n], found["here"][n],
                                                found["measured"]["velocity"][n]))
@@ -112,7 +113,7 @@ def draw(found):
     left.add_patch(plt.Circle((0, 0), 1e3 * RADIUS, fill=False, color="0.3"))
     s = np.array([-1, 1]) * REFERENCE["half_chord"] * 1.6
     c, si = np.cos(found["angle"]), np.sin(found["angle"])
-    left.plot(1e3 * (c * s + si * found["line"]), 1e3 * (-si * s + c * found["line"]), "k--", lw=1)
+    left.plot(1e3 * (c * s + si * found["level"]), 1e3 * (-si * s + c * found["level"]), "k--", lw=1)
     left.set(aspect="equal", xlabel="x, mm", ylabel="z, mm")
     right.plot(found["profile"], -1e3 * found["at"], "-", label="Talus")
     right.plot(found["measured"]["velocity"], -1e3 * found["measured"]["distance"], "kx", label="Alizadeh et al. 2013")

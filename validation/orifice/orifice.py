@@ -82,8 +82,8 @@ def measure(options):
     found["extrapolated"] = {"D": both, "Q": extrapolated, "C": constants(extrapolated, both)}
     c = fine["C"]
     return {"exponent": exponent(fine["Q"], fine["D"]), "exponent-extrapolated": exponent(extrapolated, both),
-            "constant": c.mean(), "constant-extrapolated": found["extrapolated"]["C"].mean(), "scatter": np.abs(c / c.mean() - 1).max(),
-            "plateau": np.abs(fine["drift"]).max()}, found
+            "constant": c.mean(), "constant-extrapolated": found["extrapolated"]["C"].mean(),
+            "scatter": np.abs(c / c.mean() - 1).max(), "plateau": np.abs(fine["drift"]).max()}, found
 
 
 def tell(numbers, found):
