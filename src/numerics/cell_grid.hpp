@@ -30,6 +30,16 @@ class CellGrid {
         for (const std::uint32_t point : points_in_row(centre.i - 1, centre.i + 1, j, k)) visit(point);
   }
 
+  /// Calls visit(points) for rows of cells, each a part of order(), in its order: all points between two corners of a
+  /// box are among them, and some beyond.
+  template <class Visit>
+  void for_each_row_between(const Vector3& low, const Vector3& high, Visit&& visit) const {
+    const Index from = cell_of(low), to = cell_of(high);
+    for (std::int64_t k = std::max(from.k, first_.k); k <= std::min(to.k, last_.k); ++k)
+      for (std::int64_t j = std::max(from.j, first_.j); j <= std::min(to.j, last_.j); ++j)
+        if (const auto points = points_in_row(from.i, to.i, j, k); !points.empty()) visit(points);
+  }
+
   /// Calls visit(number of the cell, square of its least distance, m^2) for each cell that holds points and is at most
   /// `range` cells from one, itself among them. The order is fixed by the points alone.
   template <class Visit>

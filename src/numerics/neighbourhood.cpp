@@ -7,6 +7,13 @@
 
 namespace talus {
 
+namespace {
+
+constexpr std::size_t together = 32;     // points whose numbers follow each other
+constexpr std::size_t most_facets = 16;  // whose planes are tried one by one
+
+}  // namespace
+
 void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
                           std::span<const double> margin) {
   const std::size_t count = position.size();
@@ -68,12 +75,14 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
   distance_.clear();
   if (vessel_.is_empty()) return;
   distance_.assign(points.size(), infinity);
-  constexpr std::size_t together = 32;
-  team.run((points.size() + together - 1) / together, [&](std::size_t group) {
+  facets_.resize((points.size() + together - 1) / together);
+  team.run(facets_.size(), [&](std::size_t group) {
     const std::size_t begin = together * group, end = std::min(points.size(), begin + together);
     double radius = 0;
     for (std::size_t n = begin; n < end; ++n) radius = std::max(radius, norm(points[n] - points[begin]));
-    if (!vessel_.nearest(points[begin], (1 + 1e-9) * (radius + reach_))) return;
+    Facets& facets = facets_[group];
+    facets.all = vessel_.facets_near(points[begin], (1 + 1e-9) * (radius + reach_), most_facets, facets.number);
+    if (facets.number.empty()) return;
     std::size_t last = Surface::no_triangle;
     for (std::size_t n = begin; n < end; ++n)
       if (const auto foot = vessel_.nearest(points[n], reach_, last))
@@ -81,17 +90,48 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
   });
 }
 
+/// The half spaces on the side of x of those facets, as planes: who is beyond the slack of all of them is not hidden by
+/// the facets from x. \returns whether x is clearly on one side of each
+bool Neighbourhood::find_half_spaces(const Vector3& x, std::span<const std::uint32_t> facets,
+                                     std::vector<Surface::Plane>& half_spaces) const {
+  half_spaces.clear();
+  for (const std::uint32_t f : facets) {
+    Surface::Plane plane = vessel_.plane(f);
+    plane.slack += 1e-8 * reach_;
+    const double height = dot(plane.normal, x) - plane.offset;
+    if (std::abs(height) > reach_ + plane.slack) continue;
+    if (std::abs(height) <= plane.slack) return false;
+    if (height < 0) plane.normal = -1.0 * plane.normal, plane.offset = -plane.offset;
+    half_spaces.push_back(plane);
+  }
+  return true;
+}
+
 /// Moves those that the vessel does not hide from point i to the front, in their order. \returns how many they are
 std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::size_t i,
                                          std::span<std::uint32_t> near) const {
   constexpr std::size_t most = 24;  // triangles that are tried one by one
-  thread_local std::vector<std::uint32_t> triangles;
+  struct Around {
+    std::vector<std::uint32_t> facets, triangles;
+    std::vector<Surface::Plane> half_spaces;
+  };
+  thread_local Around of_thread;
+  Around& around = of_thread;  // its address is looked up once
+  const Facets& of_group = facets_[i / together];
+  const bool few = of_group.all || vessel_.facets_near(points[i], reach_, most_facets, around.facets);
+  const bool clear =
+      few && find_half_spaces(points[i], of_group.all ? of_group.number : around.facets, around.half_spaces);
   bool sought = false, all = false;
   const auto is_hidden = [&](std::uint32_t j) {
-    if (distance_[i] + distance_[j] > norm(points[j] - points[i])) return false;
-    if (!sought) all = vessel_.near(points[i], reach_, most, triangles);
+    const Vector3 &x = points[j], d = x - points[i];
+    if (const double free = distance_[i] + distance_[j]; free * free > dot(d, d)) return false;
+    if (clear && std::all_of(around.half_spaces.begin(), around.half_spaces.end(), [&](const Surface::Plane& plane) {
+          return dot(plane.normal, x) - plane.offset > plane.slack;
+        }))
+      return false;
+    if (!sought) all = vessel_.near(points[i], reach_, most, around.triangles);
     sought = true;
-    return all ? vessel_.blocks(points[i], points[j], triangles) : vessel_.blocks(points[i], points[j]);
+    return all ? vessel_.blocks(points[i], x, around.triangles) : vessel_.blocks(points[i], x);
   };
   return static_cast<std::size_t>(std::remove_if(near.begin(), near.end(), is_hidden) - near.begin());
 }
@@ -103,7 +143,6 @@ void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> posit
     Vector3 centre;
     double radius = 0;
   };
-  constexpr std::size_t together = 32;
   std::vector<Sphere> spheres((position.size() + together - 1) / together);
   const auto within = [&](std::size_t sphere, const auto& visit) {
     for (std::size_t j = together * sphere; j < std::min(position.size(), together * (sphere + 1)); ++j) visit(j);

@@ -62,14 +62,17 @@ class Neighbourhood {
   double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
   /// Whether a line between two places of the particle can meet the vessel, as far as that distance tells.
   bool may_meet_vessel(std::size_t i, const Vector3& a, const Vector3& b) const {
-    const Vector3 from = a - reference_[i], to = b - reference_[i];
     const double free = distance_from_vessel(i);
+    if (free == infinity) return false;
+    const Vector3 from = a - reference_[i], to = b - reference_[i];
     return !(dot(from, from) < free * free && dot(to, to) < free * free);
   }
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   void find_distances(ThreadTeam& team, std::span<const Vector3> points);
+  bool find_half_spaces(const Vector3& x, std::span<const std::uint32_t> facets,
+                        std::vector<Surface::Plane>& half_spaces) const;
   std::size_t keep_unhidden(std::span<const Vector3> points, std::size_t i, std::span<std::uint32_t> near) const;
   void find_ghosts(ThreadTeam& team, std::span<const Vector3> position);
 
@@ -85,6 +88,11 @@ class Neighbourhood {
   NeighbourList list_;
   std::vector<std::uint32_t> first_ghost_;
   std::vector<char> sight_may_change_;
+  struct Facets {
+    bool all = false;  // that are near: else too many
+    std::vector<std::uint32_t> number;
+  };
+  std::vector<Facets> facets_;    // near particles, by group
   std::vector<double> distance_;  // from the vessel, of particles and ghosts; empty without one
 };
 

@@ -3,19 +3,16 @@
 #include <cmath>
 
 #include "models/continuum/material.hpp"
+#include "models/continuum/quanta.hpp"
 #include "models/continuum/sweep.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
-/// Whole quanta to the nearest, modulo 2^32.
-std::uint32_t whole_quanta(double quanta) {
-  return static_cast<std::uint32_t>(static_cast<std::int64_t>(quanta + std::copysign(0.5, quanta)));
-}
-
 SingleMotionRecord single(const Vector3& x, const Vector3& u, float half_length, float volume, double per_quantum) {
-  return {{whole_quanta(per_quantum * x.x), whole_quanta(per_quantum * x.y), whole_quanta(per_quantum * x.z)},
+  const auto place = in_quanta(x, per_quantum);
+  return {{place[0], place[1], place[2]},
           half_length,
           {static_cast<float>(u.x), static_cast<float>(u.y), static_cast<float>(u.z)},
           volume};

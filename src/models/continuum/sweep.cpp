@@ -59,7 +59,7 @@ void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
   neighbourhood_.build(team, position, smoothing_length, margin);
   quantum_ = quantum_for(neighbourhood_.reach());
-  vessel_.find(team, neighbourhood_, position, smoothing_length, skin_);
+  vessel_.find(team, neighbourhood_, position, smoothing_length, margin);
   loads_of_images_.clear();
   for (const Image& image : neighbourhood_.images()) loads_of_images_.push_back(neighbourhood_.domain().loads(image));
   find_groups();
@@ -202,7 +202,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     if (terms != SweepTerms::forces) {
       if (!vessel_.is_empty())
         for (std::size_t n = 0; n < size; ++n)
-          if (vessel_.of(first + n).count > 0) add_walls_of_vessel(particles, first + n, sums[n]);
+          if (!vessel_.of(first + n).empty()) add_walls_of_vessel(particles, first + n, sums[n]);
       alignas(64) double gradient[9][together];
       velocity_gradients_(sums, gradient);
       for (std::size_t c = 0; c < 9; ++c)
@@ -242,16 +242,16 @@ void Sweep::add_walls_of_vessel(const ParticleView& particles, std::size_t i, Pa
 
 void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours,
                                  PairSums& sums, Rates& rates) const {
-  const NearWalls& met = vessel_.of(i);
+  const NearWalls met = vessel_.of(i);
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
   WallForces& forces = rates.vessel[static_cast<std::size_t>(vessel_.place_of(i))];
   forces.count = 0;
-  if (met.count == 0) return;
+  if (met.empty()) return;
   forces = forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
   const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
   Vector3 acceleration;
   double beyond = 0;
-  for (const NearWall& wall : met.all()) {
+  for (const NearWall& wall : met) {
     acceleration += vessel_.force_of_images(wall, records(), i, neighbourhood_.sight_may_change(i) ? &seen : nullptr,
                                             constants_.mass);
     beyond += wall.sums.density;

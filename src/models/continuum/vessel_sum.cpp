@@ -66,11 +66,11 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const VesselWalls& walls, cons
 
 }  // namespace
 
-double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSums<>& sums) {
-  if (met.count == 0) return 0;
+double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& sums) {
+  if (met.empty()) return 0;
   const Tensor3<> inside = sph::velocity_gradient(sums);
   double opening = 0;
-  for (const NearWall& wall : met.all()) {
+  for (const NearWall& wall : met) {
     const Vector3& n = wall.normal;
     const SymmetricTensor3<> m = wall.moment();
     // P L, P = 1 - n n
@@ -101,15 +101,15 @@ double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSum
 WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
                            const Neighbours& neighbours, const PairConstants& constants, double sound_speed) {
   WallForces forces;
-  const NearWalls& met = walls.of(self);
-  if (met.count == 0) return forces;
+  const NearWalls met = walls.of(self);
+  if (met.empty()) return forces;
   const MotionRecord& own = records.motion[self];
   const double density = 2 * records.stress[self].half_density;
   const SymmetricTensor3<> stress = stress_at(records.stress[self]);
   const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(walls, records, self, neighbours);
   const Vector3 velocity{own.velocity[0], own.velocity[1], own.velocity[2]};
   const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
-  for (const NearWall& wall : met.all()) {
+  for (const NearWall& wall : met) {
     const Vector3& n = wall.normal;
     const SymmetricTensor3<> m = wall.moment();
     // Along n, with R t R for a tensor t that a mirror shows and R n = -n: of (stress + R stress R) slope and of

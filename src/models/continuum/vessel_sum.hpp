@@ -37,7 +37,7 @@ struct WallForces {
 
 /// Adds the walls to the sums of the velocity's gradient. \param velocity of the particle, m/s
 /// \returns what they add to the rate of the density, over the density, 1/s
-double add_walls(const NearWalls& met, const Vector3& velocity, sph::GradientSums<>& sums);
+double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& sums);
 
 /// The forces of the walls on a particle, in the order of `met`. \param records, neighbours those of the sweep
 WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,

@@ -2,8 +2,9 @@
 /// The walls of a vessel as the particles near them meet them: integrals of the kernel over what lies beyond, by smooth
 /// part of the surface (physics/sph/wall_integrals.hpp), and the field that is taken to be there.
 ///
-/// With the lists of neighbours the points within reach are found: of a fine set for the first layer of particles, of a
-/// coarse one, as exact from there on, for others. So are the particles that stand with one at the same part.
+/// With the lists of neighbours the points within reach are found, twice the smoothing length and what the particle may
+/// move: of a fine set for the first layer of particles, of a coarse one, as exact from there on, for others. So are
+/// the particles that stand with one at the same part.
 #pragma once
 
 #include <array>
@@ -40,16 +41,22 @@ struct NearWall {
   }
 };
 
-/// The most parts that a particle meets at once; of more, those with the least weight are left out.
+/// Those that a particle meets at once.
+using NearWalls = std::span<const NearWall>;
+/// The most of them; of more, those with the least weight are left out.
 inline constexpr std::size_t most_near_walls = 4;
 
-struct NearWalls {
-  std::array<NearWall, most_near_walls> of;
-  std::size_t count = 0;
-
-  std::span<NearWall> all() { return std::span(of).first(count); }
-  std::span<const NearWall> all() const { return std::span(of).first(count); }
+/// A set of points of the walls, in spacings.
+struct PointsOfWalls {
+  double apart;  ///< the side of the square that a point stands for
+  double from;   ///< distance of the particles that take it
 };
+/// Errors are shares of the push of a plane half a spacing away. Of the finest set it is right to 0.6 % from there on,
+/// to 3 % from 0.4 spacings on (WallIntegrals.AreThoseOfAPlane), of the others from where they are taken to 0.5 and
+/// 0.9 %. A particle takes one set only: sums over evenly spread points are exact far beyond their distance, and a
+/// border between two sets would spoil that.
+inline constexpr std::size_t sets_of_points = 3;
+inline constexpr std::array<PointsOfWalls, sets_of_points> points_of_walls{{{0.4, 0}, {0.57, 0.75}, {0.8, 1.0}}};
 
 class VesselWalls {
  public:
@@ -59,10 +66,11 @@ class VesselWalls {
   bool is_empty() const { return surface_.is_empty(); }
   const Surface& surface() const { return surface_; }
 
-  /// Finds, for each particle, the points of the walls within reach, twice its smoothing length and the skin, and the
-  /// neighbours at the same parts of walls. \param neighbourhood of the particles, with lists built just now
+  /// Finds, for each particle, the points of the walls within reach, and the neighbours at the same parts of walls
+  /// (vessel_stands.cpp). \param neighbourhood of the particles, with lists built just now \param margin by which a
+  /// particle may move and grow while they hold, m
   void find(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
-            std::span<const double> smoothing_length, double skin);
+            std::span<const double> smoothing_length, std::span<const double> margin);
 
   /// Takes the sums over those points, of the particles as they are now; open gates left out.
   void meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
@@ -70,8 +78,10 @@ class VesselWalls {
   bool is_met() const { return is_met_; }
 
   /// The walls that a particle meets. \pre meet()
-  const NearWalls& of(std::size_t particle) const {
-    return slot_[particle] < 0 ? nothing_ : met_[static_cast<std::size_t>(slot_[particle])];
+  NearWalls of(std::size_t particle) const {
+    if (slot_[particle] < 0) return {};
+    const auto slot = static_cast<std::size_t>(slot_[particle]);
+    return std::span(met_).subspan(first_stand_[slot], met_count_[slot]);
   }
 
   /// The particles that may meet walls, rising, and the place of one among them; -1: it does not.
@@ -91,32 +101,32 @@ class VesselWalls {
  private:
   /// A particle at a smooth part of a wall.
   struct Stand {
-    std::uint32_t first, count;  ///< of its points in near_
+    std::uint32_t first, count;  ///< of its points in near_, with those that fill up registers
     std::uint32_t patch, part;
     double distance;  ///< from the plane of the nearest of them at least, m
   };
-  /// Points so far apart.
-  struct Level {
-    std::uint32_t first = 0;  ///< of its records
-    std::vector<Vector3> places;
-    std::optional<CellGrid> grid;
-  };
   struct Found;
-  void find_points(const Level& level, const Vector3& position, double reach, Found& found) const;
+  class PointsAround;
+  void find_stands(const Neighbourhood& neighbourhood, std::span<const Vector3> position,
+                   std::span<const double> smoothing_length, std::span<const double> margin, std::size_t chunk,
+                   Found& found) const;
+  void add_stands(const Vector3& position, std::span<std::uint32_t> near, Found& found) const;
   void find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
-                  std::span<const double> smoothing_length, double skin);
-  void meet(std::size_t slot, const Vector3& position, double smoothing_length, NearWalls& met);
+                  std::span<const double> smoothing_length, std::span<const double> margin);
+  void meet(std::size_t slot, const Vector3& position, double smoothing_length);
   double share_of_plane(double weight, double distance_over_h) const;
 
   const Surface& surface_;
   WallSweep sweep_;
   double spacing_;
-  std::vector<WallPoint> records_;      // of the fine points, the coarse points, and one without area
+  double quantum_ = 0;                  // of the places of the records, m
+  std::vector<WallPoint> records_;      // of the points, one set after the other, and one without area
+  std::vector<Vector3> places_;         // of the records, m
   std::vector<std::uint32_t> parts_;    // of the records
   std::vector<std::uint32_t> patches_;  // of the parts
-  std::array<Level, 2> levels_;
-  double cell_ = 0;                         // of the grids, m
-  std::vector<std::uint32_t> near_;         // records near the particles, by stand
+  std::array<std::optional<CellGrid>, sets_of_points> grids_;
+  std::array<std::uint32_t, sets_of_points> first_record_{};
+  std::vector<std::uint32_t> near_;         // records near the particles, by stand, padded to whole registers
   std::vector<std::int32_t> slot_;          // of every particle, -1: no wall within reach
   std::vector<std::uint32_t> particles_;    // by slot
   std::vector<std::uint32_t> first_stand_;  // by slot; one more at the end
@@ -129,9 +139,9 @@ class VesselWalls {
   std::vector<ImageOfSeat> images_;
   std::vector<std::uint32_t> first_pair_;  // by stand; a multiple of a register; one more at the end
   std::vector<std::uint32_t> pair_record_, pair_seat_;
-  std::vector<NearWalls> met_;  // by slot
+  std::vector<NearWall> met_;            // by stand; of a particle those that it meets come first
+  std::vector<std::uint8_t> met_count_;  // by slot
   bool is_met_ = false;
-  NearWalls nothing_;
   std::vector<double> plane_;  // weight of a plane by its distance, in steps of h/64
 };
 

@@ -46,6 +46,14 @@ Surface::Surface(std::vector<Triangle> triangles, std::size_t patches)
   }
   parts_ = joined(smooth, part_count_);
   facets_ = joined(flat, facet_count_);
+  planes_.resize(facet_count_);
+  for (std::size_t t = triangles_.size(); t-- > 0;)
+    planes_[facets_[t]] = {normals_[t], dot(normals_[t], triangles_[t].corner[0])};
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    Plane& plane = planes_[facets_[t]];
+    for (const Vector3& c : triangles_[t].corner)
+      plane.slack = std::max(plane.slack, std::abs(dot(plane.normal, c) - plane.offset));
+  }
   tree_ = TriangleTree(triangles_);
 }
 
@@ -141,6 +149,21 @@ bool Surface::near(const Vector3& x, double within, std::size_t most, std::vecto
       within = 0;  // enough
     } else {
       found.push_back(t);
+    }
+  });
+  return all;
+}
+
+bool Surface::facets_near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  bool all = true;
+  tree_.near_place(x, within, [&](std::uint32_t t) {
+    if (is_open_[triangles_[t].patch] || std::find(found.rbegin(), found.rend(), facets_[t]) != found.rend()) return;
+    if (found.size() == most) {
+      all = false;
+      within = 0;  // enough
+    } else {
+      found.push_back(facets_[t]);
     }
   });
   return all;

@@ -26,24 +26,22 @@ struct RadialIntegrals {
 /// \param q r/h, any number from 0; \param inverse_h 1/m
 template <class Number>
 TALUS_INLINE RadialIntegrals<Number> radial_integrals(Number q, Number inverse_h) {
-  // Antiderivatives of (2-t)^m t^n, each less its value at 2, and of (1-t)^m t^n, less that at 1: 0 from there on.
-  const Number t = minimum(q, Number(2.0)), s = minimum(q, Number(1.0));
-  const Number t3 = t * t * t, t4 = t3 * t, s3 = s * s * s, s4 = s3 * s;
+  // Integrals of (2-t)^m t^n up to 2 in powers of u = 2 - t, and of (1-t)^m t^n up to 1 in powers of v = 1 - t: exact
+  // to the end of the support, where they vanish as a power, and never negative.
+  const Number u = maximum(Number(2.0) - q, Number(0.0)), v = maximum(Number(1.0) - q, Number(0.0));
+  const Number u3 = u * u * u, v3 = v * v * v;
   // Horner's rule from the last coefficient.
   const auto series = [](const Number& x, auto... coefficients) {
     Number sum = 0.0;
     ((sum = multiply_add(sum, x, Number(coefficients))), ...);
     return sum;
   };
-  const auto less = [](double whole, const Number& a, const Number& b) {
-    return negative_multiply_add(a, b, Number(whole));
-  };
-  const Number outer_density = less(16.0 / 15, t3, series(t, -1.0 / 6, 1.2, -3.0, 8.0 / 3));
-  const Number outer_slope = less(16.0 / 15, t3, series(t, 0.2, -1.0, 4.0 / 3));
-  const Number outer_moment = less(16.0 / 15, t4, series(t, 1.0 / 6, -0.8, 1.0));
-  const Number inner_density = less(1.0 / 60, s3, series(s, -1.0 / 6, 0.6, -0.75, 1.0 / 3));
-  const Number inner_slope = less(1.0 / 30, s3, series(s, 0.2, -0.5, 1.0 / 3));
-  const Number inner_moment = less(1.0 / 60, s4, series(s, 1.0 / 6, -0.4, 0.25));
+  const Number outer_density = u3 * u * series(u, 1.0 / 6, -0.8, 1.0);
+  const Number outer_slope = u3 * series(u, 0.2, -1.0, 4.0 / 3);
+  const Number outer_moment = u3 * series(u, -1.0 / 6, 1.2, -3.0, 8.0 / 3);
+  const Number inner_density = v3 * v * series(v, 1.0 / 6, -0.4, 0.25);
+  const Number inner_slope = v3 * series(v, 0.2, -0.5, 1.0 / 3);
+  const Number inner_moment = v3 * series(v, -1.0 / 6, 0.6, -0.75, 1.0 / 3);
   constexpr double factor = 1 / (4 * std::numbers::pi);
   return {factor * (outer_density - 4.0 * inner_density), factor * inverse_h * (3.0 * outer_slope - 12.0 * inner_slope),
           factor * (3.0 * outer_moment - 12.0 * inner_moment)};

@@ -8,12 +8,22 @@
 
 namespace talus::continuum {
 
-/// A point of a wall.
-struct alignas(64) WallPoint {
-  double place[3];   ///< m
-  double normal[3];  ///< unit
-  double area;       ///< m^2
-  double unused;
+/// A point of a wall, in single precision, its place as SingleMotionRecord has it: a sum over points is right to a few
+/// thousandths.
+struct alignas(32) WallPoint {
+  std::uint32_t place[3];  ///< in quanta, modulo 2^32
+  float normal[3];         ///< unit
+  float area;              ///< m^2
+  float unused;
+};
+
+/// Some points of a wall. \pre count is a multiple of `padded_to`; points without area fill up
+struct WallPoints {
+  static constexpr std::uint32_t padded_to = 16;
+  const WallPoint* all;
+  const std::uint32_t* number;
+  std::uint32_t count;
+  double quantum;  ///< of the places, m
 };
 
 /// sph::WallSums, in its order.
@@ -47,10 +57,8 @@ struct alignas(64) StressSums {
 
 /// Functions that are compiled once for each instruction set.
 struct WallSweep {
-  /// \param numbers of the `count` points; \param padding number of a point without area, which fills up registers
-  /// \param position of the particle, m; \param h its smoothing length, m
-  void (*points)(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count, std::uint32_t padding,
-                 const double* position, double h, WallTotals& totals);
+  /// \param place of the particle, in quanta; \param h its smoothing length, m
+  void (*points)(const WallPoints& points, const std::uint32_t* place, double h, WallTotals& totals);
   /// The acceleration of a particle along a part of a wall by the images of others there (vessel_sum.hpp).
   /// \param mass of a particle, kg; \param acceleration 3 numbers and one of no meaning, aligned, m/s^2
   void (*images)(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,

@@ -25,51 +25,42 @@ TALUS_INLINE WallVector product(const WallNumber (&t)[6], const WallVector& v) {
   return {inner({t[0], t[3], t[5]}, v), inner({t[3], t[1], t[4]}, v), inner({t[5], t[4], t[2]}, v)};
 }
 
-inline void sum_points(const WallPoint* points, const std::uint32_t* numbers, std::uint32_t count,
-                       std::uint32_t padding, const double* position, double h, WallTotals& totals) {
-  using Number = WallNumber;
-  sph::WallSums<Number> sums;
-  for (std::uint32_t first = 0; first < count; first += Number::lanes) {
+inline void sum_points(const WallPoints& points, const std::uint32_t* place, double h, WallTotals& totals) {
+  using Number = SimdVector<float>;
+  static_assert(WallPoints::padded_to % Number::lanes == 0);
+  const double per_h = 1 / h;
+  const Number scale = points.quantum * per_h, per_square = per_h * per_h;
+  sph::WallSums<Number> sums;  // of lengths in smoothing lengths
+  for (std::uint32_t first = 0; first < points.count; first += Number::lanes) {
     Number column[8];
     load_columns(
         [&](int lane) {
-          const std::uint32_t n = first + static_cast<std::uint32_t>(lane);
-          return points[n < count ? numbers[n] : padding].place;
+          return reinterpret_cast<const float*>(points.all + points.number[first + static_cast<std::uint32_t>(lane)]);
         },
         column);
-    const Number d[3] = {column[0] - Number(position[0]), column[1] - Number(position[1]),
-                         column[2] - Number(position[2])};
-    if (lane_bits(inner({d[0], d[1], d[2]}, {d[0], d[1], d[2]}) < Number(sph::support * sph::support * h * h)) == 0)
-      continue;
-    const Number n[3] = {column[3], column[4], column[5]};
-    sums.add(d, n, column[6], h);
+    const auto along = [&](int axis) {
+      Number quanta;
+      quanta.row[0] = registers::differences_of_bits(column[axis].row[0], place[axis]);
+      return scale * quanta;
+    };
+    const Number d[3] = {along(0), along(1), along(2)}, n[3] = {column[3], column[4], column[5]};
+    const Number square = multiply_add(d[0], d[0], multiply_add(d[1], d[1], d[2] * d[2]));
+    if (lane_bits(square < Number(sph::support * sph::support)) == 0) continue;
+    sums.add(d, n, per_square * column[6], 1);
   }
   const Number zero = 0.0;
-  const Number all[24] = {sums.density,
-                          sums.slope[0],
-                          sums.slope[1],
-                          sums.slope[2],
-                          sums.moment[0],
-                          sums.moment[1],
-                          sums.moment[2],
-                          sums.moment[3],
-                          sums.moment[4],
-                          sums.moment[5],
-                          sums.closing[0],
-                          sums.closing[1],
-                          sums.closing[2],
-                          sums.normal[0],
-                          sums.normal[1],
-                          sums.normal[2],
-                          sums.nearness,
-                          sums.weight,
-                          sums.distance,
-                          zero,
-                          zero,
-                          zero,
-                          zero,
-                          zero};
+  const Number all[20] = {sums.density,    sums.slope[0],   sums.slope[1],   sums.slope[2],  sums.moment[0],
+                          sums.moment[1],  sums.moment[2],  sums.moment[3],  sums.moment[4], sums.moment[5],
+                          sums.closing[0], sums.closing[1], sums.closing[2], sums.normal[0], sums.normal[1],
+                          sums.normal[2],  sums.nearness,   sums.weight,     sums.distance,  zero};
   store_sums(all, &totals.density);
+  for (int axis = 0; axis < 3; ++axis) {
+    totals.slope[axis] *= per_h;
+    totals.closing[axis] *= per_h;
+    totals.normal[axis] *= per_h;
+  }
+  totals.nearness *= per_h * per_h;
+  totals.weight *= per_h;
 }
 
 inline void sum_images(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
