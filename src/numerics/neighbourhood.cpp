@@ -84,10 +84,25 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     facets.all = vessel_.facets_near(points[begin], (1 + 1e-9) * (radius + reach_), most_facets, facets.number);
     if (facets.number.empty()) return;
     std::size_t last = Surface::no_triangle;
-    for (std::size_t n = begin; n < end; ++n)
-      if (const auto foot = vessel_.nearest(points[n], reach_, last))
-        distance_[n] = foot->distance, last = foot->triangle;
+    for (std::size_t n = begin; n < end; ++n) {
+      // No facet is nearer than its plane, and mostly the nearest one is as near.
+      const double least = facets.all ? least_distance(points[n], facets.number) : reach_;
+      if (least > reach_) continue;
+      auto foot = vessel_.nearest(points[n], (1 + 1e-9) * least, last);
+      if (!foot) foot = vessel_.nearest(points[n], reach_, last);
+      if (foot) distance_[n] = foot->distance, last = foot->triangle;
+    }
   });
+}
+
+/// How far a point is from all of those facets at least, m.
+double Neighbourhood::least_distance(const Vector3& x, std::span<const std::uint32_t> facets) const {
+  double least = infinity;
+  for (const std::uint32_t f : facets) {
+    const Surface::Plane& plane = vessel_.plane(f);
+    least = std::min(least, std::abs(dot(plane.normal, x) - plane.offset) - plane.slack);
+  }
+  return least;
 }
 
 /// The half spaces on the side of x of those facets, as planes: who is beyond the slack of all of them is not hidden by

@@ -71,6 +71,7 @@ class Neighbourhood {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   void find_distances(ThreadTeam& team, std::span<const Vector3> points);
+  double least_distance(const Vector3& x, std::span<const std::uint32_t> facets) const;
   bool find_half_spaces(const Vector3& x, std::span<const std::uint32_t> facets,
                         std::vector<Surface::Plane>& half_spaces) const;
   std::size_t keep_unhidden(std::span<const Vector3> points, std::size_t i, std::span<std::uint32_t> near) const;

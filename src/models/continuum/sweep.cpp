@@ -19,7 +19,8 @@ void Rates::resize(std::size_t count) {
   kernel_density.resize(count);
 }
 
-Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel)
+Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel,
+             const SurfaceFields* fields)
     : mass_(mass),
       smoothing_ratio_(p.sph.smoothing_ratio),
       fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
@@ -38,7 +39,7 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
       neighbourhood_(domain, vessel),
-      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set)) {
+      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
@@ -245,9 +246,8 @@ void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, c
   const NearWalls met = vessel_.of(i);
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
   WallForces& forces = rates.vessel[static_cast<std::size_t>(vessel_.place_of(i))];
-  forces.count = 0;
+  find_forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed, forces);
   if (met.empty()) return;
-  forces = forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed);
   const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
   Vector3 acceleration;
   double beyond = 0;

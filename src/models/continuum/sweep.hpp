@@ -61,10 +61,11 @@ struct ParticleView {
 
 class Sweep {
  public:
-  /// \param domain, vessel outlive the sweep; \param mass of a particle, kg; \param sound_speed of the viscosity, m/s
-  /// \throws InputError if the processor does not have the case's instruction set
+  /// \param domain, vessel, fields outlive the sweep; \param fields of the vessel that note loads, null: none; \param
+  /// mass of a particle, kg; \param sound_speed of the viscosity, m/s \throws InputError if the processor does not have
+  /// the case's instruction set
   Sweep(const Parameters& parameters, const Domain& domain, double mass, double sound_speed,
-        const Surface& vessel = Surface::none());
+        const Surface& vessel = Surface::none(), const SurfaceFields* fields = nullptr);
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;

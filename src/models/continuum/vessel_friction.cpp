@@ -32,8 +32,7 @@ Impulses sum(Impulses a, const Impulses& b) {
 
 }  // namespace
 
-void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const SurfaceFields& fields, const Rates& rates,
-                           std::span<const Vector3> position, double duration, State& state) {
+void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& rates, double duration, State& state) {
   if (state.vessel_impulse.empty()) return;
   Noted noted = none_noted(rates.at_vessel.size());
   const bool rough = has_wall_friction(p, state), moving = state.gate_time >= 0;
@@ -43,7 +42,7 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const SurfaceF
       const double push = state.mass * duration * dot(wall.acceleration, wall.normal);
       received[wall.patch] -= (state.mass * duration) * wall.acceleration;
       std::vector<LoadOfField>& of_chunk = noted[place / chunk_size];
-      of_chunk.push_back({fields.at(wall.part, position[i] - wall.distance * wall.normal), push, -push * wall.normal});
+      of_chunk.push_back({wall.field, push, -push * wall.normal});
       const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
       if (!rough) continue;
       // Along the wall in its own frame.

@@ -104,15 +104,17 @@ void VesselWalls::add_stands(const Vector3& position, std::span<std::uint32_t> n
     const auto first = static_cast<std::uint32_t>(found.near.size());
     const std::uint32_t part = parts_[*n];
     double distance = std::numeric_limits<double>::infinity();
+    Vector3 foot;  // on that plane
     for (; n != near.end() && parts_[*n] == part; ++n) {
       const float* normal = records_[*n].normal;
-      const Vector3 d = places_[*n] - position;
-      distance = std::min(distance, std::abs(d.x * normal[0] + d.y * normal[1] + d.z * normal[2]));
+      const Vector3 d = places_[*n] - position, across{normal[0], normal[1], normal[2]};
+      if (const double height = dot(d, across); std::abs(height) < distance)
+        distance = std::abs(height), foot = position + height * across;
       found.near.push_back(*n);
     }
     while ((found.near.size() - first) % WallPoints::padded_to != 0) found.near.push_back(padding);
-    found.stands.push_back(
-        {first, static_cast<std::uint32_t>(found.near.size()) - first, patches_[part], part, distance});
+    found.stands.push_back({first, static_cast<std::uint32_t>(found.near.size()) - first, patches_[part], part,
+                            fields_ ? fields_->at(part, foot) : 0, distance});
   }
   found.stands_of.push_back(stands);
 }
@@ -233,7 +235,7 @@ void VesselWalls::find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhoo
             pairs.seat.push_back(ghost ? seat_of_ghost[record - count] + (t - first) : t);
           }
         }
-        while ((pairs.record.size() - begin) % Neighbours::padded_to != 0)
+        while ((pairs.record.size() - begin) % WallPairs::padded_to != 0)
           pairs.record.push_back(no_record), pairs.seat.push_back(nobody);
         pairs.size.push_back(static_cast<std::uint32_t>(pairs.record.size() - begin));
       }

@@ -98,11 +98,12 @@ double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& su
   return -opening;
 }
 
-WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
-                           const Neighbours& neighbours, const PairConstants& constants, double sound_speed) {
-  WallForces forces;
+void find_forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
+                          const Neighbours& neighbours, const PairConstants& constants, double sound_speed,
+                          WallForces& forces) {
+  forces.count = 0;
   const NearWalls met = walls.of(self);
-  if (met.empty()) return forces;
+  if (met.empty()) return;
   const MotionRecord& own = records.motion[self];
   const double density = 2 * records.stress[self].half_density;
   const SymmetricTensor3<> stress = stress_at(records.stress[self]);
@@ -126,9 +127,8 @@ WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std
       const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / density;
       a += viscosity * upright;
     }
-    forces.of[forces.count++] = {wall.patch, wall.part, wall.distance, n, (-density * a) * n};
+    forces.of[forces.count++] = {wall.patch, wall.field, n, (-density * a) * n};
   }
-  return forces;
 }
 
 }  // namespace talus::continuum

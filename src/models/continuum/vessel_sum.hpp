@@ -23,14 +23,14 @@ namespace talus::continuum {
 
 /// The force of a smooth part of a wall on a particle.
 struct WallForce {
-  std::uint32_t patch = 0, part = 0;
-  double distance = 0;   ///< of the particle from it, m
-  Vector3 normal;        ///< unit, towards the particle
-  Vector3 acceleration;  ///< m/s^2
+  std::uint32_t patch = 0;
+  std::uint32_t field = 0;  ///< NearWall::field
+  Vector3 normal;           ///< unit, towards the particle
+  Vector3 acceleration;     ///< m/s^2
 };
 struct WallForces {
+  std::size_t count = 0;  // stands first: with the first force it is all that most particles need
   std::array<WallForce, most_near_walls> of;
-  std::size_t count = 0;
 
   std::span<const WallForce> all() const { return std::span(of).first(count); }
 };
@@ -39,8 +39,10 @@ struct WallForces {
 /// \returns what they add to the rate of the density, over the density, 1/s
 double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& sums);
 
-/// The forces of the walls on a particle, in the order of `met`. \param records, neighbours those of the sweep
-WallForces forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
-                           const Neighbours& neighbours, const PairConstants& constants, double sound_speed);
+/// Writes the forces of the walls on a particle, in the order in which it meets them. \param records, neighbours those
+/// of the sweep
+void find_forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
+                          const Neighbours& neighbours, const PairConstants& constants, double sound_speed,
+                          WallForces& forces);
 
 }  // namespace talus::continuum

@@ -22,8 +22,8 @@ std::array<float, 3> single(const Vector3& x) {
 
 }  // namespace
 
-VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set)
-    : surface_(surface), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
+VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields)
+    : surface_(surface), fields_(fields), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
   if (surface.is_empty()) return;
   patches_.resize(surface.parts());
   quantum_ = quantum_of_walls(spacing);
@@ -88,7 +88,7 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
     if (!(size > 0)) continue;
-    wall.patch = stand.patch, wall.part = stand.part, wall.stand = s;
+    wall.patch = stand.patch, wall.part = stand.part, wall.stand = s, wall.field = stand.field;
     wall.normal = (1 / size) * normal;
     wall.distance = wall.sums.distance / wall.sums.weight;
     wall.share = share_of_plane(wall.sums.weight * smoothing_length, wall.distance / smoothing_length);
@@ -115,7 +115,7 @@ Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& record
     for (std::uint32_t n = 0; n < size; ++n)
       if (std::binary_search(seen->begin(), seen->end(), pairs.record[n]))
         record.push_back(pairs.record[n]), seat.push_back(pairs.seat[n]);
-    while (record.size() % Neighbours::padded_to != 0)
+    while (record.size() % WallPairs::padded_to != 0)
       record.push_back(pair_record_[first + size - 1]), seat.push_back(static_cast<std::uint32_t>(seats_.size() - 1));
     pairs = {record.data(), seat.data(), static_cast<std::uint32_t>(record.size())};
   }

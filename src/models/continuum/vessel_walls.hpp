@@ -21,6 +21,7 @@
 #include "numerics/cell_grid.hpp"
 #include "numerics/neighbourhood.hpp"
 #include "numerics/surface/surface.hpp"
+#include "numerics/surface/surface_fields.hpp"
 
 namespace talus::continuum {
 
@@ -28,6 +29,7 @@ namespace talus::continuum {
 struct NearWall {
   std::uint32_t patch = 0, part = 0;
   std::uint32_t stand = 0;  ///< number of the particle's stand at this part
+  std::uint32_t field = 0;  ///< of the part that was nearest to the particle when lists were built: it notes the load
   Vector3 normal;           ///< unit, towards the particle; the mean of what the particle sees of it
   double distance = 0;      ///< from it, m
   double share = 0;         ///< that it covers of a plane without end at that distance, 0 to 1
@@ -60,8 +62,9 @@ inline constexpr std::array<PointsOfWalls, sets_of_points> points_of_walls{{{0.4
 
 class VesselWalls {
  public:
-  /// \param surface outlives it; \param spacing of the particles, m; \param set of the sums, of this processor
-  VesselWalls(const Surface& surface, double spacing, InstructionSet set);
+  /// \param surface, fields outlive it; \param spacing of the particles, m; \param set of the sums, of this processor
+  /// \param fields of the surface that note loads, null: none
+  VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields = nullptr);
 
   bool is_empty() const { return surface_.is_empty(); }
   const Surface& surface() const { return surface_; }
@@ -102,7 +105,7 @@ class VesselWalls {
   /// A particle at a smooth part of a wall.
   struct Stand {
     std::uint32_t first, count;  ///< of its points in near_, with those that fill up registers
-    std::uint32_t patch, part;
+    std::uint32_t patch, part, field;
     double distance;  ///< from the plane of the nearest of them at least, m
   };
   struct Found;
@@ -117,6 +120,7 @@ class VesselWalls {
   double share_of_plane(double weight, double distance_over_h) const;
 
   const Surface& surface_;
+  const SurfaceFields* fields_;
   WallSweep sweep_;
   double spacing_;
   double quantum_ = 0;                  // of the places of the records, m

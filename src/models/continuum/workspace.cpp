@@ -26,7 +26,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       load_fields(continuum::load_fields(parameters, vessel)),
       load_bands(continuum::load_bands(parameters, load_fields)),
       load_mesh(mesh_of(vessel, load_fields, edge_of_drawn_field * parameters.bed.spacing)),
-      sweep(parameters, domain, state.mass, sound_speed, vessel),
+      sweep(parameters, domain, state.mass, sound_speed, vessel, &load_fields),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain, vessel) : nullptr),
       position(state.position.size()),
       smoothing_length(state.position.size()) {

@@ -44,7 +44,8 @@ struct alignas(64) WallSeat {
 
 /// Those that stand with a particle at a part of a wall.
 struct WallPairs {
-  const std::uint32_t* record;  ///< number of each, padded to whole registers as Neighbours::record
+  static constexpr std::uint32_t padded_to = 8;
+  const std::uint32_t* record;  ///< number of each, padded as Neighbours::record
   const std::uint32_t* seat;    ///< and of its seat; the padding's share is 0
   std::uint32_t count;
 };
