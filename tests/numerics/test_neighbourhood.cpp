@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/random.hpp"
+#include "surface/shapes.hpp"
 
 namespace talus {
 namespace {
@@ -122,6 +123,44 @@ TEST(Neighbourhood, EachParticleHasAMarginOfItsOwn) {
   EXPECT_TRUE(around.holds(team, x, a));
   x[0].y += 0.11;
   EXPECT_FALSE(around.holds(team, x, a));
+}
+
+/// A ball, which is convex from within and not from outside, and plates that cross it: whoever a line meets none of is
+/// listed, whatever the quick tests say.
+TEST(Neighbourhood, ListsWhoTheVesselDoesNotHide) {
+  for (const int halvings : {1, 3}) {
+    std::vector<Triangle> triangles = ball(halvings);
+    for (const double z : {-0.4, 0.3})
+      triangles.push_back({{Vector3{-2, -1.5, z}, {2, -1.5, z}, {0, 1.5, z + 0.2}}, 0});
+    const Surface vessel(triangles, 1);
+    const Box box{{-1.4, -1.4, -1.4}, {1.4, 1.4, 1.4}, {open, open, open, open, open, open}};
+    Points points = random_points(box, 1500, 0.08, 0.12);
+    std::sort(points.position.begin(), points.position.end(),
+              [](const Vector3& a, const Vector3& b) { return std::floor(a.x * 5) + a.z < std::floor(b.x * 5) + b.z; });
+    ThreadTeam team(2);
+    const Domain domain(box);
+    Neighbourhood around(domain, vessel);
+    around.build(team, points.position, points.radius, 0.02);
+    std::size_t listed = 0, hidden = 0;
+    for (std::size_t i = 0; i < points.position.size(); ++i) {
+      const Vector3& x = points.position[i];
+      const auto foot = vessel.nearest(x, around.reach());
+      EXPECT_EQ(std::isfinite(around.distance_from_vessel(i)), foot.has_value());
+      if (foot) EXPECT_EQ(around.distance_from_vessel(i), foot->distance);
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t j = 0; j < points.position.size(); ++j) {
+        if (j == i || !(norm(points.position[j] - x) <= points.radius[i] + points.radius[j] + 0.02)) continue;
+        if (vessel.blocks(x, points.position[j]))
+          ++hidden;
+        else
+          expected.push_back(j);
+      }
+      listed += expected.size();
+      EXPECT_THAT(around.of(i), testing::ElementsAreArray(expected)) << i;
+    }
+    EXPECT_GT(listed, 4000u);
+    EXPECT_GT(hidden, 400u);
+  }
 }
 
 TEST(Neighbourhood, RefusesAReachThatPassesFromPlateToFloor) {

@@ -146,6 +146,26 @@ TEST(CellGrid, SortsPointsByCellAndThenByNumber) {
   EXPECT_EQ(seen.size(), points.size());
 }
 
+TEST(CellGrid, RowsBetweenTwoCornersHoldAllThatIsThere) {
+  const auto points = random_points(3000, {9, 7, 5}, 8);
+  const CellGrid grid(points, 0.8);
+  for (const auto& [low, high] : {std::pair<Vector3, Vector3>{{2, 1, 1}, {4.5, 2, 3}}, {{-3, -3, 2}, {20, 1, 9}}}) {
+    std::vector<std::uint32_t> found;
+    grid.for_each_row_between(low, high, [&](std::span<const std::uint32_t> row) {
+      EXPECT_TRUE(row.data() >= grid.order().data() && row.data() + row.size() <= grid.order().data() + points.size());
+      found.insert(found.end(), row.begin(), row.end());
+    });
+    EXPECT_LT(found.size(), points.size() / 2);
+    const std::set<std::uint32_t> once(found.begin(), found.end());
+    EXPECT_EQ(once.size(), found.size());
+    for (std::uint32_t n = 0; n < points.size(); ++n) {
+      const Vector3& x = points[n];
+      if (x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x && x.y <= high.y && x.z <= high.z)
+        EXPECT_TRUE(once.contains(n)) << n;
+    }
+  }
+}
+
 TEST(SpatialOrder, IsAPermutationThatKeepsNeighboursNear) {
   const auto points = random_points(4096, {64, 64, 0}, 3);
   const auto order = spatial_order(points, 1.0);

@@ -150,6 +150,28 @@ TEST(TriangleTree, FindsWhatAllTrianglesTell) {
   }
 }
 
+TEST(Surface, FacetsNearAPlaceAreThoseOfItsTriangles) {
+  const std::vector<Triangle> all = jumble();
+  const Surface surface(all, 1);
+  Random random(6);
+  for (int n = 0; n < 100; ++n) {
+    const Vector3 x = anywhere(random, 1.5);
+    const double within = random.uniform(0.05, 0.5);
+    std::vector<std::uint32_t> found, few;
+    ASSERT_TRUE(surface.facets_near(x, within, surface.facets(), found));
+    EXPECT_EQ(std::set<std::uint32_t>(found.begin(), found.end()).size(), found.size()) << "each once";
+    for (std::uint32_t t = 0; t < all.size(); ++t)
+      if (norm(nearest_place(all[t], x) - x) <= within)
+        EXPECT_NE(std::find(found.begin(), found.end(), surface.facet(t)), found.end());
+    EXPECT_EQ(surface.facets_near(x, within, 3, few), found.size() <= 3);
+  }
+  for (std::uint32_t t = 0; t < all.size(); ++t) {
+    const Surface::Plane& plane = surface.plane(surface.facet(t));
+    for (const Vector3& c : all[t].corner) EXPECT_LE(std::abs(dot(plane.normal, c) - plane.offset), plane.slack);
+    EXPECT_LT(plane.slack, 1e-8);
+  }
+}
+
 TEST(TriangleTree, PairsAreAllWhoseBoxesOverlap) {
   const std::vector<Triangle> all = jumble();
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;

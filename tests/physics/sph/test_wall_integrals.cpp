@@ -42,6 +42,15 @@ TEST(WallIntegrals, AreThoseOfTheKernelFromAnyRadius) {
   }
 }
 
+TEST(WallIntegrals, VanishAsPowersAtTheEndOfTheSupport) {
+  for (const double u : {1e-2, 1e-4, 1e-6}) {
+    const auto all = radial_integrals(2 - u, 1.0);
+    EXPECT_NEAR(all.density / (std::pow(u, 4) / (4 * pi)), 1, u);
+    EXPECT_NEAR(all.slope / (std::pow(u, 3) / pi), 1, u);
+    EXPECT_NEAR(all.moment / (2 * std::pow(u, 3) / pi), 1, 2 * u);
+  }
+}
+
 /// Of a particle at a distance from a plane of points.
 WallSums<double> sums_over(const std::vector<SurfacePoint>& points, const Vector3& x, double h) {
   WallSums<double> sums;
