@@ -160,8 +160,8 @@ TEST(CellGrid, RowsBetweenTwoCornersHoldAllThatIsThere) {
     EXPECT_EQ(once.size(), found.size());
     for (std::uint32_t n = 0; n < points.size(); ++n) {
       const Vector3& x = points[n];
-      if (x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x && x.y <= high.y && x.z <= high.z)
-        EXPECT_TRUE(once.contains(n)) << n;
+      if (x.x < low.x || x.y < low.y || x.z < low.z || x.x > high.x || x.y > high.y || x.z > high.z) continue;
+      EXPECT_TRUE(once.contains(n)) << n;
     }
   }
 }

@@ -161,8 +161,9 @@ TEST(Surface, FacetsNearAPlaceAreThoseOfItsTriangles) {
     ASSERT_TRUE(surface.facets_near(x, within, surface.facets(), found));
     EXPECT_EQ(std::set<std::uint32_t>(found.begin(), found.end()).size(), found.size()) << "each once";
     for (std::uint32_t t = 0; t < all.size(); ++t)
-      if (norm(nearest_place(all[t], x) - x) <= within)
+      if (norm(nearest_place(all[t], x) - x) <= within) {
         EXPECT_NE(std::find(found.begin(), found.end(), surface.facet(t)), found.end());
+      }
     EXPECT_EQ(surface.facets_near(x, within, 3, few), found.size() <= 3);
   }
   for (std::uint32_t t = 0; t < all.size(); ++t) {
