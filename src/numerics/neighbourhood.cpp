@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t together = 32;     // points whose numbers follow each other
 constexpr std::size_t most_facets = 16;  // whose planes are tried one by one
+constexpr std::size_t most_triangles = 48;
 
 }  // namespace
 
@@ -83,14 +84,23 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     Facets& facets = facets_[group];
     facets.all = vessel_.facets_near(points[begin], (1 + 1e-9) * (radius + reach_), most_facets, facets.number);
     if (facets.number.empty()) return;
+    thread_local std::vector<std::uint32_t> triangles;
+    if (!vessel_.near(points[begin], radius + reach_, most_triangles, triangles)) triangles.clear();
     std::size_t last = Surface::no_triangle;
     for (std::size_t n = begin; n < end; ++n) {
-      // No facet is nearer than its plane, and mostly the nearest one is as near.
+      // No facet is nearer than its plane, and mostly one of its triangles is as near.
       const double least = facets.all ? least_distance(points[n], facets.number) : reach_;
       if (least > reach_) continue;
-      auto foot = vessel_.nearest(points[n], (1 + 1e-9) * least, last);
-      if (!foot) foot = vessel_.nearest(points[n], reach_, last);
-      if (foot) distance_[n] = foot->distance, last = foot->triangle;
+      const double enough = (1 + 1e-9) * least;
+      for (const std::uint32_t t : triangles) {
+        const Surface::Plane& plane = vessel_.plane(vessel_.facet(t));
+        if (std::abs(dot(plane.normal, points[n]) - plane.offset) - plane.slack > enough) continue;
+        const double distance = norm(nearest_place(vessel_.triangles()[t], points[n]) - points[n]);
+        if (distance <= enough) distance_[n] = std::min(distance_[n], distance);
+      }
+      if (std::isfinite(distance_[n])) continue;
+      if (const auto foot = vessel_.nearest(points[n], reach_, last))
+        distance_[n] = foot->distance, last = foot->triangle;
     }
   });
 }
