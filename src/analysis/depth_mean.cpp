@@ -57,7 +57,8 @@ Section packing_section(const Particles& particles, const Domain& domain, double
       for (std::size_t row = along_z.first; row < along_z.last; ++row)
         for (std::size_t column = along_x.first; column < along_x.last; ++column) {
           const Vector3 cell{section.x(column), middle, section.z(row)};
-          const double distance = std::hypot(cell.x - particle.x, cell.z - particle.z);
+          const double dx = cell.x - particle.x, dz = cell.z - particle.z;
+          const double distance = std::sqrt(dx * dx + dz * dz);
           if (distance < support && domain.is_visible(cell, particle, image))
             section.value[row * section.columns + column] +=
                 particles.solid_volume / depth * sph::cubic_spline_line(distance, h);

@@ -68,7 +68,7 @@ const GradientSizes& HopperSnapshot::cell_gradient_sizes() const {
 }
 
 const ParticleField& HopperSnapshot::field() const {
-  return made_once(field_, [&] { return ParticleField(particles(), domain()); });
+  return made_once(field_, [&] { return ParticleField(particles(), domain(), ParticleField::Places::many); });
 }
 
 double HopperRun::end() const {

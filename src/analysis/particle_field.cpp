@@ -45,7 +45,7 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
           .solid_volume = std::numbers::pi / 6 * cube};
 }
 
-ParticleField::ParticleField(Particles particles, Domain domain)
+ParticleField::ParticleField(Particles particles, Domain domain, Places places)
     : particles_(std::move(particles)),
       domain_(std::move(domain)),
       reach_(largest_support(particles_)),
@@ -57,27 +57,125 @@ ParticleField::ParticleField(Particles particles, Domain domain)
       low_[axis] = std::min(low_[axis], x[axis]);
       high_[axis] = std::max(high_[axis], x[axis]);
     }
+  if (places == Places::many) list_images();
+}
+
+void ParticleField::list_images() {
+  if (particles_.position.empty()) return;
+  std::vector<double> sorted = particles_.smoothing_length;
+  const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), median, sorted.end());
+  constexpr double wider = 1.25;
+  const double most = wider * *median;
+  lists_ = {list_of(0, most), list_of(most, std::numeric_limits<double>::infinity())};
+}
+
+/// Of the particles whose smoothing lengths are above one and at most another.
+ParticleField::List ParticleField::list_of(double above, double most) const {
+  const std::span<const std::uint32_t> order = grid_.order();
+  std::vector<std::uint32_t> chosen;  // places in that order
+  List list;
+  for (std::uint32_t k = 0; k < order.size(); ++k)
+    if (const double h = particles_.smoothing_length[order[k]]; h > above && h <= most) {
+      chosen.push_back(k);
+      list.smoothing_length = std::max(list.smoothing_length, h);
+    }
+  if (chosen.empty()) return list;
+  const double reach = sph::support * list.smoothing_length;
+  // Particles whose cells follow each other are mostly near each other: images of a sphere of them that is far from all
+  // that its images are seen in need no test.
+  constexpr std::size_t together = 16;
+  constexpr double rounding = 1 + 1e-6;
+  const auto group = [&](std::size_t s) {
+    return std::span(chosen).subspan(together * s, std::min(together, chosen.size() - together * s));
+  };
+  std::vector<std::pair<Vector3, double>> spheres((chosen.size() + together - 1) / together);
+  for (std::size_t s = 0; s < spheres.size(); ++s) {
+    Vector3 low = particles_.position[order[group(s)[0]]], high = low;
+    for (const std::uint32_t k : group(s))
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], particles_.position[order[k]][axis]);
+        high[axis] = std::max(high[axis], particles_.position[order[k]][axis]);
+      }
+    spheres[s] = {0.5 * (low + high), 0.5 * norm(high - low)};
+  }
+  std::vector<Listed> found;
+  std::vector<Vector3> places;
+  for (std::uint32_t n = 0; n < images_.size(); ++n) {
+    const Image& image = images_[n];
+    const auto is_near = [&](const Vector3& place, double more) {
+      return image.is_identity() || domain_.is_near(image, place, rounding * (reach + more));
+    };
+    for (std::size_t s = 0; s < spheres.size(); ++s) {
+      if (!is_near(image.position(spheres[s].first), spheres[s].second)) continue;
+      for (const std::uint32_t k : group(s)) {
+        const Vector3 place = image.position(particles_.position[order[k]]);
+        if (!is_near(place, 0)) continue;
+        places.push_back(place);
+        found.push_back(
+            {place, particles_.smoothing_length[order[k]], std::uint64_t{n} * order.size() + k, order[k], n});
+      }
+    }
+  }
+  // Stored cell by cell, so that neighbours stand together.
+  const CellGrid unsorted(places, reach);
+  for (const std::uint32_t n : unsorted.order()) list.entries.push_back(found[n]);
+  for (std::size_t n = 0; n < places.size(); ++n) places[n] = list.entries[n].place;
+  list.grid.emplace(places, reach);
+  return list;
+}
+
+/// In the order in which they are found without lists: image by image, and cell by cell in each. Those that are too far
+/// away to count are left out: they would add zeros.
+template <class Visit>
+void ParticleField::for_each_listed(const Vector3& x, std::optional<double> own, Visit&& visit) const {
+  struct Near {
+    std::uint64_t rank;
+    const Listed* entry;
+  };
+  thread_local std::vector<Near> near;
+  near.clear();
+  constexpr double rounding = 1 + 1e-9;
+  for (const List& list : lists_) {
+    if (!list.grid) continue;
+    list.grid->for_each_candidate(x, [&](std::uint32_t n) {
+      const Listed& entry = list.entries[n];
+      const Vector3 d = entry.place - x;
+      const double reach = rounding * (own.value_or(entry.smoothing_length) + entry.smoothing_length);
+      if (dot(d, d) < reach * reach) near.push_back({entry.rank, &entry});
+    });
+  }
+  std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.rank < b.rank; });
+  for (const auto& [rank, entry] : near) {
+    const Image& image = images_[entry->image];
+    if (domain_.is_visible(x, entry->place, image)) visit(entry->source, image, entry->place - x);
+  }
 }
 
 template <class Visit>
-void ParticleField::for_each_near(const Vector3& x, double reach, Visit&& visit) const {
+void ParticleField::for_each_near(const Vector3& x, std::optional<double> own, Visit&& visit) const {
   if (particles_.position.empty()) return;
+  // The lists of a narrower support than this place's own hold too little.
+  const bool listed = !lists_.empty() && (!own || std::all_of(lists_.begin(), lists_.end(), [&](const List& list) {
+    return !list.grid || *own <= list.smoothing_length;
+  }));
+  if (listed) return for_each_listed(x, own, visit);
   for (const Image& image : images_) {
     const Vector3 source = image.source(x);
     bool within = true;
     for (int axis = 0; axis < 3; ++axis)
-      within = within && source[axis] > low_[axis] - reach && source[axis] < high_[axis] + reach;
+      within = within && source[axis] > low_[axis] - reach_ && source[axis] < high_[axis] + reach_;
     if (!within) continue;
     grid_.for_each_candidate(source, [&](std::uint32_t j) {
       const Vector3 place = image.position(particles_.position[j]), d = place - x;
-      if (dot(d, d) < reach * reach && domain_.is_visible(x, place, image)) visit(j, image, d);
+      if (dot(d, d) < reach_ * reach_ && domain_.is_visible(x, place, image)) visit(j, image, d);
     });
   }
 }
 
 double ParticleField::packing(const Vector3& x) const {
   double sum = 0;
-  for_each_near(x, reach_, [&](std::uint32_t j, const Image&, const Vector3& d) {
+  for_each_near(x, {}, [&](std::uint32_t j, const Image&, const Vector3& d) {
     sum += sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
   });
   return particles_.solid_volume * sum;
@@ -85,7 +183,7 @@ double ParticleField::packing(const Vector3& x) const {
 
 double ParticleField::value(const Vector3& x, std::span<const double> column) const {
   double sum = 0, weights = 0;
-  for_each_near(x, reach_, [&](std::uint32_t j, const Image&, const Vector3& d) {
+  for_each_near(x, {}, [&](std::uint32_t j, const Image&, const Vector3& d) {
     const double weight = particles_.volume[j] * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
     sum += weight * column[j];
     weights += weight;
@@ -96,7 +194,7 @@ double ParticleField::value(const Vector3& x, std::span<const double> column) co
 Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) const {
   Vector3 sum;
   double weights = 0;
-  for_each_near(x, reach_, [&](std::uint32_t j, const Image& image, const Vector3& d) {
+  for_each_near(x, {}, [&](std::uint32_t j, const Image& image, const Vector3& d) {
     const double weight = particles_.volume[j] * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
     sum += weight * image.vector(column[j]);
     weights += weight;
@@ -108,7 +206,7 @@ Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) 
 Tensor3<> ParticleField::velocity_gradient(std::size_t particle, std::span<const Vector3> velocity) const {
   const Vector3& x = particles_.position[particle];
   sph::GradientSums<> sums;
-  for_each_near(x, reach_, [&](std::uint32_t j, const Image& image, const Vector3& d) {
+  for_each_near(x, particles_.smoothing_length[particle], [&](std::uint32_t j, const Image& image, const Vector3& d) {
     const double h = 0.5 * (particles_.smoothing_length[particle] + particles_.smoothing_length[j]);
     const double r = norm(d);
     if (r < sph::support * h)

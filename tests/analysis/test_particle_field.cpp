@@ -90,6 +90,32 @@ TEST(ParticleField, SeesThroughOpenGatesOnly) {
   EXPECT_EQ(open.packing({0.01, 0.015, 0.105}), 0);
 }
 
+TEST(ParticleField, ForManyPlacesItHasTheSameBits) {
+  auto points = lattice(0.1, 0.02, 0, 0.15, h);  // thin: images of images
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = points[i] + 4e-3 * Vector3{std::sin(double(i)), std::cos(3.0 * double(i)), std::sin(5.0 * double(i))};
+  std::vector<Vector3> velocity;
+  for (const Vector3& x : points) velocity.push_back({x.z, x.x * x.x, -x.y + x.z});
+  Box periodic = box(0.1, 0.02, 0.3).box();
+  periodic.faces[0] = periodic.faces[1] = FaceKind::periodic;
+  for (const Domain& domain : {box(0.1, 0.02, 0.3), box(0.1, 0.02, 0.3, {test::plate(0.1, 0.08, 0.03, 0.07)}),
+                               box(0.1, 0.02, 0.3, {Wall("slope", {0, 0, 0.05}, {0.06, 0, 0.11})}), Domain(periodic)}) {
+    const ParticleField few(test::particles(points, h), domain),
+        many(test::particles(points, h), domain, ParticleField::Places::many);
+    for (double x = 0; x <= 0.1; x += 7.3e-3)
+      for (double z = 0; z <= 0.2; z += 6.7e-3) {
+        const Vector3 place{x, 0.007, z};
+        EXPECT_EQ(few.packing(place), many.packing(place));
+        if (few.packing(place) > 0) {
+          EXPECT_EQ(few.value(place, velocity), many.value(place, velocity));
+        }
+      }
+    for (std::size_t i = 0; i < points.size(); i += 11)
+      EXPECT_EQ(few.velocity_gradient(i, velocity).xz, many.velocity_gradient(i, velocity).xz);
+  }
+  EXPECT_EQ(ParticleField({}, box(1, 1, 1), ParticleField::Places::many).packing({0.5, 0.5, 0.5}), 0);
+}
+
 TEST(ParticleField, ParticlesOfADensityAndSpheres) {
   const std::vector<Vector3> points = {{0, 0, 0}, {1, 0, 0}};
   const Particles particles = particles_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500);

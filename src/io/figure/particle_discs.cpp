@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/figure/particle_layers.hpp"
+#include "io/figure/stipple.hpp"
 
 namespace talus::figure {
 
@@ -90,18 +91,46 @@ ColourBar bar_of(const ByValue& colouring) {
   return {low, high, axis_title(colouring.label, colouring.unit.name)};
 }
 
-void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& p,
-                std::vector<Obstacle>& obstacles) {
-  std::vector<Colour> colours = colours_of(picture);
-  if (picture.depth) fade_with_depth(picture, colours);
-  cairo_set_line_width(context, outline_width);
-  const bool outlined = mean_radius(picture) * p.scale >= outlined_from;  // all or none
-  for (const std::size_t i : order_of(picture)) {
+namespace {
+
+/// The centre of each disc that the plot shows, with its radius, in the order in which they are laid on each other.
+template <class Visit>
+void for_each_seen(const ParticlePicture& picture, const Projection& p, const std::vector<std::size_t>& order,
+                   Visit&& visit) {
+  for (const std::size_t i : order) {
     const Obstacle centre = p(picture.positions[i]);
     const double radius = std::max(least_radius, picture.radii[i] * p.scale);
     if (!std::isfinite(centre.x + centre.y + picture.radii[i])) continue;
     const Rectangle reach{p.plot.x - radius, p.plot.y - radius, p.plot.width + 2 * radius, p.plot.height + 2 * radius};
-    if (!reach.contains(centre.x, centre.y)) continue;
+    if (reach.contains(centre.x, centre.y)) visit(i, centre, radius);
+  }
+}
+
+/// Many dots that are all as small as a disc can be, in one colour.
+bool are_dots(const ParticlePicture& picture, const Projection& p) {
+  constexpr std::size_t many = 50'000;
+  return picture.positions.size() >= many && !picture.depth && std::holds_alternative<Plain>(picture.colouring) &&
+         std::all_of(picture.radii.begin(), picture.radii.end(),
+                     [&](double radius) { return radius * p.scale <= least_radius; });
+}
+
+}  // namespace
+
+void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& p,
+                std::vector<Obstacle>& obstacles) {
+  if (are_dots(picture, p)) {
+    Stipple dots(context, least_radius, std::get<Plain>(picture.colouring).colour);
+    for_each_seen(picture, p, order_of(picture), [&](std::size_t, const Obstacle& centre, double) {
+      dots.add(centre.x, centre.y);
+      obstacles.push_back(centre);
+    });
+    return dots.draw();
+  }
+  std::vector<Colour> colours = colours_of(picture);
+  if (picture.depth) fade_with_depth(picture, colours);
+  cairo_set_line_width(context, outline_width);
+  const bool outlined = mean_radius(picture) * p.scale >= outlined_from;  // all or none
+  for_each_seen(picture, p, order_of(picture), [&](std::size_t i, const Obstacle& centre, double radius) {
     cairo_new_sub_path(context);
     cairo_arc(context, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
     set_colour(context, colours[i]);
@@ -118,7 +147,7 @@ void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projecti
       cairo_fill(context);
     }
     obstacles.push_back(centre);
-  }
+  });
 }
 
 }  // namespace talus::figure

@@ -14,7 +14,7 @@ namespace detail {
 inline double cubed_depth_of_chord(double a, double s) {
   if (!(s < a)) return 0;
   const double y = std::sqrt((a - s) * (a + s)), s2 = s * s;
-  const double area = s > 0 ? s2 * std::asinh(y / s) : 0;         // s^2 asinh(y/s), 0 in the middle
+  const double area = s > 0 ? s2 * std::log((y + a) / s) : 0;     // s^2 asinh(y/s), 0 in the middle
   const double first = 0.5 * (y * a + area);                      // integral of r
   const double second = s2 * y + y * y * y / 3;                   // of r^2
   const double third = 0.25 * y * a * a * a + 0.75 * s2 * first;  // of r^3

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/figure/stipple.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace talus::figure {
+
+namespace {
+
+constexpr int places = 8;    // at which a disc can stand within a pixel, each way
+constexpr int samples = 16;  // of a pixel, each way
+
+/// The share of a pixel that a disc covers, by samples. \param x, y of the disc's centre from the pixel's corner,
+/// pixels
+double covered(double x, double y, double radius) {
+  int inside = 0;
+  for (int j = 0; j < samples; ++j)
+    for (int i = 0; i < samples; ++i) {
+      const double dx = (i + 0.5) / samples - x, dy = (j + 0.5) / samples - y;
+      inside += dx * dx + dy * dy < radius * radius;
+    }
+  return static_cast<double>(inside) / (samples * samples);
+}
+
+}  // namespace
+
+Stipple::Stipple(cairo_t* context, double radius, const Colour& colour)
+    : context_(context),
+      colour_(colour),
+      width_(cairo_image_surface_get_width(cairo_get_target(context))),
+      height_(cairo_image_surface_get_height(cairo_get_target(context))),
+      through_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 1.0F) {
+  double across = 1, down = 0;
+  cairo_user_to_device_distance(context, &across, &down);
+  scale_ = across;
+  const double pixels = radius * scale_;
+  reach_ = static_cast<int>(std::ceil(pixels));
+  for (int row = 0; row < places; ++row)
+    for (int column = 0; column < places; ++column)
+      for (int j = -reach_; j <= reach_; ++j)
+        for (int i = -reach_; i <= reach_; ++i)
+          shares_.push_back(static_cast<float>(
+              1 - colour.alpha * covered((column + 0.5) / places - i, (row + 0.5) / places - j, pixels)));
+}
+
+void Stipple::add(double x, double y) {
+  cairo_user_to_device(context_, &x, &y);
+  const double left = std::floor(x), top = std::floor(y);
+  if (!(left > -1e6 && left < 1e6 && top > -1e6 && top < 1e6)) return;
+  const int column = static_cast<int>(left), row = static_cast<int>(top), side = 2 * reach_ + 1;
+  const int place = static_cast<int>((y - top) * places) * places + static_cast<int>((x - left) * places);
+  const float* share = shares_.data() + static_cast<std::ptrdiff_t>(place) * side * side;
+  for (int j = row - reach_; j <= row + reach_; ++j)
+    for (int i = column - reach_; i <= column + reach_; ++i, ++share)
+      if (i >= 0 && i < width_ && j >= 0 && j < height_)
+        through_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)] *=
+            *share;
+}
+
+void Stipple::draw() {
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> mask(
+      cairo_image_surface_create(CAIRO_FORMAT_A8, width_, height_), cairo_surface_destroy);
+  if (cairo_surface_status(mask.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
+  cairo_surface_flush(mask.get());
+  unsigned char* const data = cairo_image_surface_get_data(mask.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(mask.get()));
+  for (std::size_t n = 0; n < through_.size(); ++n)
+    data[n / static_cast<std::size_t>(width_) * stride + n % static_cast<std::size_t>(width_)] =
+        static_cast<unsigned char>(std::lround(255 * (1 - through_[n])));
+  cairo_surface_mark_dirty(mask.get());
+  cairo_save(context_);
+  cairo_identity_matrix(context_);
+  cairo_set_source_rgb(context_, colour_.red, colour_.green, colour_.blue);
+  cairo_mask_surface(context_, mask.get(), 0, 0);
+  cairo_restore(context_);
+}
+
+}  // namespace talus::figure
