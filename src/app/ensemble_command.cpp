@@ -15,7 +15,9 @@
 #include "app/ensemble/slurm.hpp"
 #include "app/ensemble/statistics.hpp"
 #include "app/ensemble/sweep.hpp"
+#include "app/models/models.hpp"
 #include "app/report/report.hpp"
+#include "base/error.hpp"
 #include "base/terminal.hpp"
 #include "io/file_list.hpp"
 #include "io/report/page.hpp"
@@ -70,6 +72,33 @@ std::vector<std::string> gathering(const Options& options) {
   return words;
 }
 
+/// Refuses what no member can have before any of them runs; what a case of its model does not have after all is told
+/// when they are drawn. \throws InputError
+void check_plot(const EnsemblePlan& plan, const Options& options) {
+  if (options.plot.empty()) return;
+  CaseFile file = CaseFile::read(options.request.case_path);
+  for (const std::string& setting : options.request.settings) file.set(setting);
+  const ModelEntry& model = model_of(file);
+  if (!model.measures) return;
+  std::vector<std::string> known{"steps"};
+  for (const MeasureText& measure : model.measures())
+    if (measure.in_summary) known.emplace_back(measure.name);
+  for (const EnsembleGroup& group : plan.groups)  // members of another version of Talus
+    for (const QuantitySpread& spread : quantity_spreads(group)) known.push_back(spread.name);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  check_quantities(options.plot, known);
+}
+
+/// \throws InputError
+void check_gathered(const EnsembleRequest& request) {
+  std::error_code none;
+  if (!std::filesystem::is_directory(request.folder, none) || std::filesystem::is_empty(request.folder, none))
+    throw InputError({{.where = request.folder.string(),
+                       .what = "holds no ensemble: there is nothing to gather",
+                       .allowed = "--gather with the --out of the ensemble that ran, or without --gather to run it"}});
+}
+
 ExitStatus launch(const std::vector<ScheduledRun>& runs, const Options& options) {
   SlurmRequest slurm{.folder = options.request.folder,
                      .members = {},
@@ -95,7 +124,9 @@ ExitStatus ensemble(const Options& options) {
   run::catch_signals();
   const EnsembleRequest& request = options.request;
   if (options.launch == "slurm") check_slurm(options.slurm, request.folder);
+  if (options.gather) check_gathered(request);
   const EnsemblePlan plan = plan_ensemble(request);
+  check_plot(plan, options);
   std::vector<ScheduledRun> runs;
   for (const EnsembleGroup& group : plan.groups)
     for (const EnsembleMember& member : group.members) runs.push_back({request.case_path, member});

@@ -123,6 +123,15 @@ class Ensemble(ProgramTest):
         self.talus(*arguments, "--resume")
         self.assertFalse((self.folder / "e/all/seed_0003.out").exists())
 
+    def test_where_there_is_nothing_to_gather(self):
+        (self.folder / "empty").mkdir()
+        for folder in ("none", "empty"):
+            said = self.talus("ensemble", "case.toml", "--out", folder, "--gather", status=2).stderr
+            self.assertIn(f"{folder}: holds no ensemble", said)
+            self.assertIn("--out", said)
+        self.assertFalse((self.folder / "none").exists())
+        self.assertEqual(list((self.folder / "empty").iterdir()), [])
+
     def test_existing_folder_and_changed_case(self):
         self.talus("ensemble", "case.toml", "--out", "e", "--members", 1)
         before = tree(self.folder)

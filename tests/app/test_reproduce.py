@@ -85,6 +85,15 @@ class Hopper(Study):
         self.assertTrue((self.folder / "r/comparison.json").exists())
         self.assertFalse((self.folder / "r/figures").exists())
 
+    def test_a_python_of_the_current_folder_is_not_run(self):
+        """An empty entry of PATH stands for it."""
+        self.replace("cases/yuu2011-hopper-vacuum.toml", r"(?m)^end = .*$", 'end = "1 ms"')
+        stand_in = self.folder / "python3"
+        stand_in.write_text("#!/bin/sh\necho run > was_run\nexit 1\n")
+        stand_in.chmod(0o755)
+        self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", status=1, env={**os.environ, "PATH": ":"})
+        self.assertFalse((self.folder / "was_run").exists())
+
     def test_a_script_that_fails(self):
         self.replace("cases/yuu2011-hopper-vacuum.toml", r"(?m)^end = .*$", 'end = "1 ms"')
         (self.folder / "validation/yuu2011/figures.py").write_text("raise SystemExit('out of ink')\n")

@@ -122,6 +122,13 @@ class Plot(ProgramTest):
         said = self.talus(*arguments, "--gather", "--plot", "front_sped_max", status=2).stderr
         self.assertIn("did you mean 'front_speed_max'", said)
 
+    def test_what_no_member_can_have_is_refused_before_they_run(self):
+        said = self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, "--vary", "slope.angle=30 deg,50 deg",
+                          "--plot", "front_speed_max,front_sped_max,overlap_mx", status=2).stderr
+        self.assertIn("did you mean 'front_speed_max'", said)
+        self.assertIn("did you mean 'overlap_max'", said)
+        self.assertFalse((self.folder / "e").exists())
+
     def test_keys_without_numbers_are_drawn_by_the_numbers_of_the_groups(self):
         self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, "--vary",
                    "integration.method=chebyshev,dormand-prince", "--plot", "front_speed_max")

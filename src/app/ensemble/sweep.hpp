@@ -42,6 +42,9 @@ std::string sweep_text(const std::vector<SweptGroup>& groups);
 /// were given). \throws FileError
 void write_sweep(const std::vector<SweptGroup>& groups, const std::filesystem::path& folder);
 
+/// \throws InputError with the nearest name for each quantity asked for that is not known
+void check_quantities(const std::vector<std::string>& asked, const std::vector<std::string>& known);
+
 /// Draws quantities against the first varied key that is a number, a line for each combination of the others; against
 /// the groups' numbers if none is. \param quantities that are asked for; none: those that differ between groups, twelve
 /// at most \returns false, drawing nothing, if nothing differs

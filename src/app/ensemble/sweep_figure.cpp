@@ -73,28 +73,30 @@ bool differs(const std::vector<SweptGroup>& groups, const std::string& name) {
 std::vector<const QuantitySpread*> chosen(const std::vector<SweptGroup>& groups,
                                           const std::vector<std::string>& asked) {
   const std::vector<const QuantitySpread*> all = all_quantities(groups);
+  std::vector<std::string> names;
+  for (const QuantitySpread* q : all) names.push_back(q->name);
+  check_quantities(asked, names);
   std::vector<const QuantitySpread*> chosen;
-  std::vector<Problem> problems;
-  for (const std::string& name : asked) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const auto* q) { return q->name == name; });
-    if (found != all.end()) {
-      chosen.push_back(*found);
-      continue;
-    }
-    std::vector<std::string_view> names;
-    for (const QuantitySpread* q : all) names.push_back(q->name);
-    problems.push_back({.where = "--plot " + name,
-                        .what = "no member has such a quantity",
-                        .allowed = fmt::format("{}", fmt::join(names, ", ")),
-                        .nearest = std::string(nearest(name, names))});
-  }
-  if (!problems.empty()) throw InputError(problems);
+  for (const std::string& name : asked)
+    chosen.push_back(*std::find_if(all.begin(), all.end(), [&](const auto* q) { return q->name == name; }));
   for (const QuantitySpread* q : all)
     if (asked.empty() && chosen.size() < most_panels && differs(groups, q->name)) chosen.push_back(q);
   return chosen;
 }
 
 }  // namespace
+
+void check_quantities(const std::vector<std::string>& asked, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  std::vector<Problem> problems;
+  for (const std::string& name : asked)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      problems.push_back({.where = "--plot " + name,
+                          .what = "no member has such a quantity",
+                          .allowed = fmt::format("{}", fmt::join(names, ", ")),
+                          .nearest = std::string(nearest(name, names))});
+  if (!problems.empty()) throw InputError(problems);
+}
 
 bool draw_sweep(const std::vector<SweptGroup>& groups, const std::vector<std::string>& quantities,
                 const std::filesystem::path& path) {

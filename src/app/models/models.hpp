@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/measure.hpp"
 #include "app/case/prepared_case.hpp"
 #include "app/case/scene.hpp"
 #include "app/comparison/studied_runs.hpp"
@@ -31,6 +32,8 @@ struct ModelEntry {
   ParameterList (*parameters)();
   /// Reads runs that a reference is about. Null: no study is of this model. \throws FileError
   StudiedRuns (*studies)(const std::vector<FoundEnsemble>& found);
+  /// What a summary of its runs can list, where the case has it. Null: nothing that is known before a run.
+  std::vector<MeasureText> (*measures)();
 };
 
 std::span<const ModelEntry> models();

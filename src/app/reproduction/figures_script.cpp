@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/reproduction/figures_script.hpp"
 
-#include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/program.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 
@@ -25,15 +24,8 @@ bool succeeds(std::vector<std::string> arguments, const std::filesystem::path& o
 }  // namespace
 
 std::optional<std::filesystem::path> find_python() {
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "");
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path python = std::filesystem::path(folder) / "python3";
-    std::error_code none;
-    if (std::filesystem::exists(python, none) &&
-        succeeds({python.string(), "-c", "import h5py, matplotlib"}, "/dev/null"))
-      return python;
-  }
+  for (const std::filesystem::path& python : find_programs("python3"))
+    if (succeeds({python.string(), "-c", "import h5py, matplotlib"}, "/dev/null")) return python;
   return std::nullopt;
 }
 
