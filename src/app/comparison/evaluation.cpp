@@ -48,16 +48,35 @@ std::string statistic_text(const ComparisonRow& row) {
   return "";
 }
 
+bool has_value(const EvaluatedRow& row) {
+  return std::any_of(row.values.begin(), row.values.end(), [](const auto& value) { return value.has_value(); });
+}
+
+/// Why a row has no value; empty if it has one, or if the runs that it is about are not there.
+std::string missing_text(const EvaluatedRow& row, const std::vector<FoundEnsemble>& found) {
+  if (has_value(row) || !row.missing.empty()) return row.missing;
+  const bool runs_are_there =
+      std::all_of(row.row->variants.begin(), row.row->variants.end(), [&](const std::string& variant) {
+        return std::any_of(found.begin(), found.end(), [&](const FoundEnsemble& ensemble) {
+          return ensemble.case_name == row.row->case_name && ensemble.variant == variant;
+        });
+      });
+  return runs_are_there ? "the run ends before its time window does, or there are too few members" : "";
+}
+
 }  // namespace
 
-std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs) {
+std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs, Faults faults) {
   std::vector<EvaluatedRow> rows;
   for (const ComparisonRow& row : reference.rows) {
     EvaluatedRow evaluated{.row = &row, .values = {}, .verdict = Verdict::reported};
     try {
       evaluated.values = runs(row);
     } catch (const std::logic_error& error) {
-      throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
+      if (faults == Faults::refuse)
+        throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
+      evaluated.missing = error.what();
+      evaluated.values.assign(row.from == From::variants ? 1 : row.variants.size(), std::nullopt);
     }
     if (row.criterion.kind != Criterion::Kind::reported)
       evaluated.verdict = judge(row.criterion, std::span<const std::optional<double>>(evaluated.values));
@@ -105,6 +124,7 @@ std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>&
                                                    : Verdict::reported));
     }
     row["verdict"] = to_string(e.verdict);
+    row["missing"] = missing_text(e, found);
     json["rows"].push_back(std::move(row));
   }
   for (const FoundEnsemble& ensemble : found) {

@@ -15,17 +15,22 @@ struct EvaluatedRow {
   const ComparisonRow* row = nullptr;
   std::vector<std::optional<double>> values;  ///< one per variant of the row; one alone for From::variants
   Verdict verdict = Verdict::not_evaluated;
+  std::string missing = {};  ///< why a measure failed, with Faults::note
 };
 
-/// \throws InputError if a row asks for what no such runs have
-std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs);
+/// What to do with a row whose measure fails: one that no such runs have, or one that a short run has no data for.
+enum class Faults { refuse, note };
+
+/// \throws InputError if a measure fails and faults are refused
+std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs, Faults faults = Faults::refuse);
 
 /// As lines for a terminal.
 std::string to_text(const std::vector<EvaluatedRow>& rows);
 /// As JSON: {"study", "title", "source", "rows": [{"id", "number", "quantity", "case", "variants", "statistic",
-/// "printed", "source", "criterion", "unit", "values": [...], "verdicts": [...], "verdict"}], "runs": [{"case",
-/// "variant", "folders"}]}, values and the verdict on each in the order of the row's variants, the folders of the
-/// members relative to `folder`. A value that was evaluated and has no meaning is null with the verdict "not met".
+/// "printed", "source", "criterion", "unit", "values": [...], "verdicts": [...], "verdict", "missing"}], "runs":
+/// [{"case", "variant", "folders"}]}, values and the verdict on each in the order of the row's variants, the folders of
+/// the members relative to `folder`. A value that was evaluated and has no meaning is null with the verdict "not met".
+/// Of a row without any value although its runs are there, "missing" says why; else it is empty.
 std::string to_json(const Reference& reference, const std::vector<EvaluatedRow>& rows,
                     const std::vector<FoundEnsemble>& found, const std::filesystem::path& folder);
 

@@ -82,7 +82,7 @@ const Candidate* best(const std::vector<Candidate>& candidates, const CaseFile& 
 
 }  // namespace
 
-std::vector<FoundEnsemble> find_ensembles(const std::filesystem::path& folder, const Reference& reference) {
+std::vector<FoundEnsemble> ensembles_of(const std::filesystem::path& folder, const Reference& reference) {
   if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "is no folder");
   std::vector<FoundEnsemble> ensembles;
   for (FoundRun& run : find_runs(folder)) {
@@ -97,6 +97,11 @@ std::vector<FoundEnsemble> find_ensembles(const std::filesystem::path& folder, c
     found->folders.push_back(std::move(run.folder));
     found->files.push_back(std::move(run.file));
   }
+  return ensembles;
+}
+
+std::vector<FoundEnsemble> find_ensembles(const std::filesystem::path& folder, const Reference& reference) {
+  std::vector<FoundEnsemble> ensembles = ensembles_of(folder, reference);
   if (ensembles.empty())
     throw InputError({{.where = folder.string(),
                        .what = "holds no finished run of a case of " + reference.path,

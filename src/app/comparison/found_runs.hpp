@@ -20,8 +20,10 @@ struct FoundEnsemble {
 };
 
 /// Sorts every finished run to the case whose `where` it satisfies, and there to the variant whose settings it has; of
-/// several, to the one with the most entries. Runs of no case are passed over.
-/// \throws FileError; \throws InputError if there is no run of any of the cases
+/// several, to the one with the most entries. Runs of no case are passed over. \throws FileError
+std::vector<FoundEnsemble> ensembles_of(const std::filesystem::path& folder, const Reference& reference);
+
+/// The same. \throws FileError; \throws InputError if there is no run of any of the cases
 std::vector<FoundEnsemble> find_ensembles(const std::filesystem::path& folder, const Reference& reference);
 
 }  // namespace talus::app

@@ -48,8 +48,8 @@ std::string title_of_run(const std::filesystem::path& folder);
 /// A run as an entry. \throws FileError if there is none
 ReportEntry entry_of_run(const std::filesystem::path& folder);
 
-/// The comparison of the runs below a folder with the papers of validation/ that they are about, without those of which
-/// nothing can be evaluated.
+/// The comparison of the runs below a folder with the papers of validation/ that they are about. Rows that a run is too
+/// short for have no value and say so. \throws FileError, InputError if a reference cannot be read
 std::vector<std::string> published_comparisons(const std::filesystem::path& folder);
 
 }  // namespace talus::app

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/comparison/evaluation.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/error.hpp"
 
 namespace talus::app {
 namespace {
@@ -33,6 +37,42 @@ TEST(Evaluation, JsonNamesRowsAndTheRunsTheyAreOf) {
       << "each variant judged by itself; what has no value there did not get there, what has no meaning is not met";
   EXPECT_EQ(json["runs"][0]["variant"], "a");
   EXPECT_EQ(json["runs"][0]["folders"], nlohmann::json({"a/seed_0001", "a/seed_0002"})) << "below the folder compared";
+}
+
+TEST(Evaluation, ARowThatFailsIsRefusedOrNotedAndTheOthersAreEvaluated) {
+  Reference reference;
+  reference.path = "reference.toml";
+  reference.rows = {row({"a"}), row({"a", "b"}), row({"a"})};
+  reference.rows[1].id = "fails";
+  const StudiedRuns runs = [](const ComparisonRow& asked) -> std::vector<std::optional<double>> {
+    if (asked.id == "fails") throw std::invalid_argument("a spectrum needs four data");
+    return {1.5};
+  };
+  EXPECT_THROW(evaluate(reference, runs), InputError);
+  const std::vector<EvaluatedRow> rows = evaluate(reference, runs, Faults::note);
+  ASSERT_EQ(rows.size(), 3);
+  EXPECT_EQ(rows[0].verdict, Verdict::met);
+  EXPECT_EQ(rows[1].verdict, Verdict::not_evaluated);
+  EXPECT_EQ(rows[1].values.size(), 2);
+  EXPECT_EQ(rows[1].missing, "a spectrum needs four data");
+  EXPECT_EQ(rows[2].verdict, Verdict::met);
+}
+
+TEST(Evaluation, JsonSaysWhyARowOfRunsThatAreThereHasNoValue) {
+  const ComparisonRow here = row({"a"}), there = row({"a", "b"});
+  const std::vector<FoundEnsemble> found = {{"", "a", {"r"}, {}}};
+  const auto json =
+      nlohmann::json::parse(to_json({},
+                                    {{.row = &here, .values = {1.5}, .verdict = Verdict::met},
+                                     {.row = &here, .values = {std::nullopt}},
+                                     {.row = &here, .values = {std::nullopt}, .missing = "a spectrum needs four data"},
+                                     {.row = &there, .values = {std::nullopt, std::nullopt}}},
+                                    found, "."));
+  const auto missing = [&](std::size_t n) { return json["rows"][n]["missing"].get<std::string>(); };
+  EXPECT_EQ(missing(0), "");
+  EXPECT_THAT(missing(1), testing::HasSubstr("ends before"));
+  EXPECT_EQ(missing(2), "a spectrum needs four data");
+  EXPECT_EQ(missing(3), "") << "it needs another run";
 }
 
 TEST(Evaluation, CountsVerdicts) {

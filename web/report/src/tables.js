@@ -74,15 +74,18 @@ export function drawPublished(section, place) {
     return;
   }
   for (const comparison of header.comparisons) {
-    const evaluated = comparison.rows.filter((r) => r.values.some((v) => v !== null));
+    const has = (r, n) => r.verdicts[n] !== "not evaluated"; // a value without a meaning is null, and not met
+    const evaluated = comparison.rows.filter((r) => r.values.some((_, n) => has(r, n)));
+    const short = comparison.rows.filter((r) => !evaluated.includes(r) && r.missing);
+    const others = comparison.rows.length - evaluated.length - short.length;
     const counts = new Map();
     for (const r of evaluated) counts.set(r.verdict, (counts.get(r.verdict) ?? 0) + 1);
     place.append(
       element("h3", {}, comparison.title),
-      element("p", { className: "quiet" }, `${comparison.source}. `, [...counts].map(([verdict, count]) => `${count} ${verdict}`).join(", "), `; ${comparison.rows.length - evaluated.length} rows need other runs.`),
+      element("p", { className: "quiet" }, `${comparison.source}. `, [...counts].map(([verdict, count]) => `${count} ${verdict}`).join(", ") || "No row has a value", `; ${short.length ? `${short.length} rows have no value here, ` : ""}${others} rows need other runs.`),
     );
     const rows = evaluated.map((r) => {
-      const values = r.values.map((v, n) => (v === null ? null : `${r.values.length > 1 ? `${r.variants[n] ?? ""}: ` : ""}${quantity(v, r.unit)}`)).filter(Boolean);
+      const values = r.values.map((v, n) => (!has(r, n) ? null : `${r.values.length > 1 ? `${r.variants[n] ?? ""}: ` : ""}${quantity(v, r.unit)}`)).filter(Boolean);
       const made = row(
         numeric(r.number ? String(r.number) : ""),
         element("th", { scope: "row" }, name(r.quantity), r.statistic && r.statistic !== "mean" ? element("span", { className: "quiet" }, `, ${r.statistic}`) : null),
@@ -93,7 +96,12 @@ export function drawPublished(section, place) {
       );
       return made;
     });
-    place.append(table([numericHead("Row"), "Quantity", "The paper", "Met if", numericHead("Here"), ""], rows));
+    if (rows.length) place.append(table([numericHead("Row"), "Quantity", "The paper", "Met if", numericHead("Here"), ""], rows));
+    if (short.length)
+      place.append(
+        element("details", {}, element("summary", {}, "Rows without a value"),
+          element("ul", {}, ...short.map((r) => element("li", {}, element("strong", {}, name(r.quantity)), ` (${r.id}): ${r.missing}`)))),
+      );
   }
 }
 
