@@ -22,7 +22,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from check_documents import tracked  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAMS = re.compile(r"(?:\$ )?(?:\S*/)?(talus|python3|\.?/?(?:run|test)|tools/\S+|validation/\S+\.py)(?= |$)")
+PROGRAMS = re.compile(r"(?:\$ )?(?:\S*/)?(talus|python3|\.?/?(?:run|test)|tools/\S+|validation/\S+\.py|build(?:-fuzz)?/\S+"
+                      r"|cmake|ctest|git clone|apt-get|export|mkdir|paraview)(?= |$)")
 
 
 def code_lines(path):

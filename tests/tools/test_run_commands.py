@@ -46,9 +46,37 @@ class Commands(unittest.TestCase):
             "    talus run cases/niiya2020-circle.toml --walltime 30\n"
             "    talus run cases/niiya2020-circle.toml --resume --set run.end=\"8 ms\"    longer\n"
             "    talus picture results/niiya2020-circle --time 0.002 -o p.png\n"
-            "    talus report AIR VACUUM\n    talus reproduce niiya2020 --quick\n    ./run --build-only\n")
+            "    talus report ONE OTHER\n    ./run --build-only\n    validation/dem-hopper/run.py results/d280\n"
+            "    talus movie results/d280 -o beads.gif\n")
         self.assertEqual((problems, count), ([], 3))
-        self.assertEqual([line.split(": ")[1] for line in left_out], ["placeholders", "takes minutes", "another program"])
+        self.assertEqual([line.split(": ")[1] for line in left_out],
+                         ["placeholders", "builds", "takes ten minutes, and needs LAMMPS", "needs what another program makes"])
+
+    def test_what_is_neither_run_nor_listed_is_a_problem(self):
+        problems, count, left_out = self.run_text("    tools/another --thing\n")
+        self.assertEqual((len(problems), count, left_out), (1, 0, []))
+        self.assertIn("NOT_RUN", problems[0])
+
+    def test_every_command_of_the_pages_is_run_or_listed(self):
+        commands = list(run_commands.commands_of(ROOT, run_commands.tracked(ROOT, *run_commands.PAGES)))
+        self.assertGreater(len(commands), 120)
+        self.assertEqual([where for where, words, _ in commands if not words
+                          or run_commands.reason_to_leave_out(words) in ("unknown", "placeholders")], [])
+
+    def test_python_of_a_page(self):
+        text = ("```python\nimport talus\nrun = talus.Run(\"results/niiya2020-circle\")\n```\nText.\n"
+                "```python\nassert run.{} == \"done\"\n```\n    python3 -c \"print(1)\"\n")
+        self.assertEqual(self.run_text(text.format("status"))[:2], ([], 2))
+        problems, count, _ = self.run_text(text.format("statuses"))
+        self.assertEqual((len(problems), count), (1, 2))
+        self.assertIn("statuses", problems[0])
+
+    def test_a_study_a_placeholder_and_a_cluster(self):
+        problems, count, left_out = self.run_text(
+            "    talus reproduce niiya2020 --quick\n    talus report DIR --frames 2\n"
+            "    talus ensemble cases/niiya2020-circle.toml --members 20 --launch slurm\n"
+            "    talus compare results/mine validation/yuu2011/reference.toml --json results/mine/comparison.json\n")
+        self.assertEqual((problems, count, left_out), ([], 4, []))
 
 
 if __name__ == "__main__":
