@@ -159,11 +159,11 @@ class Page:
             match = re.fullmatch(r"results/([\w.-]+)", word)
             if not match or words[n - 1] == "--out" or (self.folder / word / "manifest.json").exists():
                 continue
-            case = f"cases/{match[1]}.toml"
+            case, settings = f"cases/{match[1]}.toml", []
             if words[0] == "compare" and "validation/yuu2011/reference.toml" in words and not (self.folder / case).exists():
-                case = "cases/yuu2011-section-vacuum.toml"
+                case, settings = "cases/yuu2011-hopper-vacuum.toml", ["--set", "bed.spacing=5 mm"]
             if (self.folder / case).exists():
-                self.run(self.cut_short(["run", case, "--out", word, "--set", "output.report=false"]))
+                self.run(self.cut_short(["run", case, "--out", word, "--set", "output.report=false", *settings]))
 
     def check(self, words):
         """What went wrong with `talus WORDS`; None if nothing did."""
