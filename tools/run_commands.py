@@ -223,6 +223,8 @@ def python_of(path):
 def without_missing_libraries(code):
     """The lines that can be run here, and those that cannot, with the reason."""
     left_out = []
+    if any("paraview.simple" in line for line in code) and not importlib.util.find_spec("paraview"):
+        return [], ["needs ParaView's own Python"]
     for name, method in (("pandas", "to_pandas"), ("xarray", "to_xarray")):
         if not importlib.util.find_spec(name):
             left_out += [f"needs {name}: {line.strip()}" for line in code if method in line]
