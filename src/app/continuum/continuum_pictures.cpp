@@ -81,11 +81,12 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
   return lines;
 }
 
-/// Of a vessel in space, the particles in the section through its middle, a spacing thick; else all.
+/// Of a vessel in space, the particles in the section through its middle; else all. Thicker than a spacing, so that two
+/// layers of a lattice that stand half a spacing from the middle are in it whole.
 std::vector<std::size_t> seen_particles(const HopperSetting& setting, std::span<const Vector3> positions) {
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (setting.section.empty() || std::abs(positions[i].y - setting.middle) <= 0.5 * setting.shape.spacing)
+    if (setting.section.empty() || std::abs(positions[i].y - setting.middle) <= 0.75 * setting.shape.spacing)
       seen.push_back(i);
   return seen;
 }

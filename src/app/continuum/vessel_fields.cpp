@@ -71,7 +71,7 @@ bool draw_fields(const std::filesystem::path& run_folder, const HopperSetting& s
       {"inertial number, log_{10}", [](const GridSnapshot& g, std::size_t n) {
          return std::log10(std::max(1e-5, g.scalars("inertial_number")[n]));
        }}};
-  const std::vector<double> radii(cells.size(), 0.5 * grid.spacing.x);
+  const std::vector<double> radii(cells.size(), 0.75 * grid.spacing.x);  // without gaps
   std::vector<std::vector<double>> values;
   figure::Figure figure{.title = title};
   for (const Shown& field : shown) {

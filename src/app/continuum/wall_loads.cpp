@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "analysis/hopper_estimators.hpp"
 #include "app/case/run_tables.hpp"
@@ -72,18 +74,21 @@ bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const 
   const std::filesystem::path table = run_folder / "analysis" / "wall_loads.csv";
   if (!std::filesystem::exists(table)) return false;
   const talus::Series loads = read_series(table);
-  const auto low = loads.column("low"), high = loads.column("high");
+  const auto low = loads.column("low"), high = loads.column("high"), patch = loads.column("patch");
   Chart chart{
       .title = title, .x = {.label = "pressure on the wall", .unit = "Pa"}, .y = {.label = "*z*", .unit = "mm"}};
   const auto add = [&](const char* column, const char* label, const Colour& colour, Dash dash, bool marked) {
     const auto pressure = loads.column(column);
-    std::vector<std::pair<double, double>> points;
+    std::map<double, std::vector<std::pair<double, double>>> points;  // by patch
     for (std::size_t n = 0; n < pressure.size(); ++n)
-      if (high[n] > low[n] && std::isfinite(pressure[n])) points.push_back({500 * (low[n] + high[n]), pressure[n]});
-    std::sort(points.begin(), points.end());
-    Line line{.label = label, .colour = colour, .dash = dash, .marked = marked};
-    for (const auto& [z, p] : points) line.x.push_back(p), line.y.push_back(z);
-    if (!points.empty()) chart.series.emplace_back(std::move(line));
+      if (high[n] > low[n] && std::isfinite(pressure[n]))
+        points[patch[n]].push_back({500 * (low[n] + high[n]), pressure[n]});
+    for (auto& [of, wall] : points) {
+      std::sort(wall.begin(), wall.end());
+      Line line{.label = of == points.begin()->first ? label : "", .colour = colour, .dash = dash, .marked = marked};
+      for (const auto& [z, p] : wall) line.x.push_back(p), line.y.push_back(z);
+      chart.series.emplace_back(std::move(line));
+    }
   };
   add("pressure_at_rest", "at rest", blue, Dash::solid, true);
   add("pressure_at_rest_by_hand", "by hand: Janssen, Walker", blue, Dash::dashed, false);
