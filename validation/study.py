@@ -182,14 +182,15 @@ def table_of_numbers(reference, numbers, digits=3):
     return _lines(lines)
 
 
-def compare(script, text, out, reference, cases, measure, tell, draw, arguments=None):
+def compare(script, text, out, reference, cases, measure, tell, draw, spacing=None):
     """The command line of a study that runs its cases itself; returns the exit status, 1 if a row is not met.
     \\param script its path \\param text its help \\param out folder of its runs if no other is named
     \\param cases function of (options), returns the case, the folder and the settings of each run; those that are done are
            not made again
     \\param measure function of (options), returns the numbers by row of the reference, and all that was found
     \\param tell function of (numbers, found), returns Markdown \\param draw function of (found), returns a figure
-    \\param arguments function of (parser), adds its own"""
+    \\param spacing of the
+           particles if --spacing names no other, mm; left out: there is no such option"""
     parser = argparse.ArgumentParser(prog=Path(script).name, description=text,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", help="left out: as talus.find_program says")
@@ -197,8 +198,8 @@ def compare(script, text, out, reference, cases, measure, tell, draw, arguments=
     parser.add_argument("--out", type=Path, default=Path(out))
     parser.add_argument("--markdown", type=Path, help="file of the tables")
     parser.add_argument("--picture", type=Path)
-    if arguments:
-        arguments(parser)
+    if spacing:
+        parser.add_argument("--spacing", type=float, default=spacing, help="of the particles, mm")
     options = parser.parse_args()
     try:
         for case, folder, settings in cases(options):

@@ -124,9 +124,5 @@ def draw(found):
     return figure
 
 
-def arguments(parser):
-    parser.add_argument("--spacing", type=float, default=3, help="of the particles, mm")
-
-
 if __name__ == "__main__":
-    sys.exit(study.compare(__file__, __doc__, "results/validation-drum", REFERENCE, cases, measure, tell, draw, arguments))
+    sys.exit(study.compare(__file__, __doc__, "results/validation-drum", REFERENCE, cases, measure, tell, draw, spacing=3))

@@ -98,9 +98,6 @@ def draw(profile):
     return figure
 
 
-def arguments(parser):
-    parser.add_argument("--spacing", type=float, default=2.5, help="of the particles, mm")
-
-
 if __name__ == "__main__":
-    sys.exit(study.compare(__file__, __doc__, "results/janssen-cylinder", REFERENCE, cases, measure, tell, draw, arguments))
+    sys.exit(study.compare(__file__, __doc__, "results/janssen-cylinder", REFERENCE, cases, measure, tell, draw,
+                           spacing=2.5))

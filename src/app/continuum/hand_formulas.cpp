@@ -30,6 +30,15 @@ double internal_friction(const continuum::Parameters& p) {
   return friction > 0 ? std::atan(friction) : usual_angle;
 }
 
+double bulk_density(const continuum::Parameters& p) {
+  return p.bed.packing * p.grains.density;
+}
+
+/// Of the angle between the cone's wall and the vertical.
+double tangent_of(const VesselPart& cone) {
+  return (cone.upper_radius - cone.lower_radius) / (cone.top - cone.bottom);
+}
+
 /// Area over circumference of upright walls; 0 for others.
 double hydraulic_radius(const VesselPart& v) {
   if (v.shape == VesselShape::cylinder) return 0.5 * v.radius;
@@ -51,15 +60,15 @@ double janssen_at(const continuum::Parameters& p, double ratio, double top, doub
   if (!v || v->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
   const double friction = friction_of(p, *v);
   const double length = friction > 0 ? hydraulic_radius(*v) / (friction * ratio) : infinity;
-  return granular::janssen_stress(p.bed.packing * p.grains.density * p.gravity.acceleration, length, top - height);
+  return granular::janssen_stress(bulk_density(p) * p.gravity.acceleration, length, top - height);
 }
 
 PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart& v, double ratio, double top,
                                 double height) {
-  const double angle = std::atan((v.upper_radius - v.lower_radius) / (v.top - v.bottom)), mu = friction_of(p, v);
+  const double angle = std::atan(tangent_of(v)), mu = friction_of(p, v);
   const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
   const double above = top > v.top ? janssen_at(p, ratio, top, v.top) : 0;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration;
+  const double weight = bulk_density(p) * p.gravity.acceleration;
   const auto pressure = [&](const granular::ConeBearing& bearing) {
     return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
   };
@@ -75,14 +84,6 @@ const VesselPart* emptying_cone(const continuum::Parameters& p) {
         v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
       return &v;
   return nullptr;
-}
-
-double tangent_of(const VesselPart& cone) {
-  return (cone.upper_radius - cone.lower_radius) / (cone.top - cone.bottom);
-}
-
-double bulk_density(const continuum::Parameters& p) {
-  return p.bed.packing * p.grains.density;
 }
 
 /// What a slit of a plate across the box discharges: half of one twice as wide where it begins at a face.

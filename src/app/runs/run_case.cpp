@@ -155,12 +155,12 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
-  if (prepared.run.report && has_report_page())
+  if (prepared.run.report && has_report_page()) {
     write_run_report(folder.path());
-  else if (prepared.run.report)
+  } else if (prepared.run.report) {
     log.write("no report.html: {}", without_report_page());
-  if (prepared.run.report && !has_report_page())
     print("No report.html: this program was built without npm; talus report says what to install.\n");
+  }
   print("Done: {} steps in {}.\nResults: {}\n", loop.steps, run::format_seconds(loop.wall_seconds),
         folder.path().string());
   if (!pictures.empty()) print("Picture: {}\n", pictures.front().string());

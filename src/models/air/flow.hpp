@@ -31,7 +31,7 @@ namespace talus::air {
 
 class AirFlow {
  public:
-  /// \param walls the air passes through their openings \param surface and through its open patches
+  /// \param walls, surface closed to the air but for their openings and open patches
   AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls = {},
           const Surface& surface = Surface::none());
   AirFlow(const AirFlow&) = delete;

@@ -9,7 +9,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double random_close_packing = 0.64;
+constexpr double random_close_packing = 0.64;  // of spheres: Scott & Kilgour, J. Phys. D 2, 863 (1969)
 
 air::Parameters gas_of(const Parameters& p) {
   air::Parameters gas = p.air.gas;

@@ -3,8 +3,8 @@
 /// part of the surface (physics/sph/wall_integrals.hpp), and the field that is taken to be there.
 ///
 /// With the lists of neighbours the points within reach are found, twice the smoothing length and what the particle may
-/// move: of a fine set for the first layer of particles, of a coarse one, as exact from there on, for others. So are
-/// the particles that stand with one at the same part.
+/// move: of the finest of three sets for the first layer of particles, of coarser ones, as exact from there on, for
+/// others (points_of_walls). So are the particles that stand with one at the same part.
 #pragma once
 
 #include <array>
