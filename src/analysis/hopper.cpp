@@ -62,7 +62,7 @@ const GradientSizes& HopperSnapshot::cell_gradient_sizes() const {
     constexpr double none = HopperRun::none;
     if (now.size() == 0) return GradientSizes{none, none, none, none};
     const double bottom = shape().plate ? shape().plate->height : 0;
-    return talus::cell_gradient_sizes(field(), now.vectors("velocity"), hopper::cell, shape().width, shape().depth,
+    return talus::cell_gradient_sizes(field(), now.vectors("velocity"), shape().cell(), shape().width, shape().depth,
                                       bottom, shape().height, setting.grain_diameter, setting.gravity);
   });
 }

@@ -250,7 +250,7 @@ const std::vector<Row> of_grains = {
         largest_of(gradient<&GradientSizes::normal_percentile>)),
     Row("cell_gradient_shear_max", "1",
         "(D/g)^½ times the largest |∂u_x/∂z| or |∂u_z/∂x| above the outlet, central differences of velocities averaged "
-        "over cells of 1.25 mm with packing above 0.5, largest over the snapshots",
+        "over cells of three quarters of a spacing with packing above 0.5, largest over the snapshots",
         largest_of(cell_gradient<&GradientSizes::shear_max>)),
     Row("cell_gradient_normal_max", "1", "as cell_gradient_shear_max, of |∂u_x/∂x| or |∂u_z/∂z|",
         largest_of(cell_gradient<&GradientSizes::normal_max>)),

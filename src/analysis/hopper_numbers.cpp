@@ -62,6 +62,7 @@ double reach_to(const Section& section, const std::vector<double>& packing, doub
 template <class Value>
 double mean_across(const HopperSnapshot& s, const Place& place, Value&& value) {
   if (!has_hopper(s) || s.now.size() == 0) return none;
+  const double cell = s.shape().cell();
   std::vector<double> values;
   for (double x = length_of(place, "left"); x < length_of(place, "right"); x += cell)
     values.push_back(value(cell_centre({x, 0.5 * s.shape().depth, length_of(place, "height")}, cell)));
@@ -173,6 +174,7 @@ double stream_stress_share(const HopperSnapshot& s, const Place& place) {
 
 double stream_stripes(const HopperSnapshot& s, const Place& place) {
   if (!stream_is_free(s, place)) return none;
+  const double cell = s.shape().cell();
   std::vector<double> along;
   for (double z = length_of(place, "from"); z < length_of(place, "to"); z += cell)
     along.push_back(s.field().packing(cell_centre({s.shape().middle(), 0.5 * s.shape().depth, z}, cell)));

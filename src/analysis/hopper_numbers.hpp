@@ -10,9 +10,6 @@
 
 namespace talus::hopper {
 
-/// Edge of the cells in which values at places are taken: those of the paper's air, m.
-inline constexpr double cell = 1.25e-3;
-
 enum class Where { bin, hopper };                                     ///< below the outlet, and above it
 const FreeSurface& surface_in(const HopperSnapshot& s, Where where);  ///< empty if there is no hopper
 ReposeAngle repose_in(const HopperSnapshot& s, Where where);

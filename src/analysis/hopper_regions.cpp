@@ -53,6 +53,10 @@ double corner_packing_over(const Section& packing, const Vessel& vessel, const H
 
 }  // namespace
 
+double HopperShape::cell() const {
+  return width / std::max(1.0, std::round(width / (0.75 * spacing)));
+}
+
 Vessel HopperShape::bin() const {
   return {0, plate ? plate->height : height, Vessel::Search::from_below};
 }

@@ -24,6 +24,9 @@ struct HopperShape {
   double spacing = 0;  ///< h, of the particles at the start, m
 
   double middle() const { return 0.5 * width; }
+  /// Edge of the cells in which values at places are taken: three quarters of a spacing, or so that a whole number of
+  /// cells fills the width, m. In the hopper of Yuu & Umekage (2011) with its 9000 particles they are those of its air.
+  double cell() const;
   Vessel bin() const;
   /// \throws std::bad_optional_access without a plate
   Vessel hopper() const;

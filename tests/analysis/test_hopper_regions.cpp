@@ -25,6 +25,17 @@ FreeSurface level(double height) {
   return surface;
 }
 
+TEST(HopperShape, ItsCellsAreThreeQuartersOfASpacingAndFillTheWidth) {
+  HopperShape paper = shape;
+  paper.spacing = 1.6666667e-3;
+  EXPECT_EQ(paper.cell(), 1.25e-3);
+  HopperShape bin;
+  bin.width = 6.8, bin.spacing = 0.4;
+  EXPECT_EQ(bin.cell(), 6.8 / 23);
+  bin.width = 0.1;
+  EXPECT_EQ(bin.cell(), 0.1) << "narrower than a cell";
+}
+
 TEST(DeepParticles, LieBelowTheSurfaceOfTheirVessel) {
   const std::vector<Vector3> points = {
       {0.01, 0, 0.01},  {0.01, 0, 0.0139}, {0.01, 0, 0.0141},  // bin: the surface is at 20 mm

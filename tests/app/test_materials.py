@@ -80,7 +80,7 @@ class Materials(ProgramTest):
 
     def test_they_are_listed_with_their_sources(self):
         said = self.talus("materials").stdout
-        for name in ("glass-beads", "sand", "wheat"):
+        for name in ("glass-beads", "sand", "wheat", "maize"):
             self.assertIn(name, said)
             values = self.talus("materials", name).stdout
             self.assertRegex(values, r"walls\.steel = 0\.\d+  \(0\.\d+ to 0\.\d+\)\n  \S")

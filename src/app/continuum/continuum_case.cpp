@@ -147,7 +147,7 @@ ContinuumCase read_continuum(const CaseFile& file) {
   reader.check(filled.problems);
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
   read.model = continuum::with_level(read.model);
-  set_stiffness(file, read.model, read.filled);
+  set_from_bed(file, read.model, read.filled);
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
       part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();

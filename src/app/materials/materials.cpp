@@ -151,16 +151,17 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   return filled;
 }
 
-void set_stiffness(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
+void set_from_bed(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
   if (!p.grains.material || !p.law.is<granular::CriticalState>()) return;
   const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
   auto& law = p.law.of<granular::CriticalState>();
-  const auto set = [&](const char* key, double& modulus, double value) {
+  const auto set = [&](const char* key, double& number, double value) {
     if (file.contains(key) || !(value > 0)) return;
-    modulus = value;
+    number = value;
     filled.keys.insert(key);
   };
   set("law.critical-state.bulk_modulus", law.bulk_modulus, moduli_over_weight * weight);
+  set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
   set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);
 }
 

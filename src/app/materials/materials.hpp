@@ -43,10 +43,11 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 template <class P>
 std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
 
-/// The moduli of grains of a material, where the case gives none: a thousand times the weight of the bed over its area,
-/// the stress that they are to bear. Discharge, surfaces and heaps are then those of stiff grains
-/// (docs/decisions/0023-softer-grains.md). \param parameters as read
-void set_stiffness(const CaseFile& file, continuum::Parameters& parameters, FilledIn& filled);
+/// What grains of a material take from the bed, where the case gives none. The moduli: a thousand times the weight of
+/// the bed over its area, the stress that they are to bear; discharge, surfaces and heaps are then those of stiff
+/// grains (docs/decisions/0023-softer-grains.md). The packing at which they just touch: the bed's, so that it bears no
+/// pressure before its weight. \param parameters as read
+void set_from_bed(const CaseFile& file, continuum::Parameters& parameters, FilledIn& filled);
 
 // ------------------------------------------------------------------------------------------------------------------
 

@@ -11,8 +11,8 @@ inline constexpr const char* symbols_of_hopper_measures =
     "box is a bin. Q is the mass that passes the outlet's plane per\ntime, of particles smoothed along z by the "
     "kernel. *While it flows*: from when a tenth of the mass\nthat passes the outlet in total has passed until half "
     "of it has, or half-way between the two; where\nnothing passes, half of the run. Packing is the kernel sum, "
-    "including images behind the walls; a\nvalue at a place is interpolated by the kernel to the centre of the 1.25 "
-    "mm cell that contains it.";
+    "including images behind the walls; a\nvalue at a place is interpolated by the kernel to the centre of the "
+    "cell, three quarters of a spacing wide, that contains it.";
 
 inline constexpr const char* symbols_of_avalanche_measures =
     "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"

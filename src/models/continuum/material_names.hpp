@@ -11,7 +11,7 @@
 namespace talus::continuum {
 
 /// One for each file of materials/.
-enum class GrainMaterial { glass_beads, sand, wheat };
+enum class GrainMaterial { glass_beads, sand, wheat, maize };
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
@@ -26,7 +26,7 @@ struct MaterialRange {
 namespace talus {
 template <>
 inline constexpr auto choices<continuum::GrainMaterial> = std::to_array<std::string_view>({"glass-beads", "sand",
-                                                                                           "wheat"});
+                                                                                           "wheat", "maize"});
 template <>
 inline constexpr auto choices<continuum::WallMaterial> = std::to_array<std::string_view>({"steel", "acrylic", "glass",
                                                                                           "concrete"});

@@ -45,12 +45,27 @@ void add_range_of_material(const Parameters& p, std::vector<RegimeLine>& lines) 
        weight > range.largest_pressure});
 }
 
+/// A bed laid denser than its grains touch is under pressure before it bears its weight.
+void add_pressure_at_start(const Parameters& p, std::vector<RegimeLine>& lines) {
+  if (!p.law.is<granular::CriticalState>()) return;
+  const auto& law = p.law.of<granular::CriticalState>();
+  const double pressure = law.bulk_modulus * std::log(p.bed.packing / law.reference_packing);
+  if (!(pressure > 0)) return;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  lines.push_back({"pressure of the bed at the start", fmt::format("{:.4g} Pa", pressure),
+                   fmt::format("before it bears its weight, {:.4g} Pa over its area: bed.packing is above "
+                               "law.critical-state.reference_packing, {:.4g}",
+                               weight, law.reference_packing),
+                   pressure > weight});
+}
+
 }  // namespace
 
 std::vector<RegimeLine> regime_of_case(const Parameters& p) {
   std::vector<RegimeLine> lines;
   add_range_of_law(p, lines);
   add_range_of_material(p, lines);
+  add_pressure_at_start(p, lines);
   lines.push_back({"particle spacing over grain diameter", fmt::format("{:.3g}", p.bed.spacing / p.grains.diameter),
                    "a particle stands for many grains; below 1 it would be smaller than one",
                    p.bed.spacing < p.grains.diameter});

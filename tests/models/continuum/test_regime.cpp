@@ -57,6 +57,19 @@ TEST(RegimeOfCase, WarnsOfGrainsThatTheLawWasNotFittedTo) {
   }
 }
 
+TEST(RegimeOfCase, WarnsOfABedUnderPressureBeforeItsWeight) {
+  Parameters p = hopper();
+  p.law = granular::CriticalState::Parameters{.bulk_modulus = 1e6, .reference_packing = 0.6};
+  p.bed.packing = 0.6;
+  EXPECT_FALSE(warns(p, "pressure-of-the-bed-at-the-start"));
+  p.bed.packing = 0.6004;  // 670 Pa, below the 1200 Pa of its weight
+  EXPECT_FALSE(warns(p, "pressure-of-the-bed-at-the-start"));
+  p.bed.packing = 0.601;  // 1700 Pa
+  EXPECT_TRUE(warns(p, "pressure-of-the-bed-at-the-start"));
+  p.bed.packing = 0.55;
+  EXPECT_FALSE(warns(p, "pressure-of-the-bed-at-the-start"));
+}
+
 TEST(RegimeOfCase, WarnsOfAnOutletTooNarrowForParticlesOrGrains) {
   Parameters p = hopper();
   p.plate.slit_right = 0.03 + 12 * p.bed.spacing;
