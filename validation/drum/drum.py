@@ -125,4 +125,4 @@ def draw(found):
 
 
 if __name__ == "__main__":
-    sys.exit(study.compare(__file__, __doc__, "results/validation-drum", REFERENCE, cases, measure, tell, draw, spacing=3))
+    sys.exit(study.compare(__file__, __doc__, "results/validation-drum", REFERENCE, cases, measure, tell, draw, spacing=2))
