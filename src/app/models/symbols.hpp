@@ -12,7 +12,7 @@ inline constexpr const char* symbols_of_hopper_measures =
     "kernel. *While it flows*: from when a tenth of the mass\nthat passes the outlet in total has passed until half "
     "of it has, or half-way between the two; where\nnothing passes, half of the run. Packing is the kernel sum, "
     "including images behind the walls; a\nvalue at a place is interpolated by the kernel to the centre of the "
-    "cell, three quarters of a spacing wide, that contains it.";
+    "cell, three quarters of a\nspacing wide, that contains it.";
 
 inline constexpr const char* symbols_of_avalanche_measures =
     "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"
