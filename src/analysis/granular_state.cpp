@@ -73,13 +73,15 @@ double stress_ratio(const Snapshot& snapshot, const std::vector<bool>& taken) {
   return vertical > 0 ? horizontal / vertical : none;
 }
 
-GradientSizes velocity_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity,
-                                      std::span<const double> packing, double diameter, double gravity) {
+GradientSizes velocity_gradient_sizes(const Particles& particles, const Domain& domain,
+                                      std::span<const Vector3> velocity, std::span<const double> packing,
+                                      double diameter, double gravity) {
   std::vector<double> shear, normal;
   const double unit = std::sqrt(diameter / gravity);
-  for (std::size_t i = 0; i < packing.size(); ++i) {
-    if (!(packing[i] > dense)) continue;
-    const Tensor3<> l = field.velocity_gradient(i, velocity);
+  std::vector<std::uint32_t> taken;
+  for (std::uint32_t i = 0; i < packing.size(); ++i)
+    if (packing[i] > dense) taken.push_back(i);
+  for (const Tensor3<>& l : velocity_gradients(particles, domain, taken, velocity)) {
     const auto largest = [&](std::initializer_list<double> components) {
       double size = 0;
       for (const double c : components) size = std::max(size, unit * std::abs(c));
@@ -101,7 +103,7 @@ GradientSizes cell_gradient_sizes(const ParticleField& field, std::span<const Ve
     for (std::size_t i = 0; i < columns; ++i) {
       const Vector3 x{(static_cast<double>(i) + 0.5) * cell, 0.5 * depth,
                       bottom + (static_cast<double>(k) + 0.5) * cell};
-      if (field.packing(x) > dense) mean[k * columns + i] = field.value(x, velocity);
+      if (const auto [packing, u] = field.packing_and_value(x, velocity); packing > dense) mean[k * columns + i] = u;
     }
   std::vector<double> shear, normal;
   const double unit = std::sqrt(diameter / gravity) / (2 * cell);

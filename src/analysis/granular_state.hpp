@@ -49,8 +49,9 @@ struct GradientSizes {
   double shear_percentile = 0, normal_percentile = 0;  ///< 99.9th percentile over the particles of each one's largest
 };
 /// \param packing of each particle; nan if no particle is that dense
-GradientSizes velocity_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity,
-                                      std::span<const double> packing, double diameter, double gravity);
+GradientSizes velocity_gradient_sizes(const Particles& particles, const Domain& domain,
+                                      std::span<const Vector3> velocity, std::span<const double> packing,
+                                      double diameter, double gravity);
 
 /// The same sizes, of a field of velocities that are means over cubic cells: central differences of the velocities at
 /// the cells' centres, x and z, over the cells of the plane y = `depth`/2 between two heights whose packing and whose

@@ -52,8 +52,8 @@ const GradientSizes& HopperSnapshot::gradient_sizes() const {
   return made_once(gradient_sizes_, [&] {
     constexpr double none = HopperRun::none;
     if (now.size() == 0) return GradientSizes{none, none, none, none};
-    return velocity_gradient_sizes(field(), now.vectors("velocity"), now.scalars("packing"), setting.grain_diameter,
-                                   setting.gravity);
+    return velocity_gradient_sizes(particles(), domain(), now.vectors("velocity"), now.scalars("packing"),
+                                   setting.grain_diameter, setting.gravity);
   });
 }
 

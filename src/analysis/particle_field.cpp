@@ -192,15 +192,22 @@ double ParticleField::value(const Vector3& x, std::span<const double> column) co
 }
 
 Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) const {
+  return packing_and_value(x, column).vector;
+}
+
+ParticleField::PackingAndVector ParticleField::packing_and_value(const Vector3& x,
+                                                                 std::span<const Vector3> column) const {
   Vector3 sum;
-  double weights = 0;
+  double kernels = 0, weights = 0;
   for_each_near(x, {}, [&](std::uint32_t j, const Image& image, const Vector3& d) {
-    const double weight = particles_.volume[j] * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
+    const double kernel = sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
+    const double weight = particles_.volume[j] * kernel;
+    kernels += kernel;
     sum += weight * image.vector(column[j]);
     weights += weight;
   });
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return weights > 0 ? (1 / weights) * sum : Vector3{none, none, none};
+  return {particles_.solid_volume * kernels, weights > 0 ? (1 / weights) * sum : Vector3{none, none, none}};
 }
 
 Tensor3<> ParticleField::velocity_gradient(std::size_t particle, std::span<const Vector3> velocity) const {

@@ -14,12 +14,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<double> sorted(std::span<const double> sample) {
-  std::vector<double> values(sample.begin(), sample.end());
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
 /// Sum of (x - x_mean)(y - y_mean).
 double cross_sum(std::span<const double> x, std::span<const double> y) {
   const double x_mean = mean(x), y_mean = mean(y);
@@ -77,11 +71,13 @@ double skewness(std::span<const double> sample) {
 
 double quantile(std::span<const double> sample, double probability) {
   if (sample.empty() || !(probability >= 0 && probability <= 1)) return nan;
-  const std::vector<double> values = sorted(sample);
+  std::vector<double> values(sample.begin(), sample.end());
   const double place = probability * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
-  if (below + 1 == values.size()) return values.back();
-  return std::lerp(values[below], values[below + 1], place - static_cast<double>(below));
+  const auto lower = values.begin() + static_cast<std::ptrdiff_t>(below);
+  std::nth_element(values.begin(), lower, values.end());
+  if (below + 1 == values.size()) return *lower;
+  return std::lerp(*lower, *std::min_element(lower + 1, values.end()), place - static_cast<double>(below));
 }
 
 double median(std::span<const double> sample) {

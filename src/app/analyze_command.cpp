@@ -88,14 +88,15 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   Summary summary = read_summary(folder.summary());
   const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
   const ModelEntry& model = model_of(resolved);
-  const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path());
-  if (model.draw) model.draw(resolved, folder.path());
+  ReadRuns runs;
+  const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path(), runs);
+  if (model.draw) model.draw(resolved, folder.path(), runs);
   std::erase_if(summary.quantities, [&](const NamedValue& old) {
     return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == old.name; });
   });
   summary.quantities.insert(summary.quantities.begin(), quantities.begin(), quantities.end());
   write_summary(folder.summary(), summary);
-  if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(folder.path());
+  if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(folder.path(), runs);
   const Measured measured{.quantities = quantities, .columns = {}, .rows = {}};
   print("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
   return ExitStatus::done;

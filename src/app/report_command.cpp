@@ -26,10 +26,12 @@ struct ReportOptions {
 ExitStatus report(const ReportOptions& options) {
   if (!has_report_page()) throw FileError("talus report", without_report_page());
   ReportRequest request{.title = {}, .runs = {}, .comparisons = {}, .limits = options.limits};
+  ReadRuns runs;
   for (const std::string& folder : options.folders) {
     std::vector<ReportEntry> entries = entries_of_folder(folder);
     std::move(entries.begin(), entries.end(), std::back_inserter(request.runs));
-    for (std::string& comparison : published_comparisons(folder)) request.comparisons.push_back(std::move(comparison));
+    for (std::string& comparison : published_comparisons(folder, runs))
+      request.comparisons.push_back(std::move(comparison));
   }
   std::vector<std::string> names;
   for (const ReportEntry& entry : request.runs) names.push_back(entry.name);

@@ -71,13 +71,15 @@ TEST(VelocityGradientSizes, OfSimpleShearAndCompression) {
   for (const Vector3& x : points) velocity.push_back({7 * x.z - x.x, 0, 0});
   std::vector<double> packing(points.size(), 0.6);
   const ParticleField field(test::particles(points, h), domain);
-  const GradientSizes sizes = velocity_gradient_sizes(field, velocity, packing, 200e-6, 9.8);
+  const GradientSizes sizes =
+      velocity_gradient_sizes(field.particles(), field.domain(), velocity, packing, 200e-6, 9.8);
   const double unit = std::sqrt(200e-6 / 9.8);
   EXPECT_NEAR(sizes.shear_max, 7 * unit, 1e-12);
   EXPECT_NEAR(sizes.shear_percentile, 7 * unit, 1e-12);
   EXPECT_NEAR(sizes.normal_max, 1 * unit, 1e-12);
   packing.assign(points.size(), 0.4);
-  EXPECT_TRUE(std::isnan(velocity_gradient_sizes(field, velocity, packing, 200e-6, 9.8).shear_max));
+  EXPECT_TRUE(
+      std::isnan(velocity_gradient_sizes(field.particles(), field.domain(), velocity, packing, 200e-6, 9.8).shear_max));
 }
 
 TEST(DensityDrift, IsTheMeanOverThoseTaken) {

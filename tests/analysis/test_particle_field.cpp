@@ -112,6 +112,17 @@ TEST(ParticleField, ForManyPlacesItHasTheSameBits) {
       }
     for (std::size_t i = 0; i < points.size(); i += 11)
       EXPECT_EQ(few.velocity_gradient(i, velocity).xz, many.velocity_gradient(i, velocity).xz);
+    std::vector<std::uint32_t> taken;
+    for (std::uint32_t i = 3; i < points.size(); i += 2) taken.push_back(i);
+    const auto gradients = velocity_gradients(many.particles(), domain, taken, velocity);
+    ASSERT_EQ(gradients.size(), taken.size());
+    for (std::size_t n = 0; n < taken.size(); ++n) {
+      const Tensor3<> a = gradients[n], b = few.velocity_gradient(taken[n], velocity);
+      const double difference = std::abs(a.xx - b.xx) + std::abs(a.xy - b.xy) + std::abs(a.xz - b.xz) +
+                                std::abs(a.yx - b.yx) + std::abs(a.yy - b.yy) + std::abs(a.yz - b.yz) +
+                                std::abs(a.zx - b.zx) + std::abs(a.zy - b.zy) + std::abs(a.zz - b.zz);
+      ASSERT_LT(difference, 1e-12) << n;
+    }
   }
   EXPECT_EQ(ParticleField({}, box(1, 1, 1), ParticleField::Places::many).packing({0.5, 0.5, 0.5}), 0);
 }

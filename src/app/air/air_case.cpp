@@ -78,7 +78,8 @@ Scene scene_of_air(const CaseFile& resolved) {
           .box = {{{0, 0, 0}, high}}};
 }
 
-std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std::filesystem::path& folder) {
+std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std::filesystem::path& folder,
+                                        ReadRuns& /*runs*/) {
   const Series series = read_series(RunFolder(folder).series());
   std::vector<NamedValue> quantities;
   for (std::size_t n = 0; n < series.names.size(); ++n)

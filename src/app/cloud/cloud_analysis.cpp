@@ -70,8 +70,8 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
   return run;
 }
 
-std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame) {
-  const AvalancheRun run = read_avalanche(run_folder, frame);
+std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame,
+                                      const AvalancheRun& run) {
   const std::filesystem::path folder = run_folder / "analysis";
   make_folder(folder);
   if (run.view != AvalancheView::unseen) write_snapshots(folder / "snapshots.csv", run, avalanche_measures(), "a/v_s");

@@ -33,6 +33,7 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
 
 /// Writes analysis/front_speed.csv, analysis/snapshots.csv (a column per measure) and, seen from above,
 /// analysis/head_widths.csv (every head of the last snapshot); returns the summary's quantities. \throws FileError
-std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame);
+std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame,
+                                      const AvalancheRun& run);
 
 }  // namespace talus::app

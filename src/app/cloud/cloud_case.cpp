@@ -143,11 +143,14 @@ Scene scene_of_cloud(const CaseFile& resolved) {
   return {.walls = {}, .box = {}, .slope = frame.has_slope, .radius = frame.scales.mean_radius, .view = view};
 }
 
-std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  return analyze_cloud(folder, study_of(resolved).frame);
+std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                          ReadRuns& runs) {
+  const CloudFrame frame = study_of(resolved).frame;
+  return analyze_cloud(folder, frame, runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, frame); }));
 }
 
-std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                  ReadRuns& /*runs*/) {
   const CloudStudy study = study_of(resolved);
   return draw_cloud(folder, study.frame, study.title);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/case/prepared_case.hpp"
+#include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
 #include "app/cloud/cloud_analysis.hpp"
 #include "io/case_file.hpp"
@@ -17,10 +18,12 @@ namespace talus::app {
 PreparedCase prepare_cloud(const CaseFile& file);
 
 /// As ModelEntry (models.hpp) has them. \param resolved the manifest's case, whose points need not be there any more
-std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                          ReadRuns& runs);
 /// The slope, if there is one.
 Scene scene_of_cloud(const CaseFile& resolved);
-std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                  ReadRuns& runs);
 
 /// What a study needs to know of a run's case.
 struct CloudStudy {

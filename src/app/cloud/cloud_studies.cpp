@@ -8,17 +8,20 @@ namespace talus::app {
 
 namespace {
 
-AvalancheRun cloud_run(const std::filesystem::path& folder, const CaseFile& file) {
+AvalancheRun cloud_run(const std::filesystem::path& folder, const CaseFile& file, ReadRuns& runs) {
   const CloudStudy study = study_of(file);
-  AvalancheRun run = read_avalanche(folder, study.frame);
+  AvalancheRun run = runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, study.frame); });
   run.contact_weight_ratio = study.contact_weight_ratio;
   return run;
 }
 
 }  // namespace
 
-StudiedRuns study_avalanches(const std::vector<FoundEnsemble>& found) {
-  return studied<AvalancheRun>(found, {avalanche_measures(), avalanche_group_measures(), mean_run}, cloud_run);
+StudiedRuns study_avalanches(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
+  const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
+    return cloud_run(folder, file, runs);
+  };
+  return studied<AvalancheRun>(found, {avalanche_measures(), avalanche_group_measures(), mean_run}, read);
 }
 
 }  // namespace talus::app

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_analysis.hpp"
 
-#include <fmt/format.h>
-
 #include <limits>
 #include <map>
 #include <memory>
@@ -89,23 +87,6 @@ class Reader {
   std::map<std::size_t, std::weak_ptr<const PointSet>> in_use_;
 };
 
-/// What a run's files are now: another text once one of them has changed.
-std::string state_of(const std::filesystem::path& run_folder, const std::vector<std::filesystem::path>& snapshots) {
-  std::string text;
-  const auto add = [&](const std::filesystem::path& path) {
-    std::error_code none;
-    text += fmt::format("{} {} {}\n", std::filesystem::absolute(path).string(), std::filesystem::file_size(path, none),
-                        std::filesystem::last_write_time(path, none).time_since_epoch().count());
-  };
-  add(RunFolder(run_folder).manifest());
-  add(RunFolder(run_folder).series());
-  for (const auto& path : snapshots) {
-    add(path);
-    add(air_beside(path));
-  }
-  return text;
-}
-
 void write_surfaces(const std::filesystem::path& path, const HopperSurfaces& surfaces) {
   std::vector<std::vector<double>> rows;
   for (std::size_t n = 0; n < surfaces.bin.x.size(); ++n)
@@ -190,19 +171,11 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
   if (run.series.rows() == 0) throw FileError((run_folder / "series.csv").string(), "has no rows");
   run.gate_time = gate_time_of(run.series);
   const auto paths = snapshot_paths(run_folder);
-  // Tables, summary and published numbers of the same run, at its end, ask for the same numbers of its snapshots.
-  static std::pair<std::string, HopperRun::Numbers> last;
-  const std::string state = state_of(run_folder, paths);
-  if (last.first == state) {
-    run.snapshots = last.second;
-    return run;
-  }
   std::vector<double> time;
   for (const auto& path : paths) time.push_back(read_points_time(path) - run.gate_time);
   const auto reader = std::make_shared<Reader>(paths, time, setting, run.gate_time);
   run.snapshots = HopperRun::Numbers::of(
       std::move(time), [reader](std::size_t n) { return reader->read(n); }, snapshots_in_memory(paths));
-  last = {state, run.snapshots};
   return run;
 }
 

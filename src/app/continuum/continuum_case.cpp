@@ -186,8 +186,9 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   return prepared;
 }
 
-HopperSetting hopper_setting_of(const CaseFile& resolved) {
-  return hopper_setting(read_continuum(resolved).model);
+const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
+  return runs.of<HopperRun>(folder,
+                            [&] { return read_hopper(folder, hopper_setting(read_continuum(resolved).model)); });
 }
 
 Scene scene_of_continuum(const CaseFile& resolved) {
@@ -197,9 +198,10 @@ Scene scene_of_continuum(const CaseFile& resolved) {
   return scene;
 }
 
-std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
+std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                              ReadRuns& runs) {
   const Parameters p = read_continuum(resolved).model;
-  const HopperRun run = read_hopper(folder, hopper_setting(p));
+  const HopperRun& run = hopper_run_of(resolved, folder, runs);
   std::vector<NamedValue> quantities = analyze_continuum(folder, run);
   if (!p.vessel.empty()) {
     const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
@@ -212,9 +214,9 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
   return quantities;
 }
 
-std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder) {
-  const auto read = read_continuum(resolved);
-  return draw_continuum(folder, read_hopper(folder, hopper_setting(read.model)), read.run.title);
+std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                      ReadRuns& runs) {
+  return draw_continuum(folder, hopper_run_of(resolved, folder, runs), read_continuum(resolved).run.title);
 }
 
 }  // namespace talus::app

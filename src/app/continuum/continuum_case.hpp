@@ -7,6 +7,7 @@
 
 #include "analysis/hopper.hpp"
 #include "app/case/prepared_case.hpp"
+#include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
 #include "io/case_file.hpp"
 
@@ -18,14 +19,15 @@ PreparedCase prepare_continuum(const CaseFile& file);
 /// All parameters of a case of this model, with their defaults.
 ParameterList continuum_parameters();
 
-/// What the analysis of a run needs to know of its case. \param resolved the manifest's case
-/// \throws InputError
-HopperSetting hopper_setting_of(const CaseFile& resolved);
+/// The run in a folder. \param resolved the manifest's case \throws FileError, InputError
+const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
 
 /// As ModelEntry (models.hpp) has them. \param resolved the manifest's case
-std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                              ReadRuns& runs);
 /// Box, walls and gates.
 Scene scene_of_continuum(const CaseFile& resolved);
-std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder);
+std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                      ReadRuns& runs);
 
 }  // namespace talus::app

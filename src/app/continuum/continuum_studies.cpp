@@ -3,7 +3,6 @@
 
 #include <stdexcept>
 
-#include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_case.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
@@ -12,8 +11,8 @@ namespace talus::app {
 
 namespace {
 
-HopperRun hopper_run(const std::filesystem::path& folder, const CaseFile& file) {
-  HopperRun run = read_hopper(folder, hopper_setting_of(file));
+HopperRun hopper_run(const std::filesystem::path& folder, const CaseFile& file, ReadRuns& runs) {
+  HopperRun run = hopper_run_of(file, folder, runs);
   run.wall_seconds = read_summary(RunFolder(folder).summary()).wall_seconds;
   return run;
 }
@@ -26,8 +25,11 @@ HopperRun only_one(std::span<const HopperRun> runs) {
 
 }  // namespace
 
-StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found) {
-  return studied<HopperRun>(found, {hopper_measures(), hopper_pair_measures(), only_one}, hopper_run);
+StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
+  const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
+    return hopper_run(folder, file, runs);
+  };
+  return studied<HopperRun>(found, {hopper_measures(), hopper_pair_measures(), only_one}, read);
 }
 
 }  // namespace talus::app

@@ -4,11 +4,12 @@
 
 #include <vector>
 
+#include "app/case/read_runs.hpp"
 #include "app/comparison/studied_runs.hpp"
 
 namespace talus::app {
 
 /// \throws FileError
-StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found);
+StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found, ReadRuns& runs);
 
 }  // namespace talus::app

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/particle_field.hpp"
 
@@ -27,30 +28,31 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
   const auto density = snapshot.scalars("density");
   const double mass = continuum::lattice_of(p).mass;
 
-  double passed = 0, rate = 0;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double passed = 0, rate = 0, lowest = infinity, near_floor = 0;
   const auto outlet = continuum::outlet_of(p);
-  const std::optional<double> plate = outlet ? outlet->height : p.plate.height;
-  if (plate) {
-    for (std::size_t i = 0; i < position.size(); ++i) {
-      const double above = position[i].z - *plate;
-      if (above < 0) passed += mass;
+  const double plate = outlet ? outlet->height : p.plate.height.value_or(-infinity);
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const double z = position[i].z, above = z - plate;
+    if (above < 0) passed += mass;
+    if (std::abs(above) < sph::support * p.bed.spacing)
       rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
-    }
+    lowest = std::min(lowest, z);
+    if (z < p.bed.spacing) near_floor += mass;
   }
-
-  double lowest = std::nan(""), near_floor = 0;
-  for (const Vector3& x : position) {
-    lowest = std::fmin(lowest, x.z);
-    if (x.z < p.bed.spacing) near_floor += mass;
-  }
+  if (position.empty()) lowest = std::nan("");
 
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
     const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
-    // Particles near both places are enough: others do not contribute there.
-    const auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
+    // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
+    auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
+    std::erase_if(near, [&](std::size_t i) {
+      const double reach = sph::support * sph::smoothing_length(mass, density[i]);
+      return std::abs(position[i].x - slit.x) > reach || std::abs(position[i].z - slit.z) > reach + probe_above_slit;
+    });
     const auto pick = [&near](const auto& column) {
       std::vector<std::decay_t<decltype(column[0])>> picked;
       for (const std::size_t i : near) picked.push_back(column[i]);

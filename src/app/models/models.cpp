@@ -75,14 +75,14 @@ const ModelEntry& model_of(const CaseFile& file) {
   throw InputError(problems);
 }
 
-StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found) {
+StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
   const CaseFile& file = found.front().files.front();
   const ModelEntry& model = model_of(file);
   if (!model.studies)
     throw InputError({{.where = file.name(),
                        .key = "model",
                        .what = fmt::format("no study is of runs of the model \"{}\"", model.name)}});
-  return model.studies(found);
+  return model.studies(found, runs);
 }
 
 PreparedCase prepare_case(const CaseFile& file) {

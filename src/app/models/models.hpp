@@ -9,6 +9,7 @@
 
 #include "analysis/measure.hpp"
 #include "app/case/prepared_case.hpp"
+#include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
 #include "app/comparison/studied_runs.hpp"
 #include "io/case_file.hpp"
@@ -23,15 +24,16 @@ struct ModelEntry {
   PreparedCase (*prepare)(const CaseFile& file);
   /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
   /// \param resolved the manifest's case; \throws FileError, InputError
-  std::vector<NamedValue> (*analyse)(const CaseFile& resolved, const std::filesystem::path& folder);
+  std::vector<NamedValue> (*analyse)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// Draws the pictures of a run and returns their paths, the most important one first. Null: none.
-  std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder);
+  std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder,
+                                             ReadRuns& runs);
   /// What stands around the particles, for a viewer.
   Scene (*scene)(const CaseFile& resolved);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
   ParameterList (*parameters)();
   /// Reads runs that a reference is about. Null: no study is of this model. \throws FileError
-  StudiedRuns (*studies)(const std::vector<FoundEnsemble>& found);
+  StudiedRuns (*studies)(const std::vector<FoundEnsemble>& found, ReadRuns& runs);
   /// What a summary of its runs can list, where the case has it. Null: nothing that is known before a run.
   std::vector<MeasureText> (*measures)();
 };
@@ -43,7 +45,7 @@ const ModelEntry& model_of(const CaseFile& file);
 
 /// Reads runs, all of one model, at least one ensemble. \throws FileError; \throws InputError if no study is of their
 /// model
-StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found);
+StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found, ReadRuns& runs);
 
 /// Reads a case: the model it names, then all parameters of model and run.
 /// \throws InputError with every problem; where there is no such model, with that alone

@@ -39,9 +39,10 @@ struct Column {
   /// All frames, as long as the longest particle's number demands.
   std::vector<float> joined(std::size_t particles) const {
     std::vector<float> all;
-    for (std::vector<float> frame : frames) {
-      frame.resize(particles, none);
+    all.reserve(frames.size() * particles);
+    for (const std::vector<float>& frame : frames) {
       all.insert(all.end(), frame.begin(), frame.end());
+      all.resize(all.size() + particles - frame.size(), none);
     }
     return all;
   }

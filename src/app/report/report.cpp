@@ -173,10 +173,11 @@ ReportEntry entry_of_run(const std::filesystem::path& folder) {
   return {.folder = path, .name = path.filename().string()};
 }
 
-void write_run_report(const std::filesystem::path& folder) {
-  write_report(
-      {.title = title_of_run(folder), .runs = {entry_of_run(folder)}, .comparisons = published_comparisons(folder)},
-      RunFolder(folder).report());
+void write_run_report(const std::filesystem::path& folder, ReadRuns& runs) {
+  write_report({.title = title_of_run(folder),
+                .runs = {entry_of_run(folder)},
+                .comparisons = published_comparisons(folder, runs)},
+               RunFolder(folder).report());
 }
 
 std::string title_of_run(const std::filesystem::path& folder) {
@@ -187,7 +188,7 @@ std::string title_of_run(const std::filesystem::path& folder) {
   return text && !text->empty() ? *text : entry_of_run(folder).name;
 }
 
-std::vector<std::string> published_comparisons(const std::filesystem::path& folder) {
+std::vector<std::string> published_comparisons(const std::filesystem::path& folder, ReadRuns& runs) {
   std::vector<std::string> comparisons;
   for (const std::string_view paper : papers) {
     const std::filesystem::path file = std::filesystem::path("validation") / paper / "reference.toml";
@@ -196,7 +197,7 @@ std::vector<std::string> published_comparisons(const std::filesystem::path& fold
     const Reference reference = read_reference((*project / file).string());
     const std::vector<FoundEnsemble> found = ensembles_of(folder, reference);
     if (found.empty()) continue;
-    const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found), Faults::note);
+    const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found, runs), Faults::note);
     comparisons.push_back(to_json(reference, rows, found, folder));
   }
   return comparisons;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/case/read_runs.hpp"
 #include "app/report/frames.hpp"
 #include "numerics/series.hpp"
 
@@ -40,7 +41,7 @@ void write_report(const ReportRequest& request, const std::filesystem::path& pat
 
 /// The report of one run in its own folder, with what a paper prints about its case.
 /// \throws FileError, InputError
-void write_run_report(const std::filesystem::path& folder);
+void write_run_report(const std::filesystem::path& folder, ReadRuns& runs);
 
 /// The title of its case, or the name of its folder. \throws FileError
 std::string title_of_run(const std::filesystem::path& folder);
@@ -50,6 +51,6 @@ ReportEntry entry_of_run(const std::filesystem::path& folder);
 
 /// The comparison of the runs below a folder with the papers of validation/ that they are about. Rows that a run is too
 /// short for have no value and say so. \throws FileError, InputError if a reference cannot be read
-std::vector<std::string> published_comparisons(const std::filesystem::path& folder);
+std::vector<std::string> published_comparisons(const std::filesystem::path& folder, ReadRuns& runs);
 
 }  // namespace talus::app

@@ -136,7 +136,8 @@ ExitStatus reproduce(const StudyRequest& request) {
   }
 
   const std::vector<FoundEnsemble> found = find_ensembles(request.folder, reference);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found));
+  ReadRuns read;
+  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found, read));
   const std::string text = to_text(rows) + counts_text(rows) + "\n";
   write_atomically(request.folder / "comparison.txt", text);
   const std::string json = to_json(reference, rows, found, request.folder);

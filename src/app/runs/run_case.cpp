@@ -129,11 +129,12 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                   .wall_seconds = loop.wall_seconds,
                   .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
+  ReadRuns runs;
   if (!loop.interrupted) {
     const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
     const ModelEntry& entry = model_of(resolved);
-    summary.quantities = entry.analyse(resolved, folder.path());
-    if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path());
+    summary.quantities = entry.analyse(resolved, folder.path(), runs);
+    if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path(), runs);
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
   summary.warnings = texts_of(regime);
@@ -156,7 +157,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
   if (prepared.run.report && has_report_page()) {
-    write_run_report(folder.path());
+    write_run_report(folder.path(), runs);
   } else if (prepared.run.report) {
     log.write("no report.html: {}", without_report_page());
     print("No report.html: this program was built without npm; talus report says what to install.\n");

@@ -10,7 +10,7 @@ namespace talus::figure {
 namespace {
 
 constexpr double tick_length = 3.5, tick_gap = 2.5, title_gap = 5.0, axis_width = 0.8;
-constexpr double bar_distance = 8, bar_width = 9;
+constexpr double bar_distance = 8, bar_width = 9, key_gap = 5;
 constexpr Colour grid_colour = rgb(0xe7eaee);
 
 double widest(cairo_t* context, const Ticks& ticks) {
@@ -142,6 +142,19 @@ void draw_colour_bar(cairo_t* context, const ColourBar& bar, const Rectangle& pl
   draw_text(context, ticks.factor, box.x, box.y - 0.5 * tick_style.size, tick_style);
   draw_text(context, bar.title, box.right() + tick_length + tick_gap + number_width + title_gap + label_style.size,
             box.y + 0.5 * height, label_style, Align::centre, 0.5 * std::numbers::pi);
+}
+
+Margins arrow_key_margins(cairo_t* context, const ArrowKey& key) {
+  return {0, bar_distance + key.length + key_gap + text_extent(context, key.label, legend_style).width, 0,
+          1.6 * legend_style.size};
+}
+
+void draw_arrow_key(cairo_t* context, const ArrowKey& key, const Rectangle& plot, double below) {
+  const double x = plot.right() + bar_distance, line = plot.bottom() + below - 0.3 * legend_style.size;
+  const double y = line - 0.36 * legend_style.size;
+  set_pen(context, key.colour, 1.0);
+  stroke_arrow(context, x, y, x + key.length, y, 4);
+  draw_text(context, key.label, x + key.length + key_gap, line, legend_style);
 }
 
 }  // namespace talus::figure

@@ -54,4 +54,17 @@ struct ColourBar {
 double colour_bar_width(cairo_t* context, const ColourBar& bar, double height);
 void draw_colour_bar(cairo_t* context, const ColourBar& bar, const Rectangle& plot);
 
+/// What an arrow means: one of `length` units with its label beside it. It stands below the corner right of a plot,
+/// below the colour bar, and covers nothing of the plot.
+struct ArrowKey {
+  std::string label = {};
+  double length = 0;
+  Colour colour = ink;
+};
+
+/// Right of and below the plot.
+Margins arrow_key_margins(cairo_t* context, const ArrowKey& key);
+/// \param below the plot's lower edge, at least `arrow_key_margins(key).bottom`, units
+void draw_arrow_key(cairo_t* context, const ArrowKey& key, const Rectangle& plot, double below);
+
 }  // namespace talus::figure

@@ -2,6 +2,7 @@
 #include "io/figure/canvas.hpp"
 
 #include <fmt/format.h>
+#include <png.h>
 
 #include <cmath>
 #include <cstdint>
@@ -25,17 +26,23 @@ Canvas::Canvas(double width, double height, double scale) {
   cairo_set_line_join(context(), CAIRO_LINE_JOIN_ROUND);
 }
 
+/// Libpng's quick way, without filters: cairo's own takes five times as long (docs/performance.md).
 std::string Canvas::png() const {
-  std::string bytes;
-  auto append = [](void* to, const unsigned char* data, unsigned length) {
-    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  cairo_status_t status = cairo_status(context());
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
-  if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(fmt::format("drawing a picture failed: {}", cairo_status_to_string(status)));
-  }
+  const Pixels drawn = pixels();
+  std::string rgb;
+  rgb.reserve(3 * drawn.bytes.size() / 4);
+  for (std::size_t n = 0; n < drawn.bytes.size(); n += 4)
+    for (const std::size_t k : {2, 1, 0}) rgb += drawn.bytes[n + k];
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(drawn.width), image.height = static_cast<png_uint_32>(drawn.height);
+  image.format = PNG_FORMAT_RGB;
+  image.flags = PNG_IMAGE_FLAG_FAST;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string bytes(size, '\0');
+  if (png_image_write_to_memory(&image, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0)
+    throw std::runtime_error(fmt::format("writing a picture failed: {}", image.message));
+  bytes.resize(size);
   return bytes;
 }
 

@@ -17,19 +17,7 @@ namespace {
 
 constexpr TextStyle figure_title_style{.size = 11, .bold = true}, letter_style{.size = 10, .bold = true},
     title_style{.size = 10};
-constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, least_width = 60, key_gap = 8;
-
-double key_width(cairo_t* context, const ArrowKey& key) {
-  return std::max(key.length, text_extent(context, key.label, legend_style).width);
-}
-
-/// In the lower corner right of the panels.
-void draw_key(cairo_t* context, const ArrowKey& key, const Rectangle& panels) {
-  const double x = panels.right() + key_gap, y = panels.bottom() - 1.8 * legend_style.size;
-  set_pen(context, key.colour, 1.0);
-  stroke_arrow(context, x, y, x + key.length, y, 4);
-  draw_text(context, key.label, x, y + 1.5 * legend_style.size, legend_style);
-}
+constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, least_width = 60;
 
 double aspect_of(const Chart& chart) {
   return chart.aspect;
@@ -105,7 +93,11 @@ class Layout {
       }
     }
     if (figure_.bar) bar_ = colour_bar_width(context, *figure_.bar, height_);
-    if (figure_.key) bar_ = std::max(bar_, key_gap + key_width(context, *figure_.key));
+    double below = 0;  // the last row
+    if (figure_.key) {
+      const Margins key = arrow_key_margins(context, *figure_.key);
+      bar_ = std::max(bar_, key.right), below = key.bottom;
+    }
     double y = edge + (figure_.title.empty() ? 0 : 1.4 * title_line);
     for (const Row& row : rows_) {
       double room = width_ - 2 * edge - bar_ - static_cast<double>(row.columns - 1) * column_gap;
@@ -125,6 +117,7 @@ class Layout {
         plots_[row.first + k] = {x, y, plot_width, aspect * plot_width};
         x += plot_width + side.right + column_gap;
       }
+      if (&row == &rows_.back()) bottom = std::max(bottom, below);
       y += aspect * plot_width + bottom + row_gap;
     }
     height_ = y - row_gap + edge;
@@ -166,7 +159,7 @@ Canvas drawn(const Figure& figure) {
         figure.panels[i]);
   }
   if (figure.bar) draw_colour_bar(context, *figure.bar, layout.panels());
-  if (figure.key) draw_key(context, *figure.key, layout.panels());
+  if (figure.key) draw_arrow_key(context, *figure.key, layout.panels(), arrow_key_margins(context, *figure.key).bottom);
   return canvas;
 }
 

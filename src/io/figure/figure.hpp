@@ -20,13 +20,6 @@ namespace talus::figure {
 
 using Panel = std::variant<Chart, ParticlePicture>;
 
-/// What an arrow means: one of `length` units with its label below.
-struct ArrowKey {
-  std::string label = {};
-  double length = 0;
-  Colour colour = ink;
-};
-
 struct Figure {
   std::string title = {};
   std::vector<Panel> panels = {};     ///< row by row

@@ -27,18 +27,20 @@ double usual_magnitude(std::span<const Vector3> values) {
   return *place;
 }
 
+/// Units of the page for one `unit`; 0: there is no arrow.
+double length_of_unit(const Arrows& arrows) {
+  if (arrows.length != 0) return arrows.length;
+  const double usual = usual_magnitude(arrows.values) / arrows.unit.value;
+  return usual > 0 ? usual_arrow / usual : 0;
+}
+
 }  // namespace
 
-std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& p,
-                                       std::vector<Obstacle>& obstacles) {
+void draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& p,
+                 std::vector<Obstacle>& obstacles) {
   const Arrows& arrows = *picture.arrows;
-  double per_unit = arrows.length;
-  if (per_unit == 0) {
-    const double usual = usual_magnitude(arrows.values) / arrows.unit.value;
-    if (!(usual > 0)) return {};
-    per_unit = usual_arrow / usual;
-  }
-  const double scale = per_unit / arrows.unit.value;
+  const double scale = length_of_unit(arrows) / arrows.unit.value;
+  if (scale == 0) return;
   const std::span<const Vector3> positions = arrows.positions.empty() ? picture.positions : arrows.positions;
   std::unordered_set<std::uint64_t> taken;
   set_pen(context, arrows.colour, arrow_width);
@@ -54,14 +56,16 @@ std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& 
     stroke_arrow(context, from.x, from.y, from.x + dx, from.y + dy, arrow_head);
     for (const double t : {0.5, 1.0}) obstacles.push_back({from.x + t * dx, from.y + t * dy});
   }
-  if (!arrows.key) return {};
-  const double key = nice_length(longest_key / per_unit);
-  return LegendEntry{fmt::format("{:g} {}", key, arrows.unit.name),
-                     [colour = arrows.colour, length = key * per_unit](cairo_t* pen, const Rectangle& box) {
-                       const double y = box.y + 0.5 * box.height;
-                       set_pen(pen, colour, 1.0);
-                       stroke_arrow(pen, box.x, y, box.x + length, y, arrow_head);
-                     }};
+}
+
+std::optional<ArrowKey> key_of(const ParticlePicture& picture) {
+  if (!picture.arrows || !picture.arrows->key) return std::nullopt;
+  const Arrows& arrows = *picture.arrows;
+  const double per_unit = length_of_unit(arrows);
+  if (per_unit == 0) return std::nullopt;
+  const double value = nice_length(longest_key / per_unit);
+  return ArrowKey{
+      .label = fmt::format("{:g} {}", value, arrows.unit.name), .length = value * per_unit, .colour = arrows.colour};
 }
 
 }  // namespace talus::figure

@@ -14,7 +14,8 @@ namespace talus::figure {
 
 /// Dots about each particle, normally distributed with a standard deviation of (2/3) h along each axis, those beyond 2
 /// h drawn again. A dot behind a wall or plate goes to its mirror image (choice; the paper does not say), so that there
-/// are none where there are no grains. The same for the same identities. \param identity seed of each particle's dots
+/// are none where there are no grains. The same for the same identities. They are drawn once, 65,536 for all particles,
+/// of which each takes some that follow each other. \param identity chooses these
 /// \param smoothing_length h, m; one entry per particle in all columns
 std::vector<Vector3> particle_dots(std::span<const Vector3> position, std::span<const double> smoothing_length,
                                    std::span<const std::int64_t> identity, const Domain& domain, int dots = 50);

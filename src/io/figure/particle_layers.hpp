@@ -34,9 +34,11 @@ void draw_slope(cairo_t* context, const ParticlePicture& picture, const Projecti
 void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
                 std::vector<Obstacle>& obstacles);
 
-/// \returns the legend's entry: an arrow of a round value; nothing if none is wanted, or no arrow has a finite length
-std::optional<LegendEntry> draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
-                                       std::vector<Obstacle>& obstacles);
+void draw_arrows(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
+                 std::vector<Obstacle>& obstacles);
+
+/// An arrow of a round value; nothing if none is wanted, or no arrow has a finite length.
+std::optional<ArrowKey> key_of(const ParticlePicture& picture);
 
 void draw_segments(cairo_t* context, const ParticlePicture& picture, const Projection& projection,
                    std::vector<Obstacle>& obstacles);

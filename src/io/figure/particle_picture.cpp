@@ -60,30 +60,33 @@ Margins margins(cairo_t* context, const ParticlePicture& picture, const Rectangl
   Margins around{2, 2, 4, 2};
   if (has_axes(picture)) around = frame_margins(context, frame_of(picture, projection_of(picture, plot)));
   const auto* by_value = std::get_if<ByValue>(&picture.colouring);
-  if (by_value && by_value->bar) around.right += colour_bar_width(context, bar_of(*by_value), plot.height);
+  const double bar = by_value && by_value->bar ? colour_bar_width(context, bar_of(*by_value), plot.height) : 0;
+  Margins key;
+  if (const auto arrow = key_of(picture)) key = arrow_key_margins(context, *arrow);
+  around.right += std::max(bar, key.right);
+  around.bottom = std::max(around.bottom, key.bottom);
   return around;
 }
 
 void draw(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot) {
   const Projection projection = projection_of(picture, plot);
   std::vector<Obstacle> obstacles;
-  std::optional<LegendEntry> arrow_key;
   {
     const Saved saved(context);
     cairo_rectangle(context, plot.x, plot.y, plot.width, plot.height);
     cairo_clip(context);
     draw_slope(context, picture, projection);
     draw_discs(context, picture, projection, obstacles);
-    if (picture.arrows) arrow_key = draw_arrows(context, picture, projection, obstacles);
+    if (picture.arrows) draw_arrows(context, picture, projection, obstacles);
     draw_segments(context, picture, projection, obstacles);
   }
   if (has_axes(picture)) draw_frame(context, frame_of(picture, projection));
-  std::vector<LegendEntry> entries = entries_of(picture);
-  if (arrow_key) entries.push_back(*arrow_key);
-  draw_legend(context, entries, plot, obstacles);
+  draw_legend(context, entries_of(picture), plot, obstacles);
   if (picture.scale_bar && !has_axes(picture)) draw_scale_bar(context, picture, projection, obstacles);
   const auto* by_value = std::get_if<ByValue>(&picture.colouring);
   if (by_value && by_value->bar) draw_colour_bar(context, bar_of(*by_value), plot);
+  // In a line with the name of the axis, where there is one: numbers of the axis may reach beyond the plot.
+  if (const auto key = key_of(picture)) draw_arrow_key(context, *key, plot, margins(context, picture, plot).bottom);
 }
 
 }  // namespace talus::figure

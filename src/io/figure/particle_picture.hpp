@@ -60,7 +60,7 @@ struct Arrows {
   double length = 0;   ///< units of the page for one `unit`; 0: chosen so that nearly all are 16 or shorter
   double spacing = 6;  ///< at most one arrow in each square of this side, in units of the page; 0: all
   Colour colour = ink;
-  bool key = true;  ///< an arrow of a round value in the legend
+  bool key = true;  ///< an arrow of a round value right of the plot, below the colour bar
 };
 
 /// A straight line over the particles: a wall.
@@ -113,7 +113,7 @@ std::optional<Ground> ground_of(const ParticlePicture& picture);
 /// Height over width that suits the picture; the plot of a long thin cloud stays high enough to read.
 double aspect_of(const ParticlePicture& picture);
 
-/// What axes and colour bar need around the plot.
+/// What axes, colour bar and key need around the plot.
 Margins margins(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot);
 
 /// Draws into `plot`; the window is widened, not stretched, to its shape. Discs smaller than 0.35 units are drawn with

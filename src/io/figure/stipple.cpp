@@ -33,6 +33,8 @@ Stipple::Stipple(cairo_t* context, double radius, const Colour& colour)
       colour_(colour),
       width_(cairo_image_surface_get_width(cairo_get_target(context))),
       height_(cairo_image_surface_get_height(cairo_get_target(context))),
+      left_(width_),
+      top_(height_),
       through_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 1.0F) {
   double across = 1, down = 0;
   cairo_user_to_device_distance(context, &across, &down);
@@ -54,6 +56,9 @@ void Stipple::add(double x, double y) {
   const int column = static_cast<int>(left), row = static_cast<int>(top), side = 2 * reach_ + 1;
   const int place = static_cast<int>((y - top) * places) * places + static_cast<int>((x - left) * places);
   const float* share = shares_.data() + static_cast<std::ptrdiff_t>(place) * side * side;
+  left_ = std::min(left_, std::max(0, column - reach_)),
+  right_ = std::max(right_, std::min(width_, column + reach_ + 1));
+  top_ = std::min(top_, std::max(0, row - reach_)), bottom_ = std::max(bottom_, std::min(height_, row + reach_ + 1));
   for (int j = row - reach_; j <= row + reach_; ++j)
     for (int i = column - reach_; i <= column + reach_; ++i, ++share)
       if (i >= 0 && i < width_ && j >= 0 && j < height_)
@@ -62,20 +67,23 @@ void Stipple::add(double x, double y) {
 }
 
 void Stipple::draw() {
+  if (left_ >= right_ || top_ >= bottom_) return;
   const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> mask(
-      cairo_image_surface_create(CAIRO_FORMAT_A8, width_, height_), cairo_surface_destroy);
+      cairo_image_surface_create(CAIRO_FORMAT_A8, right_ - left_, bottom_ - top_), cairo_surface_destroy);
   if (cairo_surface_status(mask.get()) != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
   cairo_surface_flush(mask.get());
   unsigned char* const data = cairo_image_surface_get_data(mask.get());
   const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(mask.get()));
-  for (std::size_t n = 0; n < through_.size(); ++n)
-    data[n / static_cast<std::size_t>(width_) * stride + n % static_cast<std::size_t>(width_)] =
-        static_cast<unsigned char>(std::lround(255 * (1 - through_[n])));
+  for (int row = top_; row < bottom_; ++row) {
+    const float* const from = through_.data() + static_cast<std::ptrdiff_t>(row) * width_ + left_;
+    unsigned char* const to = data + static_cast<std::size_t>(row - top_) * stride;
+    for (int n = 0; n < right_ - left_; ++n) to[n] = static_cast<unsigned char>(255 * (1 - from[n]) + 0.5F);
+  }
   cairo_surface_mark_dirty(mask.get());
   cairo_save(context_);
   cairo_identity_matrix(context_);
   cairo_set_source_rgb(context_, colour_.red, colour_.green, colour_.blue);
-  cairo_mask_surface(context_, mask.get(), 0, 0);
+  cairo_mask_surface(context_, mask.get(), left_, top_);
   cairo_restore(context_);
 }
 

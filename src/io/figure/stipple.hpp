@@ -28,9 +28,10 @@ class Stipple {
  private:
   cairo_t* context_;
   Colour colour_;
-  double scale_ = 1;            // pixels a unit
-  int width_, height_;          // of the page, pixels
-  int reach_ = 0;               // of a disc from its centre's pixel
+  double scale_ = 1;                         // pixels a unit
+  int width_, height_;                       // of the page, pixels
+  int left_, right_ = 0, top_, bottom_ = 0;  // around the pixels that discs have reached
+  int reach_ = 0;                            // of a disc from its centre's pixel
   std::vector<float> shares_;   // that a disc leaves uncovered of the pixels around it, for each place within a pixel
   std::vector<float> through_;  // of each pixel of the page
 };

@@ -11,6 +11,7 @@
 #include "models/continuum/loading.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/vessel_walls.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -58,28 +59,36 @@ SettlingTime settling_time(const Parameters& p) {
   return known(std::min(p.settle.longest, least + excess / rate));
 }
 
-/// Of all triangles of the vessel, m^2.
-double area_of_vessel(const Parameters& p) {
-  double area = 0;
+/// All triangles of the vessel.
+struct Triangles {
+  double count = 0, area = 0;  ///< m^2
+};
+Triangles triangles_of_vessel(const Parameters& p) {
+  Triangles all;
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    for (const Triangle& t : triangles_of(p, n)) area += norm(t.area());
-  return area;
+    for (const Triangle& t : triangles_of(p, n)) ++all.count, all.area += norm(t.area());
+  return all;
 }
 
-/// In layers of a spacing beside each face, squares of 0.4 spacings for the points (vessel_walls.cpp).
-constexpr double layers_beside_wall = 2, points_on_square = 6.25;
+/// Of all sets of points, on a square of a spacing.
+double points_on_square() {
+  double points = 0;
+  for (const PointsOfWalls& set : points_of_walls) points += 1 / (set.apart * set.apart);
+  return points;
+}
 
 }  // namespace
 
 Forecast forecast(const Parameters& p, double end) {
-  const double squares = area_of_vessel(p) / (p.bed.spacing * p.bed.spacing), bed = bed_count(p);
+  const Triangles triangles = triangles_of_vessel(p);
+  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(p);
   const double step = step_of(p);
   const SettlingTime settling = settling_time(p);
   const double particles = bed + mass_to_come(p, end, settling.most) / lattice_of(p).mass;
   return {.particles = particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
-          .beside_walls = std::min(particles, layers_beside_wall * squares),
-          .wall_points = points_on_square * squares,
+          .wall_points = points_on_square() * squares,
+          .triangles = triangles.count,
           .settling_steps = std::ceil(settling.least / step),
           .most_settling_steps = std::ceil(settling.most / step),
           .flow_steps = std::ceil(end / step)};
@@ -118,10 +127,12 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
 }
 
 double memory_of(const Forecast& f) {
-  // Libraries; columns, records and lists of particles and images; sums of the particles beside walls, and their
-  // points.
-  const double of_forces = f.wall_points > 0 ? 250 * f.particles : 0;
-  return 22e6 + 3500 * f.particles + 900 * f.cells + of_forces + 2000 * f.beside_walls + 250 * f.wall_points;
+  // Libraries; columns, records and lists of particles and images, with room for sums of those beside walls; points of
+  // walls, with the fields and the mesh of their loads; triangles, whose edges and faults are sought before anything
+  // else is there.
+  constexpr double libraries = 22e6, sought = 1600, kept = 400;
+  return std::max(libraries + sought * f.triangles,
+                  libraries + 3500 * f.particles + 900 * f.cells + 350 * f.wall_points + kept * f.triangles);
 }
 
 Parameters coarser(const Parameters& p, double particles) {

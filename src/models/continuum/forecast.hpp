@@ -12,8 +12,8 @@ namespace talus::continuum {
 struct Forecast {
   double particles = 0;
   double cells = 0;           ///< of the air
-  double beside_walls = 0;    ///< particles within reach of the walls of a vessel, at most
-  double wall_points = 0;     ///< of these walls
+  double wall_points = 0;     ///< of the walls of a vessel, of all sets together
+  double triangles = 0;       ///< of these walls
   double settling_steps = 0;  ///< until the gate opens; at least so many
   double most_settling_steps =
       0;                  ///< the same, unless the bed settles without damping: when it rests is not known then

@@ -13,27 +13,35 @@ namespace talus::continuum {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notable_share = 0.1;  // of the particles: fewer are the edge of a stream
 
-double largest_speed(const State& s) {
-  double speed = 0;
-  for (const Vector3& v : s.velocity) speed = std::max(speed, norm(v));
-  return speed;
-}
+/// Of all particles, found in one pass: a row of the series needs them every few steps.
+struct ParticleTotals {
+  double largest_speed = 0;                                                                   ///< m/s
+  Vector3 momentum;                                                                           ///< N s
+  double least_density = infinity, largest_density = -infinity, largest_packing = -infinity;  ///< kg/m^3, 1
+  double mass_outside = 0;  ///< beyond the open faces of the box: what has left, kg
+};
 
-Vector3 momentum(const State& s) {
-  Vector3 sum;
-  for (const Vector3& v : s.velocity) sum += v;
-  return s.mass * sum;
-}
-
-/// Mass beyond the open faces of the box, kg: what has left.
-double mass_outside(const Box& box, const State& s) {
+ParticleTotals totals_of_particles(const Box& box, const State& s) {
+  ParticleTotals totals;
+  double square = 0;
   std::size_t outside = 0;
-  for (const Vector3& x : s.position)
-    outside += x.x < box.low.x || x.x > box.high.x || x.y < box.low.y || x.y > box.high.y || x.z < box.low.z ||
-               x.z > box.high.z;
-  return s.mass * static_cast<double>(outside);
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const Vector3 &x = s.position[i], &v = s.velocity[i];
+    square = std::max(square, dot(v, v));
+    totals.momentum += v;
+    totals.least_density = std::min(totals.least_density, s.density[i]);
+    totals.largest_density = std::max(totals.largest_density, s.density[i]);
+    totals.largest_packing = std::max(totals.largest_packing, s.packing[i]);
+    outside += (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
+               (x.z > box.high.z);
+  }
+  totals.largest_speed = std::sqrt(square);
+  totals.momentum = s.mass * totals.momentum;
+  totals.mass_outside = s.mass * static_cast<double>(outside);
+  return totals;
 }
 
 std::string wall_name(const Domain& domain, int wall) {
@@ -82,34 +90,29 @@ void for_each_air_cell(const AirAround& air, Body&& body) {
       for (int i = 0; i < air.grid.count[0]; ++i) body(air.grid.index(i, j, k));
 }
 
-double largest_air_speed(const AirAround& air) {
-  double square = 0;
-  for_each_air_cell(air, [&](std::size_t c) {
-    Vector3 u;
-    for (int axis = 0; axis < 3; ++axis) u[axis] = air.flow.cell_velocity(air.grid, axis, c);
-    square = std::max(square, dot(u, u));
-  });
-  return std::sqrt(square);
-}
-
-struct PressureRange {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+/// Of all cells of the air, found in one pass.
+struct AirTotals {
+  double largest_speed = 0;                                              ///< m/s
+  double least_pressure = infinity, largest_pressure = -least_pressure;  ///< Pa
+  /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
+  /// continuity lacks, since what one lacks another has too much.
+  double imbalance = 0;
 };
-PressureRange pressure_range(const AirAround& air) {
-  PressureRange range;
-  for_each_air_cell(air, [&](std::size_t c) {
-    range.least = std::min(range.least, air.flow.pressure[c]);
-    range.most = std::max(range.most, air.flow.pressure[c]);
-  });
-  return range;
-}
 
-/// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
-/// continuity lacks, since what one lacks another has too much.
-double air_imbalance(const AirAround& air) {
-  double sum = 0;
-  for_each_air_cell(air, [&](std::size_t c) { sum += std::abs(air.excess[c]); });
-  return 0.5 * sum * air.grid.volume();
+AirTotals totals_of_air(const AirAround& air) {
+  AirTotals totals;
+  double square = 0, excess = 0;
+  for_each_air_cell(air, [&](std::size_t c) {
+    const Vector3 u{air.flow.cell_velocity(air.grid, 0, c), air.flow.cell_velocity(air.grid, 1, c),
+                    air.flow.cell_velocity(air.grid, 2, c)};
+    square = std::max(square, dot(u, u));
+    totals.least_pressure = std::min(totals.least_pressure, air.flow.pressure[c]);
+    totals.largest_pressure = std::max(totals.largest_pressure, air.flow.pressure[c]);
+    excess += std::abs(air.excess[c]);
+  });
+  totals.largest_speed = std::sqrt(square);
+  totals.imbalance = 0.5 * excess * air.grid.volume();
+  return totals;
 }
 
 double solid_volume(const Parameters& p, const State& s) {
@@ -124,7 +127,7 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
   if (p.air.gas.motion == air::Motion::frozen) return {reynolds};
   const double swing = air.swing_max / p.air.gas.pressure;
   const bool incompressible = p.air.gas.compressibility == air::Compressibility::none;
-  const double imbalance = air_imbalance(air);
+  const double imbalance = totals_of_air(air).imbalance;
   return {{"air's pressure swing", fmt::format("{:.3g}", swing),
            incompressible ? "largest difference from air.pressure since the start, over it; the air is taken for "
                             "incompressible, which holds up to about 0.1: above it, grains that leave a closed vessel "
@@ -174,19 +177,18 @@ NumericalError::Report Continuum::step_limit() const {
 
 std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
-  const auto [least, most] = std::minmax_element(s.density.begin(), s.density.end());
-  const Vector3 p = momentum(s);
+  const ParticleTotals particles = totals_of_particles(domain().box(), s);
   std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
-                                    {"speed_max", "m/s", largest_speed(s)},
-                                    {"density_min", "kg/m3", *least},
-                                    {"density_max", "kg/m3", *most},
-                                    {"packing_max", "1", *std::max_element(s.packing.begin(), s.packing.end())},
+                                    {"speed_max", "m/s", particles.largest_speed},
+                                    {"density_min", "kg/m3", particles.least_density},
+                                    {"density_max", "kg/m3", particles.largest_density},
+                                    {"packing_max", "1", particles.largest_packing},
                                     {"gate_time", "s", s.gate_time},
-                                    {"mass_outside", "kg", mass_outside(domain().box(), s)}};
+                                    {"mass_outside", "kg", particles.mass_outside}};
   const auto add = [&](const std::string& name, const Vector3& v) {
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };
-  add("momentum", p);
+  add("momentum", particles.momentum);
   add("impulse_gravity", s.gravity_impulse);
   add("impulse_damping", s.damping_impulse);
   for (int wall = 0; wall < domain().wall_count(); ++wall)
@@ -204,18 +206,18 @@ std::vector<NamedValue> Continuum::totals() const {
   }
   if (parameters_.air.enabled) {
     const AirAround& air = s.air;
-    const PressureRange pressure = pressure_range(air);
+    const AirTotals cells = totals_of_air(air);
     add("impulse_air", air.impulse);
     values.insert(values.end(), {{"air_force_z", "N", air.force.z},
-                                 {"air_speed_max", "m/s", largest_air_speed(air)},
-                                 {"air_pressure_min", "Pa", pressure.least},
-                                 {"air_pressure_max", "Pa", pressure.most},
+                                 {"air_speed_max", "m/s", cells.largest_speed},
+                                 {"air_pressure_min", "Pa", cells.least_pressure},
+                                 {"air_pressure_max", "Pa", cells.largest_pressure},
                                  {"air_step_size", "s", air.flow.last_step},
                                  {"air_steps", "1", static_cast<double>(air.steps)},
                                  {"air_iterations", "1", static_cast<double>(air.iterations)},
                                  {"particle_reynolds_max", "1", air.reynolds_max},
                                  {"air_swing_max", "Pa", air.swing_max},
-                                 {"air_imbalance", "m3", air_imbalance(air)}});
+                                 {"air_imbalance", "m3", cells.imbalance}});
   }
   return values;
 }

@@ -259,6 +259,25 @@ void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, c
   for (const WallForce& force : forces.all()) acceleration += force.acceleration;
   for (int axis = 0; axis < 3; ++axis) sums.acceleration[axis] += acceleration[axis];
   sums.kernel_density += particles.density[i] * beyond;
+  if (walls_[i] != 0) add_loads_at_vessel(i, neighbours, sums);
+}
+
+/// Where a wall of the vessel meets a boundary that mirrors, the images in the wall have images behind that boundary.
+/// What these push along its normal it bears, as it bears that of any image behind it (WallAccelerations).
+void Sweep::add_loads_at_vessel(std::size_t i, const Neighbours& neighbours, PairSums& sums) const {
+  for (int g = 1; g < neighbours.groups; ++g) {
+    const NeighbourGroup &before = neighbours.group[g - 1], &group = neighbours.group[g];
+    const auto& loads = loads_of_images_[static_cast<std::size_t>(group.image)];
+    if (group.end == before.end || loads[0].wall < 0) continue;
+    const std::span<const std::uint32_t> behind(neighbours.record + before.end, group.end - before.end);
+    Vector3 acceleration;
+    for (const NearWall& wall : vessel_.of(i))
+      acceleration += vessel_.force_of_images(wall, records(), i, &behind, constants_.mass);
+    for (const Domain::Load& load : loads) {
+      if (load.wall < 0) break;
+      sums.wall_acceleration[std::popcount(walls_[i] & ((1u << load.wall) - 1))] += dot(load.part, acceleration);
+    }
+  }
 }
 
 }  // namespace talus::continuum

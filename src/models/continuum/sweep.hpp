@@ -112,6 +112,7 @@ class Sweep {
   /// Adds the forces of the vessel on a particle, and its share of the kernel's sum. \pre those of pairs are there
   void add_forces_of_vessel(const ParticleView& particles, std::size_t i, const Neighbours& neighbours, PairSums& sums,
                             Rates& rates) const;
+  void add_loads_at_vessel(std::size_t i, const Neighbours& neighbours, PairSums& sums) const;
 
   double mass_;
   double smoothing_ratio_;

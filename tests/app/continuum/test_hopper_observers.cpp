@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../../models/continuum/cases.hpp"
+#include "analysis/particle_field.hpp"
+#include "models/continuum/layout.hpp"
 #include "run/any_model.hpp"
 
 namespace talus::app {
@@ -32,6 +35,36 @@ TEST(HopperObservers, SeeTheGateAsTheGrainsDo) {
   EXPECT_LT(slowest, 0) << "the bed moves";
   while (model->time() < 0.02) model->advance(team);
   EXPECT_LT(slit_velocity(), -0.01);
+}
+
+void expect_probes_of_all(const continuum::Parameters& p) {
+  ThreadTeam team(1);
+  const auto model = run::any_model(continuum::Continuum(p));
+  model->begin(team);
+  while (model->time() < 0.02) model->advance(team);
+  const Snapshot snapshot = model->snapshot();
+  const auto outlet = continuum::outlet_of(p);
+  ASSERT_TRUE(outlet.has_value());
+  const auto density = snapshot.scalars("density");
+  const ParticleField all(
+      particles_of_density(snapshot.positions(), density, continuum::lattice_of(p).mass, p.grains.density),
+      *snapshot.domain);
+  const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
+  const auto values = observe_hopper(snapshot, p);
+  const double velocity = all.value(slit, snapshot.vectors("velocity")).z;
+  const double above = all.value(slit + Vector3{0, 0, 5e-3}, density);
+  ASSERT_LT(velocity, 0);
+  EXPECT_NEAR(value_of(values, "slit_velocity"), velocity, -1e-12 * velocity);
+  EXPECT_NEAR(value_of(values, "probe_density"), above, 1e-12 * above);
+}
+
+TEST(HopperObservers, ProbesTakeAllThatReachesThem) {
+  continuum::Parameters p = continuum::small_hopper();
+  expect_probes_of_all(p);
+  p.plate = {};
+  p.wedge = {.half_angle = 0.5, .outlet = 4 * continuum::spacing, .height = 15 * continuum::spacing};
+  p.box.height = 60 * continuum::spacing;
+  expect_probes_of_all(p);
 }
 
 }  // namespace

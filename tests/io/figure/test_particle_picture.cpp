@@ -224,6 +224,37 @@ TEST(ParticlePicture, ArrowsAreThinnedWhereTheyCrowd) {
   EXPECT_LE(arrows, 3);
 }
 
+TEST(ParticlePicture, TheKeyOfArrowsStandsOutsideThePlot) {
+  const std::vector<Vector3> velocities = {{0, 0.5, 0}};
+  const std::vector<double> values = {3};
+  for (const bool axes : {false, true})
+    for (const bool bar : {false, true}) {
+      Scene scene({{0.5, 0.5, 0}}, {0.05});
+      scene.picture.axes = axes;
+      if (bar) scene.picture.colouring = ByValue{.values = values, .low = 0, .high = 4};
+      scene.picture.arrows = Arrows{.values = velocities, .length = 20, .key = false};
+      const Canvas scratch(1, 1, 1);
+      const Rectangle plot{50, 20, 200, 100};
+      const Margins without = margins(scratch.context(), scene.picture, plot);
+      const Picture bare = drawn(scene.picture, plot, 400, 200);
+      scene.picture.arrows->key = true;
+      const Margins around = margins(scratch.context(), scene.picture, plot);
+      const Picture picture = drawn(scene.picture, plot, 400, 200);
+      EXPECT_GE(around.right, without.right);
+      int changed = 0;
+      for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+          if (picture.at(x, y) == bare.at(x, y)) continue;
+          ++changed;
+          ASSERT_GT(x, plot.right());
+          ASSERT_GE(y, plot.bottom());
+          ASSERT_LE(x, plot.right() + around.right + 1);
+          ASSERT_LE(y, plot.bottom() + around.bottom + 1);
+        }
+      EXPECT_GT(changed, 50);
+    }
+}
+
 TEST(ParticlePicture, SegmentsRunFromEndToEnd) {
   Scene scene({}, {});
   scene.picture.segments = {{.from = {0.2, 0.9, 0}, .to = {1.8, 0.9, 0}, .colour = vermillion}};

@@ -184,8 +184,13 @@ TEST(ContinuumSample, OfAVesselHasItsWalls) {
   EXPECT_EQ(count, 24. * 24 * 24);
   const Forecast f = forecast(p, 1);
   const double area = 4 * 60e-3 * 80e-3 + 3.1416 * 50e-3 * 50e-3;  // of one layer: 6.25e-6 m^2 a particle
-  EXPECT_NEAR(f.wall_points, area / 1e-6, 0.01 * f.wall_points);
-  EXPECT_NEAR(f.beside_walls, 2 * area / 6.25e-6, 0.01 * f.beside_walls);
+  const double of_sets = 1 / 0.16 + 1 / 0.3249 + 1 / 0.64;         // on a square of a spacing
+  EXPECT_NEAR(f.wall_points, of_sets * area / 6.25e-6, 0.01 * f.wall_points);
+  EXPECT_GE(f.triangles, 8 + 3);
+  Forecast drawn = f;
+  drawn.triangles += 1e6;  // an STL file of that many alone takes 1.4 GB before the run begins
+  EXPECT_GT(memory_of(drawn), 1.4e9);
+  EXPECT_LT(memory_of(drawn), memory_of(f) + 2e9);
   EXPECT_GT(memory_of(f) - memory_of(plain), 3500 * (f.particles - plain.particles));
   const Parameters coarse = coarser(p, count / 8);
   EXPECT_NEAR(bed_count(coarse), count / 8, 0.02 * count / 8);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/case/read_runs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/scratch_folder.hpp"
+
+namespace talus::app {
+namespace {
+
+TEST(ReadRuns, AFolderIsReadOnceHoweverItIsWritten) {
+  const ScratchFolder scratch;
+  const std::filesystem::path folder = scratch.path() / "r", other = scratch.path() / "s";
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_directories(other);
+  ReadRuns runs;
+  int times = 0;
+  const auto read = [&] { return "run " + std::to_string(++times); };
+  EXPECT_EQ(runs.of<std::string>(folder, read), "run 1");
+  EXPECT_EQ(runs.of<std::string>(folder.string() + "/", read), "run 1");
+  EXPECT_EQ(runs.of<std::string>(folder / "..", read), "run 2");
+  EXPECT_EQ(runs.of<std::string>(other / ".." / "r", read), "run 1");
+  EXPECT_EQ(runs.of<std::string>(other, read), "run 3");
+  EXPECT_THROW(runs.of<int>(folder, [] { return 1; }), std::bad_any_cast);
+  ReadRuns later;
+  EXPECT_EQ(later.of<std::string>(folder, read), "run 4");
+}
+
+}  // namespace
+}  // namespace talus::app
