@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "models/air/flow.hpp"
-#include "models/air/flow_rows.hpp"
 #include "numerics/grid/loops.hpp"
 
 namespace talus::air {
@@ -45,7 +44,9 @@ double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField&
     VolumeFlowRow row{};
     for (int axis = 0; axis < 3; ++axis) {
       const auto from = [&](const FaceField& field) { return field[static_cast<std::size_t>(axis)].data() + begin; };
-      row.axis[axis] = {.open = from(apertures_.open),
+      const DistinctRows& open = apertures_.rows.open[static_cast<std::size_t>(axis)];
+      row.axis[axis] = {.open = open.at(grid.row(j, k)),
+                        .open_after = open.at(grid.row(j, k) + grid.row_stride(axis)) + (axis == 0),
                         .void_fraction = from(void_fraction_),
                         .velocity = from(velocity),
                         .solid_fraction = from(solid_fraction_),

@@ -27,59 +27,93 @@ int fold(int place, int count, bool is_periodic) {
 struct Deposition::Scratch {
   struct Along {
     int from = 0;                   // the first one along an axis
-    std::vector<double> square;     // of the distance of each one's centre, m^2; then far ones, to a whole vector
+    std::vector<float> square;      // of each one's distance over h; then far ones, to a whole vector
     std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for
-    std::vector<int> cell;          // each once; `left` for all beyond an open face
-    bool is_plain = false;          // the cells are those from `from` on
+    std::vector<int> cell;          // each once, from the lowest to the highest; then `left` for all beyond open faces
+    bool is_plain = false;          // each stands for itself
 
     static constexpr int left = -1;
 
-    void find(const Grid& grid, const Box& box, int axis, double x, double reach);
-    /// In order, all from the lowest to the highest; then `left`, if it is among them.
-    void sort();
+    /// \param is_mirrored neither end is open or periodic
+    void find(const Grid& grid, const Box& box, int axis, bool is_mirrored, double x, double reach, double per_width);
     /// The slot of the cell whose centre is at x, if it is one of these.
     std::optional<std::size_t> slot_at(const Grid& grid, int axis, double x) const;
+
+   private:
+    void fold_at_mirrors(int to, int count);
+    void fold_at_any(const Box& box, int axis, int to, int count);
+    void sort();
   };
   struct Slots {
     std::size_t x, z;
   };
   using Seen = std::optional<Slots>;
   std::array<Along, 3> along;
-  std::vector<double> sum;  // by slots along x, y, z
-  std::vector<Seen> seen;   // by cells along x and z: whose share each one's is
-  std::vector<double> all;  // what `sum` was before cells behind the surface were left out
+  std::vector<float> sum;     // by slots along x, y, z
+  std::vector<RowFate> fate;  // by slots along y, z
+  std::vector<Seen> seen;     // by cells along x and z: whose share each one's is
+  std::vector<float> all;     // what `sum` was before cells behind the surface were left out
   std::vector<std::uint32_t> near;
 };
 
-void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, double x, double reach) {
-  const double width = grid.spacing[axis], place = (x - grid.low[axis]) / width - 0.5;
-  const int to = static_cast<int>(std::floor(place + reach / width));
-  from = static_cast<int>(std::ceil(place - reach / width));
-  const int count = grid.count[static_cast<std::size_t>(axis)];
+void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, bool is_mirrored, double x,
+                                      double reach, double per_width) {
+  const double width = grid.spacing[axis], place = (x - grid.low[axis]) / width - 0.5, far = reach / width;
+  // Rounded down and up.
+  const auto floor_of = [](double number) {
+    const int n = static_cast<int>(number);
+    return n > number ? n - 1 : n;
+  };
+  const int to = floor_of(place + far), count = grid.count[static_cast<std::size_t>(axis)];
+  from = -floor_of(far - place);
+  const auto many = static_cast<std::size_t>(to - from + 1);
+  slot.resize(many), square.resize((many + row_lanes - 1) / row_lanes * row_lanes);
+  const double step = width * per_width;
+  for (std::size_t n = 0; n < many; ++n) {
+    const double distance = (from + static_cast<int>(n) - place) * step;
+    square[n] = static_cast<float>(distance * distance);
+  }
+  for (std::size_t n = many; n < square.size(); ++n) square[n] = static_cast<float>(4 * sph::support * sph::support);
+  is_plain = from >= 0 && to < count;
+  if (is_plain) {
+    cell.resize(many);
+    for (std::size_t n = 0; n < many; ++n) slot[n] = n, cell[n] = from + static_cast<int>(n);
+  } else if (is_mirrored && place > -1 && place < count && from >= -count && to < 2 * count) {
+    fold_at_mirrors(to, count);
+  } else {
+    fold_at_any(box, axis, to, count);
+    sort();
+  }
+}
+
+/// For a particle in the box that reaches beyond it, by no more than its length.
+void Deposition::Scratch::Along::fold_at_mirrors(int to, int count) {
+  const int lowest = from < 0 ? 0 : std::min(from, 2 * count - 1 - to);
+  const int highest = to >= count ? count - 1 : std::max(to, -1 - from);
+  cell.resize(static_cast<std::size_t>(highest - lowest + 1));
+  for (std::size_t n = 0; n < cell.size(); ++n) cell[n] = lowest + static_cast<int>(n);
+  for (int n = from; n <= to; ++n) {
+    const int within = n < 0 ? -1 - n : n >= count ? 2 * count - 1 - n : n;
+    slot[static_cast<std::size_t>(n - from)] = static_cast<std::size_t>(within - lowest);
+  }
+}
+
+void Deposition::Scratch::Along::fold_at_any(const Box& box, int axis, int to, int count) {
   const bool is_periodic = box.face(axis, 0) == FaceKind::periodic;
   const auto has_left = [&](int n) {
     return (n < 0 && box.face(axis, 0) == FaceKind::open) || (n >= count && box.face(axis, 1) == FaceKind::open);
   };
-  square.clear(), slot.clear(), cell.clear();
+  cell.clear();
   for (int n = from; n <= to; ++n) {
-    square.push_back((n - place) * (n - place) * width * width);
-    if (n >= 0 && n < count && from >= 0) {  // none is folded onto it yet
-      slot.push_back(cell.size());
-      cell.push_back(n);
-      continue;
-    }
     const int within = has_left(n) ? left : fold(n, count, is_periodic);
     const auto found = std::find(cell.begin(), cell.end(), within);
-    slot.push_back(static_cast<std::size_t>(found - cell.begin()));
+    slot[static_cast<std::size_t>(n - from)] = static_cast<std::size_t>(found - cell.begin());
     if (found == cell.end()) cell.push_back(within);
   }
-  is_plain = from >= 0 && cell.size() == slot.size() && cell.front() == from;
-  for (std::size_t n = 1; n < cell.size(); ++n) is_plain = is_plain && cell[n] == cell[n - 1] + 1;
-  square.resize((square.size() + row_lanes - 1) / row_lanes * row_lanes, 4 * reach * reach);
 }
 
+/// All cells from the lowest to the highest; then `left`, if it is among them.
 void Deposition::Scratch::Along::sort() {
-  if (is_plain) return;
   int lowest = std::numeric_limits<int>::max(), highest = lowest;
   bool has_left = false;
   for (const int n : cell) {
@@ -109,8 +143,13 @@ std::optional<std::size_t> Deposition::Scratch::Along::slot_at(const Grid& grid,
 
 Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& surface)
     : grid_(grid), domain_(domain), surface_(surface) {
+  const auto is_mirror = [&](int axis, int side) {
+    const FaceKind kind = domain.box().face(axis, side);
+    return kind != FaceKind::periodic && kind != FaceKind::open;
+  };
   const auto nearly_equal = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
   for (int axis = 0; axis < 3; ++axis) {
+    is_mirrored_[static_cast<std::size_t>(axis)] = is_mirror(axis, 0) && is_mirror(axis, 1);
     const double width = grid.spacing[axis];
     const double high = grid.low[axis] + width * grid.count[static_cast<std::size_t>(axis)];
     if (!nearly_equal(grid.low[axis], domain.box().low[axis], width) ||
@@ -137,63 +176,77 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
   const double per_width = sph::support / reach;
   for (int axis = 0; axis < 3; ++axis)
-    scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
+    scratch.along[static_cast<std::size_t>(axis)].find(
+        grid_, domain_.box(), axis, is_mirrored_[static_cast<std::size_t>(axis)], x[axis], reach, per_width);
   const Scratch::Along &along_x = scratch.along[0], &along_y = scratch.along[1], &along_z = scratch.along[2];
-  scratch.along[0].sort();
   const std::size_t columns = (along_x.cell.size() + row_lanes - 1) / row_lanes * row_lanes, rows = along_y.cell.size();
-  scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
-  double* sum = scratch.sum.data();
-  const auto add_weights = [&](bool beside_wall) {
-    if (!beside_wall && along_x.is_plain)
-      return weigh_rows({.columns = columns,
-                         .square_x = along_x.square.data(),
-                         .many_y = along_y.slot.size(),
-                         .many_z = along_z.slot.size(),
-                         .square_y = along_y.square.data(),
-                         .square_z = along_z.square.data(),
-                         .row_y = along_y.slot.data(),
-                         .row_z = along_z.slot.data(),
-                         .square = reach * reach,
-                         .per_width = per_width},
-                        rows, sum);
-    if (beside_wall) find_seen(x, scratch);
-    for (std::size_t k = 0; k < along_z.slot.size(); ++k)
-      for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
-        const double beside = along_y.square[j] + along_z.square[k];
-        if (beside >= reach * reach) continue;
-        const Scratch::Seen* seen = beside_wall ? scratch.seen.data() + k * along_x.slot.size() : nullptr;
-        for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
-          if (seen && !seen[i]) continue;
-          const std::size_t column = seen ? seen[i]->x : along_x.slot[i], row = seen ? seen[i]->z : along_z.slot[k];
-          sum[column + columns * (along_y.slot[j] + rows * row)] +=
-              sph::cubic_spline_of(std::sqrt(beside + along_x.square[i]) * per_width, per_width);
-        }
-      }
-  };
+  const std::size_t all_rows = rows * along_z.cell.size();
+  scratch.sum.assign(columns * all_rows, 0), scratch.fate.assign(all_rows, RowFate::empty);
   const bool beside_wall = domain_.is_near_wall(x, reach);
-  add_weights(beside_wall);
+  if (beside_wall) {
+    find_seen(x, scratch);
+    weigh_seen(columns, scratch);
+  }
   // In a corner too narrow for a cell's centre a particle sees none: then it has all.
-  if (beside_wall && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
-    add_weights(false);
+  if (!beside_wall || std::none_of(scratch.sum.begin(), scratch.sum.end(), [](float w) { return w > 0; }))
+    weigh_rows({.columns = columns,
+                .many_x = along_x.slot.size(),
+                .many_y = along_y.slot.size(),
+                .many_z = along_z.slot.size(),
+                .square_x = along_x.square.data(),
+                .square_y = along_y.square.data(),
+                .square_z = along_z.square.data(),
+                .column_x = along_x.is_plain ? nullptr : along_x.slot.data(),
+                .row_y = along_y.slot.data(),
+                .row_z = along_z.slot.data()},
+               rows, scratch.sum.data(), scratch.fate.data());
   if (!surface_.is_empty()) leave_out_hidden(x, reach, columns, scratch);
+  keep(columns, scratch, block);
+}
 
-  if (block.first.size() < block.rows + rows * along_z.cell.size())
-    block.first.resize(2 * (block.rows + rows * along_z.cell.size()));
+/// Adds the weights of the cells that are seen to those that have their shares.
+void Deposition::weigh_seen(std::size_t columns, Scratch& scratch) {
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  const std::size_t rows = along_y.cell.size();
+  for (std::size_t k = 0; k < along_z.slot.size(); ++k)
+    for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
+      const float beside = along_y.square[j] + along_z.square[k];
+      if (!(beside < static_cast<float>(sph::support * sph::support))) continue;
+      const Scratch::Seen* seen = scratch.seen.data() + k * along_x.slot.size();
+      for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
+        if (!seen[i]) continue;
+        const std::size_t row = along_y.slot[j] + rows * seen[i]->z;
+        scratch.fate[row] = RowFate::kept;
+        scratch.sum[seen[i]->x + columns * row] += weight_at(beside + along_x.square[i]);
+      }
+    }
+}
+
+/// Appends the rows of cells that have weights; those beyond open faces count for their sum alone.
+void Deposition::keep(std::size_t columns, Scratch& scratch, Block& block) const {
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  constexpr int left = Scratch::Along::left;
+  const std::size_t rows = along_y.cell.size(), all_rows = scratch.fate.size();
+  if (block.first.size() < block.rows + all_rows) block.first.resize(2 * (block.rows + all_rows));
   if (block.weight.size() < block.weights + scratch.sum.size())
     block.weight.resize(2 * (block.weights + scratch.sum.size()));
-  const bool loses = along_x.cell.back() == Scratch::Along::left;
-  double total = 0;
+  const std::size_t first_row = block.rows;
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
     for (std::size_t j = 0; j < rows; ++j) {
-      float* kept = block.weight.data() + block.weights;
-      const double of_row = round_row(columns, sum + columns * (j + rows * k), kept);
-      total += of_row;
-      if (!(of_row > 0) || along_y.cell[j] == Scratch::Along::left || along_z.cell[k] == Scratch::Along::left) continue;
-      if (loses) kept[along_x.cell.size() - 1] = 0;
-      block.first[block.rows++] =
-          static_cast<std::uint32_t>(grid_.index(along_x.cell.front(), along_y.cell[j], along_z.cell[k]));
-      block.weights += columns;
+      RowFate& fate = scratch.fate[j + rows * k];
+      if (fate == RowFate::empty) continue;
+      if (along_y.cell[j] == left || along_z.cell[k] == left)
+        fate = RowFate::lost;
+      else
+        block.first[block.rows++] =
+            static_cast<std::uint32_t>(grid_.index(along_x.cell.front(), along_y.cell[j], along_z.cell[k]));
     }
+  float* kept = block.weight.data() + block.weights;
+  const double total = keep_rows(all_rows, columns, scratch.fate.data(), scratch.sum.data(), kept);
+  const std::size_t weights = columns * (block.rows - first_row);
+  if (along_x.cell.back() == left)
+    for (std::size_t w = along_x.cell.size() - 1; w < weights; w += columns) kept[w] = 0;
+  block.weights += weights;
   block.particle.push_back({.rows = block.rows, .columns = columns, .per_total = 1 / total});
 }
 
@@ -233,7 +286,7 @@ void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t co
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
     for (std::size_t j = 0; j < along_y.cell.size(); ++j)
       for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
-        double& weight = scratch.sum[i + columns * (j + along_y.cell.size() * k)];
+        float& weight = scratch.sum[i + columns * (j + along_y.cell.size() * k)];
         const bool left = along_x.cell[i] == Scratch::Along::left || along_y.cell[j] == Scratch::Along::left ||
                           along_z.cell[k] == Scratch::Along::left;
         if (!(weight > 0) || left) continue;

@@ -59,6 +59,8 @@ class Deposition {
   struct Scratch;
   void find_weights(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
   void find_seen(const Vector3& position, Scratch& scratch) const;
+  static void weigh_seen(std::size_t columns, Scratch& scratch);
+  void keep(std::size_t columns, Scratch& scratch, Block& block) const;
   void leave_out_hidden(const Vector3& position, double reach, std::size_t columns, Scratch& scratch) const;
   template <class Body>
   void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
@@ -66,6 +68,7 @@ class Deposition {
   Grid grid_;
   const Domain& domain_;
   const Surface& surface_;
+  std::array<bool, 3> is_mirrored_{};  // along each axis: neither end of the box is open or periodic
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
 };
