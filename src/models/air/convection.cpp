@@ -56,8 +56,8 @@ TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double per_width, co
 
 /// The same of all three axes, where force is 0.
 TALUS_CLONES void subtract_differences(std::ptrdiff_t count, const Vector3& per_width, const double* x,
-                                       const double* y_in, const double* y_out, const double* z_in,
-                                       const double* z_out, double* __restrict force) {
+                                       const double* y_in, const double* y_out, const double* z_in, const double* z_out,
+                                       double* __restrict force) {
   const Vector3 per = per_width;
   for (std::ptrdiff_t f = 0; f < count; ++f)
     force[f] = 0 - per.x * (x[f + 1] - x[f]) - per.y * (y_out[f] - y_in[f]) - per.z * (z_out[f] - z_in[f]);

@@ -49,7 +49,7 @@ class Convection {
     int axis_;
     double upwind_;
     Fluxes along_x_;
-    std::array<Fluxes, 2> along_y_;    // of the row and of that after it, in turn
+    std::array<Fluxes, 2> along_y_;               // of the row and of that after it, in turn
     std::vector<std::array<Fluxes, 2>> along_z_;  // of each row of a plane, and of that above it
     std::vector<double> force_;
   };

@@ -126,34 +126,33 @@ void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
                     std::vector<double>(static_cast<std::size_t>(apertures_.faces(axis, 0)))};
     };
     // Row by row, so that what one loop finds is at hand for the next.
-    for_each_row(
-        team, grid, apertures_.faces(axis), make,
-        [&](Forces& forces, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-          const std::size_t row = grid.row(j, k);
-          const DistinctRows& open = apertures_.rows.open[a];
-          if (open.is_zero(row)) return close_row(axis, begin, end);
-          const double *convection = forces.convection.force(j, k, begin), *viscous = forces.viscous.data();
-          if (!implicit_)
-            viscosity_.find_divergence_of_row(axis, row, begin, static_cast<int>(end - begin), stream_.velocity,
-                                              forces.viscous.data());
-          for_each_run_of_row(apertures_, axis, j, k, begin, end, [&](const FaceRun& run) {
-            const auto from = [&](auto& field) { return field[a].data() + run.begin; };
-            const double* drag = drag_.data() + run.begin;
-            find_decay_of_row(run.end - run.begin, dt / rho, drag + run.before, drag + run.here, from(void_fraction_),
-                              from(decay_), from(mean_));
-            predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
-                        (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
-                        {.open = open.at(row) + (run.begin - begin),
-                         .void_fraction = from(void_fraction_),
-                         .momentum = from(state.momentum),
-                         .grain_velocity = from(grain_velocity_),
-                         .convection = convection + (run.begin - begin),
-                         .viscous = viscous + (run.begin - begin),
-                         .decay = from(decay_),
-                         .mean = from(mean_)},
-                        from(after_drag_), from(predicted_), from(conductance_));
-          });
-        });
+    for_each_row(team, grid, apertures_.faces(axis), make,
+                 [&](Forces& forces, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   const std::size_t row = grid.row(j, k);
+                   const DistinctRows& open = apertures_.rows.open[a];
+                   if (open.is_zero(row)) return close_row(axis, begin, end);
+                   const double *convection = forces.convection.force(j, k, begin), *viscous = forces.viscous.data();
+                   if (!implicit_)
+                     viscosity_.find_divergence_of_row(axis, row, begin, static_cast<int>(end - begin),
+                                                       stream_.velocity, forces.viscous.data());
+                   for_each_run_of_row(apertures_, axis, j, k, begin, end, [&](const FaceRun& run) {
+                     const auto from = [&](auto& field) { return field[a].data() + run.begin; };
+                     const double* drag = drag_.data() + run.begin;
+                     find_decay_of_row(run.end - run.begin, dt / rho, drag + run.before, drag + run.here,
+                                       from(void_fraction_), from(decay_), from(mean_));
+                     predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
+                                 (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
+                                 {.open = open.at(row) + (run.begin - begin),
+                                  .void_fraction = from(void_fraction_),
+                                  .momentum = from(state.momentum),
+                                  .grain_velocity = from(grain_velocity_),
+                                  .convection = convection + (run.begin - begin),
+                                  .viscous = viscous + (run.begin - begin),
+                                  .decay = from(decay_),
+                                  .mean = from(mean_)},
+                                 from(after_drag_), from(predicted_), from(conductance_));
+                   });
+                 });
   }
   std::swap(stream_.velocity, predicted_);
   if (implicit_) {
@@ -164,7 +163,7 @@ void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
     viscosity_.advance_implicitly(team, start_, mean_, parameters_.viscosity / rho * dt, stream_.velocity);
     add_pressure(team, -dt, state.pressure);
   }
-  project(team, dt, state.pressure);
+  project(team, dt, state);
   fill_ghosts(state.pressure);
 }
 
@@ -211,6 +210,7 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
     apertures_.wrap(state.momentum[a]);
     state.momentum_before[a] = state.momentum[a];
   }
+  state.pressure_before = state.pressure;
 }
 
 }  // namespace talus::air

@@ -62,6 +62,9 @@ class AirFlow {
   /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver.
   double largest_divergence(const Solids& solids, const AirState& state);
 
+  /// The cells from `begin` on in a row along x.
+  CellRow cells_from(std::ptrdiff_t begin, const Solids& solids, const FaceField& velocity) const;
+
   /// Of the last step: iterations of the pressure; whether viscosity was implicit.
   int iterations() const { return iterations_; }
   bool is_viscosity_implicit() const { return implicit_; }
@@ -71,7 +74,6 @@ class AirFlow {
   void set_solids(ThreadTeam& team, const Solids& solids);
   void check_fractions(ThreadTeam& team, const CellField& fraction) const;
   void find_solids(const Solids& solids, int axis, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end);
-  CellRow cells_from(std::ptrdiff_t begin, const Solids& solids, const FaceField& velocity) const;
   void measure_drag_of_row(std::ptrdiff_t begin, const CellRow& row);
   Rates rates(std::ptrdiff_t begin, std::ptrdiff_t count, const CellRow& row) const;
   void drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
@@ -84,7 +86,7 @@ class AirFlow {
   const Finished& finish_faces(Finished& kept, double dt, const AirState& state, int axis, std::size_t row,
                                std::ptrdiff_t begin, int count) const;
   double find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity);
-  void project(ThreadTeam& team, double dt, CellField& pressure);
+  void project(ThreadTeam& team, double dt, AirState& state);
   void find_storage(ThreadTeam& team, double dt);
   void fill_ghosts(CellField& pressure) const;
   /// 1 if the pressure gradient acts on the grains by their volume fraction, 0 in model B.
@@ -106,7 +108,7 @@ class AirFlow {
   FaceField start_;      // of the implicit viscosity
   FaceField conductance_;
   CellField source_;
-  std::vector<double> largest_flow_;                         // of each row of cells
+  std::vector<double> largest_flow_;  // of each row of cells
   std::vector<Rates> largest_of_row_;
   CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;

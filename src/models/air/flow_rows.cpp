@@ -21,6 +21,15 @@ TALUS_CLONES void extrapolate_row(std::ptrdiff_t count, double share, double rho
   }
 }
 
+TALUS_CLONES void lead_on_row(std::ptrdiff_t count, double ratio, double* __restrict pressure,
+                              double* __restrict before) {
+  for (std::ptrdiff_t c = 0; c < count; ++c) {
+    const double last = pressure[c];
+    pressure[c] = last + ratio * (last - before[c]);
+    before[c] = last;
+  }
+}
+
 TALUS_CLONES void predict_row(std::ptrdiff_t count, double dt, double rho, double viscosity, double grains_share,
                               double per_pressure, const StageRow& given, double* __restrict after_drag,
                               double* __restrict velocity, double* __restrict conductance) {
@@ -133,6 +142,11 @@ TALUS_INLINE Part positive_part(std::ptrdiff_t count, const double* one, const d
   return part;
 }
 
+/// Velocity of the air against the grains' in the centre of cell c, along one axis.
+TALUS_INLINE double slip_of(const CellRow& row, int axis, std::ptrdiff_t c, double per_solid) {
+  return 0.5 * (row.velocity[axis][c] + row.velocity[axis][c + row.next[axis]]) - per_solid * row.flux[axis][c];
+}
+
 template <coupling::DragLaw law>
 TALUS_INLINE void find_drag(Part part, const coupling::DragMedium& given_medium, const CellRow& given,
                             double* __restrict drag) {
@@ -140,10 +154,8 @@ TALUS_INLINE void find_drag(Part part, const coupling::DragMedium& given_medium,
   const coupling::DragMedium medium = given_medium;
   for (std::ptrdiff_t c = part.begin; c < part.end; ++c) {
     const double s = row.fraction[c], is_solid = s > 0 ? 1.0 : 0.0, per_solid = is_solid / (s + (1 - is_solid));
-    const auto slip = [&](int a) {
-      return 0.5 * (row.velocity[a][c] + row.velocity[a][c + row.next[a]]) - per_solid * row.flux[a][c];
-    };
-    const double x = slip(0), y = slip(1), z = slip(2);
+    const double x = slip_of(row, 0, c, per_solid), y = slip_of(row, 1, c, per_solid),
+                 z = slip_of(row, 2, c, per_solid);
     drag[c] = coupling::drag_coefficient(law, medium, s, std::sqrt((x * x + y * y) + z * z));
   }
 }
@@ -161,6 +173,20 @@ TALUS_CLONES void find_drag_of_row(std::ptrdiff_t count, coupling::DragLaw law, 
     find_drag<DragLaw::schiller_naumann_umekage_yuu>(part, medium, row, drag);
 }
 
+TALUS_CLONES void find_slip_of_row(std::ptrdiff_t count, const CellRow& given, double* __restrict x,
+                                   double* __restrict y, double* __restrict z, double* __restrict square) {
+  const CellRow row = given;
+  const Part part = positive_part(count, row.fraction, row.fraction);
+  for (double* out : {x, y, z, square})
+    std::fill(out, out + part.begin, 0.0), std::fill(out + part.end, out + count, 0.0);
+  for (std::ptrdiff_t c = part.begin; c < part.end; ++c) {
+    const double s = row.fraction[c], is_solid = s > 0 ? 1.0 : 0.0, per_solid = is_solid / (s + (1 - is_solid));
+    x[c] = is_solid * slip_of(row, 0, c, per_solid), y[c] = is_solid * slip_of(row, 1, c, per_solid),
+    z[c] = is_solid * slip_of(row, 2, c, per_solid);
+    square[c] = (x[c] * x[c] + y[c] * y[c]) + z[c] * z[c];
+  }
+}
+
 TALUS_CLONES Rates largest_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density,
                                         const CellRow& given, const double* drag) {
   constexpr int lanes = 8;
@@ -174,8 +200,7 @@ TALUS_CLONES Rates largest_rates_of_row(std::ptrdiff_t count, const Vector3& per
     };
     most_crossing = largest(fastest(0) * per.x + fastest(1) * per.y + fastest(2) * per.z, most_crossing);
     const double s = row.fraction[c], phi = 1 - s, is_solid = s > 0 ? 1.0 : 0.0;
-    most_response =
-        largest(is_solid * drag[c] / (phi * phi * (s + (1 - is_solid)) * grain_density), most_response);
+    most_response = largest(is_solid * drag[c] / (phi * phi * (s + (1 - is_solid)) * grain_density), most_response);
   };
   std::ptrdiff_t c = 0;
   for (; c + lanes <= count; c += lanes)

@@ -17,6 +17,10 @@ void extrapolate_row(std::ptrdiff_t count, double share, double rho, const doubl
                      const double* momentum, const double* before, double* __restrict mass,
                      double* __restrict velocity);
 
+/// The pressure of a step as those of the last two lead on to it, and the last in place of the one before.
+/// \param ratio of the steps
+void lead_on_row(std::ptrdiff_t count, double ratio, double* __restrict pressure, double* __restrict before);
+
 /// Input of a step on a row of faces, except for the pressure.
 struct StageRow {
   const double* open;            ///< 1 where air can pass, else 0
@@ -75,8 +79,8 @@ struct ExchangeRow {
 
 /// What the pressure does in add_pressure_row(), the momentum that follows, and what the grains receive.
 /// \param grains_pressure grains_share / distance of the cell centres
-/// \param velocity out: of the air, m/s; \param momentum out: rho Phi u, kg/(m^2 s); \param received out: impulse of drag and pressure per solid volume;
-/// \param drag out: N/m^3
+/// \param velocity out: of the air, m/s; \param momentum out: rho Phi u, kg/(m^2 s); \param received out: impulse of
+/// drag and pressure per solid volume; \param drag out: N/m^3
 void finish_row(std::ptrdiff_t count, double dt, double rho, double factor, double grains_share, double grains_pressure,
                 const ExchangeRow& row, double* __restrict velocity, double* __restrict momentum,
                 double* __restrict received, double* __restrict drag);
@@ -103,6 +107,11 @@ struct CellRow {
 /// beta of a row of cells, at the slip in their centres, kg/(m^3 s).
 void find_drag_of_row(std::ptrdiff_t count, coupling::DragLaw law, const coupling::DragMedium& medium,
                       const CellRow& row, double* __restrict drag);
+
+/// Velocity of the air in the centres of a row of cells against the grains', m/s; 0 where there are none.
+/// \param square out: of its size
+void find_slip_of_row(std::ptrdiff_t count, const CellRow& row, double* __restrict x, double* __restrict y,
+                      double* __restrict z, double* __restrict square);
 
 /// What bounds the step in a cell, 1/s.
 struct Rates {

@@ -47,16 +47,14 @@ void AirFlow::find_solids(const Solids& solids, int axis, int j, int k, std::ptr
 void AirFlow::set_solids(ThreadTeam& team, const Solids& solids) {
   check_fractions(team, solids.fraction);
   for (int axis = 0; axis < 3; ++axis) {
-    for_each_row(team, apertures_.grid, apertures_.faces(axis),
-                 [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-                   find_solids(solids, axis, j, k, begin, end);
-                 });
+    for_each_row(
+        team, apertures_.grid, apertures_.faces(axis),
+        [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) { find_solids(solids, axis, j, k, begin, end); });
     for (FaceField* field : {&solid_fraction_, &void_fraction_, &grain_velocity_})
       apertures_.wrap((*field)[static_cast<std::size_t>(axis)]);
   }
 }
 
-/// The cells of a row, of which the first is at `begin`.
 CellRow AirFlow::cells_from(std::ptrdiff_t begin, const Solids& solids, const FaceField& velocity) const {
   CellRow row{.fraction = solids.fraction.data() + begin, .flux = {}, .velocity = {}, .next = {}};
   for (int axis = 0; axis < 3; ++axis) {

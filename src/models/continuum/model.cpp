@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "models/continuum/regime.hpp"
 
@@ -75,41 +76,55 @@ RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions,
           unlimited && over > 1};
 }
 
+// Largest numbers and sums over the cells go on in several places in turn, so that one does not wait for the last.
+constexpr int turns = 8;
+template <class Number>
+using InTurn = std::array<Number, turns>;
+
+/// Calls body(cell, turn).
 template <class Body>
 void for_each_air_cell(const AirAround& air, Body&& body) {
   for (int k = 0; k < air.grid.count[2]; ++k)
-    for (int j = 0; j < air.grid.count[1]; ++j)
-      for (int i = 0; i < air.grid.count[0]; ++i) body(air.grid.index(i, j, k));
+    for (int j = 0; j < air.grid.count[1]; ++j) {
+      const std::size_t begin = air.grid.index(0, j, k), end = begin + static_cast<std::size_t>(air.grid.count[0]);
+      std::size_t c = begin;
+      for (; c + turns <= end; c += turns)
+        for (std::size_t n = 0; n < turns; ++n) body(c + n, n);
+      for (; c < end; ++c) body(c, 0);
+    }
 }
 
 double largest_air_speed(const AirAround& air) {
-  double square = 0;
-  for_each_air_cell(air, [&](std::size_t c) {
+  InTurn<double> square{};
+  for_each_air_cell(air, [&](std::size_t c, std::size_t n) {
     Vector3 u;
     for (int axis = 0; axis < 3; ++axis) u[axis] = air.flow.cell_velocity(air.grid, axis, c);
-    square = std::max(square, dot(u, u));
+    const double here = dot(u, u);
+    square[n] = here > square[n] ? here : square[n];
   });
-  return std::sqrt(square);
+  return std::sqrt(*std::max_element(square.begin(), square.end()));
 }
 
 struct PressureRange {
-  double least = std::numeric_limits<double>::infinity(), most = -least;
+  double least, most;
 };
 PressureRange pressure_range(const AirAround& air) {
-  PressureRange range;
-  for_each_air_cell(air, [&](std::size_t c) {
-    range.least = std::min(range.least, air.flow.pressure[c]);
-    range.most = std::max(range.most, air.flow.pressure[c]);
+  InTurn<double> least, most;
+  least.fill(std::numeric_limits<double>::infinity()), most.fill(-std::numeric_limits<double>::infinity());
+  for_each_air_cell(air, [&](std::size_t c, std::size_t n) {
+    const double p = air.flow.pressure[c];
+    least[n] = p < least[n] ? p : least[n];
+    most[n] = p > most[n] ? p : most[n];
   });
-  return range;
+  return {*std::min_element(least.begin(), least.end()), *std::max_element(most.begin(), most.end())};
 }
 
 /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
 /// continuity lacks, since what one lacks another has too much.
 double air_imbalance(const AirAround& air) {
-  double sum = 0;
-  for_each_air_cell(air, [&](std::size_t c) { sum += std::abs(air.excess[c]); });
-  return 0.5 * sum * air.grid.volume();
+  InTurn<double> sum{};
+  for_each_air_cell(air, [&](std::size_t c, std::size_t n) { sum[n] += std::abs(air.excess[c]); });
+  return 0.5 * std::accumulate(sum.begin(), sum.end(), 0.0) * air.grid.volume();
 }
 
 double solid_volume(const Parameters& p, const State& s) {
@@ -231,7 +246,7 @@ std::optional<GridSnapshot> Continuum::grid() const {
                         .columns = {}};
   std::vector<Vector3> velocity, grains, drag;
   std::vector<double> pressure, fraction;
-  for_each_air_cell(air, [&](std::size_t c) {
+  for_each_air_cell(air, [&](std::size_t c, std::size_t) {
     const double solid = air.solids.fraction[c];
     Vector3 u, v, s;
     for (int axis = 0; axis < 3; ++axis) {

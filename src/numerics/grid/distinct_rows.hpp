@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A field of a grid that hardly varies, as its distinct rows along x: most rows of what walls and boundaries leave open
-/// are alike, so that a loop over rows finds them in the nearest cache.
+/// A field of a grid that hardly varies, as its distinct rows along x: most rows of what walls and boundaries leave
+/// open are alike, so that a loop over rows finds them in the nearest cache.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class DistinctRows {
  private:
   std::size_t length_ = 1;
   std::vector<double> numbers_;
-  std::vector<std::size_t> start_;                 // of each row, in `numbers_`, past the ghosts
+  std::vector<std::size_t> start_;                   // of each row, in `numbers_`, past the ghosts
   std::size_t zero_ = static_cast<std::size_t>(-1);  // start of the row of zeros
 };
 

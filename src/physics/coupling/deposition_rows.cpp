@@ -3,6 +3,7 @@
 #pragma GCC diagnostic ignored "-Wpsabi"
 #include "physics/coupling/deposition_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -86,6 +87,14 @@ TALUS_CLONES double keep_rows(std::size_t rows, std::size_t columns, const RowFa
   return total_of(total);
 }
 
+TALUS_CLONES void find_largest(std::size_t count, const double* number, double* __restrict largest) {
+  for (std::size_t begin = 0; begin < count; begin += row_lanes) {
+    double most = 0;
+    for (std::size_t i = begin; i < std::min(begin + row_lanes, count); ++i) most = number[i] > most ? number[i] : most;
+    largest[begin / row_lanes] = most;
+  }
+}
+
 TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
                            double amount, double other_amount, double* __restrict field, double* __restrict other) {
   for (std::size_t r = 0; r < rows; ++r)
@@ -96,6 +105,21 @@ TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uin
       const Doubles share = __builtin_convertvector(kept, Doubles);
       one += amount * share, two += other_amount * share;
       store(one, field + i), store(two, other + i);
+    }
+}
+
+TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
+                           const double* amount, const std::array<double*, 4>& field) {
+  double* __restrict a = field[0], * __restrict b = field[1], * __restrict c = field[2], * __restrict d = field[3];
+  const double of_a = amount[0], of_b = amount[1], of_c = amount[2], of_d = amount[3];
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t i = first[r]; i < first[r] + columns; i += row_lanes, weight += row_lanes) {
+      Floats kept;
+      Doubles x, y, z, w;
+      load(weight, kept), load(a + i, x), load(b + i, y), load(c + i, z), load(d + i, w);
+      const Doubles share = __builtin_convertvector(kept, Doubles);
+      x += of_a * share, y += of_b * share, z += of_c * share, w += of_d * share;
+      store(x, a + i), store(y, b + i), store(z, c + i), store(w, d + i);
     }
 }
 

@@ -4,6 +4,7 @@
 /// their sums are interleaved, so that vectors of any width add in the same order.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -36,9 +37,16 @@ float weight_at(float square);
 /// Copies the rows that are kept, one after another. \returns the sum of their weights and of those that are lost
 double keep_rows(std::size_t rows, std::size_t columns, const RowFate* fate, const float* sum, float* __restrict kept);
 
+/// The largest of each `row_lanes` numbers, one after another, at least 0.
+void find_largest(std::size_t count, const double* number, double* __restrict largest);
+
 /// Adds two amounts to two fields by weight. \param first cell of each row
 void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight, double amount,
               double other_amount, double* __restrict field, double* __restrict other);
+
+/// The same of four.
+void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
+              const double* amount, const std::array<double*, 4>& field);
 
 /// Sums of three fields by weight.
 Vector3 sum_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,

@@ -59,8 +59,7 @@ TALUS_INLINE double ergun_wen_yu(const DragMedium& medium, double solid_fraction
   // 3/4 C_d Phi (1 - Phi) rho |u - u_p| Phi^-2.65/D with C_d = 24/Re (1 + 0.15 Re^0.687) to Re = 1000, 0.44 beyond, at
   // the Reynolds number of the superficial velocity.
   const double reynolds = phi * grain_reynolds(medium, slip), weighted = solid_fraction * power_of(phi, -2.65);
-  const double slow =
-      18 * medium.viscosity / (d * d * medium.slip_factor) * weighted * schiller_naumann(reynolds);
+  const double slow = 18 * medium.viscosity / (d * d * medium.slip_factor) * weighted * schiller_naumann(reynolds);
   const double fast = 0.75 * 0.44 * medium.density / d * phi * weighted * slip;
   const double dilute = reynolds < 1000 ? slow : fast;
   return phi < 0.8 ? dense : dilute;
