@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// exp(-x) for x >= 0, relative error below 4e-16; from x = 700 on exp(-700), 1e-304. With x = n log 2 + r, |r| <=
+/// exp(-x) for x >= -700, relative error below 4e-16; from x = 700 on exp(-700), 1e-304. With x = n log 2 + r, |r| <=
 /// log(2)/2, it is 2^-n times the series of exp(-r) to r^13/13! (the next term is below 5e-18).
 TALUS_INLINE double exp_of_negative(double x) {
   constexpr double rounding = 0x1.8p52;  // to add and subtract it rounds to a whole number, in the lowest bits

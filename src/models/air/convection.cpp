@@ -2,6 +2,7 @@
 #include "models/air/convection.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/clones.hpp"
 #include "numerics/grid/loops.hpp"
@@ -28,29 +29,38 @@ std::size_t plus(std::size_t index, std::ptrdiff_t by) {
 // Loops over rows of faces: separate functions so that the compiler vectorises them.
 
 /// A row of faces and what flows between them and those beside them along a second axis.
-struct ForceRow {
+struct FluxRow {
   const double* velocity;        ///< m/s
   const double* mass;            ///< through the faces of the second axis, kg/(m^2 s)
   const double* wide;            ///< 1 where four velocities may be used
   std::ptrdiff_t along, across;  ///< to the next face along the axis of the velocity, and along the second
 };
 
-/// force -= per_width times the difference of what flows carry to the next face and from the one before.
-TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double per_width, double upwind, const ForceRow& given,
-                                      double* __restrict force) {
-  const ForceRow row = given;
-  const std::ptrdiff_t along = row.along, across = row.across;
-  const double *u = row.velocity, *u_ll = u - 2 * across, *u_l = u - across, *u_r = u + across, *u_rr = u + 2 * across;
-  const double *mass = row.mass, *mass_low = mass - along, *mass_r = mass + across, *mass_low_r = mass_r - along;
-  const double *wide = row.wide, *wide_r = wide + across;
+/// What flows carry to each face from the one before it along the second axis, N/m^2.
+TALUS_CLONES void find_fluxes(std::ptrdiff_t count, double upwind, const FluxRow& given, double* __restrict flux) {
+  const FluxRow row = given;
+  const double *u = row.velocity, *u_ll = u - 2 * row.across, *u_l = u - row.across, *u_r = u + row.across;
+  const double *mass = row.mass, *mass_low = mass - row.along, *wide = row.wide;
   for (std::ptrdiff_t f = 0; f < count; ++f) {
-    const double in = 0.5 * (mass[f] + mass_low[f]), out = 0.5 * (mass_r[f] + mass_low_r[f]);
-    const double low =
+    const double in = 0.5 * (mass[f] + mass_low[f]);
+    flux[f] =
         convected_momentum(in, advected_velocity(u_ll[f], u_l[f], u[f], u_r[f], wide[f], in > 0 ? 1.0 : -1.0, upwind));
-    const double high = convected_momentum(
-        out, advected_velocity(u_l[f], u[f], u_r[f], u_rr[f], wide_r[f], out > 0 ? 1.0 : -1.0, upwind));
-    force[f] -= per_width * (high - low);
   }
+}
+
+/// force -= per_width times the difference of what flows to the next face and from the one before.
+TALUS_CLONES void subtract_difference(std::ptrdiff_t count, double per_width, const double* in, const double* out,
+                                      double* __restrict force) {
+  for (std::ptrdiff_t f = 0; f < count; ++f) force[f] -= per_width * (out[f] - in[f]);
+}
+
+/// The same of all three axes, where force is 0.
+TALUS_CLONES void subtract_differences(std::ptrdiff_t count, const Vector3& per_width, const double* x,
+                                       const double* y_in, const double* y_out, const double* z_in, const double* z_out,
+                                       double* __restrict force) {
+  const Vector3 per = per_width;
+  for (std::ptrdiff_t f = 0; f < count; ++f)
+    force[f] = 0 - per.x * (x[f + 1] - x[f]) - per.y * (y_out[f] - y_in[f]) - per.z * (z_out[f] - z_in[f]);
 }
 
 }  // namespace
@@ -82,52 +92,84 @@ void Convection::fill_ghosts(Stream& stream) const {
   for (std::size_t a = 0; a < 3; ++a) apertures_.wrap(stream.velocity[a]), apertures_.wrap(stream.mass[a]);
 }
 
-void Convection::find_force_of_row(const Stream& stream, int axis, int j, int k, std::ptrdiff_t begin, double upwind,
-                                   FaceField& force) const {
-  const Grid& grid = apertures_.grid;
-  const auto a = static_cast<std::size_t>(axis);
-  const int count = apertures_.faces(axis)[0];
-  const double* u = stream.velocity[a].data();
-  const std::ptrdiff_t along = grid.stride(axis);
-  const auto find = [&](std::ptrdiff_t from, std::ptrdiff_t to, bool at_end) {
-    double* out = force[a].data();
-    std::fill(out + from, out + to, 0.0);
-    for (int second = 0; second < 3; ++second) {
-      if (second == axis && at_end) continue;
-      const auto b = static_cast<std::size_t>(second);
-      subtract_difference(to - from, 1 / grid.spacing[second], upwind,
-                          {.velocity = u + from,
-                           .mass = stream.mass[b].data() + from,
-                           .wide = apertures_.wide[a][b].data() + from,
-                           .along = along,
-                           .across = grid.stride(second)},
-                          out + from);
-    }
-  };
-  // The volume of a face at an open end is half a cell, from the end inwards.
-  const auto find_at_end = [&](std::ptrdiff_t from, std::ptrdiff_t to, int place) {
-    find(from, to, true);
-    const std::ptrdiff_t outward = place == 0 ? -along : along, inward = place == 0 ? along : 0;
-    const double factor = (place == 0 ? 2 : -2) / grid.spacing[axis];
-    const double *mass = stream.mass[a].data(), *wide = apertures_.wide[a][a].data();
-    double* out = force[a].data();
-    for (auto f = from; f < to; ++f) {
-      const auto at = f + inward;
-      const double through = 0.5 * (mass[at] + mass[at - along]);
-      const double flux =
-          convected_momentum(through, advected_velocity(u[at - 2 * along], u[at - along], u[at], u[at + along],
-                                                        wide[at], through > 0 ? 1.0 : -1.0, upwind));
-      out[f] -= factor * (flux - convected_momentum(mass[f], 0.5 * (u[f] + u[f + outward])));
-    }
-  };
-  if (axis > 0) {
-    const int place = axis == 1 ? j : k;
-    return apertures_.is_end(axis, place) ? find_at_end(begin, begin + count, place)
-                                          : find(begin, begin + count, false);
+Convection::Rows::Rows(const FaceApertures& apertures, const Stream& stream, int axis, double upwind)
+    : apertures_(apertures), stream_(stream), axis_(axis), upwind_(upwind) {
+  const std::array<int, 3> faces = apertures.faces(axis);
+  const auto count = static_cast<std::size_t>(faces[0]);
+  force_.resize(count), along_x_.flux.resize(count + 1);
+  along_z_.resize(static_cast<std::size_t>(faces[1]));
+  for (Fluxes& kept : along_y_) kept.flux.resize(count);
+  for (auto& pair : along_z_)
+    for (Fluxes& kept : pair) kept.flux.resize(count);
+}
+
+const double* Convection::Rows::fluxes(Fluxes& kept, int second, std::size_t row, std::ptrdiff_t begin,
+                                       int count) const {
+  if (kept.begin != begin) {
+    const auto a = static_cast<std::size_t>(axis_), b = static_cast<std::size_t>(second);
+    find_fluxes(count, upwind_,
+                {.velocity = stream_.velocity[a].data() + begin,
+                 .mass = stream_.mass[b].data() + begin,
+                 .wide = apertures_.rows.wide[a][b].at(row),
+                 .along = apertures_.grid.stride(axis_),
+                 .across = apertures_.grid.stride(second)},
+                kept.flux.data());
+    kept.begin = begin;
   }
-  const std::ptrdiff_t end = begin + count, skipped = apertures_.is_end(0, 0) ? 1 : 0;
-  if (skipped == 1) find_at_end(begin, begin + 1, 0), find_at_end(end - 1, end, count - 1);
-  find(begin + skipped, end - skipped, false);
+  return kept.flux.data();
+}
+
+const double* Convection::Rows::force(int j, int k, std::ptrdiff_t begin) {
+  const Grid& grid = apertures_.grid;
+  const int count = apertures_.faces(axis_)[0];
+  const std::size_t row = grid.row(j, k);
+  const int place = axis_ == 1 ? j : k;
+  const bool is_end = axis_ > 0 && apertures_.is_end(axis_, place);
+  const double* x = fluxes(along_x_, 0, row, begin, count + 1);
+  // The fluxes to the next row are those from the one before it, when its turn comes.
+  const auto two = [&](std::array<Fluxes, 2>& kept, int second) -> std::array<const double*, 2> {
+    if (is_end && second == axis_) return {};
+    if (kept[1].begin == begin) std::swap(kept[0], kept[1]);
+    return {fluxes(kept[0], second, row, begin, count),
+            fluxes(kept[1], second, row + grid.row_stride(second), begin + grid.stride(second), count)};
+  };
+  const auto [y_in, y_out] = two(along_y_, 1);
+  const auto [z_in, z_out] = two(along_z_[static_cast<std::size_t>(j)], 2);
+  const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
+  double* force = force_.data();
+  if (!is_end) subtract_differences(count, per_width, x, y_in, y_out, z_in, z_out, force);
+  // At an end of the box the fluxes along its axis are others.
+  const auto along_others = [&](int from, int to) {
+    std::fill(force + from, force + to, 0.0);
+    if (axis_ != 0) subtract_difference(to - from, per_width.x, x + from, x + from + 1, force + from);
+    if (axis_ != 1) subtract_difference(to - from, per_width.y, y_in + from, y_out + from, force + from);
+    if (axis_ != 2) subtract_difference(to - from, per_width.z, z_in + from, z_out + from, force + from);
+  };
+  const auto at_end = [&](int from, int to, int end) {
+    along_others(from, to);
+    find_force_at_end(end, begin + from, to - from, force + from);
+  };
+  if (is_end) at_end(0, count, place);
+  if (axis_ == 0 && apertures_.is_end(0, 0)) at_end(0, 1, 0), at_end(count - 1, count, count - 1);
+  return force;
+}
+
+/// The volume of a face at an open end is half a cell, from the end inwards.
+void Convection::Rows::find_force_at_end(int place, std::ptrdiff_t from, int count, double* force) const {
+  const Grid& grid = apertures_.grid;
+  const auto a = static_cast<std::size_t>(axis_);
+  const std::ptrdiff_t along = grid.stride(axis_);
+  const double *u = stream_.velocity[a].data(), *mass = stream_.mass[a].data(), *wide = apertures_.wide[a][a].data();
+  const std::ptrdiff_t outward = place == 0 ? -along : along, inward = place == 0 ? along : 0;
+  const double factor = (place == 0 ? 2 : -2) / grid.spacing[axis_];
+  for (auto f = from; f < from + count; ++f, ++force) {
+    const auto at = f + inward;
+    const double through = 0.5 * (mass[at] + mass[at - along]);
+    const double flux =
+        convected_momentum(through, advected_velocity(u[at - 2 * along], u[at - along], u[at], u[at + along], wide[at],
+                                                      through > 0 ? 1.0 : -1.0, upwind_));
+    *force -= factor * (flux - convected_momentum(mass[f], 0.5 * (u[f] + u[f + outward])));
+  }
 }
 
 }  // namespace talus::air

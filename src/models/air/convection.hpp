@@ -2,7 +2,10 @@
 /// Convection of the velocities of the air on the faces of a grid.
 #pragma once
 
-#include "base/parallel.hpp"
+#include <array>
+#include <cstddef>
+#include <vector>
+
 #include "numerics/grid/face_apertures.hpp"
 
 namespace talus::air {
@@ -21,10 +24,36 @@ class Convection {
   /// enters.
   void fill_ghosts(Stream& stream) const;
 
-  /// force := -div(rho Phi u u), Eq. 18's convection, N/m^3, on the faces of an axis from `begin` on, a row along x;
-  /// conservative. Ghosts must be filled. \param j, k of the row \param upwind 0 central, 1 third-order upwind-biased
-  void find_force_of_row(const Stream& stream, int axis, int j, int k, std::ptrdiff_t begin, double upwind,
-                         FaceField& force) const;
+  /// The forces on rows of faces of an axis, one after another along y, then z: what flows between two of them is found
+  /// once. Ghosts must be filled.
+  class Rows {
+   public:
+    /// \param upwind 0 central, 1 third-order upwind-biased
+    Rows(const FaceApertures& apertures, const Stream& stream, int axis, double upwind);
+
+    /// -div(rho Phi u u), Eq. 18's convection, N/m^3, on the row (j, k), which begins at `begin`; conservative.
+    /// \returns one number for each face of the row, until the next call
+    const double* force(int j, int k, std::ptrdiff_t begin);
+
+   private:
+    /// What flows along an axis between a row of faces and the row before it, or between faces of a row.
+    struct Fluxes {
+      std::ptrdiff_t begin = -1;  ///< of the row
+      std::vector<double> flux;   ///< N/m^2
+    };
+    const double* fluxes(Fluxes& kept, int second, std::size_t row, std::ptrdiff_t begin, int count) const;
+    void find_force_at_end(int place, std::ptrdiff_t from, int count, double* force) const;
+
+    const FaceApertures& apertures_;
+    const Stream& stream_;
+    int axis_;
+    double upwind_;
+    Fluxes along_x_;
+    std::array<Fluxes, 2> along_y_;               // of the row and of that after it, in turn
+    std::vector<std::array<Fluxes, 2>> along_z_;  // of each row of a plane, and of that above it
+    std::vector<double> force_;
+  };
+  Rows rows(const Stream& stream, int axis, double upwind) const { return {apertures_, stream, axis, upwind}; }
 
  private:
   const FaceApertures& apertures_;

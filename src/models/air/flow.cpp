@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "models/air/flow_rows.hpp"
 #include "numerics/grid/loops.hpp"
 #include "physics/air/momentum.hpp"
 
@@ -32,14 +31,15 @@ Parameters with_moving_walls(Parameters p) {
 
 AirFlow::AirFlow(const Grid& grid, const Parameters& parameters, const std::vector<Wall>& walls, const Surface& surface)
     : parameters_(with_moving_walls(parameters)),
+      medium_(parameters_.medium()),
       apertures_(grid, parameters_.boundaries, walls, surface),
       convection_(apertures_),
       viscosity_(apertures_),
       solver_(grid, periodic_axes(parameters.boundaries)),
       drag_(grid.cell_field()),
       source_(drag_) {
-  for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_, &rate_,
-                           &viscous_, &conductance_, &predicted_, &stream_.velocity, &stream_.mass})
+  for (FaceField* field : {&void_fraction_, &solid_fraction_, &grain_velocity_, &decay_, &mean_, &after_drag_,
+                           &conductance_, &predicted_, &stream_.velocity, &stream_.mass})
     *field = grid.face_field();
 }
 
@@ -53,10 +53,7 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   for (int axis = 0; axis < 3; ++axis) stiffness += 4 / (apertures_.grid.spacing[axis] * apertures_.grid.spacing[axis]);
   implicit_ = dt * parameters_.viscosity / parameters_.density() * stiffness > 1;
   iterations_ = 0;
-  set_solids(team, solids);
-
-  extrapolate(team, dt, state);
-  measure_drag(team, solids, stream_.velocity);
+  extrapolate(team, dt, solids, state);
   if (parameters_.compressibility == Compressibility::isothermal) {
     start_pressure_ = state.pressure;
     cell_void_fraction_.resize(solids.fraction.size());
@@ -65,32 +62,42 @@ void AirFlow::advance(ThreadTeam& team, double dt, const Solids& solids, AirStat
   move(team, dt, state);
   finish(team, dt, state, impulse);
   for (std::size_t a = 0; a < 3; ++a) {
-    apertures_.wrap(stream_.velocity[a]), apertures_.wrap(stream_.mass[a]);
-    std::swap(state.velocity[a], stream_.velocity[a]);
+    apertures_.wrap(state.velocity[a]), apertures_.wrap(stream_.mass[a]);
     std::swap(state.momentum_before[a], state.momentum[a]), std::swap(state.momentum[a], stream_.mass[a]);
   }
   state.last_step = dt;
 }
 
-/// Momentum in the middle of the step, from that at its start and at the start of the step before, and the velocity
-/// that it has in the new void fraction.
-void AirFlow::extrapolate(ThreadTeam& team, double dt, const AirState& state) {
+/// The solids on the faces; momentum in the middle of the step, from that at its start and at the start of the step
+/// before, and the velocity that it has in the new void fraction; the drag at that velocity.
+void AirFlow::extrapolate(ThreadTeam& team, double dt, const Solids& solids, const AirState& state) {
+  const Grid& grid = apertures_.grid;
+  check_fractions(team, solids.fraction);
   const double share = state.last_step > 0 ? 0.5 * dt / state.last_step : 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
-    for_each_row(team, apertures_.grid, apertures_.faces(axis),
-                 [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-                   extrapolate_row(end - begin, share, parameters_.density(), void_fraction_[a].data() + begin,
-                                   state.momentum[a].data() + begin, state.momentum_before[a].data() + begin,
-                                   stream_.mass[a].data() + begin, stream_.velocity[a].data() + begin);
-                 });
-    apertures_.wrap(stream_.velocity[a]);
+    for_each_row(team, grid, apertures_.faces(axis), [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      find_solids(solids, axis, j, k, begin, end);
+      extrapolate_row(end - begin, share, parameters_.density(), void_fraction_[a].data() + begin,
+                      state.momentum[a].data() + begin, state.momentum_before[a].data() + begin,
+                      stream_.mass[a].data() + begin, stream_.velocity[a].data() + begin);
+    });
+    for (CellField* field : {&solid_fraction_[a], &void_fraction_[a], &grain_velocity_[a], &stream_.velocity[a]})
+      apertures_.wrap(*field);
   }
+  convection_.fill_ghosts(stream_);
+  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
+    if (!implicit_) viscosity_.find_velocity_divergence_of_row(grid.row(j, k), begin, stream_.velocity);
+    measure_drag_of_row(begin, cells_from(begin, solids, stream_.velocity));
+  });
+  if (!implicit_) viscosity_.wrap_velocity_divergence();
 }
 
 /// What air that does not move does to the grains.
 void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse) {
-  measure_drag(team, solids, state.velocity);
+  for_each_row(team, apertures_.grid, apertures_.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
+    measure_drag_of_row(begin, cells_from(begin, solids, state.velocity));
+  });
   for_each_cell(team, apertures_.grid, [&](int, int, int, std::ptrdiff_t place) {
     const auto c = static_cast<std::size_t>(place);
     const double s = solids.fraction[c];
@@ -107,47 +114,67 @@ void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirS
 void AirFlow::move(ThreadTeam& team, double dt, AirState& state) {
   const Grid& grid = apertures_.grid;
   const double rho = parameters_.density(), viscosity = implicit_ ? 0 : parameters_.viscosity;
-  convection_.fill_ghosts(stream_);
-  if (!implicit_) viscosity_.begin(team, stream_.velocity);
+  struct Forces {
+    Convection::Rows convection;
+    std::vector<double> viscous;
+  };
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const double area_over_distance = grid.face_area(axis) / grid.spacing[axis];
-    const auto move_run = [&](const FaceRun& run) {
-      const auto from = [&](auto& field) { return field[a].data() + run.begin; };
-      const double* drag = drag_.data() + run.begin;
-      find_decay_of_row(run.end - run.begin, dt / rho, drag + run.before, drag + run.here, from(void_fraction_),
-                        from(decay_), from(mean_));
-      predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
-                  (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
-                  {.open = from(apertures_.open),
-                   .void_fraction = from(void_fraction_),
-                   .momentum = from(state.momentum),
-                   .grain_velocity = from(grain_velocity_),
-                   .convection = from(rate_),
-                   .viscous = from(viscous_),
-                   .decay = from(decay_),
-                   .mean = from(mean_)},
-                  from(after_drag_), from(predicted_), from(conductance_));
+    const auto make = [&] {
+      return Forces{convection_.rows(stream_, axis, parameters_.upwind),
+                    std::vector<double>(static_cast<std::size_t>(apertures_.faces(axis, 0)))};
     };
     // Row by row, so that what one loop finds is at hand for the next.
-    for_each_row(team, grid, apertures_.faces(axis), [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      convection_.find_force_of_row(stream_, axis, j, k, begin, parameters_.upwind, rate_);
-      if (!implicit_)
-        viscosity_.find_divergence_of_row(axis, begin, static_cast<int>(end - begin), stream_.velocity, viscous_);
-      for_each_run_of_row(apertures_, axis, j, k, begin, end, move_run);
-    });
+    for_each_row(team, grid, apertures_.faces(axis), make,
+                 [&](Forces& forces, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+                   const std::size_t row = grid.row(j, k);
+                   const DistinctRows& open = apertures_.rows.open[a];
+                   if (open.is_zero(row)) return close_row(axis, begin, end);
+                   const double *convection = forces.convection.force(j, k, begin), *viscous = forces.viscous.data();
+                   if (!implicit_)
+                     viscosity_.find_divergence_of_row(axis, row, begin, static_cast<int>(end - begin),
+                                                       stream_.velocity, forces.viscous.data());
+                   for_each_run_of_row(apertures_, axis, j, k, begin, end, [&](const FaceRun& run) {
+                     const auto from = [&](auto& field) { return field[a].data() + run.begin; };
+                     const double* drag = drag_.data() + run.begin;
+                     find_decay_of_row(run.end - run.begin, dt / rho, drag + run.before, drag + run.here,
+                                       from(void_fraction_), from(decay_), from(mean_));
+                     predict_row(run.end - run.begin, dt, rho, viscosity, grains_share(),
+                                 (run.is_end ? 2 : 1) * dt / rho * area_over_distance,
+                                 {.open = open.at(row) + (run.begin - begin),
+                                  .void_fraction = from(void_fraction_),
+                                  .momentum = from(state.momentum),
+                                  .grain_velocity = from(grain_velocity_),
+                                  .convection = convection + (run.begin - begin),
+                                  .viscous = viscous + (run.begin - begin),
+                                  .decay = from(decay_),
+                                  .mean = from(mean_)},
+                                 from(after_drag_), from(predicted_), from(conductance_));
+                   });
+                 });
   }
   std::swap(stream_.velocity, predicted_);
   if (implicit_) {
     // Includes the guessed pressure: viscosity then acts on the final velocity, and a steady flow is exact.
     add_pressure(team, dt, state.pressure);
-    viscous_ = stream_.velocity;
+    start_ = stream_.velocity;
     stream_.velocity = predicted_;  // at the midpoint: a better first guess than the velocity without viscosity
-    viscosity_.advance_implicitly(team, viscous_, mean_, parameters_.viscosity / rho * dt, stream_.velocity);
+    viscosity_.advance_implicitly(team, start_, mean_, parameters_.viscosity / rho * dt, stream_.velocity);
     add_pressure(team, -dt, state.pressure);
   }
-  project(team, dt, state.pressure);
+  project(team, dt, state);
   fill_ghosts(state.pressure);
+}
+
+/// Faces through which nothing passes.
+void AirFlow::close_row(int axis, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  const auto a = static_cast<std::size_t>(axis);
+  const auto fill = [&](FaceField& field, double value) {
+    std::fill(field[a].data() + begin, field[a].data() + end, value);
+  };
+  for (FaceField* field : {&after_drag_, &predicted_, &conductance_}) fill(*field, 0);
+  fill(decay_, 1), fill(mean_, 1);
 }
 
 /// Adds the pressure term over dt to the velocity.
@@ -170,43 +197,6 @@ void AirFlow::add_pressure(ThreadTeam& team, double dt, CellField& pressure) {
   }
 }
 
-/// The pressure acts on the velocity; its momentum; and the impulse of the drag, and in model A of the pressure, on the
-/// solid, per solid volume: first on faces, then as the mean in cells, so that it is distributed to the particles with
-/// the weights by which their volume was deposited.
-/// \param state its momentum is that of the start of the step, its pressure that of the step, with ghosts
-void AirFlow::finish(ThreadTeam& team, double dt, AirState& state, FaceField& impulse) {
-  const Grid& grid = apertures_.grid;
-  const double rho = parameters_.density();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    const std::ptrdiff_t stride = grid.stride(axis);
-    for_each_row(team, grid, apertures_.faces(axis), [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const auto from = [&](auto& field) { return field[a].data() + begin; };
-      const double* high = state.pressure.data() + begin;
-      finish_row(end - begin, dt, rho, dt / (rho * grid.spacing[axis]), grains_share(),
-                 grains_share() / grid.spacing[axis],
-                 {.open = from(apertures_.open),
-                  .void_fraction = from(void_fraction_),
-                  .solid_fraction = from(solid_fraction_),
-                  .grain_velocity = from(grain_velocity_),
-                  .momentum = from(state.momentum),
-                  .decay = from(decay_),
-                  .mean = from(mean_),
-                  .after_drag = from(after_drag_),
-                  .low = high - stride,
-                  .high = high},
-                 from(stream_.velocity), from(stream_.mass), from(rate_), from(viscous_));
-    });
-    apertures_.wrap(rate_[a]);
-    apertures_.wrap(viscous_[a]);
-    for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-      const double *received = rate_[a].data() + begin, *drag = viscous_[a].data() + begin;
-      average_row(end - begin, received, received + stride, impulse[a].data() + begin);
-      average_row(end - begin, drag, drag + stride, state.drag[a].data() + begin);
-    });
-  }
-}
-
 void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
   set_solids(team, solids);
   for (int axis = 0; axis < 3; ++axis) {
@@ -220,6 +210,7 @@ void AirFlow::begin(ThreadTeam& team, const Solids& solids, AirState& state) {
     apertures_.wrap(state.momentum[a]);
     state.momentum_before[a] = state.momentum[a];
   }
+  state.pressure_before = state.pressure;
 }
 
 }  // namespace talus::air

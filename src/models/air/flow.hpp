@@ -21,6 +21,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "models/air/convection.hpp"
+#include "models/air/flow_rows.hpp"
 #include "models/air/parameters.hpp"
 #include "models/air/state.hpp"
 #include "models/air/viscosity.hpp"
@@ -61,28 +62,38 @@ class AirFlow {
   /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver.
   double largest_divergence(const Solids& solids, const AirState& state);
 
+  /// The cells from `begin` on in a row along x.
+  CellRow cells_from(std::ptrdiff_t begin, const Solids& solids, const FaceField& velocity) const;
+
   /// Of the last step: iterations of the pressure; whether viscosity was implicit.
   int iterations() const { return iterations_; }
   bool is_viscosity_implicit() const { return implicit_; }
   const FaceApertures& apertures() const { return apertures_; }
 
  private:
-  struct Rates;
   void set_solids(ThreadTeam& team, const Solids& solids);
-  void measure_drag(ThreadTeam& team, const Solids& solids, const FaceField& velocity);
+  void check_fractions(ThreadTeam& team, const CellField& fraction) const;
+  void find_solids(const Solids& solids, int axis, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end);
+  void measure_drag_of_row(std::ptrdiff_t begin, const CellRow& row);
+  Rates rates(std::ptrdiff_t begin, std::ptrdiff_t count, const CellRow& row) const;
   void drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirState& state, FaceField& impulse);
-  void extrapolate(ThreadTeam& team, double dt, const AirState& state);
+  void extrapolate(ThreadTeam& team, double dt, const Solids& solids, const AirState& state);
   void move(ThreadTeam& team, double dt, AirState& state);
+  void close_row(int axis, std::ptrdiff_t begin, std::ptrdiff_t end);
   void add_pressure(ThreadTeam& team, double dt, CellField& pressure);
+  struct Finished;
   void finish(ThreadTeam& team, double dt, AirState& state, FaceField& impulse);
+  const Finished& finish_faces(Finished& kept, double dt, const AirState& state, int axis, std::size_t row,
+                               std::ptrdiff_t begin, int count) const;
   double find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity);
-  void project(ThreadTeam& team, double dt, CellField& pressure);
+  void project(ThreadTeam& team, double dt, AirState& state);
   void find_storage(ThreadTeam& team, double dt);
   void fill_ghosts(CellField& pressure) const;
   /// 1 if the pressure gradient acts on the grains by their volume fraction, 0 in model B.
   double grains_share() const { return parameters_.formulation == Formulation::model_a ? 1 : 0; }
 
   Parameters parameters_;
+  coupling::DragMedium medium_;
   FaceApertures apertures_;
   Convection convection_;
   Viscosity viscosity_;
@@ -92,11 +103,13 @@ class AirFlow {
 
   FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
   CellField drag_;                                             // beta of cells, kg/(m^3 s)
-  FaceField decay_, mean_, after_drag_, rate_, viscous_;       // of a stage, on faces
+  FaceField decay_, mean_, after_drag_;                        // of a step, on faces
   FaceField predicted_;  // velocity before the pressure; then that of the midpoint
+  FaceField start_;      // of the implicit viscosity
   FaceField conductance_;
   CellField source_;
-  std::vector<double> largest_flow_;                         // of each row of cells
+  std::vector<double> largest_flow_;  // of each row of cells
+  std::vector<Rates> largest_of_row_;
   CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/air/flow_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/clones.hpp"
@@ -17,6 +18,15 @@ TALUS_CLONES void extrapolate_row(std::ptrdiff_t count, double share, double rho
     const double middle = momentum[f] + share * (momentum[f] - before[f]);
     mass[f] = middle;
     velocity[f] = middle / (rho * void_fraction[f]);
+  }
+}
+
+TALUS_CLONES void lead_on_row(std::ptrdiff_t count, double ratio, double* __restrict pressure,
+                              double* __restrict before) {
+  for (std::ptrdiff_t c = 0; c < count; ++c) {
+    const double last = pressure[c];
+    pressure[c] = last + ratio * (last - before[c]);
+    before[c] = last;
   }
 }
 
@@ -52,14 +62,15 @@ TALUS_INLINE double find_source(int count, const VolumeFlowRow& given, double* _
   constexpr int lanes = 8;
   double most[lanes] = {};
   const auto at = [&](int c, double& largest) {
-    const auto flow = [&](const VolumeFlowRow::Axis& axis, std::ptrdiff_t f) {
+    const auto flow = [&](const VolumeFlowRow::Axis& axis, double open, std::ptrdiff_t f) {
       const double of_air = axis.void_fraction[f] * axis.velocity[f];
-      return axis.open[f] * (with_grains ? of_air + axis.solid_fraction[f] * axis.grain_velocity[f] : of_air);
+      return open * (with_grains ? of_air + axis.solid_fraction[f] * axis.grain_velocity[f] : of_air);
     };
+    const auto low = [&](const VolumeFlowRow::Axis& axis) { return flow(axis, axis.open[c], c); };
+    const auto high = [&](const VolumeFlowRow::Axis& axis) { return flow(axis, axis.open_after[c], c + axis.next); };
     const auto& [x, y, z] = row.axis;
-    const double low_x = flow(x, c), low_y = flow(y, c), low_z = flow(z, c);
-    source[c] = -((flow(x, c + x.next) - low_x) * x.area + (flow(y, c + y.next) - low_y) * y.area +
-                  (flow(z, c + z.next) - low_z) * z.area);
+    const double low_x = low(x), low_y = low(y), low_z = low(z);
+    source[c] = -((high(x) - low_x) * x.area + (high(y) - low_y) * y.area + (high(z) - low_z) * z.area);
     const double sum = std::abs(low_x) * x.area + std::abs(low_y) * y.area + std::abs(low_z) * z.area;
     largest = sum > largest ? sum : largest;
   };
@@ -87,7 +98,7 @@ TALUS_CLONES void finish_row(std::ptrdiff_t count, double dt, double rho, double
   for (std::ptrdiff_t f = 0; f < count; ++f) {
     const double phi = row.void_fraction[f], solid = row.solid_fraction[f], difference = row.high[f] - row.low[f];
     const double u =
-        velocity[f] - factor * row.open[f] * row.mean[f] * (pressure_share(phi, grains_share) / phi) * difference;
+        row.velocity[f] - factor * row.open[f] * row.mean[f] * (pressure_share(phi, grains_share) / phi) * difference;
     const double mass = rho * phi;
     velocity[f] = u, momentum[f] = mass * u;
     // All but drag, as an acceleration times dt: what makes the slip's decay end at the velocity found.
@@ -117,10 +128,97 @@ TALUS_CLONES bool are_fractions(std::ptrdiff_t count, const double* fraction) {
   return good == count;
 }
 
+namespace {
+
+/// From the first to the last number of one or two rows that are above 0; empty at the end of the row if none is. Most
+/// rows have no grains, or only in part.
+struct Part {
+  std::ptrdiff_t begin, end;
+};
+TALUS_INLINE Part positive_part(std::ptrdiff_t count, const double* one, const double* other) {
+  Part part{0, count};
+  while (part.begin < count && !(one[part.begin] > 0 || other[part.begin] > 0)) ++part.begin;
+  while (part.begin < part.end && !(one[part.end - 1] > 0 || other[part.end - 1] > 0)) --part.end;
+  return part;
+}
+
+/// Velocity of the air against the grains' in the centre of cell c, along one axis.
+TALUS_INLINE double slip_of(const CellRow& row, int axis, std::ptrdiff_t c, double per_solid) {
+  return 0.5 * (row.velocity[axis][c] + row.velocity[axis][c + row.next[axis]]) - per_solid * row.flux[axis][c];
+}
+
+template <coupling::DragLaw law>
+TALUS_INLINE void find_drag(Part part, const coupling::DragMedium& given_medium, const CellRow& given,
+                            double* __restrict drag) {
+  const CellRow row = given;
+  const coupling::DragMedium medium = given_medium;
+  for (std::ptrdiff_t c = part.begin; c < part.end; ++c) {
+    const double s = row.fraction[c], is_solid = s > 0 ? 1.0 : 0.0, per_solid = is_solid / (s + (1 - is_solid));
+    const double x = slip_of(row, 0, c, per_solid), y = slip_of(row, 1, c, per_solid),
+                 z = slip_of(row, 2, c, per_solid);
+    drag[c] = coupling::drag_coefficient(law, medium, s, std::sqrt((x * x + y * y) + z * z));
+  }
+}
+
+}  // namespace
+
+TALUS_CLONES void find_drag_of_row(std::ptrdiff_t count, coupling::DragLaw law, const coupling::DragMedium& medium,
+                                   const CellRow& row, double* __restrict drag) {
+  using coupling::DragLaw;
+  const Part part = positive_part(count, row.fraction, row.fraction);
+  std::fill(drag, drag + part.begin, 0.0), std::fill(drag + part.end, drag + count, 0.0);
+  if (law == DragLaw::ergun_wen_yu)
+    find_drag<DragLaw::ergun_wen_yu>(part, medium, row, drag);
+  else
+    find_drag<DragLaw::schiller_naumann_umekage_yuu>(part, medium, row, drag);
+}
+
+TALUS_CLONES void find_slip_of_row(std::ptrdiff_t count, const CellRow& given, double* __restrict x,
+                                   double* __restrict y, double* __restrict z, double* __restrict square) {
+  const CellRow row = given;
+  const Part part = positive_part(count, row.fraction, row.fraction);
+  for (double* out : {x, y, z, square})
+    std::fill(out, out + part.begin, 0.0), std::fill(out + part.end, out + count, 0.0);
+  for (std::ptrdiff_t c = part.begin; c < part.end; ++c) {
+    const double s = row.fraction[c], is_solid = s > 0 ? 1.0 : 0.0, per_solid = is_solid / (s + (1 - is_solid));
+    x[c] = is_solid * slip_of(row, 0, c, per_solid), y[c] = is_solid * slip_of(row, 1, c, per_solid),
+    z[c] = is_solid * slip_of(row, 2, c, per_solid);
+    square[c] = (x[c] * x[c] + y[c] * y[c]) + z[c] * z[c];
+  }
+}
+
+TALUS_CLONES Rates largest_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density,
+                                        const CellRow& given, const double* drag) {
+  constexpr int lanes = 8;
+  const CellRow row = given;
+  const Vector3 per = per_width;
+  double crossing[lanes] = {}, response[lanes] = {};
+  const auto largest = [](double a, double b) { return a > b ? a : b; };
+  const auto at = [&](std::ptrdiff_t c, double& most_crossing, double& most_response) {
+    const auto fastest = [&](int a) {
+      return largest(std::abs(row.velocity[a][c]), std::abs(row.velocity[a][c + row.next[a]]));
+    };
+    most_crossing = largest(fastest(0) * per.x + fastest(1) * per.y + fastest(2) * per.z, most_crossing);
+    const double s = row.fraction[c], phi = 1 - s, is_solid = s > 0 ? 1.0 : 0.0;
+    most_response = largest(is_solid * drag[c] / (phi * phi * (s + (1 - is_solid)) * grain_density), most_response);
+  };
+  std::ptrdiff_t c = 0;
+  for (; c + lanes <= count; c += lanes)
+    for (int l = 0; l < lanes; ++l) at(c + l, crossing[l], response[l]);
+  for (; c < count; ++c) at(c, crossing[0], response[0]);
+  Rates most{0, 0};
+  for (int l = 0; l < lanes; ++l)
+    most.crossing = largest(crossing[l], most.crossing), most.response = largest(response[l], most.response);
+  return most;
+}
+
 TALUS_CLONES void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before,
                                     const double* drag_here, const double* void_fraction, double* __restrict decay,
                                     double* __restrict mean) {
-  for (std::ptrdiff_t f = 0; f < count; ++f) {
+  const Part part = positive_part(count, drag_before, drag_here);
+  for (std::ptrdiff_t f = 0; f < part.begin; ++f) decay[f] = mean[f] = 1;
+  for (std::ptrdiff_t f = part.end; f < count; ++f) decay[f] = mean[f] = 1;
+  for (std::ptrdiff_t f = part.begin; f < part.end; ++f) {
     const double between = 0.5 * (drag_before[f] + drag_here[f]);
     const coupling::SlipDecay slip = coupling::slip_decay(between * per_density / void_fraction[f]);
     decay[f] = slip.decay, mean[f] = slip.mean;

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "base/vector.hpp"
+#include "physics/coupling/drag.hpp"
 
 namespace talus::air {
 
@@ -15,6 +16,10 @@ namespace talus::air {
 void extrapolate_row(std::ptrdiff_t count, double share, double rho, const double* void_fraction,
                      const double* momentum, const double* before, double* __restrict mass,
                      double* __restrict velocity);
+
+/// The pressure of a step as those of the last two lead on to it, and the last in place of the one before.
+/// \param ratio of the steps
+void lead_on_row(std::ptrdiff_t count, double ratio, double* __restrict pressure, double* __restrict before);
 
 /// Input of a step on a row of faces, except for the pressure.
 struct StageRow {
@@ -50,7 +55,7 @@ void add_pressure_row(std::ptrdiff_t count, double factor, double grains_share, 
 /// Input of the volume flow through the faces of a row of cells, by axis, from the low face of the first cell on.
 struct VolumeFlowRow {
   struct Axis {
-    const double *open, *void_fraction, *velocity, *solid_fraction, *grain_velocity;
+    const double *open, *open_after, *void_fraction, *velocity, *solid_fraction, *grain_velocity;
     std::ptrdiff_t next;  ///< to the high face of a cell
     double area;          ///< m^2
   };
@@ -68,13 +73,14 @@ struct ExchangeRow {
   const double* momentum;      ///< at the start of the step, kg/(m^2 s)
   const double *decay, *mean;  ///< coupling::SlipDecay
   const double* after_drag;    ///< of predict_row
+  const double* velocity;      ///< without pressure, m/s
   const double *low, *high;    ///< pressure of the cells on either side, Pa
 };
 
 /// What the pressure does in add_pressure_row(), the momentum that follows, and what the grains receive.
-/// \param grains_pressure grains_share / distance of the cell centres \param velocity of the air, in: without pressure
-/// \param momentum out: rho Phi u, kg/(m^2 s); \param received out: impulse of drag and pressure per solid volume;
-/// \param drag out: N/m^3
+/// \param grains_pressure grains_share / distance of the cell centres
+/// \param velocity out: of the air, m/s; \param momentum out: rho Phi u, kg/(m^2 s); \param received out: impulse of
+/// drag and pressure per solid volume; \param drag out: N/m^3
 void finish_row(std::ptrdiff_t count, double dt, double rho, double factor, double grains_share, double grains_pressure,
                 const ExchangeRow& row, double* __restrict velocity, double* __restrict momentum,
                 double* __restrict received, double* __restrict drag);
@@ -89,6 +95,37 @@ void find_solids_of_row(std::ptrdiff_t count, const SolidsRow& row, double* __re
 
 /// Whether all are at least 0 and below 1.
 bool are_fractions(std::ptrdiff_t count, const double* fraction);
+
+/// What a row of cells has, with the velocities on the low faces of its cells and the way to their high ones, by axis.
+struct CellRow {
+  const double* fraction;     ///< solid
+  const double* flux[3];      ///< of the grains, m/s
+  const double* velocity[3];  ///< of the air, m/s
+  std::ptrdiff_t next[3];
+};
+
+/// beta of a row of cells, at the slip in their centres, kg/(m^3 s).
+void find_drag_of_row(std::ptrdiff_t count, coupling::DragLaw law, const coupling::DragMedium& medium,
+                      const CellRow& row, double* __restrict drag);
+
+/// Velocity of the air in the centres of a row of cells against the grains', m/s; 0 where there are none.
+/// \param square out: of its size
+void find_slip_of_row(std::ptrdiff_t count, const CellRow& row, double* __restrict x, double* __restrict y,
+                      double* __restrict z, double* __restrict square);
+
+/// What bounds the step in a cell, 1/s.
+struct Rates {
+  double crossing;  ///< at which the air crosses it
+  /// A bed that dilates draws air through its pores; the pressure that this takes stops it at the rate
+  /// beta/(Phi^2 rho_b), whatever the wave length.
+  double response;
+};
+inline Rates larger(const Rates& a, const Rates& b) {
+  return {a.crossing > b.crossing ? a.crossing : b.crossing, a.response > b.response ? a.response : b.response};
+}
+/// The largest of a row of cells. \param per_width 1/m
+Rates largest_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density, const CellRow& row,
+                           const double* drag);
 
 /// coupling::SlipDecay on a row of faces, from the drag of the cells beside each. \param per_density dt/rho
 void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before, const double* drag_here,

@@ -90,6 +90,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"time", "s"}, s.time);
   visit(FieldInfo{"step", "1"}, s.step);
   grid("air_pressure", "Pa", s.flow.pressure);
+  grid("air_pressure_before", "Pa", s.flow.pressure_before);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     grid(velocity[axis], "m/s", s.flow.velocity[axis]);
     grid(momentum[axis], "kg/(m2 s)", s.flow.momentum[axis]);

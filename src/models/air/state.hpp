@@ -21,6 +21,7 @@ struct AirState {
   FaceField momentum;         ///< rho Phi u, kg/(m^2 s)
   FaceField momentum_before;  ///< at the start of the last step
   CellField pressure;         ///< relative to that of the surroundings, Pa; mean of the last step
+  CellField pressure_before;  ///< of the step before
   FaceField drag;             ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
   double last_step = 0;       ///< s; 0 before the first
 
@@ -30,6 +31,7 @@ struct AirState {
         momentum(grid.face_field()),
         momentum_before(grid.face_field()),
         pressure(grid.cell_field()),
+        pressure_before(grid.cell_field()),
         drag(grid.face_field()) {}
 
   /// Component of the velocity in the middle of a cell, m/s.

@@ -52,48 +52,57 @@ TwoSums Viscosity::sum_over_rows(ThreadTeam& team, Body&& body) {
   return total;
 }
 
-void Viscosity::begin(ThreadTeam& team, const FaceField& velocity) {
+void Viscosity::find_velocity_divergence_of_row(std::size_t row, std::ptrdiff_t begin, const FaceField& velocity) {
   const Grid& grid = apertures_.grid;
+  const double* inner = apertures_.rows.inner.at(row);
   const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
-  for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t first, std::ptrdiff_t) {
-    air::find_divergence_of_row(grid.count[0], grid.stride(1), grid.stride(2), per_width, velocity[0].data() + first,
-                                velocity[1].data() + first, velocity[2].data() + first, apertures_.inner.data() + first,
-                                divergence_.data() + first);
-  });
-  apertures_.wrap(divergence_);
+  air::find_divergence_of_row(grid.count[0], grid.stride(1), grid.stride(2), per_width, velocity[0].data() + begin,
+                              velocity[1].data() + begin, velocity[2].data() + begin, inner,
+                              divergence_.data() + begin);
 }
 
-void Viscosity::find_divergence_of_row(int axis, std::ptrdiff_t begin, int count, const FaceField& velocity,
-                                       FaceField& divergence) const {
-  find_divergence_of_row(Walls::moving, axis, begin, count, velocity, divergence);
+void Viscosity::find_divergence_of_row(int axis, std::size_t row, std::ptrdiff_t begin, int count,
+                                       const FaceField& velocity, double* divergence) const {
+  find_divergence_of_row(Walls::moving, axis, row, begin, count, velocity, divergence);
 }
 
-void Viscosity::find_divergence_of_row(Walls walls, int axis, std::ptrdiff_t begin, int count,
-                                       const FaceField& velocity, FaceField& divergence) const {
+void Viscosity::find_divergence_of_row(Walls walls, int axis, std::size_t row, std::ptrdiff_t begin, int count,
+                                       const FaceField& velocity, double* divergence) const {
   const Grid& grid = apertures_.grid;
   const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
   const auto a = static_cast<std::size_t>(axis);
   const auto from = [&](const CellField& field) { return field.data() + begin; };
-  const auto& link = apertures_.link[a];
+  const FaceApertures::Rows& rows = apertures_.rows;
+  const auto& link = rows.link[a];
   find_viscous_divergence_of_row(count, walls == Walls::moving ? 1 : 0, grid.stride(1), grid.stride(2), per_width,
                                  {.velocity = from(velocity[a]),
-                                  .link_x = from(link[0]),
-                                  .link_y = from(link[1]),
-                                  .link_z = from(link[2]),
-                                  .wall = from(apertures_.wall[a]),
-                                  .drive = from(apertures_.drive[a]),
-                                  .open = from(apertures_.open[a]),
+                                  .link_x = link[0].at(row),
+                                  .link_y = link[1].at(row),
+                                  .link_y_after = link[1].at(row + grid.row_stride(1)),
+                                  .link_z = link[2].at(row),
+                                  .link_z_after = link[2].at(row + grid.row_stride(2)),
+                                  .wall = rows.wall[a].at(row),
+                                  .drive = rows.drive[a].at(row),
+                                  .open = rows.open[a].at(row),
                                   .divergence = from(divergence_),
                                   .along = grid.stride(axis),
                                   .third = per_width[axis] / 3},
-                                 divergence[a].data() + begin);
+                                 divergence);
 }
 
 void Viscosity::find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence) {
-  begin(team, velocity);
-  for_all_rows(team, [&](std::size_t a, std::ptrdiff_t first, int count) {
-    find_divergence_of_row(walls, static_cast<int>(a), first, count, velocity, divergence);
+  const Grid& grid = apertures_.grid;
+  for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t first, std::ptrdiff_t) {
+    find_velocity_divergence_of_row(grid.row(j, k), first, velocity);
   });
+  wrap_velocity_divergence();
+  for (int axis = 0; axis < 3; ++axis) {
+    double* of_axis = divergence[static_cast<std::size_t>(axis)].data();
+    for_each_row(team, grid, apertures_.faces(axis), [&](int j, int k, std::ptrdiff_t first, std::ptrdiff_t end) {
+      find_divergence_of_row(walls, axis, grid.row(j, k), first, static_cast<int>(end - first), velocity,
+                             of_axis + first);
+    });
+  }
 }
 
 /// (1/weight - amount (laplacian + grad div/3)) u = start/weight, walls moving, for the conjugate gradients.

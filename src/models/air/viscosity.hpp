@@ -15,12 +15,14 @@ class Viscosity {
  public:
   explicit Viscosity(const FaceApertures& apertures);
 
-  /// What find_divergence_of_row() needs first. Ghosts of the velocity filled.
-  void begin(ThreadTeam& team, const FaceField& velocity);
+  /// What find_divergence_of_row() needs first: the divergence of the velocity, of which ghosts are filled, in all rows
+  /// of cells along x (Grid::row), the first of which is at `begin`; then its ghosts.
+  void find_velocity_divergence_of_row(std::size_t row, std::ptrdiff_t begin, const FaceField& velocity);
+  void wrap_velocity_divergence() { apertures_.wrap(divergence_); }
   /// divergence := laplacian u + grad(div u)/3 (viscous_divergence()), with rough walls, 1/(m s), on `count` faces of
-  /// an axis from `begin` on, in a row along x.
-  void find_divergence_of_row(int axis, std::ptrdiff_t begin, int count, const FaceField& velocity,
-                              FaceField& divergence) const;
+  /// an axis from `begin` on, in a row along x (Grid::row).
+  void find_divergence_of_row(int axis, std::size_t row, std::ptrdiff_t begin, int count, const FaceField& velocity,
+                              double* divergence) const;
 
   /// Solves (u - start)/weight = amount (laplacian u + grad(div u)/3) for u, from a first guess; conjugate gradients,
   /// preconditioned by the diagonal.
@@ -33,8 +35,8 @@ class Viscosity {
   struct System;
   struct Diagonal;
   enum class Walls { moving, at_rest };
-  void find_divergence_of_row(Walls walls, int axis, std::ptrdiff_t begin, int count, const FaceField& velocity,
-                              FaceField& divergence) const;
+  void find_divergence_of_row(Walls walls, int axis, std::size_t row, std::ptrdiff_t begin, int count,
+                              const FaceField& velocity, double* divergence) const;
   void find_divergence(ThreadTeam& team, Walls walls, const FaceField& velocity, FaceField& divergence);
   template <class Body>
   void for_all_rows(ThreadTeam& team, Body&& body) const;

@@ -44,10 +44,11 @@ TALUS_CLONES void find_viscous_divergence_of_row(int count, double driven, std::
   const double xx = per_width.x * per_width.x, yy = per_width.y * per_width.y, zz = per_width.z * per_width.z;
   const ViscousRow row = given;
   const double *u = row.velocity, *x = row.link_x, *y = row.link_y, *z = row.link_z;
+  const double *y_after = row.link_y_after, *z_after = row.link_z_after;
   for (int f = 0; f < count; ++f) {
     const double laplacian = xx * (x[f + 1] * (u[f + 1] - u[f]) - x[f] * (u[f] - u[f - 1])) +
-                             yy * (y[f + dy] * (u[f + dy] - u[f]) - y[f] * (u[f] - u[f - dy])) +
-                             zz * (z[f + dz] * (u[f + dz] - u[f]) - z[f] * (u[f] - u[f - dz]));
+                             yy * (y_after[f] * (u[f + dy] - u[f]) - y[f] * (u[f] - u[f - dy])) +
+                             zz * (z_after[f] * (u[f + dz] - u[f]) - z[f] * (u[f] - u[f - dz]));
     out[f] = row.open[f] * viscous_divergence(row.third * (row.divergence[f] - row.divergence[f - row.along]),
                                               row.wall[f] * u[f], driven * row.drive[f], laplacian);
   }

@@ -20,10 +20,11 @@ void find_divergence_of_row(int count, std::ptrdiff_t dy, std::ptrdiff_t dz, con
 
 /// Input of the viscous term on a row of faces.
 struct ViscousRow {
-  const double* velocity;                  ///< m/s
-  const double *link_x, *link_y, *link_z;  ///< 1 where no wall separates a face from the one before
-  const double* wall;                      ///< FaceApertures::wall, 1/m^2
-  const double* drive;                     ///< FaceApertures::drive, 1/(m s)
+  const double* velocity;  ///< m/s
+  /// 1 where no wall separates a face from the one before, along each axis, and from the one after along y and z.
+  const double *link_x, *link_y, *link_y_after, *link_z, *link_z_after;
+  const double* wall;   ///< FaceApertures::wall, 1/m^2
+  const double* drive;  ///< FaceApertures::drive, 1/(m s)
   const double* open;
   const double* divergence;  ///< of the velocity, in cells, 1/s
   std::ptrdiff_t along;      ///< from a cell to the next across a face

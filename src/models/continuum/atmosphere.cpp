@@ -29,7 +29,8 @@ Atmosphere::Atmosphere(const Parameters& p, const Domain& domain, const Surface&
       medium_(gas_of(p).medium()),
       deposition_(air_grid(p), domain_, vessel_),
       flow_(air_grid(p), gas_of(p), domain_.walls(), vessel_),
-      per_solid_volume_(air_grid(p).face_field()) {}
+      per_solid_volume_(air_grid(p).face_field()),
+      slip_square_(air_grid(p).cell_field()) {}
 
 int Atmosphere::openings() const {
   int open = domain_.openings();
@@ -117,23 +118,15 @@ void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_lengt
 /// The slip of each particle is the mean of its cells'.
 void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
   const AirAround& a = s.air;
-  const Grid& grid = a.grid;
-  team.run(static_cast<std::size_t>(grid.count[2]), [&](std::size_t k) {
-    for (int j = 0; j < grid.count[1]; ++j)
-      for (int i = 0; i < grid.count[0]; ++i) {
-        const std::size_t c = grid.index(i, j, static_cast<int>(k));
-        for (int axis = 0; axis < 3; ++axis) {
-          const auto n = static_cast<std::size_t>(axis);
-          const double solid = a.solids.fraction[c];
-          per_solid_volume_[n][c] = solid > 0 ? a.flow.cell_velocity(grid, axis, c) - a.solids.flux[n][c] / solid : 0;
-        }
-      }
+  for_each_row(team, a.grid, a.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    auto& [x, y, z] = per_solid_volume_;
+    air::find_slip_of_row(end - begin, flow_.cells_from(begin, a.solids, a.flow.velocity), x.data() + begin,
+                          y.data() + begin, z.data() + begin, slip_square_.data() + begin);
   });
-  deposition_.distribute(team, 1, per_solid_volume_, received_);
-  const double reynolds = reduce(
-      team, received_.size(), 0.0, [&](std::size_t i) { return coupling::grain_reynolds(medium_, norm(received_[i])); },
-      [](double x, double y) { return std::max(x, y); });
-  s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds);
+  const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
+  const double slip =
+      deposition_.largest_mean(team, per_solid_volume_, slip_square_, s.air.reynolds_max / reynolds_of_one);
+  s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds_of_one * slip);
 }
 
 }  // namespace talus::continuum

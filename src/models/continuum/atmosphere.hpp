@@ -74,6 +74,7 @@ class Atmosphere {
   coupling::Deposition deposition_;
   air::AirFlow flow_;
   FaceField per_solid_volume_;  // of cells: impulse, then slip
+  CellField slip_square_;
   std::vector<Vector3> received_;
   double longest_ = 0;
 };

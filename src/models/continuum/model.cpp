@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "models/continuum/regime.hpp"
 
@@ -83,36 +85,49 @@ RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions,
           unlimited && over > 1};
 }
 
+// Largest numbers and sums over the cells go on in several places in turn, so that one does not wait for the last.
+constexpr int turns = 8;
+template <class Number>
+using InTurn = std::array<Number, turns>;
+
+/// Calls body(cell, turn).
 template <class Body>
 void for_each_air_cell(const AirAround& air, Body&& body) {
   for (int k = 0; k < air.grid.count[2]; ++k)
-    for (int j = 0; j < air.grid.count[1]; ++j)
-      for (int i = 0; i < air.grid.count[0]; ++i) body(air.grid.index(i, j, k));
+    for (int j = 0; j < air.grid.count[1]; ++j) {
+      const std::size_t begin = air.grid.index(0, j, k), end = begin + static_cast<std::size_t>(air.grid.count[0]);
+      std::size_t c = begin;
+      for (; c + turns <= end; c += turns)
+        for (std::size_t n = 0; n < turns; ++n) body(c + n, n);
+      for (; c < end; ++c) body(c, 0);
+    }
 }
 
 /// Of all cells of the air, found in one pass.
 struct AirTotals {
-  double largest_speed = 0;                                              ///< m/s
-  double least_pressure = infinity, largest_pressure = -least_pressure;  ///< Pa
+  double largest_speed = 0;                         ///< m/s
+  double least_pressure = 0, largest_pressure = 0;  ///< Pa
   /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
   /// continuity lacks, since what one lacks another has too much.
   double imbalance = 0;
 };
 
 AirTotals totals_of_air(const AirAround& air) {
-  AirTotals totals;
-  double square = 0, excess = 0;
-  for_each_air_cell(air, [&](std::size_t c) {
+  InTurn<double> square{}, excess{}, least, most;
+  least.fill(infinity), most.fill(-infinity);
+  for_each_air_cell(air, [&](std::size_t c, std::size_t n) {
     const Vector3 u{air.flow.cell_velocity(air.grid, 0, c), air.flow.cell_velocity(air.grid, 1, c),
                     air.flow.cell_velocity(air.grid, 2, c)};
-    square = std::max(square, dot(u, u));
-    totals.least_pressure = std::min(totals.least_pressure, air.flow.pressure[c]);
-    totals.largest_pressure = std::max(totals.largest_pressure, air.flow.pressure[c]);
-    excess += std::abs(air.excess[c]);
+    const double here = dot(u, u), p = air.flow.pressure[c];
+    square[n] = here > square[n] ? here : square[n];
+    least[n] = p < least[n] ? p : least[n];
+    most[n] = p > most[n] ? p : most[n];
+    excess[n] += std::abs(air.excess[c]);
   });
-  totals.largest_speed = std::sqrt(square);
-  totals.imbalance = 0.5 * excess * air.grid.volume();
-  return totals;
+  return {.largest_speed = std::sqrt(*std::max_element(square.begin(), square.end())),
+          .least_pressure = *std::min_element(least.begin(), least.end()),
+          .largest_pressure = *std::max_element(most.begin(), most.end()),
+          .imbalance = 0.5 * std::accumulate(excess.begin(), excess.end(), 0.0) * air.grid.volume()};
 }
 
 double solid_volume(const Parameters& p, const State& s) {
@@ -233,7 +248,7 @@ std::optional<GridSnapshot> Continuum::grid() const {
                         .columns = {}};
   std::vector<Vector3> velocity, grains, drag;
   std::vector<double> pressure, fraction;
-  for_each_air_cell(air, [&](std::size_t c) {
+  for_each_air_cell(air, [&](std::size_t c, std::size_t) {
     const double solid = air.solids.fraction[c];
     Vector3 u, v, s;
     for (int axis = 0; axis < 3; ++axis) {

@@ -134,6 +134,7 @@ void for_each_field_of_air(Visit&& visit, A& a) {
     visit(FieldInfo{name, unit, FieldRole::kept, false, false}, field);
   };
   grid("air_pressure", "Pa", a.flow.pressure);
+  grid("air_pressure_before", "Pa", a.flow.pressure_before);
   grid("air_solid_fraction", "1", a.solids.fraction);
   grid("air_excess", "1", a.excess);
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -143,7 +143,12 @@ FaceApertures::FaceApertures(const Grid& cells, const FlowBoundaries& bounds, co
       });
       wrap(wide[a][b]);
     }
-  for (std::size_t a = 0; a < 3; ++a) wrap(wall[a]), wrap(drive[a]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    wrap(wall[a]), wrap(drive[a]);
+    rows.open[a] = {grid, open[a]}, rows.wall[a] = {grid, wall[a]}, rows.drive[a] = {grid, drive[a]};
+    for (std::size_t b = 0; b < 3; ++b) rows.link[a][b] = {grid, link[a][b]}, rows.wide[a][b] = {grid, wide[a][b]};
+  }
+  rows.inner = {grid, inner};
 }
 
 void FaceApertures::wrap(CellField& field) const {

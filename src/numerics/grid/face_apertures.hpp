@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "numerics/geometry/wall.hpp"
+#include "numerics/grid/distinct_rows.hpp"
 #include "numerics/grid/grid.hpp"
 #include "numerics/surface/surface.hpp"
 
@@ -48,6 +49,14 @@ struct FaceApertures {
   FaceField wall;   ///< sum of 2/width^2 over the rough walls beside a face, 1/m^2
   FaceField drive;  ///< sum of 2/width^2 times the velocity of those walls, 1/(m s)
   CellField inner;  ///< 1: a cell without a face open to outside the grid
+
+  /// The same fields row by row.
+  struct Rows {
+    std::array<DistinctRows, 3> open, wall, drive;
+    std::array<std::array<DistinctRows, 3>, 3> link, wide;
+    DistinctRows inner;
+  };
+  Rows rows;
 
   /// \param surface walls of any shape, open patches left out: what it encloses on the grid is tight
   /// \throws std::invalid_argument for a periodic face without its opposite

@@ -12,19 +12,29 @@
 
 namespace talus {
 
-/// Calls body(j, k, begin, end) with the indices of each row of a block of so many places from the first cell on.
-template <class Body>
-void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Body&& body) {
+/// Calls body(what make() returns, j, k, begin, end) with the indices of each row of a block of so many places from the
+/// first cell on; what is made serves one row after another, along y, then z.
+template <class Make, class Body>
+void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Make&& make, Body&& body) {
   constexpr int rows_at_once = 16;
   const int rows = count[1] * count[2];
   team.run(static_cast<std::size_t>((rows + rows_at_once - 1) / rows_at_once), [&](std::size_t block) {
     const int begin = static_cast<int>(block) * rows_at_once;
+    auto made = make();
     for (int row = begin; row < std::min(begin + rows_at_once, rows); ++row) {
       const int j = row % count[1], k = row / count[1];
       const auto first = static_cast<std::ptrdiff_t>(grid.index(0, j, k));
-      body(j, k, first, first + count[0]);
+      body(made, j, k, first, first + count[0]);
     }
   });
+}
+
+/// Calls body(j, k, begin, end).
+template <class Body>
+void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Body&& body) {
+  const auto nothing = [] { return 0; };
+  for_each_row(team, grid, count, nothing,
+               [&](int, int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) { body(j, k, begin, end); });
 }
 
 /// Calls body(i, j, k, index) for the cells.

@@ -95,7 +95,7 @@ void PoissonSolver::for_each_run(ThreadTeam& team, Body&& body) const {
 
 void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
   std::vector<unsigned char> changed(board_.blocks(), 0);
-  std::vector<double> outside_before = matrix_.outside;
+  outside_before_ = matrix_.outside;
   for_each_run(team, [&](std::size_t block, std::size_t own, int length, std::size_t from, std::array<int, 3> place) {
     double* outside = matrix_.outside.data() + own;
     if (storage)
@@ -126,7 +126,7 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
       if (place[a] == n - 1 && leaves) run_loops::add_strided(length, high, outside);
     }
     for (int m = 0; m < length; ++m)
-      if ((outside[m] > 0) != (outside_before[own + static_cast<std::size_t>(m)] > 0)) changed[block] = 1;
+      if ((outside[m] > 0) != (outside_before_[own + static_cast<std::size_t>(m)] > 0)) changed[block] = 1;
   });
   std::vector<double> largest(board_.blocks(), 0);
   board_.for_each_block(team, [&](std::size_t block, std::size_t begin, std::size_t end) {

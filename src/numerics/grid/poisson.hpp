@@ -78,6 +78,7 @@ class PoissonSolver {
   double scale_ = 1;                              // scales the conductances to about 1
   std::vector<std::vector<std::size_t>> closed_;  // cells of each closed region, in the board's order
   bool is_new_ = true;                            // no conductances yet
+  std::vector<double> outside_before_;            // of matrix_, before the last conductances
   // In the board's order. Pads of source_, residual_ and applied_ are zero, so that they do not contribute to sums.
   std::vector<double> source_, value_, residual_;
   std::vector<float> direction_, applied_, change_;                // of the refinement, scaled

@@ -3,114 +3,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "numerics/sph/cubic_spline.hpp"
+#include "physics/coupling/cells_along.hpp"
 #include "physics/coupling/deposition_rows.hpp"
 
 namespace talus::coupling {
 
-namespace {
-
-/// The cell within the box that a cell beyond its ends stands for.
-int fold(int place, int count, bool is_periodic) {
-  if (is_periodic) return ((place % count) + count) % count;
-  while (place < 0 || place >= count) place = place < 0 ? -1 - place : 2 * count - 1 - place;
-  return place;
-}
-
-}  // namespace
-
 /// The cells within reach of a particle, and their weights.
 struct Deposition::Scratch {
-  struct Along {
-    int from = 0;                   // the first one along an axis
-    std::vector<double> square;     // of the distance of each one's centre, m^2; then far ones, to a whole vector
-    std::vector<std::size_t> slot;  // in `cell`, of the one within the box that it stands for
-    std::vector<int> cell;          // each once; `left` for all beyond an open face
-    bool is_plain = false;          // the cells are those from `from` on
-
-    static constexpr int left = -1;
-
-    void find(const Grid& grid, const Box& box, int axis, double x, double reach);
-    /// In order, all from the lowest to the highest; then `left`, if it is among them.
-    void sort();
-    /// The slot of the cell whose centre is at x, if it is one of these.
-    std::optional<std::size_t> slot_at(const Grid& grid, int axis, double x) const;
-  };
   struct Slots {
     std::size_t x, z;
   };
   using Seen = std::optional<Slots>;
-  std::array<Along, 3> along;
-  std::vector<double> sum;  // by slots along x, y, z
-  std::vector<Seen> seen;   // by cells along x and z: whose share each one's is
-  std::vector<double> all;  // what `sum` was before cells behind the surface were left out
+  std::array<CellsAlong, 3> along;
+  std::vector<float> sum;     // by slots along x, y, z
+  std::vector<RowFate> fate;  // by slots along y, z
+  std::vector<Seen> seen;     // by cells along x and z: whose share each one's is
+  std::vector<float> all;     // what `sum` was before cells behind the surface were left out
   std::vector<std::uint32_t> near;
 };
 
-void Deposition::Scratch::Along::find(const Grid& grid, const Box& box, int axis, double x, double reach) {
-  const double width = grid.spacing[axis], place = (x - grid.low[axis]) / width - 0.5;
-  const int to = static_cast<int>(std::floor(place + reach / width));
-  from = static_cast<int>(std::ceil(place - reach / width));
-  const int count = grid.count[static_cast<std::size_t>(axis)];
-  const bool is_periodic = box.face(axis, 0) == FaceKind::periodic;
-  const auto has_left = [&](int n) {
-    return (n < 0 && box.face(axis, 0) == FaceKind::open) || (n >= count && box.face(axis, 1) == FaceKind::open);
-  };
-  square.clear(), slot.clear(), cell.clear();
-  for (int n = from; n <= to; ++n) {
-    square.push_back((n - place) * (n - place) * width * width);
-    if (n >= 0 && n < count && from >= 0) {  // none is folded onto it yet
-      slot.push_back(cell.size());
-      cell.push_back(n);
-      continue;
-    }
-    const int within = has_left(n) ? left : fold(n, count, is_periodic);
-    const auto found = std::find(cell.begin(), cell.end(), within);
-    slot.push_back(static_cast<std::size_t>(found - cell.begin()));
-    if (found == cell.end()) cell.push_back(within);
-  }
-  is_plain = from >= 0 && cell.size() == slot.size() && cell.front() == from;
-  for (std::size_t n = 1; n < cell.size(); ++n) is_plain = is_plain && cell[n] == cell[n - 1] + 1;
-  square.resize((square.size() + row_lanes - 1) / row_lanes * row_lanes, 4 * reach * reach);
-}
-
-void Deposition::Scratch::Along::sort() {
-  if (is_plain) return;
-  int lowest = std::numeric_limits<int>::max(), highest = lowest;
-  bool has_left = false;
-  for (const int n : cell) {
-    if (n == left) {
-      has_left = true;
-    } else {
-      highest = lowest == std::numeric_limits<int>::max() ? n : std::max(highest, n);
-      lowest = std::min(lowest, n);
-    }
-  }
-  const bool has_cells = lowest != std::numeric_limits<int>::max();
-  const std::size_t many = has_cells ? static_cast<std::size_t>(highest - lowest + 1) : 0;
-  for (std::size_t& s : slot) s = cell[s] == left ? many : static_cast<std::size_t>(cell[s] - lowest);
-  cell.resize(many);
-  for (std::size_t n = 0; n < many; ++n) cell[n] = lowest + static_cast<int>(n);
-  if (has_left) cell.push_back(left);
-}
-
-std::optional<std::size_t> Deposition::Scratch::Along::slot_at(const Grid& grid, int axis, double x) const {
-  const double place = (x - grid.low[axis]) / grid.spacing[axis] - 0.5, nearest = std::round(place);
-  if (std::abs(place - nearest) > 1e-6) return std::nullopt;
-  const bool within = nearest >= 0 && nearest < grid.count[static_cast<std::size_t>(axis)];
-  const auto found = std::find(cell.begin(), cell.end(), within ? static_cast<int>(nearest) : left);
-  if (found == cell.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - cell.begin());
-}
-
 Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& surface)
     : grid_(grid), domain_(domain), surface_(surface) {
+  const auto is_mirror = [&](int axis, int side) {
+    const FaceKind kind = domain.box().face(axis, side);
+    return kind != FaceKind::periodic && kind != FaceKind::open;
+  };
   const auto nearly_equal = [](double a, double b, double width) { return std::abs(a - b) < 1e-6 * width; };
   for (int axis = 0; axis < 3; ++axis) {
+    is_mirrored_[static_cast<std::size_t>(axis)] = is_mirror(axis, 0) && is_mirror(axis, 1);
     const double width = grid.spacing[axis];
     const double high = grid.low[axis] + width * grid.count[static_cast<std::size_t>(axis)];
     if (!nearly_equal(grid.low[axis], domain.box().low[axis], width) ||
@@ -137,63 +61,77 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
   const double per_width = sph::support / reach;
   for (int axis = 0; axis < 3; ++axis)
-    scratch.along[static_cast<std::size_t>(axis)].find(grid_, domain_.box(), axis, x[axis], reach);
-  const Scratch::Along &along_x = scratch.along[0], &along_y = scratch.along[1], &along_z = scratch.along[2];
-  scratch.along[0].sort();
+    scratch.along[static_cast<std::size_t>(axis)].find(
+        grid_, domain_.box(), axis, is_mirrored_[static_cast<std::size_t>(axis)], x[axis], reach, per_width);
+  const CellsAlong &along_x = scratch.along[0], &along_y = scratch.along[1], &along_z = scratch.along[2];
   const std::size_t columns = (along_x.cell.size() + row_lanes - 1) / row_lanes * row_lanes, rows = along_y.cell.size();
-  scratch.sum.assign(columns * rows * along_z.cell.size(), 0);
-  double* sum = scratch.sum.data();
-  const auto add_weights = [&](bool beside_wall) {
-    if (!beside_wall && along_x.is_plain)
-      return weigh_rows({.columns = columns,
-                         .square_x = along_x.square.data(),
-                         .many_y = along_y.slot.size(),
-                         .many_z = along_z.slot.size(),
-                         .square_y = along_y.square.data(),
-                         .square_z = along_z.square.data(),
-                         .row_y = along_y.slot.data(),
-                         .row_z = along_z.slot.data(),
-                         .square = reach * reach,
-                         .per_width = per_width},
-                        rows, sum);
-    if (beside_wall) find_seen(x, scratch);
-    for (std::size_t k = 0; k < along_z.slot.size(); ++k)
-      for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
-        const double beside = along_y.square[j] + along_z.square[k];
-        if (beside >= reach * reach) continue;
-        const Scratch::Seen* seen = beside_wall ? scratch.seen.data() + k * along_x.slot.size() : nullptr;
-        for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
-          if (seen && !seen[i]) continue;
-          const std::size_t column = seen ? seen[i]->x : along_x.slot[i], row = seen ? seen[i]->z : along_z.slot[k];
-          sum[column + columns * (along_y.slot[j] + rows * row)] +=
-              sph::cubic_spline_of(std::sqrt(beside + along_x.square[i]) * per_width, per_width);
-        }
-      }
-  };
+  const std::size_t all_rows = rows * along_z.cell.size();
+  scratch.sum.assign(columns * all_rows, 0), scratch.fate.assign(all_rows, RowFate::empty);
   const bool beside_wall = domain_.is_near_wall(x, reach);
-  add_weights(beside_wall);
+  if (beside_wall) {
+    find_seen(x, scratch);
+    weigh_seen(columns, scratch);
+  }
   // In a corner too narrow for a cell's centre a particle sees none: then it has all.
-  if (beside_wall && std::none_of(scratch.sum.begin(), scratch.sum.end(), [](double w) { return w > 0; }))
-    add_weights(false);
+  if (!beside_wall || std::none_of(scratch.sum.begin(), scratch.sum.end(), [](float w) { return w > 0; }))
+    weigh_rows({.columns = columns,
+                .many_x = along_x.slot.size(),
+                .many_y = along_y.slot.size(),
+                .many_z = along_z.slot.size(),
+                .square_x = along_x.square.data(),
+                .square_y = along_y.square.data(),
+                .square_z = along_z.square.data(),
+                .column_x = along_x.is_plain ? nullptr : along_x.slot.data(),
+                .row_y = along_y.slot.data(),
+                .row_z = along_z.slot.data()},
+               rows, scratch.sum.data(), scratch.fate.data());
   if (!surface_.is_empty()) leave_out_hidden(x, reach, columns, scratch);
+  keep(columns, scratch, block);
+}
 
-  if (block.first.size() < block.rows + rows * along_z.cell.size())
-    block.first.resize(2 * (block.rows + rows * along_z.cell.size()));
+/// Adds the weights of the cells that are seen to those that have their shares.
+void Deposition::weigh_seen(std::size_t columns, Scratch& scratch) {
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  const std::size_t rows = along_y.cell.size();
+  for (std::size_t k = 0; k < along_z.slot.size(); ++k)
+    for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
+      const float beside = along_y.square[j] + along_z.square[k];
+      if (!(beside < static_cast<float>(sph::support * sph::support))) continue;
+      const Scratch::Seen* seen = scratch.seen.data() + k * along_x.slot.size();
+      for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
+        if (!seen[i]) continue;
+        const std::size_t row = along_y.slot[j] + rows * seen[i]->z;
+        scratch.fate[row] = RowFate::kept;
+        scratch.sum[seen[i]->x + columns * row] += weight_at(beside + along_x.square[i]);
+      }
+    }
+}
+
+/// Appends the rows of cells that have weights; those beyond open faces count for their sum alone.
+void Deposition::keep(std::size_t columns, Scratch& scratch, Block& block) const {
+  const auto& [along_x, along_y, along_z] = scratch.along;
+  constexpr int left = CellsAlong::left;
+  const std::size_t rows = along_y.cell.size(), all_rows = scratch.fate.size();
+  if (block.first.size() < block.rows + all_rows) block.first.resize(2 * (block.rows + all_rows));
   if (block.weight.size() < block.weights + scratch.sum.size())
     block.weight.resize(2 * (block.weights + scratch.sum.size()));
-  const bool loses = along_x.cell.back() == Scratch::Along::left;
-  double total = 0;
+  const std::size_t first_row = block.rows;
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
     for (std::size_t j = 0; j < rows; ++j) {
-      float* kept = block.weight.data() + block.weights;
-      const double of_row = round_row(columns, sum + columns * (j + rows * k), kept);
-      total += of_row;
-      if (!(of_row > 0) || along_y.cell[j] == Scratch::Along::left || along_z.cell[k] == Scratch::Along::left) continue;
-      if (loses) kept[along_x.cell.size() - 1] = 0;
-      block.first[block.rows++] =
-          static_cast<std::uint32_t>(grid_.index(along_x.cell.front(), along_y.cell[j], along_z.cell[k]));
-      block.weights += columns;
+      RowFate& fate = scratch.fate[j + rows * k];
+      if (fate == RowFate::empty) continue;
+      if (along_y.cell[j] == left || along_z.cell[k] == left)
+        fate = RowFate::lost;
+      else
+        block.first[block.rows++] =
+            static_cast<std::uint32_t>(grid_.index(along_x.cell.front(), along_y.cell[j], along_z.cell[k]));
     }
+  float* kept = block.weight.data() + block.weights;
+  const double total = keep_rows(all_rows, columns, scratch.fate.data(), scratch.sum.data(), kept);
+  const std::size_t weights = columns * (block.rows - first_row);
+  if (along_x.cell.back() == left)
+    for (std::size_t w = along_x.cell.size() - 1; w < weights; w += columns) kept[w] = 0;
+  block.weights += weights;
   block.particle.push_back({.rows = block.rows, .columns = columns, .per_total = 1 / total});
 }
 
@@ -223,7 +161,7 @@ void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t co
   scratch.near.clear();
   const bool are_all = surface_.near(x, reach, most_triangles, scratch.near);
   const auto& [along_x, along_y, along_z] = scratch.along;
-  const auto centre = [&](const Scratch::Along& along, int axis, std::size_t n) {
+  const auto centre = [&](const CellsAlong& along, int axis, std::size_t n) {
     const double width = grid_.spacing[axis], length = width * grid_.count[static_cast<std::size_t>(axis)];
     const double c = grid_.low[axis] + (along.cell[n] + 0.5) * width;
     return domain_.box().face(axis, 0) == FaceKind::periodic ? c - length * std::round((c - x[axis]) / length) : c;
@@ -233,9 +171,9 @@ void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t co
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
     for (std::size_t j = 0; j < along_y.cell.size(); ++j)
       for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
-        double& weight = scratch.sum[i + columns * (j + along_y.cell.size() * k)];
-        const bool left = along_x.cell[i] == Scratch::Along::left || along_y.cell[j] == Scratch::Along::left ||
-                          along_z.cell[k] == Scratch::Along::left;
+        float& weight = scratch.sum[i + columns * (j + along_y.cell.size() * k)];
+        const bool left = along_x.cell[i] == CellsAlong::left || along_y.cell[j] == CellsAlong::left ||
+                          along_z.cell[k] == CellsAlong::left;
         if (!(weight > 0) || left) continue;
         const Vector3 c{centre(along_x, 0, i), centre(along_y, 1, j), centre(along_z, 2, k)};
         const bool hidden =
@@ -263,19 +201,26 @@ void Deposition::for_each_particle(const Block& block, std::size_t first, Body&&
 void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
                          FaceField& flux) const {
   // Cells are shared by particles of several blocks, so pairs of the four sums are the tasks; each adds the particles
-  // in order.
+  // in order. A single thread reads the weights once for all.
   const double share = solid_volume / grid_.volume();
-  team.run(2, [&](std::size_t task) {
-    CellField &one = task == 0 ? fraction : flux[1], &two = task == 0 ? flux[0] : flux[2];
-    std::fill(one.begin(), one.end(), 0.0), std::fill(two.begin(), two.end(), 0.0);
+  CellField* const field[] = {&fraction, &flux[0], &flux[1], &flux[2]};
+  const bool is_alone = team.size() == 1;
+  team.run(is_alone ? 1 : 2, [&](std::size_t task) {
+    const std::size_t from = 2 * task, to = is_alone ? 4 : from + 2;
+    for (std::size_t n = from; n < to; ++n) std::fill(field[n]->begin(), field[n]->end(), 0.0);
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       for_each_particle(blocks_[b], b * block_size,
                         [&](std::size_t i, const Particle& particle, std::size_t rows, const std::uint32_t* first,
                             const float* weight) {
                           const double amount = share * particle.per_total;
                           const Vector3& v = velocity[i];
-                          add_rows(rows, particle.columns, first, weight, task == 0 ? amount : amount * v.y,
-                                   amount * (task == 0 ? v.x : v.z), one.data(), two.data());
+                          const double amounts[] = {amount, amount * v.x, amount * v.y, amount * v.z};
+                          if (is_alone)
+                            add_rows(rows, particle.columns, first, weight, amounts,
+                                     {field[0]->data(), field[1]->data(), field[2]->data(), field[3]->data()});
+                          else
+                            add_rows(rows, particle.columns, first, weight, amounts[from], amounts[from + 1],
+                                     field[from]->data(), field[from + 1]->data());
                         });
   });
 }
@@ -292,6 +237,32 @@ void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceFie
                         received[i] = solid_volume * particle.per_total * sum;
                       });
   });
+}
+
+double Deposition::largest_mean(ThreadTeam& team, const FaceField& vector, const CellField& square, double at_least) {
+  const CellField &x = vector[0], &y = vector[1], &z = vector[2];
+  largest_.resize((square.size() + row_lanes - 1) / row_lanes);
+  find_largest(square.size(), square.data(), largest_.data());
+  // A mean is no larger than the largest, but for its rounding.
+  const double enough = at_least * at_least * (1 - 1e-12);
+  std::vector<double> found(blocks_.size());
+  team.run(blocks_.size(), [&](std::size_t b) {
+    for_each_particle(
+        blocks_[b], b * block_size,
+        [&](std::size_t, const Particle& particle, std::size_t rows, const std::uint32_t* first, const float* weight) {
+          double bound = 0;
+          for (std::size_t r = 0; r < rows; ++r) {
+            const std::size_t last = (first[r] + particle.columns - 1) / row_lanes;
+            for (std::size_t c = first[r] / row_lanes; c <= last; ++c)
+              bound = largest_[c] > bound ? largest_[c] : bound;
+          }
+          if (bound <= enough) return;
+          const Vector3 sum = sum_rows(rows, particle.columns, first, weight, x.data(), y.data(), z.data());
+          found[b] = std::max(found[b], norm(particle.per_total * sum));
+        });
+  });
+  for (const double of_block : found) at_least = std::max(at_least, of_block);
+  return at_least;
 }
 
 }  // namespace talus::coupling

@@ -43,6 +43,11 @@ class Deposition {
   void distribute(ThreadTeam& team, double solid_volume, const FaceField& per_solid_volume,
                   std::span<Vector3> received) const;
 
+  /// Largest size of a vector field's mean over the cells of a particle, by its weights; `at_least` if that is larger.
+  /// Particles whose cells all have smaller ones are left out.
+  /// \param square of the size of the vector of every cell
+  double largest_mean(ThreadTeam& team, const FaceField& vector, const CellField& square, double at_least);
+
  private:
   static constexpr std::size_t block_size = 64;
   struct Particle {
@@ -59,6 +64,8 @@ class Deposition {
   struct Scratch;
   void find_weights(const Vector3& position, double smoothing_length, Scratch& scratch, Block& block) const;
   void find_seen(const Vector3& position, Scratch& scratch) const;
+  static void weigh_seen(std::size_t columns, Scratch& scratch);
+  void keep(std::size_t columns, Scratch& scratch, Block& block) const;
   void leave_out_hidden(const Vector3& position, double reach, std::size_t columns, Scratch& scratch) const;
   template <class Body>
   void for_each_particle(const Block& block, std::size_t first, Body&& body) const;
@@ -66,8 +73,10 @@ class Deposition {
   Grid grid_;
   const Domain& domain_;
   const Surface& surface_;
+  std::array<bool, 3> is_mirrored_{};  // along each axis: neither end of the box is open or periodic
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
+  std::vector<double> largest_;  // of each row_lanes cells, one after another
 };
 
 }  // namespace talus::coupling

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// Functions of vectors are inlined: none passes them, as the compiler warns, in registers that it may not have.
+#pragma GCC diagnostic ignored "-Wpsabi"
 #include "physics/coupling/deposition_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -26,6 +29,13 @@ TALUS_INLINE void store(const Vector& x, Number* to) {
   std::memcpy(to, &x, sizeof(Vector));
 }
 
+/// The kernel times a constant, from the square of the distance over the smoothing length.
+TALUS_INLINE Floats weight_of(Floats q) {
+  for (std::size_t l = 0; l < row_lanes; ++l) q[l] = std::sqrt(q[l]);
+  const Floats zero{}, one = zero + 1, two = zero + 2;
+  return sph::cubic_spline_shape(two > q ? two - q : zero, one > q ? one - q : zero);
+}
+
 template <class Row>
 TALUS_INLINE double total_of(const Row& s) {
   return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
@@ -33,27 +43,56 @@ TALUS_INLINE double total_of(const Row& s) {
 
 }  // namespace
 
-TALUS_CLONES void weigh_rows(const Reach& given, std::size_t rows_y, double* __restrict sum) {
+TALUS_CLONES void weigh_rows(const Reach& given, std::size_t rows_y, float* __restrict sum, RowFate* __restrict fate) {
   const Reach r = given;
   for (std::size_t k = 0; k < r.many_z; ++k)
     for (std::size_t j = 0; j < r.many_y; ++j) {
-      const double beside = r.square_y[j] + r.square_z[k];
-      if (beside >= r.square) continue;
-      double* row = sum + r.columns * (r.row_y[j] + rows_y * r.row_z[k]);
-      for (std::size_t i = 0; i < r.columns; i += row_lanes)
-        for (std::size_t l = 0; l < row_lanes; ++l)
-          row[i + l] += sph::cubic_spline_of(std::sqrt(beside + r.square_x[i + l]) * r.per_width, r.per_width);
+      const float beside = r.square_y[j] + r.square_z[k];
+      if (!(beside < static_cast<float>(sph::support * sph::support))) continue;
+      const std::size_t place = r.row_y[j] + rows_y * r.row_z[k];
+      fate[place] = RowFate::kept;
+      float* row = sum + r.columns * place;
+      for (std::size_t i = 0; i < r.many_x; i += row_lanes) {
+        Floats square, had;
+        load(r.square_x + i, square);
+        const Floats weight = weight_of(square + beside);
+        if (r.column_x) {
+          for (std::size_t l = 0; l < row_lanes && i + l < r.many_x; ++l) row[r.column_x[i + l]] += weight[l];
+        } else {
+          load(row + i, had);
+          store(had + weight, row + i);
+        }
+      }
     }
 }
 
-TALUS_CLONES double round_row(std::size_t columns, const double* row, float* __restrict kept) {
-  double sum[row_lanes] = {};
-  for (std::size_t i = 0; i < columns; i += row_lanes)
-    for (std::size_t l = 0; l < row_lanes; ++l) {
-      kept[i + l] = static_cast<float>(row[i + l]);
-      sum[l] += static_cast<double>(kept[i + l]);
+TALUS_CLONES float weight_at(float square) {
+  return weight_of(Floats{} + square)[0];
+}
+
+TALUS_CLONES double keep_rows(std::size_t rows, std::size_t columns, const RowFate* fate, const float* sum,
+                              float* __restrict kept) {
+  Doubles total{};
+  for (std::size_t r = 0; r < rows; ++r) {
+    if (fate[r] == RowFate::empty) continue;
+    for (std::size_t i = 0; i < columns; i += row_lanes) {
+      Floats weight;
+      load(sum + r * columns + i, weight);
+      total += __builtin_convertvector(weight, Doubles);
+      if (fate[r] == RowFate::lost) continue;
+      store(weight, kept);
+      kept += row_lanes;
     }
-  return total_of(sum);
+  }
+  return total_of(total);
+}
+
+TALUS_CLONES void find_largest(std::size_t count, const double* number, double* __restrict largest) {
+  for (std::size_t begin = 0; begin < count; begin += row_lanes) {
+    double most = 0;
+    for (std::size_t i = begin; i < std::min(begin + row_lanes, count); ++i) most = number[i] > most ? number[i] : most;
+    largest[begin / row_lanes] = most;
+  }
 }
 
 TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
@@ -66,6 +105,21 @@ TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uin
       const Doubles share = __builtin_convertvector(kept, Doubles);
       one += amount * share, two += other_amount * share;
       store(one, field + i), store(two, other + i);
+    }
+}
+
+TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
+                           const double* amount, const std::array<double*, 4>& field) {
+  double* __restrict a = field[0], * __restrict b = field[1], * __restrict c = field[2], * __restrict d = field[3];
+  const double of_a = amount[0], of_b = amount[1], of_c = amount[2], of_d = amount[3];
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t i = first[r]; i < first[r] + columns; i += row_lanes, weight += row_lanes) {
+      Floats kept;
+      Doubles x, y, z, w;
+      load(weight, kept), load(a + i, x), load(b + i, y), load(c + i, z), load(d + i, w);
+      const Doubles share = __builtin_convertvector(kept, Doubles);
+      x += of_a * share, y += of_b * share, z += of_c * share, w += of_d * share;
+      store(x, a + i), store(y, b + i), store(z, c + i), store(w, d + i);
     }
 }
 

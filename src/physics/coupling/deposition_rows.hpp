@@ -4,6 +4,7 @@
 /// their sums are interleaved, so that vectors of any width add in the same order.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,26 +15,38 @@ namespace talus::coupling {
 /// Cells of a row that are computed together.
 inline constexpr std::size_t row_lanes = 8;
 
-/// Input of the weights of a particle in cells whose places along x are their columns.
+/// Input of the weights of a particle: the cells within reach along each axis, and those that have their shares.
 struct Reach {
   std::size_t columns;
-  const double* square_x;  ///< of the distance along x, m^2
-  std::size_t many_y, many_z;
-  const double *square_y, *square_z;
-  const std::size_t *row_y, *row_z;  ///< of the sum, for each place along y and z
-  double square;                     ///< of the reach, m^2
-  double per_width;                  ///< over the smoothing length, 1/m
+  std::size_t many_x, many_y, many_z;
+  const float *square_x, *square_y, *square_z;  ///< of the distance over the smoothing length
+  const std::size_t* column_x;                  ///< of each place along x; null: in order
+  const std::size_t *row_y, *row_z;             ///< of each place along y and z
 };
 
-/// Adds the kernel at all cells to the rows of `sum`, \p rows_y of them for each place along z.
-void weigh_rows(const Reach& reach, std::size_t rows_y, double* __restrict sum);
+/// What becomes of a row of weights.
+enum class RowFate : std::uint8_t { empty, kept, lost };
 
-/// Rounds a row of weights; \returns the sum of what is kept
-double round_row(std::size_t columns, const double* row, float* __restrict kept);
+/// Adds the kernel at all cells, times a constant, to the rows of `sum`, \p rows_y of them for each place along z.
+/// \param fate set to `kept` for rows that get any
+void weigh_rows(const Reach& reach, std::size_t rows_y, float* __restrict sum, RowFate* __restrict fate);
+
+/// The same of one cell. \param square of its distance over the smoothing length
+float weight_at(float square);
+
+/// Copies the rows that are kept, one after another. \returns the sum of their weights and of those that are lost
+double keep_rows(std::size_t rows, std::size_t columns, const RowFate* fate, const float* sum, float* __restrict kept);
+
+/// The largest of each `row_lanes` numbers, one after another, at least 0.
+void find_largest(std::size_t count, const double* number, double* __restrict largest);
 
 /// Adds two amounts to two fields by weight. \param first cell of each row
 void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight, double amount,
               double other_amount, double* __restrict field, double* __restrict other);
+
+/// The same of four.
+void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
+              const double* amount, const std::array<double*, 4>& field);
 
 /// Sums of three fields by weight.
 Vector3 sum_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,

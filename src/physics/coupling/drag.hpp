@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/exponential.hpp"
+#include "base/power.hpp"
 
 namespace talus::coupling {
 
@@ -25,46 +26,47 @@ struct DragMedium {
 
 /// Re_p = D_p |u - u_p| rho / mu.
 constexpr double grain_reynolds(const DragMedium& medium, double slip) {
-  return medium.diameter * slip * medium.density / medium.viscosity;
+  return (medium.diameter * medium.density / medium.viscosity) * slip;
 }
 
 /// Drag of one sphere over Stokes' drag, 1 + 0.15 Re^0.687; Re < 1000 (Schiller & Naumann 1933).
-inline double schiller_naumann(double reynolds) {
-  return 1 + 0.15 * std::pow(reynolds, 0.687);
+TALUS_INLINE double schiller_naumann(double reynolds) {
+  return 1 + 0.15 * power_of(reynolds, 0.687);
 }
 
 /// Effect of the neighbours on the drag, 3.8 - 5.4/Phi + 2.6/Phi^2; packing below 0.74 (Umekage & Yuu 1999; Yuu &
 /// Umekage 2011, Eq. 21). 1 for a single grain.
 constexpr double umekage_yuu(double void_fraction) {
-  return 3.8 + (2.6 / void_fraction - 5.4) / void_fraction;
+  const double inverse = 1 / void_fraction;
+  return 3.8 + (2.6 * inverse - 5.4) * inverse;
 }
 
 /// beta of Yuu & Umekage 2011, Eqs 20 and 21: 3 pi mu D_p (1 + 0.15 Re_p^0.687) n zeta(Phi) / C_c.
 /// \param solid_fraction 1 - Phi, 0 to 0.74; \param slip |u - u_p|, m/s; \returns kg/(m^3 s)
-inline double schiller_naumann_umekage_yuu(const DragMedium& medium, double solid_fraction, double slip) {
+TALUS_INLINE double schiller_naumann_umekage_yuu(const DragMedium& medium, double solid_fraction, double slip) {
   // 3 pi mu D n = 18 mu (1 - Phi)/D^2
-  const double stokes = 18 * medium.viscosity * solid_fraction / (medium.diameter * medium.diameter);
-  return stokes * schiller_naumann(grain_reynolds(medium, slip)) * umekage_yuu(1 - solid_fraction) / medium.slip_factor;
+  const double stokes = 18 * medium.viscosity / (medium.diameter * medium.diameter * medium.slip_factor);
+  return stokes * solid_fraction * schiller_naumann(grain_reynolds(medium, slip)) * umekage_yuu(1 - solid_fraction);
 }
 
 /// beta of Gidaspow 1994: Ergun 1952 below a void fraction of 0.8, Wen & Yu 1966 above, with a jump there;
 /// the part of friction is divided by the slip factor.
 /// \param solid_fraction 1 - Phi; \param slip |u - u_p|, m/s; \returns kg/(m^3 s)
-inline double ergun_wen_yu(const DragMedium& medium, double solid_fraction, double slip) {
+TALUS_INLINE double ergun_wen_yu(const DragMedium& medium, double solid_fraction, double slip) {
   const double phi = 1 - solid_fraction, d = medium.diameter;
-  if (phi < 0.8)
-    return 150 * solid_fraction * solid_fraction * medium.viscosity / (phi * d * d * medium.slip_factor) +
-           1.75 * solid_fraction * medium.density * slip / d;
+  const double dense = 150 * medium.viscosity / (d * d * medium.slip_factor) * solid_fraction * solid_fraction / phi +
+                       1.75 * medium.density / d * solid_fraction * slip;
   // 3/4 C_d Phi (1 - Phi) rho |u - u_p| Phi^-2.65/D with C_d = 24/Re (1 + 0.15 Re^0.687) to Re = 1000, 0.44 beyond, at
   // the Reynolds number of the superficial velocity.
-  const double reynolds = phi * grain_reynolds(medium, slip), weight = std::pow(phi, -2.65);
-  if (reynolds < 1000)
-    return 18 * medium.viscosity * solid_fraction * weight * schiller_naumann(reynolds) / (d * d * medium.slip_factor);
-  return 0.75 * 0.44 * phi * solid_fraction * medium.density * slip * weight / d;
+  const double reynolds = phi * grain_reynolds(medium, slip), weighted = solid_fraction * power_of(phi, -2.65);
+  const double slow = 18 * medium.viscosity / (d * d * medium.slip_factor) * weighted * schiller_naumann(reynolds);
+  const double fast = 0.75 * 0.44 * medium.density / d * phi * weighted * slip;
+  const double dilute = reynolds < 1000 ? slow : fast;
+  return phi < 0.8 ? dense : dilute;
 }
 
 /// beta by name of the law, kg/(m^3 s).
-inline double drag_coefficient(DragLaw law, const DragMedium& medium, double solid_fraction, double slip) {
+TALUS_INLINE double drag_coefficient(DragLaw law, const DragMedium& medium, double solid_fraction, double slip) {
   return law == DragLaw::ergun_wen_yu ? ergun_wen_yu(medium, solid_fraction, slip)
                                       : schiller_naumann_umekage_yuu(medium, solid_fraction, slip);
 }

@@ -172,6 +172,27 @@ TEST(Deposition, GivesTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.flux, three.flux);
 }
 
+TEST(Deposition, TheLargestMeanIsThatOfAllParticlesOrWhatIsKnown) {
+  Silo silo;
+  place_at_random(silo, 300);
+  silo.deposit();
+  FaceField given = silo.grid.face_field();
+  CellField square = silo.grid.cell_field();
+  Random random(11);
+  for (auto& component : given)
+    for (double& g : component) g = random.normal();
+  for (std::size_t c = 0; c < square.size(); ++c) {
+    for (const auto& component : given) square[c] += component[c] * component[c];
+  }
+  std::vector<Vector3> mean(300);
+  silo.deposition.distribute(silo.team, 1, given, mean);
+  double largest = 0;
+  for (const Vector3& m : mean) largest = std::max(largest, norm(m));
+  EXPECT_DOUBLE_EQ(silo.deposition.largest_mean(silo.team, given, square, 0), largest);
+  EXPECT_DOUBLE_EQ(silo.deposition.largest_mean(silo.team, given, square, 0.999 * largest), largest);
+  EXPECT_EQ(silo.deposition.largest_mean(silo.team, given, square, 1.5 * largest), 1.5 * largest);
+}
+
 TEST(Deposition, RefusesAGridThatDoesNotFillTheBox) {
   Silo silo;
   Grid shifted = silo.grid;
