@@ -133,17 +133,17 @@ const double* Convection::Rows::force(int j, int k, std::ptrdiff_t begin) {
     return {fluxes(kept[0], second, row, begin, count),
             fluxes(kept[1], second, row + grid.row_stride(second), begin + grid.stride(second), count)};
   };
-  const auto [y_in, y_out] = two(along_y_, 1);
-  const auto [z_in, z_out] = two(along_z_[static_cast<std::size_t>(j)], 2);
+  const std::array<const double*, 2> y = two(along_y_, 1);
+  const std::array<const double*, 2> z = two(along_z_[static_cast<std::size_t>(j)], 2);
   const Vector3 per_width{1 / grid.spacing.x, 1 / grid.spacing.y, 1 / grid.spacing.z};
   double* force = force_.data();
-  if (!is_end) subtract_differences(count, per_width, x, y_in, y_out, z_in, z_out, force);
+  if (!is_end) subtract_differences(count, per_width, x, y[0], y[1], z[0], z[1], force);
   // At an end of the box the fluxes along its axis are others.
   const auto along_others = [&](int from, int to) {
     std::fill(force + from, force + to, 0.0);
     if (axis_ != 0) subtract_difference(to - from, per_width.x, x + from, x + from + 1, force + from);
-    if (axis_ != 1) subtract_difference(to - from, per_width.y, y_in + from, y_out + from, force + from);
-    if (axis_ != 2) subtract_difference(to - from, per_width.z, z_in + from, z_out + from, force + from);
+    if (axis_ != 1) subtract_difference(to - from, per_width.y, y[0] + from, y[1] + from, force + from);
+    if (axis_ != 2) subtract_difference(to - from, per_width.z, z[0] + from, z[1] + from, force + from);
   };
   const auto at_end = [&](int from, int to, int end) {
     along_others(from, to);
