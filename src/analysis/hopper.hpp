@@ -67,7 +67,8 @@ class HopperSnapshot {
   const std::vector<bool>& deep() const;        ///< deep_particles()
   const std::vector<double>& inertial() const;  ///< inertial_numbers()
   const GradientSizes& gradient_sizes() const;
-  /// Of velocities averaged over cells (HopperShape::cell), above the outlet, or wherever there are grains if there is none.
+  /// Of velocities averaged over cells (HopperShape::cell), above the outlet, or wherever there are grains if there is
+  /// none.
   const GradientSizes& cell_gradient_sizes() const;
   const ParticleField& field() const;
 
