@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of vectors are inlined: none passes them, as the compiler warns, in registers that it may not have.
-#pragma GCC diagnostic ignored "-Wpsabi"
 #include "physics/coupling/deposition_rows.hpp"
 
 #include <algorithm>
@@ -29,11 +27,13 @@ TALUS_INLINE void store(const Vector& x, Number* to) {
   std::memcpy(to, &x, sizeof(Vector));
 }
 
-/// The kernel times a constant, from the square of the distance over the smoothing length.
-TALUS_INLINE Floats weight_of(Floats q) {
+/// Squares of distances over the smoothing length become the kernel times a constant, sph::cubic_spline_shape. By
+/// reference: clang passes no vector by value where its registers may be lacking.
+TALUS_INLINE void weigh(Floats& q) {
   for (std::size_t l = 0; l < row_lanes; ++l) q[l] = std::sqrt(q[l]);
   const Floats zero{}, one = zero + 1, two = zero + 2;
-  return sph::cubic_spline_shape(two > q ? two - q : zero, one > q ? one - q : zero);
+  const Floats outer = two > q ? two - q : zero, inner = one > q ? one - q : zero;
+  q = outer * outer * outer - 4 * (inner * inner * inner);
 }
 
 template <class Row>
@@ -53,9 +53,10 @@ TALUS_CLONES void weigh_rows(const Reach& given, std::size_t rows_y, float* __re
       fate[place] = RowFate::kept;
       float* row = sum + r.columns * place;
       for (std::size_t i = 0; i < r.many_x; i += row_lanes) {
-        Floats square, had;
-        load(r.square_x + i, square);
-        const Floats weight = weight_of(square + beside);
+        Floats weight, had;
+        load(r.square_x + i, weight);
+        weight += beside;
+        weigh(weight);
         if (r.column_x) {
           for (std::size_t l = 0; l < row_lanes && i + l < r.many_x; ++l) row[r.column_x[i + l]] += weight[l];
         } else {
@@ -67,7 +68,9 @@ TALUS_CLONES void weigh_rows(const Reach& given, std::size_t rows_y, float* __re
 }
 
 TALUS_CLONES float weight_at(float square) {
-  return weight_of(Floats{} + square)[0];
+  Floats weight = Floats{} + square;
+  weigh(weight);
+  return weight[0];
 }
 
 TALUS_CLONES double keep_rows(std::size_t rows, std::size_t columns, const RowFate* fate, const float* sum,
