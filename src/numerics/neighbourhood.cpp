@@ -44,16 +44,20 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
                                                    [&](const Ghost& ghost) { return !image(ghost).is_in_walls(); });
   const std::size_t in_walls = count + static_cast<std::size_t>(first_in_walls - ghosts_.begin());
   find_distances(team, points);
-  const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
+  const auto sight_of = [&](std::size_t i, std::uint32_t j) {
     static constexpr Image identity;
+    const bool is_ghost = j >= count;
+    const double other = margin[is_ghost ? ghosts_[j - count].source : j];
+    return domain_.sight(points[i], points[j], is_ghost ? image(ghosts_[j - count]) : identity,
+                         2 * std::max(margin[i], other));
+  };
+  const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     if (!vessel_.is_empty() && std::isfinite(distance_[i])) near = near.first(keep_unhidden(points, i, near));
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
     const auto end = !domain_.is_near_wall(position[i], reach_ + 2 * largest_margin_)
                          ? seldom
                          : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
-                             const auto sight =
-                                 domain_.sight(points[i], points[j], j < count ? identity : image(ghosts_[j - count]),
-                                               2 * largest_margin_);
+                             const Domain::Sight sight = sight_of(i, j);
                              if (sight == Domain::Sight::may_change) sight_may_change_[i] = 1;
                              return sight == Domain::Sight::never;
                            });
@@ -61,6 +65,16 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   };
   const bool all_seen = domain_.walls().empty() && vessel_.is_empty();
   list_.build(team, points, most_, 0, count, all_seen ? nullptr : keep_visible);
+
+  first_doubt_.assign(1, 0);
+  for (std::size_t i = 0; i < count; ++i)
+    first_doubt_.push_back(first_doubt_.back() + (sight_may_change_[i] ? list_.of(i).size() : 0));
+  in_doubt_.resize(first_doubt_.back());
+  for_each(team, count, [&](std::size_t i) {
+    const auto neighbours = list_.of(i);
+    for (std::size_t n = 0; n < first_doubt_[i + 1] - first_doubt_[i]; ++n)
+      in_doubt_[first_doubt_[i] + n] = sight_of(i, neighbours[n]) == Domain::Sight::may_change;
+  });
 
   first_ghost_.resize(count);
   for_each(team, count, [&](std::size_t i) {

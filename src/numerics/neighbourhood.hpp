@@ -53,10 +53,14 @@ class Neighbourhood {
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
 
   /// The neighbours of particle i, itself not among them, sorted: first particles, then ghosts, numbered from
-  /// particles() on. It sees all of them, unless sight_may_change(i): then ask the domain.
+  /// particles() on. It sees all of them, unless sight_may_change(i): then ask the domain of those that are in doubt.
   std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
   bool sight_may_change(std::size_t i) const { return sight_may_change_[i]; }
+  /// Of each of of(i), whether it is in doubt; empty unless sight_may_change(i).
+  std::span<const char> in_doubt(std::size_t i) const {
+    return std::span(in_doubt_).subspan(first_doubt_[i], first_doubt_[i + 1] - first_doubt_[i]);
+  }
 
   /// How far a particle was from the vessel when the lists were built, m; infinite beyond the reach of its neighbours.
   double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
@@ -89,6 +93,8 @@ class Neighbourhood {
   NeighbourList list_;
   std::vector<std::uint32_t> first_ghost_;
   std::vector<char> sight_may_change_;
+  std::vector<std::size_t> first_doubt_;  // of a particle; one more than particles
+  std::vector<char> in_doubt_;
   struct Facets {
     bool all = false;  // that are near: else too many
     std::vector<std::uint32_t> number;

@@ -165,6 +165,42 @@ TEST(Neighbourhood, ListsWhoTheVesselDoesNotHide) {
   }
 }
 
+/// Who is not in doubt is seen wherever both have moved while the lists hold.
+TEST(Neighbourhood, SeesAllThatAreNotInDoubt) {
+  const Box box{{0, 0, 0}, {20, 10, 20}, {wall, wall, wall, wall, wall, open}};
+  const Domain domain(box, {Wall("plate", {0, 0, 10}, {20, 0, 10}, {{6, 14}})});
+  Random random(4);
+  std::vector<Vector3> x;
+  for (int n = 0; n < 3000; ++n) x.push_back({random.uniform(0, 20), random.uniform(0, 10), random.uniform(7, 13)});
+  ThreadTeam team(1);
+  Neighbourhood around(domain);
+  constexpr double margin = 0.1;
+  around.build(team, x, std::vector<double>(x.size(), 0.7), 2 * margin);
+  std::vector<Vector3> now = x;
+  for (Vector3& place : now)
+    place = domain.fold(
+        place + margin * Vector3{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)});
+  std::size_t sure = 0, doubts = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto neighbours = around.of(i);
+    const auto in_doubt = around.in_doubt(i);
+    ASSERT_EQ(in_doubt.size(), around.sight_may_change(i) ? neighbours.size() : 0);
+    for (std::size_t n = 0; n < in_doubt.size(); ++n) {
+      const std::size_t j = neighbours[n];
+      if (in_doubt[n]) {
+        ++doubts;
+        continue;
+      }
+      const Image image = j < x.size() ? Image{} : around.image(around.ghosts()[j - x.size()]);
+      const std::size_t source = j < x.size() ? j : around.ghosts()[j - x.size()].source;
+      EXPECT_TRUE(domain.is_visible(now[i], image.position(now[source]), image)) << i << ' ' << j;
+      ++sure;
+    }
+  }
+  EXPECT_GT(sure, 1000u);
+  EXPECT_GT(doubts, 1000u);
+}
+
 TEST(Neighbourhood, RefusesAReachThatPassesFromPlateToFloor) {
   const Box box{{0, 0, 0}, {10, 10, 10}, {wall, wall, wall, wall, wall, open}};
   ThreadTeam team(1);

@@ -140,6 +140,7 @@ void Sweep::pick_seen(std::span<const Vector3> position, std::size_t i, Seen& se
   static constexpr Image identity;
   const std::uint32_t* const neighbours = found.record;
   const NeighbourGroup* const group = found.group;
+  const std::span<const char> in_doubt = neighbourhood_.in_doubt(i);
   const auto place = [&](std::size_t record, const Image& image) {
     if (record < position.size()) return position[record];
     return image.position(position[neighbourhood_.ghosts()[record - position.size()].source]);
@@ -151,7 +152,7 @@ void Sweep::pick_seen(std::span<const Vector3> position, std::size_t i, Seen& se
     const Image& image =
         group[g].image < 0 ? identity : neighbourhood_.images()[static_cast<std::size_t>(group[g].image)];
     for (; n < group[g].end; ++n)
-      if (neighbourhood_.domain().is_visible(position[i], place(neighbours[n], image), image))
+      if (!in_doubt[n] || neighbourhood_.domain().is_visible(position[i], place(neighbours[n], image), image))
         seen.record.push_back(neighbours[n]);
     seen.group.push_back({static_cast<std::uint32_t>(seen.record.size()), group[g].image});
   }

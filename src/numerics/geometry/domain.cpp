@@ -185,8 +185,9 @@ bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
 }
 
 bool Domain::is_near_wall(const Vector3& x, double reach) const {
-  return std::any_of(walls_.begin(), walls_.end(),
-                     [&](const Wall& wall) { return std::abs(wall.above(x)) <= reach && wall.distance(x) <= reach; });
+  return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
+    return std::abs(wall.above(x)) <= reach && !wall.is_gone() && wall.distance(x) <= reach;
+  });
 }
 
 Domain::Sight Domain::sight(const Vector3& from, const Vector3& to, const Image& image, double margin) const {
@@ -207,8 +208,8 @@ Domain::Sight Domain::sight(const Vector3& from, const Vector3& to, const Image&
 std::optional<bool> Domain::meets_layer_within(const Wall& wall, const Vector3& from, const Vector3& to,
                                                double margin) const {
   const double own = wall.above(from), other = wall.above(to);
-  if (std::min(std::abs(own), std::abs(other)) <= margin) return std::nullopt;
-  if ((own > 0) == (other > 0)) return false;
+  const bool are_sides_sure = std::min(std::abs(own), std::abs(other)) > margin;
+  if (are_sides_sure && (own > 0) == (other > 0)) return false;
   const int along = 2 - wall.axis();
   const double slack = margin + 1e-6 * wall.length();
   const double low = std::min(from[along], to[along]) - slack, high = std::max(from[along], to[along]) + slack;
@@ -220,6 +221,7 @@ std::optional<bool> Domain::meets_layer_within(const Wall& wall, const Vector3& 
     if (opening.shut || begin < opening.begin || end > opening.end) return std::nullopt;
     return false;
   }
+  if (!are_sides_sure) return std::nullopt;
   return true;
 }
 

@@ -100,7 +100,8 @@ class Domain {
   /// Whether an image at x lies within `reach` of what made it.
   bool is_near(const Image& image, const Vector3& x, double reach) const;
 
-  /// Whether x is within `reach` of a wall. Farther ones see all their neighbours, and no image in walls.
+  /// Whether x is within `reach` of a wall that is not gone. Farther ones see all their neighbours, and no image in
+  /// walls.
   bool is_near_wall(const Vector3& x, double reach) const;
 
   /// Whether a particle at `from` sees an image at `to`, or its source there through the identity, wherever both are

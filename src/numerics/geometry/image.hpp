@@ -28,7 +28,7 @@ struct Image {
   std::array<std::int8_t, 3> mirrors{-1, -1, -1};
 
   constexpr bool is_in_walls() const { return mirrors[0] >= 0; }
-  constexpr bool is_identity() const { return !is_in_walls() && copy == std::array<std::int8_t, 3>{}; }
+  constexpr bool is_identity() const { return !is_in_walls() && (copy[0] | copy[1] | copy[2]) == 0; }
   constexpr Vector3 position(const Vector3& x) const {
     return {sign.x * x.x + turn.xz * x.z + offset.x, sign.y * x.y + offset.y, sign.z * x.z + turn.zx * x.x + offset.z};
   }

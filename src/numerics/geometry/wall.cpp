@@ -25,6 +25,12 @@ Wall::Wall(std::string name, const Vector3& from, const Vector3& to, std::vector
   if (dx == 0) axis_ = 0, direction_ = {0, 0, dz > 0 ? 1.0 : -1.0};
   if (dz == 0) axis_ = 2, direction_ = {dx > 0 ? 1.0 : -1.0, 0, 0};
   normal_ = {0 - direction_.z, 0, direction_.x};
+  note_if_gone();
+}
+
+void Wall::note_if_gone() {
+  is_gone_ = std::any_of(openings_.begin(), openings_.end(),
+                         [&](const Opening& o) { return !o.shut && o.begin <= 0 && o.end >= length_; });
 }
 
 double Wall::distance(const Vector3& x) const {
@@ -38,6 +44,7 @@ bool Wall::has_gates_due(double time) const {
 
 void Wall::open_gates(double time) {
   for (Opening& opening : openings_) opening.shut = opening.shut && time < opening.opens_after;
+  note_if_gone();
 }
 
 }  // namespace talus

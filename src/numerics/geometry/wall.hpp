@@ -62,7 +62,7 @@ class Wall {
   /// the wall; neighbours overlap by rounding.
   bool is_solid(const Vector3& x) const {
     const double s = place_along(x), slack = 1e-9 * length_;
-    if (!(s >= -slack && s <= length_ + slack)) return false;
+    if (!(s >= -slack && s <= length_ + slack) || is_gone_) return false;
     return std::none_of(openings_.begin(), openings_.end(),
                         [&](const Opening& o) { return !o.shut && s > o.begin && s < o.end; });
   }
@@ -82,6 +82,9 @@ class Wall {
     return t;
   }
 
+  /// Whether nothing of it is left: one open opening from end to end.
+  bool is_gone() const { return is_gone_; }
+
   /// Whether a gate is still shut that open_gates(time) would open.
   bool has_gates_due(double time) const;
   /// Opens the gates whose time has come, for good. \param time from the opening of the gate of the case, s
@@ -92,6 +95,7 @@ class Wall {
   double cross(const Vector3& x) const {
     return (to_.x - from_.x) * (x.z - from_.z) - (to_.z - from_.z) * (x.x - from_.x);
   }
+  void note_if_gone();
   /// From the first end, m.
   double place_along(const Vector3& x) const {
     return axis_ >= 0 ? direction_[2 - axis_] * (x[2 - axis_] - from_[2 - axis_])
@@ -104,6 +108,7 @@ class Wall {
   double length_;
   Vector3 direction_, normal_;
   int axis_ = -1;
+  bool is_gone_ = false;
 };
 
 }  // namespace talus

@@ -184,6 +184,15 @@ TEST(Sees, WhatIsCertainWhereverBothStayNear) {
   EXPECT_GT(may_change, 300);
 }
 
+TEST(Sees, InTheMiddleOfAnOpenSlitNobodyIsInDoubt) {
+  constexpr double margin = 0.5;
+  const Domain shut = hopper(true), open = hopper(false);
+  const Vector3 in_the_slit{50, 2, 100.1}, below{51, 2, 98}, at_the_rim{30.2, 2, 100.1};
+  EXPECT_EQ(open.sight(in_the_slit, below, {}, margin), Domain::Sight::always);
+  EXPECT_EQ(shut.sight(in_the_slit, below, {}, margin), Domain::Sight::may_change);
+  EXPECT_EQ(open.sight(at_the_rim, below, {}, margin), Domain::Sight::may_change);
+}
+
 TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {
   // Whether the way to an image is followed or read off the place where it meets the plate: the same images are seen.
   const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, wall}};

@@ -178,6 +178,18 @@ TEST(Walls, TurnBackWhatWouldPassButNotInTheOutlet) {
   EXPECT_NEAR(norm(bounce->image.vector(v)), norm(v), 1e-14);
 }
 
+TEST(Wall, IsGoneWhenAGateFromEndToEndHasOpened) {
+  Wall wall("", {3, 0, 4}, {3, 0, 9}, {{.begin = 0, .end = 5, .shut = true}});
+  EXPECT_FALSE(wall.is_gone());
+  EXPECT_TRUE(wall.is_solid({3, 0, 4}));
+  wall.open_gates(0);
+  EXPECT_TRUE(wall.is_gone());
+  for (const double z : {4.0, 6.0, 9.0}) EXPECT_FALSE(wall.is_solid({3, 0, z}));
+  const Box box{{0, 0, 0}, {10, 5, 10}, {}};
+  EXPECT_FALSE(Domain(box, {wall}).is_near_wall({3.1, 2, 6}, 1));
+  EXPECT_FALSE(Wall("", {3, 0, 4}, {3, 0, 9}, {{.begin = 0, .end = 4.9}}).is_gone());
+}
+
 TEST(Wall, HasALengthAndItsOwnSidesWhereverItPoints) {
   EXPECT_THROW(Wall("", {1, 0, 1}, {1, 3, 1}), std::invalid_argument);
   for (const double turn : {0.0, 90.0, 180.0, 270.0, 30.0, 200.0}) {
