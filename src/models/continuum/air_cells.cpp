@@ -25,6 +25,10 @@ double cell_size(const Parameters& p) {
   return p.air.cell.value_or(0.75 * p.bed.spacing);
 }
 
+double cell_size(const Parameters& p, int axis) {
+  return axis == 1 && p.air.cell_depth ? *p.air.cell_depth : cell_size(p);
+}
+
 /// Whether some faces of so many layers of cells lie in the plate.
 bool meets_the_plate(const Parameters& p, int layers) {
   const double layer = *p.plate.height / p.box.height * layers;
@@ -45,7 +49,8 @@ std::optional<int> nearest_layers(int count, int least, int most, IsGood&& is_go
 std::optional<Problem> check_number_of_cells(const Parameters& p) {
   constexpr double most_cells = 1e9;
   constexpr const char* sides[3] = {"box.width", "box.depth", "box.height"};
-  const Vector3 size = (1 / cell_size(p)) * extent(p);
+  Vector3 size = extent(p);
+  for (int axis = 0; axis < 3; ++axis) size[axis] /= cell_size(p, axis);
   double cells = 1;
   int longest = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -75,7 +80,7 @@ Grid air_grid(const Parameters& p) {
   Grid grid;
   const Vector3 size = extent(p);
   for (int axis = 0; axis < 3; ++axis) {
-    int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p))));
+    int count = std::max(1, static_cast<int>(std::lround(size[axis] / cell_size(p, axis))));
     if (axis == 2 && p.plate.height && !p.air.cell)  // cells of 1/2 to 1 bed.spacing
       count = nearest_layers(count, (3 * count + 3) / 4, (3 * count) / 2, [&](int layers) {
                 return meets_the_plate(p, layers);
@@ -126,14 +131,17 @@ std::vector<Problem> check_air(const Parameters& p) {
           "free-slip, as there");
   for (int axis = 0; axis < 3; ++axis) {
     const int count = grid.count[static_cast<std::size_t>(axis)];
-    if (std::abs(grid.spacing[axis] / cell_size(p) - 1) > 0.5)
-      add("air.cell",
-          fmt::format("along {} the cells would be {:.4g} mm long", "xyz"[axis], grid.spacing[axis] / millimetre),
+    const char* const key = axis == 1 && p.air.cell_depth ? "air.cell_depth" : "air.cell";
+    if (std::abs(grid.spacing[axis] / cell_size(p, axis) - 1) > 0.5)
+      add(key, fmt::format("along {} the cells would be {:.4g} mm long", "xyz"[axis], grid.spacing[axis] / millimetre),
           "a length that divides the box's sides nearly evenly");
     if (p.air.gas.boundaries.is_periodic(axis) && count > 1 && count % 2 == 1)
-      add("air.cell", fmt::format("makes {} cells along {}, where the air is periodic", count, "xyz"[axis]),
+      add(key, fmt::format("makes {} cells along {}, where the air is periodic", count, "xyz"[axis]),
           "an even number, or one");
   }
+  if (p.air.cell_depth && !p.vessel.empty())
+    add("air.cell_depth", "is given, but who is behind walls of a vessel is asked at the middles of cells",
+        "cells as long along y as otherwise: only air.cell");
   if (p.plate.height) {
     const double layer = *p.plate.height / grid.spacing.z;
     if (std::abs(layer - std::round(layer)) > 1e-6)

@@ -157,6 +157,7 @@ Parameters sample(const Parameters& p, double particles) {
   q.box.floor = FaceKind::wall, q.box.top = FaceKind::open;
   q.gate = {.opens = GateOpens::from_the_start, .time = 0};
   q.air.cell = p.air.enabled ? air_grid(p).spacing.x : q.bed.spacing;
+  if (p.air.enabled && p.air.cell_depth) q.air.cell_depth = std::min(air_grid(p).spacing.y, q.box.depth);
   for (FlowBoundary& kind : q.air.gas.boundaries.kind) kind = FlowBoundary::no_slip;
   q.air.gas.boundaries.kind[5] = FlowBoundary::open;
   return q;

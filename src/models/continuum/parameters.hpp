@@ -82,7 +82,7 @@ struct Parameters {
   } gravity;
   struct Air {
     bool enabled = false;
-    std::optional<double> cell;
+    std::optional<double> cell, cell_depth;
     air::Parameters gas;  ///< of which the grains' size and density stand in `grains`
   } air;
   struct Settle {
@@ -241,6 +241,9 @@ void for_each_parameter(Visit&& visit, P& p) {
                  "size of the cells of the air, adjusted to whole numbers along each side of the box; left out: three "
                  "quarters of bed.spacing, adjusted to the plate too"},
        p.air.cell);
+  airy(Parameter{"air.cell_depth", dimension::length, above(0),
+                 "size of the cells along y, if another: a box that is thin along y may have one cell there"},
+       p.air.cell_depth);
   air::for_each_parameter(airy, p.air.gas);
 
   auto settling = only_if(where("gate.opens", p.gate.opens, GateOpens::when_settled), visit);

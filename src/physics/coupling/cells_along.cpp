@@ -21,15 +21,21 @@ int fold(int place, int count, bool is_periodic) {
 
 }  // namespace
 
+int CellsAlong::parts(const Grid& grid, int axis) {
+  const double across = std::max(grid.spacing[(axis + 1) % 3], grid.spacing[(axis + 2) % 3]);
+  return std::max(1, static_cast<int>(std::lround(grid.spacing[axis] / across)));
+}
+
 void CellsAlong::find(const Grid& grid, const Box& box, int axis, bool is_mirrored, double x, double reach,
                       double per_width) {
-  const double width = grid.spacing[axis], place = (x - grid.low[axis]) / width - 0.5, far = reach / width;
+  const int of_cell = parts(grid, axis);
+  const double width = grid.spacing[axis] / of_cell, place = (x - grid.low[axis]) / width - 0.5, far = reach / width;
   // Rounded down and up.
   const auto floor_of = [](double number) {
     const int n = static_cast<int>(number);
     return n > number ? n - 1 : n;
   };
-  const int to = floor_of(place + far), count = grid.count[static_cast<std::size_t>(axis)];
+  const int to = floor_of(place + far), count = of_cell * grid.count[static_cast<std::size_t>(axis)];
   from = -floor_of(far - place);
   const auto many = static_cast<std::size_t>(to - from + 1);
   slot.resize(many), square.resize((many + row_lanes - 1) / row_lanes * row_lanes);
@@ -49,6 +55,7 @@ void CellsAlong::find(const Grid& grid, const Box& box, int axis, bool is_mirror
     fold_at_any(box, axis, to, count);
     sort();
   }
+  if (of_cell > 1) join_parts(of_cell);
 }
 
 /// For a particle in the box that reaches beyond it, by no more than its length.
@@ -94,6 +101,19 @@ void CellsAlong::sort() {
   for (std::size_t& s : slot) s = cell[s] == left ? many : static_cast<std::size_t>(cell[s] - lowest);
   cell.resize(many);
   for (std::size_t n = 0; n < many; ++n) cell[n] = lowest + static_cast<int>(n);
+  if (has_left) cell.push_back(left);
+}
+
+/// \pre `cell` is sorted and holds parts of cells
+void CellsAlong::join_parts(int parts) {
+  is_plain = false;
+  const bool has_left = cell.back() == left;
+  const std::size_t many = cell.size() - (has_left ? 1 : 0);
+  const int lowest = many > 0 ? cell.front() / parts : 0, highest = many > 0 ? cell[many - 1] / parts : -1;
+  const auto wholes = static_cast<std::size_t>(highest - lowest + 1);
+  for (std::size_t& s : slot) s = s == many ? wholes : static_cast<std::size_t>(cell[s] / parts - lowest);
+  cell.resize(wholes);
+  for (std::size_t n = 0; n < wholes; ++n) cell[n] = lowest + static_cast<int>(n);
   if (has_left) cell.push_back(left);
 }
 

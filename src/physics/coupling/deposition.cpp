@@ -41,6 +41,9 @@ Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& su
         !nearly_equal(high, domain.box().high[axis], width))
       throw std::invalid_argument("Deposition: the grid must fill the box");
   }
+  Vector3 part;
+  for (int axis = 0; axis < 3; ++axis) part[axis] = grid.spacing[axis] / CellsAlong::parts(grid, axis);
+  least_reach_ = 0.5001 * norm(part);
 }
 
 void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> position,
@@ -57,8 +60,7 @@ void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> positio
 }
 
 void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Block& block) const {
-  // At least the nearest cell's centre is within reach.
-  const double reach = std::max(sph::support * h, 0.5001 * norm(grid_.spacing));
+  const double reach = std::max(sph::support * h, least_reach_);
   const double per_width = sph::support / reach;
   for (int axis = 0; axis < 3; ++axis)
     scratch.along[static_cast<std::size_t>(axis)].find(

@@ -2,7 +2,8 @@
 /// From SPH particles to the cells of the air and back: deposition of the solid volume and its flux on a grid with the
 /// SPH kernel, and interpolation from cells with the same weights ("averaged in an air cell", Yuu & Umekage 2011).
 ///
-/// The weights of a particle are its kernel at the cells' centres, over their sum: volume and momentum are conserved to
+/// The weights of a particle are its kernel at the cells' centres (of long cells: summed over that of parts as long as
+/// they are wide), over their sum: volume and momentum are conserved to
 /// round-off. The kernel is rounded to single precision, the sum is not. Contributions beyond a face of the box or a
 /// wall are folded back, as those of the image of the particle, so that the packing next to a wall is not
 /// underestimated; those beyond a periodic face enter at the opposite one. Contributions beyond an open face are lost,
@@ -74,6 +75,7 @@ class Deposition {
   const Domain& domain_;
   const Surface& surface_;
   std::array<bool, 3> is_mirrored_{};  // along each axis: neither end of the box is open or periodic
+  double least_reach_ = 0;             // with which a particle reaches the centre of the nearest part of a cell, m
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
   std::vector<double> largest_;  // of each row_lanes cells, one after another

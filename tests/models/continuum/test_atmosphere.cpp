@@ -292,5 +292,42 @@ TEST(CheckAir, NamesWhatDoesNotFit) {
   EXPECT_TRUE(check(p).empty());
 }
 
+/// A box without friction in front and behind is uniform along y: cells as deep as it are as good as four in a row.
+TEST(Atmosphere, DeepCellsAreAsGoodAsCellsInARow) {
+  const auto state = [](std::optional<double> cell_depth) {
+    Parameters p = small_hopper_in_air();
+    p.box.depth = 4 * spacing;
+    p.air.cell_depth = cell_depth;
+    p.integration.method = Method::leapfrog;
+    EXPECT_TRUE(check(p).empty());
+    EXPECT_EQ(air_grid(p).count[1], cell_depth ? 1 : 4);
+    ThreadTeam team(1);
+    Continuum model = started(p, team);
+    while (model.state().time < 0.05) model.advance(team);
+    return model.state();
+  };
+  const State rows = state({}), deep = state(4 * spacing);
+  const auto mean_height = [](const State& s) {
+    double sum = 0;
+    for (const Vector3& x : s.position) sum += x.z;
+    return sum / static_cast<double>(s.position.size());
+  };
+  const double fallen = 20 * spacing - mean_height(rows);
+  EXPECT_NEAR(mean_height(deep), mean_height(rows), 0.01 * fallen);
+}
+
+TEST(CheckAir, ACellOfAnotherDepthIsCheckedByItsOwnKey) {
+  Parameters p = small_hopper_in_air();
+  p.box.depth = 4 * spacing;
+  p.air.cell_depth = 9 * spacing;
+  ASSERT_EQ(check(p).size(), 1u);
+  EXPECT_EQ(check(p)[0].key, "air.cell_depth");
+  p.air.cell_depth = 4 * spacing;
+  p.vessel.push_back({});
+  std::vector<std::string> keys;
+  for (const Problem& problem : check_air(p)) keys.push_back(problem.key);
+  EXPECT_THAT(keys, testing::Contains("air.cell_depth"));
+}
+
 }  // namespace
 }  // namespace talus::continuum

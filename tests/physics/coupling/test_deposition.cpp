@@ -78,6 +78,32 @@ TEST(Deposition, ConservesVolumeAndMomentum) {
   }
 }
 
+TEST(Deposition, ALongCellHasWhatCellsInARowHaveInItsPlace) {
+  for (const FaceKind front : {FaceKind::wall, FaceKind::periodic, FaceKind::open}) {
+    Silo silo(front);
+    place_at_random(silo, 500);
+    silo.deposit();
+    Grid deep = silo.grid;
+    deep.count[1] = 1, deep.spacing.y = 5e-3;
+    Deposition deposition(deep, silo.domain);
+    CellField fraction = deep.cell_field();
+    FaceField flux = deep.face_field();
+    deposition.find_weights(silo.team, silo.position, silo.smoothing_length);
+    deposition.deposit(silo.team, silo.volume, silo.velocity, fraction, flux);
+    const auto row_mean = [&](const CellField& field, int i, int k) {
+      double sum = 0;
+      for (int j = 0; j < 4; ++j) sum += field[silo.grid.index(i, j, k)];
+      return sum / 4;
+    };
+    const double largest = *std::max_element(fraction.begin(), fraction.end());
+    for (int k = 0; k < 32; ++k)
+      for (int i = 0; i < 16; ++i) {
+        EXPECT_NEAR(fraction[deep.index(i, 0, k)], row_mean(silo.fraction, i, k), 1e-6 * largest) << i << ' ' << k;
+        EXPECT_NEAR(flux[1][deep.index(i, 0, k)], row_mean(silo.flux[1], i, k), 4e-6 * largest) << i << ' ' << k;
+      }
+  }
+}
+
 TEST(Deposition, HandsBackWithTheSameWeights) {
   Silo silo;
   place_at_random(silo, 300);
