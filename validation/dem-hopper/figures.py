@@ -24,7 +24,7 @@ MM = 1e-3
 DEPTH = 5e-3  # m, for which discharges are given
 CELL = 2.0    # mm, of the referee's pictures
 FASTEST = 1.5  # m/s, of the colours
-SHADES, DASHES = ("#1b1b1b", "#6b7280", "#a3a9b3"), ("-", "--", ":")
+SHADES = ("#1b1b1b", "#5b616e", "#8b93a1", "#b6bcc6")
 PROFILE, HEIGHTS = 0.2, (105, 120, 140, 160)  # s, mm
 
 
@@ -95,10 +95,17 @@ def pictures(hopper, album):
 
 
 def styles_of(rows):
-    """A shade and a dash for each run."""
-    runs = list(dict.fromkeys(row["run"] for row in rows))
-    return {run: {"color": SHADES[n % 3], "linestyle": DASHES[n // 3 % len(DASHES)], "linewidth": 0.9, "label": run}
-            for n, run in enumerate(runs)}
+    """A shade for each size of the beads, a dash for those with rolling friction; seeds look alike, the first has a name."""
+    kinds = {row["run"]: (row["diameter_mm"], row["rolling"]) for row in read("numbers.csv")}
+    sizes = sorted({diameter for diameter, _ in kinds.values()})
+    styles, named = {}, set()
+    for run in dict.fromkeys(row["run"] for row in rows):
+        diameter, rolling = kinds[run]
+        name = f"beads of {diameter:g} mm" + (", rolling friction" if rolling else "")
+        styles[run] = {"color": SHADES[sizes.index(diameter)], "linestyle": "--" if rolling else "-", "linewidth": 0.9,
+                       "label": None if name in named else name}
+        named.add(name)
+    return styles
 
 
 def discharge(hoppers, album):
@@ -112,7 +119,7 @@ def discharge(hoppers, album):
         ax.plot(time, rate * DEPTH / float(hopper.run.case["box"]["depth"]), color=hopper.colour,
                 label=f"Talus, {hopper.variant}")
     ax.set(xlabel="$t$ (s)", ylabel="discharge $Q$ (kg/s)", xlim=(0, 0.6), ylim=(0, None))
-    ax.legend()
+    ax.legend(fontsize=7)
     album.add("discharge.png", figure, "Discharge", "20 ms means, of 5 mm of depth. Larger beads pass more slowly (Beverloo).")
 
 
