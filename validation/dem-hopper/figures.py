@@ -101,7 +101,7 @@ def styles_of(rows):
     styles, named = {}, set()
     for run in dict.fromkeys(row["run"] for row in rows):
         diameter, rolling = kinds[run]
-        name = f"beads of {diameter:g} mm" + (", rolling friction" if rolling else "")
+        name = f"beads, {diameter:g} mm" + (", rolling" if rolling else "")
         styles[run] = {"color": SHADES[sizes.index(diameter)], "linestyle": "--" if rolling else "-", "linewidth": 0.9,
                        "label": None if name in named else name}
         named.add(name)
