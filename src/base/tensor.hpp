@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/simd.hpp"
+#include "base/vector.hpp"
 
 namespace talus {
 
@@ -55,10 +56,16 @@ constexpr Tensor3<Number> operator*(const Tensor3<Number>& a, const Tensor3<Numb
           a.zx * b.xz + a.zy * b.yz + a.zz * b.zz};
 }
 
+constexpr Vector3 operator*(const Tensor3<>& a, const Vector3& v) {
+  return {a.xx * v.x + a.xy * v.y + a.xz * v.z, a.yx * v.x + a.yy * v.y + a.yz * v.z,
+          a.zx * v.x + a.zy * v.y + a.zz * v.z};
+}
+
 template <class Number>
 constexpr Tensor3<Number> transpose(const Tensor3<Number>& a) {
   return {a.xx, a.yx, a.zx, a.xy, a.yy, a.zy, a.xz, a.yz, a.zz};
 }
+inline constexpr Tensor3<> identity_tensor{.xx = 1, .yy = 1, .zz = 1};
 template <class Number>
 constexpr Number trace(const Tensor3<Number>& a) {
   return a.xx + a.yy + a.zz;

@@ -47,10 +47,14 @@ std::vector<AxisImage> axis_images(const Box& box, int axis, double reach) {
   return images;
 }
 
+double& along_axis(Tensor3<>& map, int axis) {
+  return axis == 0 ? map.xx : axis == 1 ? map.yy : map.zz;
+}
+
 void set_axis(Image& image, const Box& box, int axis, const AxisImage& along) {
-  image.sign[axis] = along.sign;
+  along_axis(image.map, axis) = along.sign;
   image.offset[axis] = along.offset;
-  image.vector_sign[axis] = along.vector_sign;
+  along_axis(image.vector_map, axis) = along.vector_sign;
   const auto a = static_cast<std::size_t>(axis);
   image.copy[a] = static_cast<std::int8_t>(along.copy);
   if (!box.is_periodic(axis)) image.side[a] = static_cast<std::int8_t>((along.copy > 0) - (along.copy < 0));
@@ -58,9 +62,9 @@ void set_axis(Image& image, const Box& box, int axis, const AxisImage& along) {
 
 Image mirrored_at(double plane, int axis) {
   Image image;
-  image.sign[axis] *= -1;
+  along_axis(image.map, axis) *= -1;
   image.offset[axis] = 2 * plane - image.offset[axis];
-  image.vector_sign[axis] *= -1;
+  along_axis(image.vector_map, axis) *= -1;
   return image;
 }
 

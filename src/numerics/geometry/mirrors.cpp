@@ -12,11 +12,11 @@ namespace {
 /// Beyond an open face the faces beside it reach on.
 constexpr double far_away = 1e3;  // m
 
-/// Turns both columns of (xx xz; zx zz) over in a line with that normal.
-void reflect(const Vector3& n, double& xx, double& xz, double& zx, double& zz) {
-  const double x = 2 * (n.x * xx + n.z * zx), z = 2 * (n.x * xz + n.z * zz);
-  xx -= x * n.x, zx -= x * n.z;
-  xz -= z * n.x, zz -= z * n.z;
+/// Turns the columns for x and z over in a plane with that normal, which has no y.
+void reflect(const Vector3& n, Tensor3<>& map) {
+  const double x = 2 * (n.x * map.xx + n.z * map.zx), z = 2 * (n.x * map.xz + n.z * map.zz);
+  map.xx -= x * n.x, map.zx -= x * n.z;
+  map.xz -= z * n.x, map.zz -= z * n.z;
 }
 
 /// Least distance of two mirrors that do not cross: one of the ends is nearest.
@@ -30,8 +30,8 @@ double distance(const Mirror& a, const Mirror& b) {
 bool same_map(const Image& a, const Image& b, double length) {
   const auto close = [](double x, double y, double slack) { return std::abs(x - y) <= slack; };
   constexpr double rounding = 1e-9;
-  return close(a.sign.x, b.sign.x, rounding) && close(a.sign.z, b.sign.z, rounding) &&
-         close(a.turn.xz, b.turn.xz, rounding) && close(a.turn.zx, b.turn.zx, rounding) &&
+  return close(a.map.xx, b.map.xx, rounding) && close(a.map.zz, b.map.zz, rounding) &&
+         close(a.map.xz, b.map.xz, rounding) && close(a.map.zx, b.map.zx, rounding) &&
          close(a.offset.x, b.offset.x, rounding * length) && close(a.offset.z, b.offset.z, rounding * length);
 }
 
@@ -40,9 +40,8 @@ Image mirrored(Image image, const Mirror& mirror) {
     image.offset += mirror.shift;
     return image;
   }
-  reflect(mirror.normal, image.sign.x, image.turn.xz, image.turn.zx, image.sign.z);
-  if (!mirror.printed)
-    reflect(mirror.normal, image.vector_sign.x, image.vector_turn.xz, image.vector_turn.zx, image.vector_sign.z);
+  reflect(mirror.normal, image.map);
+  if (!mirror.printed) reflect(mirror.normal, image.vector_map);
   const double twice = 2 * dot(mirror.normal, image.offset - mirror.from);
   image.offset.x -= twice * mirror.normal.x;
   image.offset.z -= twice * mirror.normal.z;
