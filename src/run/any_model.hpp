@@ -53,9 +53,10 @@ class ModelAdapter final : public AnyModel {
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }
   Snapshot snapshot() const override {
-    Snapshot snapshot = snapshot_of(model_.state());
-    if constexpr (requires { model_.domain(); }) snapshot.domain = &model_.domain();
-    return snapshot;
+    if constexpr (requires { model_.snapshot(); })
+      return model_.snapshot();
+    else
+      return snapshot_of(model_.state());
   }
   std::optional<GridSnapshot> grid() const override {
     if constexpr (requires { model_.grid(); }) return model_.grid();

@@ -41,10 +41,11 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const double count = continuum::bed_count(p);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
   std::vector<NamedValue> groups = {{"particles", "1", count},
-                                    {"mass", "kg", continuum::lattice_of(p).mass * count},
+                                    {"mass", "kg", continuum::lattice_of(p).mass * count * continuum::copies_of(p)},
                                     {"sound_speed", "m/s", sound},
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
+  if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(continuum::copies_of(p))});
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
@@ -64,7 +65,7 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
         {"settling", f.settling_steps, f.settling_steps, f.most_settling_steps / f.settling_steps});
   forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
   const double rows = run.series > 0 ? run.end / run.series : f.most_settling_steps + f.flow_steps;
-  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
+  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.written + 45 * f.cells + 20e3) +
                         2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
   return forecast;
 }

@@ -34,7 +34,7 @@ std::int64_t most_layers(const Parameters& p) {
 }  // namespace
 
 double count_of_mass(const Parameters& p) {
-  return std::round(*p.bed.mass / lattice_of(with_layers(p, 1)).mass);
+  return std::round(*p.bed.mass / (copies_of(p) * lattice_of(with_layers(p, 1)).mass));
 }
 
 Parameters with_level(const Parameters& p) {
@@ -57,12 +57,12 @@ std::vector<Problem> check_mass(const Parameters& p) {
   if (!p.bed.mass || !(p.bed.height > 0)) return {};
   Parameters whole = p;
   whole.bed.mass = std::nullopt;
-  const double room = bed_count(whole), wanted = count_of_mass(p);
+  const double room = bed_count(whole), wanted = count_of_mass(p), least = copies_of(p) * lattice_of(whole).mass;
   if (wanted >= 1 && wanted <= room) return {};
   return {{.key = "bed.mass",
            .what = wanted < 1 ? fmt::format("{:.4g} kg is less than a particle", *p.bed.mass)
                               : fmt::format("{:.4g} kg is more than there is room for", *p.bed.mass),
-           .allowed = fmt::format("{:.4g} to {:.4g} kg", lattice_of(whole).mass, room * lattice_of(whole).mass)}};
+           .allowed = fmt::format("{:.4g} to {:.4g} kg", least, room * least)}};
 }
 
 }  // namespace talus::continuum

@@ -86,6 +86,7 @@ Forecast forecast(const Parameters& p, double end) {
   const SettlingTime settling = settling_time(p);
   const double particles = bed + mass_to_come(p, end, settling.most) / lattice_of(p).mass;
   return {.particles = particles,
+          .written = copies_of(p) * particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
           .wall_points = points_on_square() * squares,
           .triangles = triangles.count,
@@ -130,9 +131,11 @@ double memory_of(const Forecast& f) {
   // Libraries; columns, records and lists of particles and images, with room for sums of those beside walls; points of
   // walls, with the fields and the mesh of their loads; triangles, whose edges and faults are sought before anything
   // else is there.
-  constexpr double libraries = 22e6, sought = 1600, kept = 400;
-  return std::max(libraries + sought * f.triangles,
-                  libraries + 3500 * f.particles + 900 * f.cells + 350 * f.wall_points + kept * f.triangles);
+  // Particles that are written are those computed, but for a sector, whose copies are made for it.
+  constexpr double libraries = 22e6, sought = 1600, kept = 400, of_copy = 250;
+  return std::max(libraries + sought * f.triangles, libraries + 3500 * f.particles +
+                                                        of_copy * (f.written - f.particles) + 900 * f.cells +
+                                                        350 * f.wall_points + kept * f.triangles);
 }
 
 Parameters coarser(const Parameters& p, double particles) {
@@ -147,7 +150,7 @@ Parameters sample(const Parameters& p, double particles) {
   const double layers = std::min(most_layers, static_cast<double>(lattice.count[1]));
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
   Parameters q = p;
-  q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear();
+  q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
   q.inlets.clear(), q.removal = {}, q.bed.mass = std::nullopt;
   q.bed.bottom = q.bed.left = q.bed.right = std::nullopt;
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;

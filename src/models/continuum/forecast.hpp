@@ -10,7 +10,8 @@
 namespace talus::continuum {
 
 struct Forecast {
-  double particles = 0;
+  double particles = 0;       ///< that are computed
+  double written = 0;         ///< of a snapshot: in a sector those of the whole vessel
   double cells = 0;           ///< of the air
   double wall_points = 0;     ///< of the walls of a vessel, of all sets together
   double triangles = 0;       ///< of these walls

@@ -21,6 +21,7 @@ State initial_state(const Parameters& parameters, const Material& material) {
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
   state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count());
   if (material.by_displacements()) state.reset_position = state.position;
+  if (sector_of(parameters)) state.sector_turns.assign(count, 0);
   state.population = initial_population(parameters, count);
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));

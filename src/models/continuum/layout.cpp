@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "models/continuum/filling.hpp"
@@ -94,11 +95,26 @@ std::optional<Outlet> outlet_of(const Parameters& p) {
   return std::nullopt;
 }
 
+std::optional<Sector> sector_of(const Parameters& p) {
+  if (!p.box.sector) return std::nullopt;
+  const double copies = std::round(2 * std::numbers::pi / *p.box.sector);
+  if (!(copies >= Sector::fewest_copies && copies <= Sector::most_copies)) return std::nullopt;
+  return Sector({0.5 * p.box.width, 0.5 * p.box.depth, 0}, static_cast<int>(copies));
+}
+
+int copies_of(const Parameters& p) {
+  const std::optional<Sector> sector = sector_of(p);
+  return sector ? sector->copies() : 1;
+}
+
 Domain domain_of(const Parameters& p) {
-  const Box box{.low = {0, 0, 0},
-                .high = {p.box.width, p.box.depth, p.box.height},
-                .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
-  return Domain(box, walls_of(p), least_distance_of_layers(p));
+  Box box{.low = {0, 0, 0},
+          .high = {p.box.width, p.box.depth, p.box.height},
+          .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
+  const std::optional<Sector> sector = sector_of(p);
+  if (!sector) return Domain(box, walls_of(p), least_distance_of_layers(p));
+  std::fill_n(box.faces.begin(), 4, FaceKind::open);  // no grains come so far
+  return Domain(box, {}, 0, sector);
 }
 
 double least_distance_of_layers(const Parameters& p) {
@@ -117,7 +133,12 @@ Lattice lattice_of(const Parameters& p) {
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }
-  lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
+  double area = lattice.spacing.x * lattice.spacing.y;
+  if (const int copies = copies_of(p); copies > 1) {  // of the circle a whole number in each sector
+    const double circle = 0.25 * std::numbers::pi * extent.x * extent.x;
+    area = circle / (copies * std::max(1.0, std::round(circle / (copies * area))));
+  }
+  lattice.mass = p.bed.packing * p.grains.density * area * lattice.spacing.z;
   return lattice;
 }
 

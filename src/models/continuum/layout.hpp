@@ -29,6 +29,11 @@ Extent bed_along_x(const Parameters& parameters);
 Extent bed_along_y(const Parameters& parameters);
 double bed_bottom(const Parameters& parameters);
 
+/// The sector that the case computes, about the upright axis through the middle of the box; none: the whole box.
+std::optional<Sector> sector_of(const Parameters& parameters);
+/// How many such sectors make up the whole; without a sector 1.
+int copies_of(const Parameters& parameters);
+
 /// The box and the walls in it, with their gates shut unless there are none.
 Domain domain_of(const Parameters& parameters);
 
@@ -41,11 +46,12 @@ struct Lattice {
   Vector3 spacing;                    ///< m, close to bed.spacing
   std::array<std::int64_t, 3> count;  ///< particles along x, y, z
   double mass;  ///< of a particle, kg: the bed's mass is its volume times packing and grain density
+                ///< (in a sector the layers of the lattice are rings, vessel_bed.cpp)
 };
 Lattice lattice_of(const Parameters& parameters);
 
 /// Where the particles stand at the start: the places of the lattice that the middle of the bed's top sees, no plate
-/// between, and farther than a quarter of the spacing from plates at any angle.
+/// between, and farther than a quarter of the spacing from plates at any angle. Of a sector those that are within it.
 std::vector<Vector3> bed_positions(const Parameters& parameters);
 
 /// Places of a lattice, whether or not a plate hides them.

@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "models/continuum/air_totals.hpp"
 #include "models/continuum/regime.hpp"
+#include "models/continuum/sector.hpp"
+#include "numerics/snapshot_of.hpp"
 
 namespace talus::continuum {
 
@@ -85,51 +86,6 @@ RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions,
           unlimited && over > 1};
 }
 
-// Largest numbers and sums over the cells go on in several places in turn, so that one does not wait for the last.
-constexpr int turns = 8;
-template <class Number>
-using InTurn = std::array<Number, turns>;
-
-/// Calls body(cell, turn).
-template <class Body>
-void for_each_air_cell(const AirAround& air, Body&& body) {
-  for (int k = 0; k < air.grid.count[2]; ++k)
-    for (int j = 0; j < air.grid.count[1]; ++j) {
-      const std::size_t begin = air.grid.index(0, j, k), end = begin + static_cast<std::size_t>(air.grid.count[0]);
-      std::size_t c = begin;
-      for (; c + turns <= end; c += turns)
-        for (std::size_t n = 0; n < turns; ++n) body(c + n, n);
-      for (; c < end; ++c) body(c, 0);
-    }
-}
-
-/// Of all cells of the air, found in one pass.
-struct AirTotals {
-  double largest_speed = 0;                         ///< m/s
-  double least_pressure = 0, largest_pressure = 0;  ///< Pa
-  /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
-  /// continuity lacks, since what one lacks another has too much.
-  double imbalance = 0;
-};
-
-AirTotals totals_of_air(const AirAround& air) {
-  InTurn<double> square{}, excess{}, least, most;
-  least.fill(infinity), most.fill(-infinity);
-  for_each_air_cell(air, [&](std::size_t c, std::size_t n) {
-    const Vector3 u{air.flow.cell_velocity(air.grid, 0, c), air.flow.cell_velocity(air.grid, 1, c),
-                    air.flow.cell_velocity(air.grid, 2, c)};
-    const double here = dot(u, u), p = air.flow.pressure[c];
-    square[n] = here > square[n] ? here : square[n];
-    least[n] = p < least[n] ? p : least[n];
-    most[n] = p > most[n] ? p : most[n];
-    excess[n] += std::abs(air.excess[c]);
-  });
-  return {.largest_speed = std::sqrt(*std::max_element(square.begin(), square.end())),
-          .least_pressure = *std::min_element(least.begin(), least.end()),
-          .largest_pressure = *std::max_element(most.begin(), most.end()),
-          .imbalance = 0.5 * std::accumulate(excess.begin(), excess.end(), 0.0) * air.grid.volume()};
-}
-
 double solid_volume(const Parameters& p, const State& s) {
   return s.mass * static_cast<double>(s.position.size()) / p.grains.density;
 }
@@ -163,16 +119,23 @@ Continuum::Continuum(const Parameters& parameters)
     : parameters_(parameters), state_(initial_state(parameters, Material(parameters))) {}
 
 void Continuum::begin(ThreadTeam& team) {
-  workspace_ = std::make_unique<Workspace>(parameters_, state_);
+  make_workspace();
   continuum::begin(team, parameters_, state_, *workspace_);
 }
 
 void Continuum::resume(ThreadTeam& team) {
-  workspace_ = std::make_unique<Workspace>(parameters_, state_);
+  make_workspace();
   derive(team, parameters_, state_, *workspace_);
 }
 
+void Continuum::make_workspace() {
+  workspace_ = std::make_unique<Workspace>(parameters_, state_);
+  if (domain().sector()) around_whole_.emplace(domain().whole());
+  whole_.reset();
+}
+
 void Continuum::advance(ThreadTeam& team) {
+  whole_.reset();
   continuum::advance(team, parameters_, state_, *workspace_);
 }
 
@@ -190,8 +153,22 @@ NumericalError::Report Continuum::step_limit() const {
   return continuum::step_limit(parameters_, state_, *workspace_);
 }
 
+Snapshot Continuum::snapshot() const {
+  if (!domain().sector()) {
+    Snapshot snapshot = snapshot_of(state_);
+    snapshot.domain = &domain();
+    return snapshot;
+  }
+  if (!whole_) whole_ = whole_of(state_, *domain().sector());
+  Snapshot snapshot = whole_->view();
+  snapshot.domain = &*around_whole_;
+  return snapshot;
+}
+
 std::vector<NamedValue> Continuum::totals() const {
   const State& s = state_;
+  const std::optional<Sector>& sector = domain().sector();
+  const double copies = sector ? sector->copies() : 1;
   const ParticleTotals particles = totals_of_particles(domain().box(), s);
   std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
                                     {"speed_max", "m/s", particles.largest_speed},
@@ -199,8 +176,9 @@ std::vector<NamedValue> Continuum::totals() const {
                                     {"density_max", "kg/m3", particles.largest_density},
                                     {"packing_max", "1", particles.largest_packing},
                                     {"gate_time", "s", s.gate_time},
-                                    {"mass_outside", "kg", particles.mass_outside}};
-  const auto add = [&](const std::string& name, const Vector3& v) {
+                                    {"mass_outside", "kg", copies * particles.mass_outside}};
+  const auto add = [&](const std::string& name, const Vector3& given) {
+    const Vector3 v = sector ? sector->of_all(given) : given;
     for (int axis = 0; axis < 3; ++axis) values.push_back({name + "_" + "xyz"[axis], "N s", v[axis]});
   };
   add("momentum", particles.momentum);
@@ -214,8 +192,8 @@ std::vector<NamedValue> Continuum::totals() const {
   for (NamedValue& value : totals_of(workspace_->load_bands, workspace_->load_fields, s.wall_loads))
     values.push_back(std::move(value));
   if (s.population.is_active) {
-    values.push_back({"fed_mass", "kg", s.mass * static_cast<double>(s.population.fed)});
-    values.push_back({"removed_mass", "kg", s.mass * static_cast<double>(s.population.removed)});
+    values.push_back({"fed_mass", "kg", copies * s.mass * static_cast<double>(s.population.fed)});
+    values.push_back({"removed_mass", "kg", copies * s.mass * static_cast<double>(s.population.removed)});
     add("fed_momentum", s.population.fed_momentum);
     add("removed_momentum", s.population.removed_momentum);
   }

@@ -12,6 +12,7 @@
 #include "models/continuum/step.hpp"
 #include "models/model.hpp"
 #include "numerics/grid_snapshot.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::continuum {
 
@@ -43,6 +44,9 @@ class Continuum {
   /// Reynolds number since the start.
   std::vector<NamedValue> totals() const;
 
+  /// The particles: in a sector those of the whole vessel, as all totals are. Valid until the next step.
+  Snapshot snapshot() const;
+
   /// The air's cells as its last step left them: velocity and pressure (against air.pressure), solid_fraction, velocity
   /// of the grains (0 where there are none), drag on the grains in a unit volume (N/m3). Nothing in a vacuum.
   std::optional<GridSnapshot> grid() const;
@@ -54,9 +58,13 @@ class Continuum {
   std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:
+  void make_workspace();
+
   Parameters parameters_;
   State state_;
-  std::unique_ptr<Workspace> workspace_;  // made by begin or resume
+  std::unique_ptr<Workspace> workspace_;   // made by begin or resume
+  std::optional<Domain> around_whole_;     // of a sector, with its workspace
+  mutable std::optional<PointSet> whole_;  // of the present state, if it was asked for
 };
 
 static_assert(Model<Continuum>);

@@ -10,6 +10,7 @@
 
 #include "models/continuum/atmosphere.hpp"
 #include "models/continuum/filling.hpp"
+#include "models/continuum/sector.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -187,6 +188,8 @@ std::vector<Problem> check(const Parameters& given) {
   check_wedge(given, problems);
   check_inclined_plates(given, problems);
   for (const Problem& problem : check_vessel(given)) problems.push_back(problem);
+  for (const Problem& problem : check_sector(given)) problems.push_back(problem);
+  if (problems.empty()) problems = check_symmetry(given);
   // How far a mass fills a vessel can be said of a sound vessel only.
   const Parameters p = problems.empty() ? with_level(given) : given;
   if (!p.bed.mass || p.bed.height > 0) check_bed(p, problems);

@@ -29,6 +29,7 @@ namespace talus::continuum {
 struct Parameters {
   struct BoxSize {
     double width = 0, depth = 0, height = 0;
+    std::optional<double> sector;
     FaceKind left = FaceKind::wall, right = FaceKind::wall;
     FaceKind front = FaceKind::symmetry, rear = FaceKind::symmetry;
     FaceKind floor = FaceKind::wall, top = FaceKind::open;
@@ -113,15 +114,23 @@ void for_each_parameter(Visit&& visit, P& p) {
       p.box.depth);
   visit(Parameter{"box.height", dimension::length, above(0), "extent along z, from the floor at 0 to the top", true},
         p.box.height);
-  visit(Parameter{"box.left",
+  visit(
+      Parameter{"box.sector", dimension::angle, between(Sector::least_angle, Sector::largest_angle),
+                "angle of a sector about the upright axis through the middle of the box, computed in place of the "
+                "whole of an axisymmetric [[vessel]]: a whole part of 360 deg; what leaves through one of its faces "
+                "comes in through the other, all results are those of the whole vessel, and the box has no side faces; "
+                "left out: the whole"},
+      p.box.sector);
+  auto sided = only_if({"box.sector", "is given", "left out", !p.box.sector}, visit);
+  sided(Parameter{"box.left",
                   {},
                   {},
                   "kind of the left face: a wall (with friction), a symmetry plane, periodic (with its opposite), free "
                   "as printed (mirror without reversing the velocity), or open"},
         p.box.left);
-  visit(Parameter{"box.right", {}, {}, "the right face"}, p.box.right);
-  visit(Parameter{"box.front", {}, {}, "the front face"}, p.box.front);
-  visit(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
+  sided(Parameter{"box.right", {}, {}, "the right face"}, p.box.right);
+  sided(Parameter{"box.front", {}, {}, "the front face"}, p.box.front);
+  sided(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
   visit(Parameter{"box.floor", {}, {}, "the floor"}, p.box.floor);
   visit(Parameter{"box.top", {}, {}, "the top"}, p.box.top);
   for_each_parameter_of_inner_walls(visit, p);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "models/continuum/material.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double millimetre = 1e-3;
 constexpr double fewest_across = 12;  // particles
+constexpr double least_outlet_over_axis = 2;
 
 /// The law's range: its grains, and the pressure at which its fit ends.
 void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
@@ -59,6 +61,28 @@ void add_pressure_at_start(const Parameters& p, std::vector<RegimeLine>& lines) 
                    pressure > weight});
 }
 
+/// What a sector is, and what of the outlet is as coarse as its axis, where its copies stand in a ring.
+void add_sector(const Parameters& p, std::vector<RegimeLine>& lines) {
+  const int copies = copies_of(p);
+  if (copies == 1) return;
+  lines.push_back(
+      {"sector", fmt::format("{:.4g} deg", *p.box.sector * 180 / std::numbers::pi),
+       fmt::format("computed in place of the whole vessel, of which it is one of {}; all numbers are those of "
+                   "the whole",
+                   copies)});
+  const auto outlet = outlet_of(p);
+  const double width = outlet ? outlet->right - outlet->left : 0;
+  if (!(width > 0)) return;
+  const double ring = std::sqrt(copies / std::numbers::pi) * p.bed.spacing, ratio = 0.5 * width / ring;
+  lines.push_back(
+      {"outlet over the sector's axis", fmt::format("{:.3g}", ratio),
+       fmt::format("radius of the outlet over that of the ring in which a particle and its copies stand about "
+                   "the axis, {:.3g} mm; below {:g} a larger sector discharges more truly "
+                   "(validation/sector)",
+                   ring / millimetre, least_outlet_over_axis),
+       ratio < least_outlet_over_axis});
+}
+
 }  // namespace
 
 std::vector<RegimeLine> regime_of_case(const Parameters& p) {
@@ -69,6 +93,7 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
   lines.push_back({"particle spacing over grain diameter", fmt::format("{:.3g}", p.bed.spacing / p.grains.diameter),
                    "a particle stands for many grains; below 1 it would be smaller than one",
                    p.bed.spacing < p.grains.diameter});
+  add_sector(p, lines);
   const auto outlet = outlet_of(p);
   if (const double width = outlet ? outlet->right - outlet->left : 0; width > 0) {
     const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;

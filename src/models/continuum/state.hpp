@@ -70,6 +70,8 @@ struct State {
   double mass = 0;                           ///< of a particle, kg
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;
+  /// Of each particle in a sector, how many angles it has been turned back, from 0 to one circle; empty without one.
+  std::vector<std::int64_t> sector_turns;
 
   std::vector<double>
       packing;                 ///< as the kernel deposits it: sum of m W over particles and images, over rho_p; derived
@@ -202,6 +204,7 @@ void for_each_field(Visit&& visit, S& s) {
     visit(FieldInfo{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
   visit(FieldInfo{"mass", "kg"}, s.mass);
   if (!s.reset_position.empty()) visit(FieldInfo{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
+  if (!s.sector_turns.empty()) visit(FieldInfo{"sector_turns", "1", FieldRole::kept, false}, s.sector_turns);
   visit(FieldInfo{"packing", "1", FieldRole::derived}, s.packing);
   visit(FieldInfo{"strain", "1", FieldRole::derived}, s.strain);
   visit(FieldInfo{"shear_rate", "1/s"}, s.shear_rate);

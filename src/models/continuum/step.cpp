@@ -196,7 +196,7 @@ void Step::stress() const {
 /// Friction, and the loads of the walls.
 void Step::walls(double duration) const {
   apply_wall_friction(team, p, w.domain, w.rates, w.position, duration, s);
-  apply_vessel_friction(team, p, w.rates, duration, s);
+  apply_vessel_friction(team, p, w.load_fields, w.rates, duration, s);
 }
 
 void Step::damping() const {

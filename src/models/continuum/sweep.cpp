@@ -39,7 +39,7 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
       neighbourhood_(domain, vessel),
-      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields) {
+      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields, sector_of(p)) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})

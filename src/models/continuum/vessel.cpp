@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
@@ -52,7 +53,10 @@ std::size_t sides(const Parameters& p) {
   double radius = 0;
   for (const VesselPart& v : p.vessel) radius = std::max({radius, v.radius, v.lower_radius, v.upper_radius});
   const double angle = std::acos(std::max(0.0, 1 - round_off * p.bed.spacing / radius));  // half of a side's
-  return 4 * static_cast<std::size_t>(std::clamp(std::ceil(0.25 * std::numbers::pi / angle), 6.0, 1000.0));
+  const int multiple = std::lcm(4, copies_of(p));  // so that a sector ends at corners
+  const double fewest = std::ceil(24.0 / multiple), most = std::ceil(4000.0 / multiple);
+  return static_cast<std::size_t>(multiple) *
+         static_cast<std::size_t>(std::clamp(std::ceil(std::numbers::pi / angle / multiple), fewest, most));
 }
 
 std::vector<Vector3> circle(const Parameters& p, const VesselPart& v, double radius, double z) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "models/continuum/layout.hpp"
@@ -16,38 +17,104 @@ namespace {
 
 constexpr double on_the_wall = 0.02, least_distance = 0.4;  // from walls, in spacings
 
-/// The places of the lattice and which of them hold particles, x fastest.
+/// The places of a layer, as they are seen from above, and which stand beside each.
+struct Layer {
+  std::vector<Vector3> places;
+  std::vector<std::vector<std::uint32_t>> beside;
+  std::uint32_t middle = 0;  ///< of what the vessel takes of the layer
+};
+
+Layer layer_of_lattice(const Parameters& p, const Lattice& lattice) {
+  Layer layer;
+  for (std::int64_t j = 0; j < lattice.count[1]; ++j)
+    for (std::int64_t i = 0; i < lattice.count[0]; ++i) {
+      const auto number = [&](std::int64_t m, std::int64_t n) {
+        return static_cast<std::uint32_t>(n * lattice.count[0] + m);
+      };
+      layer.places.push_back({lattice.corner.x + (static_cast<double>(i) + 0.5) * lattice.spacing.x,
+                              lattice.corner.y + (static_cast<double>(j) + 0.5) * lattice.spacing.y, 0});
+      layer.beside.emplace_back();
+      for (const int step : {-1, 1}) {
+        if (i + step >= 0 && i + step < lattice.count[0]) layer.beside.back().push_back(number(i + step, j));
+        if (j + step >= 0 && j + step < lattice.count[1]) layer.beside.back().push_back(number(i, j + step));
+      }
+    }
+  const VesselBounds around = bounds_of_vessel(p);
+  std::array<std::int64_t, 2> n{};
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double low = lattice.corner[axis], extent = static_cast<double>(lattice.count[a]) * lattice.spacing[axis];
+    const double from = std::max(low, around.low[axis]), to = std::min(low + extent, around.high[axis]);
+    const double middle = from < to ? 0.5 * (from + to) : low + 0.5 * extent;
+    n[a] = std::clamp<std::int64_t>(static_cast<std::int64_t>((middle - low) / lattice.spacing[axis]), 0,
+                                    lattice.count[a] - 1);
+  }
+  layer.middle = static_cast<std::uint32_t>(n[1] * lattice.count[0] + n[0]);
+  return layer;
+}
+
+/// Rings from the outside inwards, each about as wide as its places are apart along it: what is left at the axis is
+/// a ring of one place in the sector, or few.
+Layer layer_of_rings(const Parameters& p, const Lattice& lattice, const Sector& sector) {
+  const Extent x = bed_along_x(p);
+  const double area = lattice.mass / (p.bed.packing * p.grains.density * lattice.spacing.z), apart = std::sqrt(area);
+  const double angle = 2 * std::numbers::pi / sector.copies(), of_place = 2 * area / angle;  // of the squares of radii
+  const double squared = 0.25 * (x.high - x.low) * (x.high - x.low);
+  Layer layer;
+  std::vector<std::int64_t> count, first;
+  for (std::int64_t left = std::llround(squared / of_place); left > 0;) {
+    const double outer = std::sqrt(of_place * static_cast<double>(left));
+    const std::int64_t wanted = std::llround(angle * (outer - 0.5 * apart) / apart);
+    const std::int64_t own = std::clamp<std::int64_t>(wanted, 1, left);
+    const double radius = std::sqrt(of_place * (static_cast<double>(left) - 0.5 * static_cast<double>(own)));
+    first.push_back(static_cast<std::int64_t>(layer.places.size()));
+    count.push_back(own);
+    for (std::int64_t n = 0; n < own; ++n) {
+      const double azimuth = angle * (static_cast<double>(n) + 0.5) / static_cast<double>(own);
+      layer.places.push_back(sector.axis() + Vector3{radius * std::cos(azimuth), radius * std::sin(azimuth), 0});
+    }
+    left -= own;
+  }
+  const auto rings = static_cast<std::int64_t>(count.size());
+  for (std::int64_t r = 0; r < rings; ++r) {
+    const auto at = [](const std::vector<std::int64_t>& of, std::int64_t ring) {
+      return of[static_cast<std::size_t>(ring)];
+    };
+    for (std::int64_t n = 0; n < at(count, r); ++n) {
+      layer.beside.emplace_back();
+      const auto add = [&](std::int64_t ring, std::int64_t place) {
+        layer.beside.back().push_back(static_cast<std::uint32_t>(at(first, ring) + place));
+      };
+      for (const int step : {-1, 1}) {
+        if (n + step >= 0 && n + step < at(count, r)) add(r, n + step);
+        if (r + step >= 0 && r + step < rings) add(r + step, (2 * n + 1) * at(count, r + step) / (2 * at(count, r)));
+      }
+    }
+  }
+  layer.middle = static_cast<std::uint32_t>(layer.places.size() - 1);
+  return layer;
+}
+
+/// The places of all layers and which of them hold particles, layer by layer.
 struct Places {
   const Parameters& parameters;
   Lattice lattice = lattice_of(parameters);
   Surface surface = surface_of(parameters);
   Domain domain = domain_of(parameters);
-  std::vector<char> taken =
-      std::vector<char>(static_cast<std::size_t>(lattice.count[0] * lattice.count[1] * lattice.count[2]));
+  Layer layer =
+      domain.sector() ? layer_of_rings(parameters, lattice, *domain.sector()) : layer_of_lattice(parameters, lattice);
+  std::size_t layers = static_cast<std::size_t>(lattice.count[2]);
+  std::vector<char> taken = std::vector<char>(layer.places.size() * layers);
 
-  using Index = std::array<std::int64_t, 3>;
-  std::size_t number(const Index& n) const {
-    return static_cast<std::size_t>((n[2] * lattice.count[1] + n[1]) * lattice.count[0] + n[0]);
-  }
+  struct Index {
+    std::uint32_t place;
+    std::size_t layer;
+  };
+  std::size_t number(const Index& n) const { return n.layer * layer.places.size() + n.place; }
   Vector3 at(const Index& n) const {
-    Vector3 x = lattice.corner;
-    for (int axis = 0; axis < 3; ++axis)
-      x[axis] += (static_cast<double>(n[static_cast<std::size_t>(axis)]) + 0.5) * lattice.spacing[axis];
+    Vector3 x = layer.places[n.place];
+    x.z = lattice.corner.z + (static_cast<double>(n.layer) + 0.5) * lattice.spacing.z;
     return x;
-  }
-  /// In the highest layer, in the middle of what the vessel takes of the lattice.
-  Index top() const {
-    const VesselBounds around = bounds_of_vessel(parameters);
-    Index n{0, 0, lattice.count[2] - 1};
-    for (int axis = 0; axis < 2; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      const double low = lattice.corner[axis], extent = static_cast<double>(lattice.count[a]) * lattice.spacing[axis];
-      const double from = std::max(low, around.low[axis]), to = std::min(low + extent, around.high[axis]);
-      const double middle = from < to ? 0.5 * (from + to) : low + 0.5 * extent;
-      n[a] = std::clamp<std::int64_t>(static_cast<std::int64_t>((middle - low) / lattice.spacing[axis]), 0,
-                                      lattice.count[a] - 1);
-    }
-    return n;
   }
   bool is_clear(const Vector3& x) const {
     return !surface.nearest(x, on_the_wall * parameters.bed.spacing) &&
@@ -66,30 +133,29 @@ struct Places {
 
 std::vector<Vector3> bed_in_vessel(const Parameters& p) {
   Places places{p};
-  const auto& count = places.lattice.count;
-  const Places::Index top = places.top();
   std::vector<Places::Index> border;
-  if (places.is_clear(places.at(top))) border.push_back(top), places.taken[places.number(top)] = 1;
+  const auto take = [&](const Places::Index& n) {
+    places.taken[places.number(n)] = 1;
+    border.push_back(n);
+  };
+  if (const Places::Index top{places.layer.middle, places.layers - 1}; places.is_clear(places.at(top))) take(top);
   while (!border.empty()) {
     const Places::Index n = border.back();
     border.pop_back();
     const Vector3 x = places.at(n);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (const int step : {-1, 1}) {
-        Places::Index next = n;
-        next[axis] += step;
-        if (next[axis] < 0 || next[axis] >= count[axis] || places.taken[places.number(next)]) continue;
-        const Vector3 y = places.at(next);
-        if (!places.is_clear(y) || places.is_hidden(x, y)) continue;
-        places.taken[places.number(next)] = 1;
-        border.push_back(next);
-      }
+    const auto offer = [&](const Places::Index& next) {
+      if (places.taken[places.number(next)]) return;
+      const Vector3 y = places.at(next);
+      if (places.is_clear(y) && !places.is_hidden(x, y)) take(next);
+    };
+    for (const std::uint32_t place : places.layer.beside[n.place]) offer({place, n.layer});
+    if (n.layer > 0) offer({n.place, n.layer - 1});
+    if (n.layer + 1 < places.layers) offer({n.place, n.layer + 1});
   }
   std::vector<Vector3> positions;
-  for (Places::Index n{0, 0, 0}; n[2] < count[2]; ++n[2])
-    for (n[1] = 0; n[1] < count[1]; ++n[1])
-      for (n[0] = 0; n[0] < count[0]; ++n[0])
-        if (places.taken[places.number(n)]) positions.push_back(places.moved_off(places.at(n)));
+  for (Places::Index n{0, 0}; n.layer < places.layers; ++n.layer)
+    for (n.place = 0; n.place < places.layer.places.size(); ++n.place)
+      if (places.taken[places.number(n)]) positions.push_back(places.moved_off(places.at(n)));
   return positions;
 }
 

@@ -20,9 +20,9 @@ Noted none_noted(std::size_t particles) {
   return Noted((particles + chunk_size - 1) / chunk_size);
 }
 
-void add(const Noted& noted, WallLoads& loads) {
+void add(const Noted& noted, const SurfaceFields& fields, WallLoads& loads) {
   for (const auto& of_chunk : noted)
-    for (const LoadOfField& load : of_chunk) add_load(load, loads);
+    for (const LoadOfField& load : of_chunk) add_load(load, fields, loads);
 }
 
 Impulses sum(Impulses a, const Impulses& b) {
@@ -32,7 +32,8 @@ Impulses sum(Impulses a, const Impulses& b) {
 
 }  // namespace
 
-void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& rates, double duration, State& state) {
+void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const SurfaceFields& fields, const Rates& rates,
+                           double duration, State& state) {
   if (state.vessel_impulse.empty()) return;
   Noted noted = none_noted(rates.at_vessel.size());
   const bool rough = has_wall_friction(p, state), moving = state.gate_time >= 0;
@@ -62,7 +63,7 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const Rates& r
   };
   state.vessel_impulse = sum(
       state.vessel_impulse, accumulate(team, rates.at_vessel.size(), Impulses(state.vessel_impulse.size()), meet, sum));
-  add(noted, state.wall_loads);
+  add(noted, fields, state.wall_loads);
 }
 
 void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourhood& neighbourhood,
@@ -93,7 +94,7 @@ void reflect_at_vessel(ThreadTeam& team, const Surface& vessel, const Neighbourh
   };
   state.vessel_impulse =
       sum(state.vessel_impulse, accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum));
-  add(noted, state.wall_loads);
+  add(noted, fields, state.wall_loads);
 }
 
 }  // namespace talus::continuum

@@ -16,9 +16,9 @@ namespace talus::continuum {
 /// As apply_wall_friction (walls.hpp), for the vessel: adds its loads to state.vessel_impulse, and applies Coulomb's
 /// friction to the particles that press against it. The loads go to state.wall_loads too, each to the field of the wall
 /// that was nearest to the particle when the neighbour lists were built.
-/// \param duration over which velocities have changed by the rates, s
-void apply_vessel_friction(ThreadTeam& team, const Parameters& parameters, const Rates& rates, double duration,
-                           State& state);
+/// \param fields of the vessel \param duration over which velocities have changed by the rates, s
+void apply_vessel_friction(ThreadTeam& team, const Parameters& parameters, const SurfaceFields& fields,
+                           const Rates& rates, double duration, State& state);
 
 /// Particles that have crossed a triangle come back: they stand as far before it as they were behind it, and have no
 /// velocity towards it any more, as grains that strike a wall. None is left behind a wall.

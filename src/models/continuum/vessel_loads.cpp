@@ -38,7 +38,7 @@ bool is_inside(const Parameters& p, const Vector3& x) {
 }  // namespace
 
 SurfaceFields load_fields(const Parameters& p, const Surface& surface) {
-  return {surface, size_of_field * p.bed.spacing};
+  return {surface, size_of_field * p.bed.spacing, sector_of(p)};
 }
 
 WallLoads no_loads(std::size_t fields) {
@@ -59,9 +59,15 @@ WallLoads no_loads(std::size_t fields) {
           .window_start = 0};
 }
 
-void add_load(const LoadOfField& load, WallLoads& loads) {
+void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads) {
   loads.push[load.field] += load.push;
   loads.received[load.field] += load.received;
+  const std::optional<Sector>& sector = fields.sector();
+  for (int k = 1; sector && k < sector->copies(); ++k) {
+    const std::uint32_t copy = fields.in_copy(load.field, k);
+    loads.push[copy] += load.push;
+    loads.received[copy] += sector->turn(k) * load.received;
+  }
 }
 
 void close_window(const SurfaceFields& fields, double time, WallLoads& w) {

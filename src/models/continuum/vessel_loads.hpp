@@ -46,7 +46,8 @@ SurfaceFields load_fields(const Parameters& parameters, const Surface& surface);
 /// Without load. \param fields their number
 WallLoads no_loads(std::size_t fields);
 
-void add_load(const LoadOfField& load, WallLoads& loads);
+/// To the field, and in a sector to what it is in all copies: the loads are those of the whole vessel.
+void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads);
 
 /// Closes the window if it is over. \param time at the end of a step, s
 void close_window(const SurfaceFields& fields, double time, WallLoads& loads);

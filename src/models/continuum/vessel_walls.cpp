@@ -22,14 +22,17 @@ std::array<float, 3> single(const Vector3& x) {
 
 }  // namespace
 
-VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields)
+VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields,
+                         const std::optional<Sector>& sector)
     : surface_(surface), fields_(fields), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
   if (surface.is_empty()) return;
   patches_.resize(surface.parts());
   quantum_ = quantum_of_walls(spacing);
   for (std::size_t n = 0; n < sets_of_points; ++n) {
     first_record_[n] = static_cast<std::uint32_t>(records_.size());
-    const std::vector<SurfacePoint> points = spread_points(surface, points_of_walls[n].apart * spacing);
+    const double apart = points_of_walls[n].apart * spacing;
+    const std::vector<SurfacePoint> points =
+        sector ? spread_points(surface, apart, *sector) : spread_points(surface, apart);
     // Numbered cell by cell: points that are near each other stand together.
     std::vector<Vector3> places;
     for (const SurfacePoint& point : points) places.push_back(point.place);

@@ -63,8 +63,9 @@ inline constexpr std::array<PointsOfWalls, sets_of_points> points_of_walls{{{0.4
 class VesselWalls {
  public:
   /// \param surface, fields outlive it; \param spacing of the particles, m; \param set of the sums, of this processor
-  /// \param fields of the surface that note loads, null: none
-  VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields = nullptr);
+  /// \param fields of the surface that note loads, null: none \param sector of which the surface has copies
+  VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields = nullptr,
+              const std::optional<Sector>& sector = {});
 
   bool is_empty() const { return surface_.is_empty(); }
   const Surface& surface() const { return surface_; }

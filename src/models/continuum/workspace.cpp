@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "models/continuum/loading.hpp"
+#include "models/continuum/sector.hpp"
 #include "models/continuum/sort.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
@@ -54,6 +55,7 @@ void set_list_reference(State& s, const Workspace& w) {
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  return_to_sector(w.domain, w.material, s);
   if (s.list_builds % builds_between_sorts == 0) {
     sort_for_locality(s, sph::support * p.bed.spacing);
     update_smoothing_lengths(team, s, w);

@@ -60,6 +60,14 @@ void set_axis(Image& image, const Box& box, int axis, const AxisImage& along) {
   if (!box.is_periodic(axis)) image.side[a] = static_cast<std::int8_t>((along.copy > 0) - (along.copy < 0));
 }
 
+Image turned_by(const Sector& sector, int angles) {
+  Image image;
+  image.map = image.vector_map = sector.turn(angles);
+  image.offset = sector.turned({}, angles);
+  image.turns = static_cast<std::int8_t>(angles);
+  return image;
+}
+
 Image mirrored_at(double plane, int axis) {
   Image image;
   along_axis(image.map, axis) *= -1;
@@ -70,13 +78,17 @@ Image mirrored_at(double plane, int axis) {
 
 }  // namespace
 
-Domain::Domain(const Box& box, std::vector<Wall> walls, double apart) : box_(box), walls_(std::move(walls)) {
+Domain::Domain(const Box& box, std::vector<Wall> walls, double apart, std::optional<Sector> sector)
+    : box_(box), walls_(std::move(walls)), sector_(std::move(sector)) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(box.extent(axis) > 0)) throw std::invalid_argument("the box is empty");
     if ((box.face(axis, 0) == FaceKind::periodic) != (box.face(axis, 1) == FaceKind::periodic))
       throw std::invalid_argument("a periodic face needs a periodic one opposite");
   }
   if (walls_.size() > most_inner_walls) throw std::invalid_argument("too many walls");
+  const auto is_open = [](FaceKind kind) { return kind == FaceKind::open; };
+  if (sector_ && !(walls_.empty() && std::all_of(box.faces.begin(), box.faces.begin() + 4, is_open)))
+    throw std::invalid_argument("walls or side faces beside a sector");
   layered_ = are_layers(apart);
   find_mirrors();
 }
@@ -155,6 +167,12 @@ std::vector<Image> Domain::images(double reach) const {
           }
           images.push_back(image);
         }
+  for (int k = 1; sector_ && k < sector_->copies(); ++k)
+    for (const AxisImage& z : along_z) {
+      Image image = turned_by(*sector_, k);
+      set_axis(image, box_, 2, z);
+      images.push_back(image);
+    }
   if (layered_) return images;
   // Where a wall meets a face at a right angle, the turns at wall, face and wall again are the one at the face.
   const std::vector<Image> in_faces = images;
@@ -173,6 +191,7 @@ std::vector<Image> Domain::images(double reach) const {
 }
 
 bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
+  if (image.turns != 0 && !(sector_->distance(x) <= reach)) return false;
   for (int axis = 0; axis < 3; ++axis) {
     const int copy = image.copy[static_cast<std::size_t>(axis)];
     if (copy < 0 && !(x[axis] >= box_.low[axis] - reach)) return false;
@@ -273,8 +292,15 @@ std::optional<Domain::Bounce> Domain::bounce(const Vector3& from, const Vector3&
   return first;
 }
 
+std::optional<Image> Domain::back_into_sector(const Vector3& x) const {
+  const int copy = sector_ ? sector_->copy_at(x) : 0;
+  if (copy == 0) return std::nullopt;
+  return turned_by(*sector_, sector_->copies() - copy);
+}
+
 Vector3 Domain::fold(const Vector3& x) const {
   Vector3 inside = wrap(x);
+  if (const auto image = back_into_sector(inside)) inside = image->position(inside);
   for (int axis = 0; axis < 3; ++axis) {
     double& c = inside[axis];
     while (true) {

@@ -17,6 +17,9 @@
 /// each other's images their forces are each other's mirror images. Images of up to three turns are made: corners of
 /// 60 degrees and more are filled all around.
 ///
+/// Sector. Instead of a whole circle about an upright axis its space may be a sector of it (sector.hpp): then the
+/// images are those turned about the axis, and those of all in floor and top.
+///
 /// Layers. Where all walls are parallel to a pair of faces, reach from face to face and stand apart from these and from
 /// each other, nothing needs to be followed: a wall mirrors all images in the faces once more, to either side, and the
 /// place where the line passes its plane decides who sees them. That is the quick way, and it is taken in here alone.
@@ -31,6 +34,7 @@
 #include "base/vector.hpp"
 #include "numerics/geometry/box.hpp"
 #include "numerics/geometry/image.hpp"
+#include "numerics/geometry/sector.hpp"
 #include "numerics/geometry/wall.hpp"
 
 namespace talus {
@@ -54,11 +58,15 @@ constexpr int wall_number(int wall) {
 class Domain {
  public:
   /// \param apart how far walls stand from faces and from each other at least if they are to be layers, m
+  /// \param sector within which particles live; none: the whole box
   /// \throws std::invalid_argument for an empty box, a periodic face without its opposite, more than
-  ///         `most_inner_walls` walls
-  explicit Domain(const Box& box, std::vector<Wall> walls = {}, double apart = 0);
+  ///         `most_inner_walls` walls, a sector with walls or side faces that are not open
+  explicit Domain(const Box& box, std::vector<Wall> walls = {}, double apart = 0, std::optional<Sector> sector = {});
 
   const Box& box() const { return box_; }
+  const std::optional<Sector>& sector() const { return sector_; }
+  /// The space of which the sector is a part; without one itself.
+  Domain whole() const { return sector_ ? Domain(box_) : *this; }
   const std::vector<Wall>& walls() const { return walls_; }
 
   /// Whether a gate is still shut that open_gates(time) would open.
@@ -145,6 +153,9 @@ class Domain {
   /// The place inside the box that a point stands for: periodic copies back into the box, mirrored ones too.
   Vector3 fold(const Vector3& x) const;
 
+  /// What a particle at x that has left the sector becomes within it; nothing for others.
+  std::optional<Image> back_into_sector(const Vector3& x) const;
+
   /// The place inside the periodic faces; other axes as they are.
   Vector3 wrap(const Vector3& x) const;
 
@@ -170,6 +181,7 @@ class Domain {
 
   Box box_;
   std::vector<Wall> walls_;
+  std::optional<Sector> sector_;
   bool layered_;
   int openings_ = 0;
   std::vector<Mirror> mirrors_;  // walls; unless these are layers, then faces across x and z

@@ -15,9 +15,10 @@ constexpr double most_cells = 2e6;
 
 }  // namespace
 
-SurfaceFields::SurfaceFields(const Surface& surface, double size) : size_(size) {
+SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector)
+    : size_(size), sector_(sector) {
   if (surface.is_empty()) return;
-  fields_ = spread_points(surface, size);
+  fields_ = sector ? spread_points(surface, size, *sector) : spread_points(surface, size);
   low_ = surface.low();
   const Vector3 extent = surface.high() - low_;
   cell_ = reach * size;

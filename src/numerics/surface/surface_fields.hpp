@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,8 +17,8 @@ namespace talus {
 class SurfaceFields {
  public:
   SurfaceFields() = default;
-  /// \param size of a field, > 0, m: at most its side, spread_points()
-  SurfaceFields(const Surface& surface, double size);
+  /// \param size of a field, > 0, m: at most its side, spread_points() \param sector of which the surface has copies
+  SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector = {});
 
   std::size_t count() const { return fields_.size(); }
   /// The middle, normal and area of each, and the patch and the smooth part to which it belongs.
@@ -26,8 +27,17 @@ class SurfaceFields {
   /// The field of a smooth part that is nearest to a place; of several as near the first. \pre the part has an area
   std::uint32_t at(std::uint32_t part, const Vector3& place) const;
 
+  /// What notes a load in a sector notes it in all its copies: the sector, and the field that a field is in the copy so
+  /// many angles on.
+  const std::optional<Sector>& sector() const { return sector_; }
+  std::uint32_t in_copy(std::uint32_t field, int angles) const {
+    const std::size_t own = fields_.size() / static_cast<std::size_t>(sector_->copies());
+    return static_cast<std::uint32_t>((field + static_cast<std::size_t>(angles) * own) % fields_.size());
+  }
+
  private:
   double size_ = 0;
+  std::optional<Sector> sector_;
   std::vector<SurfacePoint> fields_;
   // Their middles in the cells of a dense grid: a search is made for every particle at a wall in every step.
   Vector3 low_;

@@ -35,9 +35,13 @@ struct Sum {
 };
 
 /// Squares along the longest edge at the border of the facet: a rectangle is cut without rests.
-std::vector<Facet> facets_of(const Surface& surface) {
+/// \param sector whose triangles are taken, null: all
+std::vector<Facet> facets_of(const Surface& surface, const Sector* sector) {
   std::vector<Facet> facets(surface.facets());
-  for (std::uint32_t t = 0; t < surface.triangles().size(); ++t) facets[surface.facet(t)].triangles.push_back(t);
+  for (std::uint32_t t = 0; t < surface.triangles().size(); ++t)
+    if (!sector || sector->copy_at(surface.triangles()[t].middle()) == 0)
+      facets[surface.facet(t)].triangles.push_back(t);
+  std::erase_if(facets, [](const Facet& facet) { return facet.triangles.empty(); });
   for (Facet& facet : facets) {
     std::map<std::array<double, 6>, int> edges;
     for (const std::uint32_t t : facet.triangles)
@@ -147,9 +151,7 @@ SurfacePoint point_of(const Sum& sum, std::uint32_t patch, std::uint32_t part) {
   return {(1 / sum.area) * sum.place, (1 / norm(sum.normal)) * sum.normal, sum.area, patch, part};
 }
 
-}  // namespace
-
-std::vector<SurfacePoint> spread_points(const Surface& surface, double distance) {
+std::vector<SurfacePoint> spread(const Surface& surface, double distance, const Sector* sector) {
   struct Rest {
     std::uint32_t part, patch;
     std::array<std::int64_t, 3> cell;
@@ -165,7 +167,7 @@ std::vector<SurfacePoint> spread_points(const Surface& surface, double distance)
     rests.push_back({part, patch, {whole(x.x), whole(x.y), whole(x.z)}, sum});
   };
   std::vector<Sum> squares;
-  for (const Facet& facet : facets_of(surface)) {
+  for (const Facet& facet : facets_of(surface, sector)) {
     squares.clear();
     cut(surface, facet, distance, squares);
     const std::uint32_t t = facet.triangles.front();
@@ -209,6 +211,25 @@ std::vector<SurfacePoint> spread_points(const Surface& surface, double distance)
     sum.add(point.area, point.place, point.normal);
     point = point_of(sum, point.patch, point.part);
   }
+  return points;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance) {
+  return spread(surface, distance, nullptr);
+}
+
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const Sector& sector) {
+  std::vector<SurfacePoint> points = spread(surface, distance, &sector);
+  const std::size_t own = points.size();
+  for (int k = 1; k < sector.copies(); ++k)
+    for (std::size_t n = 0; n < own; ++n) {
+      SurfacePoint copy = points[n];
+      copy.place = sector.turned(copy.place, k);
+      copy.normal = sector.turn(k) * copy.normal;
+      points.push_back(copy);
+    }
   return points;
 }
 

@@ -110,7 +110,7 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   double time = 0;
   const auto press = [&](double force, int windows) {
     for (int n = 0; n < 10 * windows; ++n) {
-      add_load({2, force * 1e-3, {0.25 * force * 1e-3, 0, -force * 1e-3}}, loads);
+      add_load({2, force * 1e-3, {0.25 * force * 1e-3, 0, -force * 1e-3}}, fields, loads);
       close_window(fields, time += 1.0001e-3, loads);
     }
   };

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A sector of a vessel in place of the whole: which cases may have one, how particles come back into it, and what the
+/// whole is. The state is the sector's; snapshots and totals are those of the whole vessel.
+#pragma once
+
+#include <vector>
+
+#include "base/error.hpp"
+#include "models/continuum/material.hpp"
+#include "models/continuum/parameters.hpp"
+#include "models/continuum/state.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "numerics/snapshot.hpp"
+
+namespace talus::continuum {
+
+/// What of a case with box.sector contradicts it, key by key.
+std::vector<Problem> check_sector(const Parameters& parameters);
+/// Walls of the vessel that do not turn into themselves. \pre a vessel without faults
+std::vector<Problem> check_symmetry(const Parameters& parameters);
+
+/// Turns particles that have left the sector back into it, with all that they carry.
+void return_to_sector(const Domain& domain, const Material& material, State& state);
+
+/// The particles of all copies of the sector, copy by copy. A particle that has passed a face goes on in the next copy:
+/// identities, that of the particle plus a multiple of their number, follow it.
+PointSet whole_of(const State& state, const Sector& sector);
+
+}  // namespace talus::continuum

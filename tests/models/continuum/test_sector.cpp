@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A sector in place of a whole vessel.
+#include "models/continuum/sector.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "base/random.hpp"
+#include "cases.hpp"
+#include "models/continuum/filling.hpp"
+#include "models/continuum/regime.hpp"
+#include "vessel_parts.hpp"
+
+namespace talus::continuum {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double radius = 6;  // spacings
+
+/// A cone under a cylinder, and a gate.
+Parameters silo(double degrees) {
+  Parameters p = room(16, 16, 30);
+  p.box.sector = degrees * pi / 180;
+  make_granular(p);
+  VesselPart cylinder = named("cylinder", VesselShape::cylinder), cone = named("cone", VesselShape::cone);
+  cylinder.radius = radius * spacing, cylinder.bottom = 12 * spacing, cylinder.top = 26 * spacing;
+  cone.lower_radius = 3 * spacing, cone.upper_radius = radius * spacing;
+  cone.bottom = 6 * spacing, cone.top = 12 * spacing;
+  p.vessel = {cylinder, cone, disc("gate", 3, 6)};
+  p.vessel[2].gate = true;
+  p.bed.height = 10 * spacing;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  p.walls.friction_from = FrictionFrom::start;
+  return p;
+}
+
+Parameters cylinder_with_floor(double degrees) {
+  Parameters p = silo(degrees);
+  p.vessel[1] = disc("floor", radius, 12);
+  p.vessel.pop_back();
+  return p;
+}
+
+double value(const std::vector<NamedValue>& values, const std::string& name) {
+  for (const NamedValue& v : values)
+    if (v.name == name) return v.value;
+  ADD_FAILURE() << name;
+  return std::nan("");
+}
+
+/// Sums over neighbours of a state, in a domain.
+struct Sums {
+  ThreadTeam team{1};
+  Domain domain;
+  Surface vessel;
+  SurfaceFields fields;
+  Sweep sweep;
+  Rates rates;
+
+  Sums(const Parameters& p, const Domain& around, const State& s, bool walls)
+      : domain(around),
+        vessel(walls ? surface_of(p) : Surface()),
+        fields(load_fields(p, vessel)),
+        sweep(p, domain, s.mass, 50, vessel, &fields) {
+    std::vector<double> h;
+    for (const double rho : s.density) h.push_back(sweep.smoothing_length(rho));
+    sweep.find_neighbours(team, s.position, h);
+    sweep(team, {s.position, s.velocity, s.density, h, s.material}, SweepTerms::all, rates);
+  }
+};
+
+/// The bed of a case in disorder: densities, velocities and stresses of any size.
+State disordered(const Parameters& p) {
+  State s = initial_state(p, Material(p));
+  Random random(7);
+  const auto some = [&](double size) { return random.uniform(-size, size); };
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    s.position[i] += 0.1 * spacing * Vector3{some(1), some(1), some(1)};
+    s.density[i] *= random.uniform(0.8, 1.1);
+    s.velocity[i] = {some(1), some(1), some(1)};
+    for (auto& column : s.material.stress) column[i] = some(1000);
+  }
+  return s;
+}
+
+/// The state of the whole circle, as a case without a sector has it.
+State unfolded(const State& s, const Sector& sector) {
+  const PointSet all = whole_of(s, sector);
+  const Snapshot view = all.view();
+  State whole;
+  whole.mass = s.mass;
+  const auto copy = [](const auto& span) { return std::vector(span.begin(), span.end()); };
+  whole.position = copy(view.positions()), whole.velocity = copy(view.vectors("velocity"));
+  whole.density = copy(view.scalars("density"));
+  const char* const names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  for (std::size_t c = 0; c < 6; ++c) whole.material.stress[c] = copy(view.scalars(names[c]));
+  return whole;
+}
+
+TEST(Sector, FeelsWhatAWholeCircleOfItsCopiesFeels) {
+  for (const double degrees : {90.0, 30.0, 20.0})
+    for (const bool walls : {false, true}) {
+      Parameters p = silo(degrees);
+      p.sph.viscosity_beta = 0.1, p.sph.hourglass_damping = 0.1, p.sph.density_diffusion = 0.1;
+      const State s = disordered(p);
+      const Sector sector = *sector_of(p);
+      const State whole = unfolded(s, sector);
+      const std::size_t own = s.position.size();
+      ASSERT_EQ(whole.position.size(), own * static_cast<std::size_t>(sector.copies()));
+      const Domain part = domain_of(p);
+      const Sums of_part(p, part, s, walls), of_whole(p, part.whole(), whole, walls);
+      double largest = 0, most_open = 0;
+      for (std::size_t i = 0; i < own; ++i) {
+        largest = std::max(largest, norm(of_part.rates.acceleration[i]));
+        most_open = std::max(most_open, std::abs(of_part.rates.density_rate[i]));
+      }
+      // The points of walls are floats.
+      const double rounding = walls ? 2e-6 : 1e-12;
+      for (std::size_t n = 0; n < whole.position.size(); ++n) {
+        const Vector3 turned = sector.turn(static_cast<int>(n / own)) * of_part.rates.acceleration[n % own];
+        ASSERT_LT(norm(of_whole.rates.acceleration[n] - turned), rounding * largest) << degrees << walls << n;
+        ASSERT_NEAR(of_whole.rates.density_rate[n], of_part.rates.density_rate[n % own], rounding * most_open);
+        ASSERT_NEAR(of_whole.rates.kernel_density[n], of_part.rates.kernel_density[n % own],
+                    rounding * of_part.rates.kernel_density[n % own]);
+      }
+      if (!walls) continue;
+      EXPECT_GT(of_part.rates.at_vessel.size(), 10u);
+      ASSERT_EQ(of_whole.rates.at_vessel.size(),
+                of_part.rates.at_vessel.size() * static_cast<std::size_t>(sector.copies()));
+    }
+}
+
+TEST(Sector, AParticleThatLeavesItGoesOnInTheNextCopy) {
+  const Parameters p = silo(20);
+  State s = disordered(p);
+  const Sector sector = *sector_of(p);
+  const Domain domain = domain_of(p);
+  const auto by_identity = [&] {
+    std::map<std::int64_t, std::pair<Vector3, Vector3>> all;
+    const PointSet points = whole_of(s, sector);
+    const Snapshot view = points.view();
+    for (std::size_t n = 0; n < view.size(); ++n)
+      all[view.integers("identity")[n]] = {view.positions()[n], view.vectors("velocity")[n]};
+    return all;
+  };
+  // Out through either face, and around more than half of the circle.
+  for (std::size_t i = 0; i < s.position.size(); ++i) s.position[i] = sector.turned(s.position[i], int(i % 3) - 1);
+  s.position[7] = sector.turned(s.position[7], 11);
+  const auto before = by_identity();
+  ASSERT_EQ(before.size(), 18 * s.position.size()) << "no two have the same identity";
+  const double of_seventh = s.material.stress[0][7] + s.material.stress[1][7], speed = norm(s.velocity[7]);
+  return_to_sector(domain, Material(p), s);
+  for (const Vector3& x : s.position) EXPECT_EQ(sector.copy_at(x), 0);
+  EXPECT_NEAR(s.material.stress[0][7] + s.material.stress[1][7], of_seventh, 1e-12 * 1000);
+  EXPECT_NEAR(norm(s.velocity[7]), speed, 1e-15);
+  for (const auto& [identity, after] : by_identity()) {
+    EXPECT_LT(norm(after.first - before.at(identity).first), 1e-14);
+    EXPECT_LT(norm(after.second - before.at(identity).second), 1e-14);
+  }
+}
+
+TEST(Sector, TheBedIsThatOfTheWholeVessel) {
+  for (const double degrees : {90.0, 45.0, 20.0, 10.0}) {
+    Parameters p = cylinder_with_floor(degrees);
+    ASSERT_THAT(check(p), testing::IsEmpty());
+    const State s = initial_state(p, Material(p));
+    const double whole = copies_of(p) * s.mass * double(s.position.size());
+    const double expected = bulk_density(p) * pi * std::pow(radius * spacing, 2) * p.bed.height;
+    EXPECT_NEAR(whole, expected, 1e-9 * expected) << "whole rings of one area";
+    EXPECT_EQ(bed_count(p), double(s.position.size()));
+    double nearest = 1;
+    const State all = unfolded(s, *sector_of(p));
+    for (std::size_t i = 0; i < s.position.size(); ++i) {
+      EXPECT_EQ(sector_of(p)->copy_at(s.position[i]), 0);
+      for (std::size_t j = 0; j < all.position.size(); ++j)
+        if (i != j && sector_of(p)->radius(s.position[i]) > 3 * spacing)
+          nearest = std::min(nearest, norm(all.position[j] - s.position[i]) / spacing);
+    }
+    EXPECT_GT(nearest, 0.6) << "also across the faces";
+    p.bed.mass = 0.37 * whole;
+    p.bed.height = 0;
+    const Parameters filled = with_level(p);
+    ASSERT_THAT(check(filled), testing::IsEmpty());
+    const State part = initial_state(filled, Material(filled));
+    EXPECT_NEAR(copies_of(p) * part.mass * double(part.position.size()), 0.37 * whole,
+                0.5001 * copies_of(p) * part.mass);
+  }
+}
+
+/// What tells two states apart.
+std::string digest(const State& s) {
+  std::string text;
+  const auto add = [&]<class Member>(const FieldInfo&, const Member& member) {
+    if constexpr (std::is_arithmetic_v<Member>)
+      text.append(reinterpret_cast<const char*>(&member), sizeof member);
+    else
+      text.append(reinterpret_cast<const char*>(member.data()), member.size() * sizeof(member[0]));
+  };
+  for_each_field(add, s);
+  return text;
+}
+
+TEST(Sector, FlowsTheSameForAnyThreadsAndResumed) {
+  Parameters p = silo(30);
+  p.gate.opens = GateOpens::at_time;
+  p.gate.time = 0.05;
+  ThreadTeam one(1), two(2);
+  Continuum model = started(p, one), shared = started(p, two);
+  const State& s = model.state();
+  const std::size_t count = s.position.size();
+  while (s.time < 0.15) model.advance(one), shared.advance(two);
+  EXPECT_TRUE(digest(s) == digest(shared.state()));
+  EXPECT_GT(std::count_if(s.sector_turns.begin(), s.sector_turns.end(), [](auto n) { return n != 0; }), 5)
+      << "some have passed a face";
+
+  // What is kept of a state, as a checkpoint has it.
+  Continuum resumed(p);
+  std::map<std::string_view, const void*> kept;
+  for_each_field(
+      [&](const FieldInfo& field, const auto& member) {
+        if (field.role == FieldRole::kept) kept[field.name] = &member;
+      },
+      s);
+  for_each_field(
+      [&]<class Member>(const FieldInfo& field, Member& member) {
+        if (kept.contains(field.name)) member = *static_cast<const Member*>(kept[field.name]);
+      },
+      resumed.mutable_state());
+  resumed.resume(two);
+  for (int n = 0; n < 40; ++n) model.advance(one), resumed.advance(two);
+  EXPECT_TRUE(digest(s) == digest(resumed.state()));
+
+  EXPECT_EQ(s.position.size(), count);
+  const auto totals = model.totals();
+  double balance = value(totals, "momentum_z") - value(totals, "impulse_gravity_z");
+  for (const char* wall : {"cylinder", "cone", "gate"}) balance += value(totals, std::string("impulse_") + wall + "_z");
+  EXPECT_LT(std::abs(balance), 1e-11 * std::abs(value(totals, "impulse_gravity_z"))) << "all are of the whole";
+  EXPECT_NEAR(value(totals, "impulse_gravity_z"), 12 * s.gravity_impulse.z, 1e-12 * std::abs(s.gravity_impulse.z));
+  EXPECT_EQ(value(totals, "momentum_x"), 0);
+  const Snapshot whole = model.snapshot();
+  EXPECT_EQ(whole.size(), 12 * count);
+  const auto identities = whole.integers("identity");
+  EXPECT_EQ(std::set(identities.begin(), identities.end()).size(), 12 * count);
+  EXPECT_FALSE(whole.domain->sector());
+}
+
+TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
+  Parameters p = cylinder_with_floor(20);
+  p.law = granular::LinearElastic::Parameters{.lambda = 2e5, .shear_modulus = 1e2};
+  p.sph.viscosity_alpha = 0.3;
+  p.walls.friction = Friction::none;
+  p.gate.opens = GateOpens::when_settled;
+  p.settle = {.speed = 2e-2, .duration = 0.01, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
+  ThreadTeam team(2);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  while (s.gate_time < 0) model.advance(team);
+  const auto before = model.totals();
+  const double begin = s.time;
+  while (s.time < begin + 0.03) model.advance(team);
+  const auto after = model.totals();
+  const auto force = [&](const std::string& name) {
+    return (value(after, name) - value(before, name)) / (s.time - begin);
+  };
+  const double weight = bulk_density(p) * 9.81 * pi * std::pow(radius * spacing, 2) * p.bed.height;
+  EXPECT_NEAR(-force("impulse_floor_z"), weight, 0.01 * weight);
+  EXPECT_NEAR(force("normal_impulse_floor"), weight, 0.01 * weight);
+  // Fields of all copies bear the same, turned.
+  const SurfaceFields fields = load_fields(p, surface_of(p));
+  double sideways = 0;
+  for (std::uint32_t n = 0; n < fields.count(); ++n) {
+    const std::uint32_t next = fields.in_copy(n, 1);
+    EXPECT_NEAR(s.wall_loads.push[next], s.wall_loads.push[n], 1e-12 * s.wall_loads.push[n]);
+    EXPECT_LT(norm(s.wall_loads.received[next] - fields.sector()->turn(1) * s.wall_loads.received[n]),
+              1e-12 * norm(s.wall_loads.received[n]));
+    EXPECT_NEAR(norm(fields.all()[next].place - fields.sector()->turned(fields.all()[n].place, 1)), 0, 1e-14);
+    if (fields.all()[n].patch == 0) sideways += s.wall_loads.pressure[n] * fields.all()[n].area;
+  }
+  const double expected = 0.5 * bulk_density(p) * 9.81 * p.bed.height * p.bed.height * 2 * pi * radius * spacing;
+  EXPECT_NEAR(sideways, expected, 0.05 * expected);
+}
+
+std::vector<std::string> faults_of(const Parameters& p) {
+  std::vector<std::string> keys;
+  for (const Problem& problem : check(p)) keys.push_back(problem.key);
+  return keys;
+}
+
+TEST(CheckSector, WhatContradictsItIsNamedAtOnce) {
+  EXPECT_THAT(faults_of(silo(20)), testing::IsEmpty());
+  Parameters p = silo(25);
+  p.air.enabled = true;
+  p.inlets.resize(1);
+  p.plates.resize(1);
+  p.bed.left = 0, p.bed.right = 5 * spacing;
+  p.bed.velocity = {1, 0, 0};
+  EXPECT_THAT(faults_of(p), testing::IsSupersetOf({"box.sector", "air.enabled", "inlet", "plates", "bed.left",
+                                                   "bed.right", "bed.velocity"}));
+  for (const Problem& problem : check_sector(p))
+    if (problem.key == "box.sector") EXPECT_THAT(problem.allowed, testing::HasSubstr("25.7143 deg"));
+  p = silo(20);
+  p.vessel.clear();
+  EXPECT_THAT(faults_of(p), testing::Contains("box.sector"));
+}
+
+TEST(CheckSector, WallsThatAreNotRoundAboutTheAxisAreRefused) {
+  Parameters p = silo(20);
+  p.vessel[0].centre = {7.9 * spacing, 8 * spacing};
+  EXPECT_THAT(faults_of(p), testing::ElementsAre("vessel.1.shape"));
+  p = silo(20);
+  p.vessel.push_back(plate("insert", {6, 6, 15}, {2, 0, 0}, {0, 2, 0}));
+  EXPECT_THAT(faults_of(p), testing::ElementsAre("vessel.4.shape"));
+  p = silo(90);
+  VesselPart bin = named("bin", VesselShape::box);
+  bin.width = bin.depth = 14 * spacing, bin.bottom = 2 * spacing, bin.top = 28 * spacing;
+  p.vessel.push_back(bin);
+  EXPECT_THAT(faults_of(p), testing::ElementsAre("vessel.4.shape")) << "each of its sides turns into another one";
+}
+
+TEST(CheckSector, ADrawnBodyMayBeRound) {
+  const auto drawn = [](int sides) {
+    Parameters p = silo(20);
+    std::vector<Triangle> triangles;
+    const auto at = [&](int n, double z) {
+      const double angle = 2 * pi * n / sides;
+      return Vector3{8 + radius * std::cos(angle), 8 + radius * std::sin(angle), z};
+    };
+    for (int n = 0; n < sides; ++n) {
+      triangles.push_back({{at(n, 12), at(n, 26), at(n + 1, 12)}, 0});
+      triangles.push_back({{at(n + 1, 12), at(n, 26), at(n + 1, 26)}, 0});
+    }
+    p.vessel[0] = named("drawn", VesselShape::stl);
+    p.vessel[0].unit = FileUnit::cm;
+    p.vessel[0].drawn = std::make_shared<DrawnSurface>(triangles);
+    return p;
+  };
+  EXPECT_THAT(faults_of(drawn(36)), testing::IsEmpty());
+  EXPECT_THAT(faults_of(drawn(32)), testing::ElementsAre("vessel.1.shape"));
+}
+
+TEST(SectorRegime, SaysWhatIsComputedAndWarnsOfACoarseAxis) {
+  const auto lines_of = [](double degrees) {
+    std::map<std::string, RegimeLine> lines;
+    for (const RegimeLine& line : regime_of_case(silo(degrees))) lines[line.quantity] = line;
+    return lines;
+  };
+  EXPECT_EQ(lines_of(20).at("sector").value, "20 deg");
+  EXPECT_TRUE(lines_of(10).at("outlet over the sector's axis").warning);
+  EXPECT_FALSE(lines_of(90).at("outlet over the sector's axis").warning);
+}
+
+}  // namespace
+}  // namespace talus::continuum
