@@ -106,7 +106,10 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
 }
 
 PointSet whole_of(const State& s, const Sector& sector) {
-  const Snapshot part = snapshot_of(s);
+  Snapshot part = snapshot_of(s);
+  std::erase_if(part.columns, [](const ColumnView& column) {  // not yet derived
+    return std::visit([](const auto& values) { return values.empty(); }, column.values);
+  });
   const int copies = sector.copies();
   const std::size_t own = s.position.size();
   PointSet whole{.time = part.time, .step = part.step, .columns = {}};

@@ -15,11 +15,18 @@ namespace talus::continuum {
 
 namespace {
 
+constexpr double golden = std::numbers::phi - 1;
 constexpr double on_the_wall = 0.02, least_distance = 0.4;  // from walls, in spacings
+
+/// Of a whole.
+double share(double x) {
+  return x - std::floor(x);
+}
 
 /// The places of a layer, as they are seen from above, and which stand beside each.
 struct Layer {
   std::vector<Vector3> places;
+  std::vector<double> azimuth;  ///< of the places of rings, as a share of the sector's angle
   std::vector<std::vector<std::uint32_t>> beside;
   std::uint32_t middle = 0;  ///< of what the vessel takes of the layer
 };
@@ -54,7 +61,7 @@ Layer layer_of_lattice(const Parameters& p, const Lattice& lattice) {
 }
 
 /// Rings from the outside inwards, each about as wide as its places are apart along it: what is left at the axis is
-/// a ring of one place in the sector, or few.
+/// a ring of one place in the sector, or few. Each begins elsewhere: places in rows would go down in rows.
 Layer layer_of_rings(const Parameters& p, const Lattice& lattice, const Sector& sector) {
   const Extent x = bed_along_x(p);
   const double area = lattice.mass / (p.bed.packing * p.grains.density * lattice.spacing.z), apart = std::sqrt(area);
@@ -69,9 +76,10 @@ Layer layer_of_rings(const Parameters& p, const Lattice& lattice, const Sector& 
     const double radius = std::sqrt(of_place * (static_cast<double>(left) - 0.5 * static_cast<double>(own)));
     first.push_back(static_cast<std::int64_t>(layer.places.size()));
     count.push_back(own);
+    const double begin = share(golden * static_cast<double>(count.size()));
     for (std::int64_t n = 0; n < own; ++n) {
-      const double azimuth = angle * (static_cast<double>(n) + 0.5) / static_cast<double>(own);
-      layer.places.push_back(sector.axis() + Vector3{radius * std::cos(azimuth), radius * std::sin(azimuth), 0});
+      layer.places.push_back(sector.axis() + Vector3{radius, 0, 0});
+      layer.azimuth.push_back((static_cast<double>(n) + begin) / static_cast<double>(own));
     }
     left -= own;
   }
@@ -113,6 +121,13 @@ struct Places {
   std::size_t number(const Index& n) const { return n.layer * layer.places.size() + n.place; }
   Vector3 at(const Index& n) const {
     Vector3 x = layer.places[n.place];
+    if (!layer.azimuth.empty()) {  // nor in rows from layer to layer
+      const Sector& sector = *domain.sector();
+      const double azimuth = 2 * std::numbers::pi / sector.copies() *
+                             share(layer.azimuth[n.place] + golden * golden * static_cast<double>(n.layer));
+      const double radius = sector.radius(x);
+      x = sector.axis() + Vector3{radius * std::cos(azimuth), radius * std::sin(azimuth), 0};
+    }
     x.z = lattice.corner.z + (static_cast<double>(n.layer) + 0.5) * lattice.spacing.z;
     return x;
   }
