@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs a silo whole and by sectors, and puts them beside each other.
 
-    validation/sector/sector.py [--out results/sector] [--threads N] [--markdown FILE] [--picture FILE]
+    validation/sector/sector.py [--out results/sector] [--threads N] [--spacing MM] [--markdown FILE] [--picture FILE]
 
 A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy, python3-h5py and
 python3-matplotlib."""
@@ -30,7 +30,7 @@ def folder_of(out, sector):
 def cases(options):
     for sector in (None, *REFERENCE["sectors"]):
         changed = {"box.sector": f"{sector:g} deg"} if sector else {}
-        yield HERE / "silo.toml", folder_of(options.out, sector), changed
+        yield HERE / "silo.toml", folder_of(options.out, sector), changed | {"bed.spacing": f"{options.spacing:.9g} mm"}
 
 
 def read(folder):
@@ -99,4 +99,5 @@ def draw(found):
 
 
 if __name__ == "__main__":
-    sys.exit(study.compare(__file__, __doc__, "results/sector", REFERENCE, cases, measure, tell, draw))
+    sys.exit(study.compare(__file__, __doc__, "results/sector", REFERENCE, cases, measure, tell, draw,
+                           spacing=3.3333333))
