@@ -93,7 +93,7 @@ def draw(found):
     figure, axes = plt.subplots(figsize=(4.6, 3.4), layout="constrained")
     for (name, one), style in zip(found.items(), ("k-", "C0--", "C1-.", "C3:")):
         axes.plot(one["time"], one["passed"], style, label=name)
-    axes.set(xlabel="t, s", ylabel="share of the bed that has passed the outlet", xlim=(0, None), ylim=(0, 1.02))
+    axes.set(xlabel="t, s", ylabel="share that has passed", xlim=(0, None), ylim=(0, 1.02))
     axes.legend(frameon=False)
     return figure
 

@@ -29,7 +29,7 @@ namespace talus::continuum {
 struct Parameters {
   struct BoxSize {
     double width = 0, depth = 0, height = 0;
-    std::optional<double> sector;
+    std::optional<double> sector = std::nullopt;
     FaceKind left = FaceKind::wall, right = FaceKind::wall;
     FaceKind front = FaceKind::symmetry, rear = FaceKind::symmetry;
     FaceKind floor = FaceKind::wall, top = FaceKind::open;

@@ -42,7 +42,7 @@ inline void make_granular(Parameters& p) {
 /// A block in the middle of empty space.
 inline Parameters free_block(double x, double y, double z) {
   Parameters p = column(x, y, z);
-  p.box = {.width = 1, .depth = y * spacing, .height = 10, .sector = {}};
+  p.box = {.width = 1, .depth = y * spacing, .height = 10};
   p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = FaceKind::open;
   p.bed.left = 0.5 - 0.5 * x * spacing;
   p.bed.right = 0.5 + 0.5 * x * spacing;

@@ -382,7 +382,8 @@ TEST(SectorRegime, SaysWhatIsComputedAndWarnsOfACoarseAxis) {
     return lines;
   };
   EXPECT_EQ(lines_of(20).at("sector").value, "20 deg");
-  EXPECT_TRUE(lines_of(10).at("outlet over the sector's axis").warning);
+  EXPECT_EQ(lines_of(90).at("outlet over the sector's axis").value, "2.66") << "3 spacings over (4/pi)^(1/2)";
+  EXPECT_TRUE(lines_of(60).at("outlet over the sector's axis").warning);
   EXPECT_FALSE(lines_of(90).at("outlet over the sector's axis").warning);
 }
 
