@@ -19,8 +19,8 @@ struct Image {
   std::array<std::int8_t, 3> copy{};  ///< number of the copy per axis, periodic ones too; 0: within the box
   /// Of an image in walls, by number in Domain::mirrors(): the mirrors that the line to it crosses, in order; -1: none.
   std::array<std::int8_t, 3> mirrors{-1, -1, -1};
-  std::int8_t turns =
-      0;  ///< by how many angles of a sector it is turned about the axis; 0: it stands within the sector
+  /// By how many angles of a sector it is turned about the axis; 0: it stands within the sector.
+  std::int8_t turns = 0;
 
   constexpr bool is_in_walls() const { return mirrors[0] >= 0; }
   constexpr bool is_identity() const { return !is_in_walls() && (copy[0] | copy[1] | copy[2] | turns) == 0; }
