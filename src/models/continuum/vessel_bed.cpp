@@ -69,7 +69,7 @@ Layer layer_of_rings(const Parameters& p, const Lattice& lattice, const Sector& 
   const double squared = 0.25 * (x.high - x.low) * (x.high - x.low);
   Layer layer;
   std::vector<std::int64_t> count, first;
-  for (std::int64_t left = std::llround(squared / of_place); left > 0;) {
+  for (std::int64_t left = std::max<std::int64_t>(1, std::llround(squared / of_place)); left > 0;) {
     const double outer = std::sqrt(of_place * static_cast<double>(left));
     const std::int64_t wanted = std::llround(angle * (outer - 0.5 * apart) / apart);
     const std::int64_t own = std::clamp<std::int64_t>(wanted, 1, left);
