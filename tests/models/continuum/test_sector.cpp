@@ -299,7 +299,7 @@ TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
   WallLoads noted, of_whole;
   const SettledLoads loads = settled_loads(p, noted), expected = settled_loads(whole, of_whole);
   const double weight = bulk_density(p) * 9.81 * pi * std::pow(radius * spacing, 2) * p.bed.height;
-  EXPECT_NEAR(loads.weight, weight, 1e-6 * weight);
+  EXPECT_NEAR(loads.weight, weight, 1e-4 * weight) << "kicks are staggered";
   EXPECT_NEAR(loads.on_bottom, weight, 0.01 * weight);
   EXPECT_NEAR(loads.pressing_on_bottom, loads.on_bottom, 1e-9 * weight);
   EXPECT_NEAR(loads.pressing_on_cylinder / loads.weight, expected.pressing_on_cylinder / expected.weight,
