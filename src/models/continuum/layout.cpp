@@ -133,12 +133,12 @@ Lattice lattice_of(const Parameters& p) {
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }
-  double area = lattice.spacing.x * lattice.spacing.y;
+  lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
   if (const int copies = copies_of(p); copies > 1) {  // of the circle a whole number in each sector
     const double circle = 0.25 * std::numbers::pi * extent.x * extent.x;
-    area = circle / (copies * std::max(1.0, std::round(circle / (copies * area))));
+    const double places = std::max(1.0, std::round(circle / (copies * lattice.spacing.x * lattice.spacing.y)));
+    lattice.mass = p.bed.packing * p.grains.density * (circle / (copies * places)) * lattice.spacing.z;
   }
-  lattice.mass = p.bed.packing * p.grains.density * area * lattice.spacing.z;
   return lattice;
 }
 
