@@ -304,7 +304,7 @@ std::vector<Problem> check_vessel(const Parameters& p) {
     if (given) problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
   const bool moves = std::any_of(p.vessel.begin(), p.vessel.end(), is_moving);
-  refuse(p.air.enabled && moves, "air.enabled", "air does not know walls that move", "false with spin or belt");
+  refuse(p.air.enabled && moves, "air.enabled", "air does not know walls that move", "false with spin, slide or belt");
   refuse(p.plate.height.has_value(), "plate.height", "a plate across the box and a [[vessel]]", "one of them");
   refuse(p.wedge.half_angle.has_value(), "wedge.half_angle", "a wedge and a [[vessel]]", "one of them");
   refuse(p.walls.friction == Friction::printed, "walls.friction", "the printed rule in a [[vessel]]",

@@ -45,7 +45,8 @@ struct VesselPart {
   bool closed = false;
   std::optional<WallMaterial> material;
   std::optional<double> friction;
-  double spin = 0;  ///< rad/s
+  double spin = 0;   ///< rad/s
+  double slide = 0;  ///< m/s
   std::optional<std::array<double, 3>> belt;
   bool gate = false;
   double opens_after = 0;
@@ -88,6 +89,7 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
     auto tapered = only_if(of({pyramid}, "\"pyramid\""), visit);
     auto oblique = only_if(of({plate}, "\"plate\""), visit);
     auto drawn = only_if(of({stl}, "\"stl\""), visit);
+    auto prismatic = only_if(of({cylinder, box}, "\"cylinder\" or \"box\""), visit);
     auto revolved = only_if(of({cylinder, cone, disc}, "\"cylinder\", \"cone\" or \"disc\""), visit);
     revolved(Parameter{key("along"),
                        {},
@@ -152,6 +154,13 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
                   "angular velocity about its own axis, right-handed, from the opening of the gate of the case on: "
                   "it takes grains along by its friction"},
         v.spin);
+    prismatic(
+        Parameter{key("slide"),
+                  dimension::velocity,
+                  {},
+                  "velocity of its surface along its own axis, from its bottom to its top positive, from the "
+                  "opening of the gate of the case on, as of a tube that is drawn up; the wall stays where it is"},
+        v.slide);
     oblique(Parameter{key("belt"),
                       dimension::velocity,
                       {},

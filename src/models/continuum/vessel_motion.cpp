@@ -16,15 +16,15 @@ Vector3 vector_of(const std::array<double, 3>& a) {
 }  // namespace
 
 bool is_moving(const VesselPart& v) {
-  return v.spin != 0 || v.belt;
+  return v.spin != 0 || v.slide != 0 || v.belt;
 }
 
 Vector3 velocity_of_wall(const Parameters& p, std::size_t part, const Vector3& place) {
   const VesselPart& v = p.vessel[part];
   if (v.belt) return vector_of(*v.belt);
-  if (v.spin == 0) return {};
+  if (!is_moving(v)) return {};
   const Vector3 axis = placed(v, {0, 0, 1});
-  return v.spin * cross(axis, place - on_axis(p, v));
+  return v.spin * cross(axis, place - on_axis(p, v)) + v.slide * axis;
 }
 
 void check_motion(const VesselPart& v, std::size_t number, std::vector<Problem>& problems) {

@@ -105,6 +105,41 @@ TEST(VesselMotion, TheWallOfADrumMovesAlongItselfAtItsRim) {
   }
 }
 
+TEST(VesselMotion, ATubeMayTurnAndSlideAtOnce) {
+  Parameters p = drum(Along::y, 3);
+  p.vessel[0].slide = 0.2;
+  ASSERT_THAT(check(p), testing::IsEmpty());
+  const Vector3 beside{12 * spacing, 4 * spacing, 10 * spacing};  // 2 spacings from the axis, along x
+  EXPECT_LT(norm(velocity_of_wall(p, 0, beside) - Vector3{0, 0.2, -3 * 2 * spacing}), 1e-12);
+}
+
+TEST(VesselMotion, ALyingTubeThatSlidesTakesItsBedAlong) {
+  // A bed on the lowest part of the wall of a pipe along x. What presses on the wall is its weight at least, which a
+  // round wall bears with more than that, so that it takes up the speed of the pipe within speed / (mu g).
+  Parameters p = room(8, 20, 20);
+  make_granular(p);
+  p.box.left = p.box.right = FaceKind::periodic;
+  VesselPart pipe = named("pipe", VesselShape::cylinder);
+  pipe.along = Along::x;
+  pipe.radius = 8 * spacing, pipe.bottom = -2 * spacing, pipe.top = 10 * spacing;
+  pipe.slide = 0.15;
+  p.vessel = {pipe};
+  p.bed.height = 3 * spacing;
+  p.walls.coefficient = 0.3;
+  p.walls.friction_from = FrictionFrom::start;
+  ASSERT_THAT(check(p), testing::IsEmpty());
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  const double mass = s.mass * double(s.position.size()), begin = s.time, slowest = 0.15 / (0.3 * 9.81);
+  while (s.time < begin + 0.5 * slowest) model.advance(team);
+  EXPECT_GT(momentum(s).x / mass, 0.95 * 0.3 * 9.81 * (s.time - begin));
+  EXPECT_LT(momentum(s).x / mass, 0.15);
+  while (s.time < begin + 2 * slowest) model.advance(team);
+  EXPECT_NEAR(momentum(s).x / mass, 0.15, 0.01 * 0.15);
+  EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
+}
+
 TEST(VesselMotion, ADrumCarriesItsBedUpAsFarAsFrictionHoldsIt) {
   // The bed slides along the wall, which turns faster, and swings about the place where its weight, at the distance r
   // from the axis and an angle theta to the side, balances the friction at the radius R: r sin(theta) = R sin(phi) for
