@@ -79,7 +79,7 @@ def load(run, window, snapshots):
 
 def measure(options):
     run = talus.Run(options.out)
-    rows, at_rest = load(run, REFERENCE["window"], run.snapshots[-1:])
+    rows, at_rest = load(run, REFERENCE["window"], [run.snapshots[-1]])
     run, window = talus.Run(options.out / "drawn"), REFERENCE["drawn"]["window"]
     end = run.snapshots[-1].time
     of_drawn, drawn = load(run, window, [s for s in run.snapshots if s.time > end - window])

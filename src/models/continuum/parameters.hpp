@@ -69,6 +69,7 @@ struct Parameters {
     double viscosity_alpha = 0.05;
     double viscosity_beta = 0;
     ViscositySpeed viscosity_speed = ViscositySpeed::largest;
+    double density_relaxation = 1;
     double density_diffusion = 0;
     double hourglass_damping = 0;
   } sph;
@@ -199,6 +200,11 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "rate of the density: Eq. 16 as printed, consistent with the kernel sum, or -rho_b times the trace "
                   "of the corrected velocity gradient"},
         p.sph.continuity);
+  auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
+  as_sum(Parameter{"sph.density_relaxation", dimension::none, at_least(0),
+                   "share of the difference between the kernel's sum and the density that a shear strain of 1 takes "
+                   "back; none under a law that bears tension; 0, as printed: both drift apart as the grains flow"},
+         p.sph.density_relaxation);
   visit(Parameter{"sph.stress_form",
                   {},
                   {},

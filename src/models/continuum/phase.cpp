@@ -42,6 +42,10 @@ bool is_loose_where_free(const Parameters& p) {
   return p.sph.continuity == Continuity::printed && !Material(p).bears_tension();
 }
 
+double density_relaxation(const Parameters& p) {
+  return is_loose_where_free(p) ? p.sph.density_relaxation : 0;
+}
+
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);

@@ -12,6 +12,11 @@ namespace talus::continuum {
 /// tension would pull its own skin in; its surfaces stay surfaces.
 bool is_loose_where_free(const Parameters& parameters);
 
+/// sph.density_relaxation where it holds, else 0: what a shear strain of 1 takes back of the difference between the
+/// kernel's sum and the density. Eq. 16 is the rate of the kernel's sum for a constant smoothing length and between
+/// mirrors; what else there is adds up with the strain (docs/decisions/0043-the-density-is-that-of-the-places.md).
+double density_relaxation(const Parameters& parameters);
+
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.
 void begin_densities(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

@@ -129,16 +129,19 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   std::vector<std::uint32_t> left;
   Vector3 taken;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const bool is_last = left.empty() && i + 1 == s.position.size();
-    if (is_last || !is_outside(p, w.domain.box(), s.position[i]))
+    const bool outside = is_outside(p, w.domain.box(), s.position[i]);
+    if (outside) taken += s.velocity[i];
+    if (outside && left.empty() && i + 1 == s.position.size()) {  // the last one
+      s.velocity[i] = {};
       left.push_back(static_cast<std::uint32_t>(i));
-    else
-      taken += s.velocity[i];
+    } else if (!outside) {
+      left.push_back(static_cast<std::uint32_t>(i));
+    }
   }
   const std::size_t gone = s.position.size() - left.size();
+  s.population.removed_momentum += s.mass * taken;
   if (gone == 0) return false;
   s.population.removed += gone;
-  s.population.removed_momentum += s.mass * taken;
   select(s, left);
   fit(p, s, w);
   return true;

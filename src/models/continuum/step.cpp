@@ -173,10 +173,13 @@ void Step::drift(double duration, std::span<const Vector3> velocity) const {
 /// where there are none, beyond a wall above all, would thin it out without end, the more the farther its kernel then
 /// reaches: it is held where the kernel is three times as wide as the bed's.
 void Step::density() const {
-  const double thinnest = p.bed.packing * p.grains.density / 27;
+  const double thinnest = p.bed.packing * p.grains.density / 27, relaxation = density_relaxation(p);
   for_each(team, s.density.size(), [&](std::size_t i) {
+    double after = sph::density_after(s.density[i], dt * w.rates.density_rate[i]);
+    if (relaxation > 0)
+      after += sph::density_towards(w.rates.kernel_density[i], s.density[i], relaxation * dt * s.shear_rate[i]);
     // In this order a density that is no number stays one, and is found.
-    s.density[i] = std::max(sph::density_after(s.density[i], dt * w.rates.density_rate[i]), thinnest);
+    s.density[i] = std::max(after, thinnest);
   });
 }
 

@@ -24,6 +24,12 @@ constexpr double density_after(double old, double change) {
   return old / (1 + x + x * x);
 }
 
+/// By how much a shear strain draws a density to the kernel's sum, in a step by the implicit Euler method.
+/// \param strain shear strain of the step times the share that a strain of 1 takes back
+constexpr double density_towards(double sum, double density, double strain) {
+  return strain / (1 + strain) * (sum - density);
+}
+
 /// Eq. 17, du/dt = -div(tau)/rho_b, symmetric: the term of j is -m_j (tau_i/rho_i^2 + tau_j/rho_j^2 + Pi I) . grad
 /// W_ij, equal and opposite to that of i on j for equal masses. \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d
 /// x_j - x_i, m \param s tau_i/rho_i^2 + tau_j/rho_j^2, compression positive; \param viscosity Pi_ij, both m^5/(kg s^2)

@@ -110,6 +110,9 @@ TEST(Removal, WhatFallsOutIsTakenAwayAndCounted) {
   while (s.time < 1.5) model.advance(team);
   EXPECT_EQ(s.position.size(), 1u) << "the last one stays";
   EXPECT_EQ(s.population.removed, count - 1);
+  while (s.time < 3) model.advance(team);
+  EXPECT_LT(norm(s.velocity[0]), 0.2) << "and does not fall on";
+  EXPECT_LT(norm(unexplained(s)), 1e-11 * norm(s.gravity_impulse));
 }
 
 TEST(Removal, BeyondOpenFaces) {

@@ -165,6 +165,25 @@ TEST(VesselMotion, ADrumCarriesItsBedUpAsFarAsFrictionHoldsIt) {
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 }
 
+/// Mean packing of the places over that of the densities, less 1, after a while of turning.
+double drift_in_drum(double relaxation) {
+  Parameters p = drum(Along::y, 12);
+  p.sph.density_relaxation = relaxation;
+  ThreadTeam team(2);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  while (s.time < 1) model.advance(team);
+  double of_places = 0, of_densities = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    of_places += s.packing[i] * p.grains.density, of_densities += s.density[i];
+  return of_places / of_densities - 1;
+}
+
+TEST(VesselMotion, TheDensityOfABedThatIsShearedForLongStaysThatOfItsPlaces) {
+  EXPECT_LT(std::abs(drift_in_drum(Parameters{}.sph.density_relaxation)), 0.02);
+  EXPECT_GT(drift_in_drum(0), 0.06) << "the walls' sums are not the rate of anything";
+}
+
 TEST(VesselMotion, TheBitsDependNeitherOnThreadsNorOnResuming) {
   const Parameters p = drum(Along::y, 6);
   ThreadTeam one(1), two(2);

@@ -36,6 +36,17 @@ TEST(Balance, ThePrintedFormCountsTheStressByThePackingFraction) {
   EXPECT_DOUBLE_EQ(specific_stress(tau, density, packing, StressForm::printed).zz, 300 / (1500.0 * 2500));
 }
 
+TEST(DensityTowards, TakesBackAShareOfTheDifference) {
+  EXPECT_EQ(density_towards(1500, 1400, 0), 0);
+  EXPECT_EQ(density_towards(1500, 1500, 0.3), 0);
+  EXPECT_NEAR(density_towards(1500, 1400, 1e-3), 0.1, 1e-3 * 0.1) << "of first order in the strain";
+  EXPECT_LT(1400 + density_towards(1500, 1400, 1e6), 1500) << "and never past the sum";
+  // A strain of 1 in small parts leaves 1/e.
+  double density = 1400;
+  for (int n = 0; n < 1000; ++n) density += density_towards(1500, density, 1e-3);
+  EXPECT_NEAR(1500 - density, 100 * std::exp(-1.0), 0.05);
+}
+
 TEST(DensityAfter, IsTheSumToThirdOrderAndStaysPositive) {
   EXPECT_EQ(density_after(1500, 30), 1530);
   EXPECT_EQ(density_after(1500, 0), 1500);
