@@ -16,8 +16,9 @@ sys.argv.pop()
 import numpy as np  # noqa: E402
 
 VALIDATION = pathlib.Path(__file__).resolve().parents[2] / "validation"
-sys.path[:0] = [str(VALIDATION), *(str(VALIDATION / name) for name in ("orifice", "drum"))]
+sys.path[:0] = [str(VALIDATION), *(str(VALIDATION / name) for name in ("orifice", "drum", "long-runs"))]
 import drum  # noqa: E402
+import long_runs  # noqa: E402
 import orifice  # noqa: E402
 import study  # noqa: E402
 
@@ -43,6 +44,23 @@ class Orifice(unittest.TestCase):
         self.assertAlmostEqual(orifice.exponent(rate, diameter), 2.5)
         np.testing.assert_allclose(orifice.constants(rate, diameter), 0.6)
         self.assertAlmostEqual(orifice.lost(rate, diameter), orifice.K * orifice.GRAIN)
+
+
+class LongRuns(unittest.TestCase):
+    # Places in mm: one that a particle may have, and one behind a wall.
+    PLACES = {"silo-cone": ((50, 50, 61), (50, 66, 61)), "silo-square": ((74, 46, 120), (45, 76, 120)),
+              "hourglass": ((50, 50, 65), (67, 50, 65)), "drum": ((55, 17, 6), (55, 4, 20)),
+              "chute-bend": ((80, 5, 181), (200, 5, 80)), "wedge-hopper": ((59, 1, 60.5), (62, 1, 61))}
+
+    def test_what_is_behind_a_wall_is_outside(self):
+        self.assertEqual(set(self.PLACES), set(long_runs.CASES))
+        for case, places in self.PLACES.items():
+            with self.subTest(case):
+                self.assertEqual(long_runs.outside(case, np.array(places, dtype=float), 0.1).tolist(), [False, True])
+
+    def test_what_has_fallen_out_is_not(self):
+        for case in ("silo-cone", "silo-square", "wedge-hopper"):
+            self.assertFalse(long_runs.outside(case, np.array([[95.0, 1, 5]]), 0.1).any())
 
 
 class Comparison(unittest.TestCase):

@@ -376,15 +376,17 @@ TEST(CheckSector, ADrawnBodyMayBeRound) {
 }
 
 TEST(SectorRegime, SaysWhatIsComputedAndWarnsOfACoarseAxis) {
-  const auto lines_of = [](double degrees) {
+  const auto lines_of = [](double degrees, double finer = 1) {
+    Parameters p = silo(degrees);
+    p.bed.spacing /= finer;
     std::map<std::string, RegimeLine> lines;
-    for (const RegimeLine& line : regime_of_case(silo(degrees))) lines[line.quantity] = line;
+    for (const RegimeLine& line : regime_of_case(p)) lines[line.quantity] = line;
     return lines;
   };
   EXPECT_EQ(lines_of(20).at("sector").value, "20 deg");
   EXPECT_EQ(lines_of(90).at("outlet over the sector's axis").value, "2.66") << "3 spacings over (4/pi)^(1/2)";
-  EXPECT_TRUE(lines_of(60).at("outlet over the sector's axis").warning);
-  EXPECT_FALSE(lines_of(90).at("outlet over the sector's axis").warning);
+  EXPECT_TRUE(lines_of(90).at("outlet over the sector's axis").warning) << "below 2.8";
+  EXPECT_FALSE(lines_of(90, 1.1).at("outlet over the sector's axis").warning);
 }
 
 }  // namespace
