@@ -105,7 +105,7 @@ class Figures(Hoppers):
             arrows = talus.draw.arrows(ax, air, apart=5e-3, unit=MM, length=10e-3)
             ax.quiverkey(arrows, 0.85, 1.03, 1, "1 m/s", labelpos="W", fontproperties={"size": 7})
             vessel(ax, hopper, float(air.z[-1] + air.spacing[2] / 2))
-            ax.set_title(f"{hopper.variant}, {hopper.time_of(air):.2f} s")
+            ax.set_title(f"{hopper.variant}\n{hopper.time_of(air):.2f} s")  # the key of the arrows beside it
         self.album.add("figure_10.png", figure, "Figure 10: velocity of the air",
                        "In the middle of the depth, 0.17 s and 1.0 s after the opening of the gate; shaded: grains.")
 

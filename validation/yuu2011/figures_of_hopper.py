@@ -25,17 +25,17 @@ class Hoppers:
                     lambda hopper: hopper.means("discharge_rate", RATE))
 
     def surface_angles(self, name, title):
-        figure, ax = plt.subplots(figsize=(5.4, 3.4))
-        for hopper in self.hoppers:
-            table = hopper.run.table("snapshots")
-            flowing = table["time"] >= 0
-            for where, dash in (("hopper", "-"), ("bin", "--")):
-                if f"surface_angle_{where}" not in table:  # nothing lies there yet
-                    continue
-                ax.plot(table["time"][flowing], table[f"surface_angle_{where}"][flowing], dash, color=hopper.colour,
-                        label=f"{hopper.variant}, {where}")
-        ax.axhline(30, color=talus.draw.MUTED, linewidth=0.6, linestyle=":", label="printed at rest")
-        ax.set(xlabel="$t$ (s)", ylabel="slope of the free surface (°)", xlim=(0, None))
-        ax.legend()
+        figure, axes = plt.subplots(1, 2, figsize=(7.2, 3.4), sharex=True, sharey=True)
+        for ax, where in zip(axes, ("hopper", "bin")):
+            for hopper in self.hoppers:
+                table = hopper.run.table("snapshots")
+                flowing = table["time"] >= 0
+                if f"surface_angle_{where}" in table:  # something lies there already
+                    ax.plot(table["time"][flowing], table[f"surface_angle_{where}"][flowing], hopper.dash,
+                            color=hopper.colour, label=hopper.variant)
+            ax.axhline(30, color=talus.draw.MUTED, linewidth=0.6, linestyle=":", label="printed at rest")
+            ax.set(xlabel="$t$ (s)", title=where, xlim=(0, None))
+        axes[0].set(ylabel="slope of the free surface (°)")
+        axes[1].legend(loc="center left", bbox_to_anchor=(1, 0.5))
         self.album.add(name, figure, title,
                        "Of the whole surface, left and right half averaged. The paper: rest at 30 degrees.")
