@@ -74,9 +74,7 @@ def measure(options):
             "missing": max(0, REFERENCE["steps"] - steps),
             "steps": steps, "particles": len(first.positions), "fed": fed, "removed": removed, "end": len(last.positions),
             "time": float(run.series["time"][-1]), "snapshots": len(run.snapshots), "cpu": run.summary["cpu_seconds"]}
-    numbers = {row: max(f[row] for f in found.values()) for row in ("lost", "outside", "missing")}
-    numbers["lost"] = max((f["lost"] for f in found.values()), key=abs)
-    return numbers, (found, options.out)
+    return {row: max((f[row] for f in found.values()), key=abs) for row in ("lost", "outside", "missing")}, (found, options.out)
 
 
 def tell(numbers, found):
