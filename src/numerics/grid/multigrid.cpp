@@ -2,6 +2,7 @@
 #include "numerics/grid/multigrid.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "numerics/grid/run_loops.hpp"
@@ -19,6 +20,18 @@ int coarsening(const Checkerboard& board, int axis) {
   if (n == 1) return 1;
   return !board.is_periodic(axis) || n == 2 || n % 4 == 0 ? 2 : 1;
 }
+
+/// Distance of the fine cells next to the low face of a coarse cell over that of the coarse ones; 0 for a face between
+/// the cell and itself.
+float shorter(int factor, const std::vector<float>& narrow, const std::vector<float>& wide, std::size_t I) {
+  if (factor == 1) return 1.0f;
+  if (wide.size() == 1) return 0.0f;
+  const std::size_t below = I == 0 ? wide.size() - 1 : I - 1, fine_below = I == 0 ? narrow.size() - 1 : 2 * I - 1;
+  return (narrow[2 * I] + narrow[fine_below]) / (wide[I] + wide[below]);
+}
+
+// Of the distance of an open end: exact where its axis is joined.
+constexpr float to_outside = 0.5f;
 
 /// Calls body(m, I) for each cell m of a run, I the coarse cell along x that it belongs to.
 template <class Body>
@@ -45,6 +58,13 @@ void for_each_joined_row(const Checkerboard& fine, const Checkerboard& coarse, c
 void add_joined(const Checkerboard& fine, int factor, int colour, std::size_t r, const float* run, float* row) {
   if (factor == 2) return run_loops::add(fine.length(colour, r), run, row);
   for_each_joined(fine, factor, colour, r, [&](int m, int I) { row[I] += run[m]; });
+}
+
+/// Calls body(list, its parts) for the lists of a row of the coarse grid.
+template <class Lists, class Body>
+void for_each_listed(const Lists& lists, std::size_t row, Body&& body) {
+  for (std::size_t list = lists.of_row[row]; list < lists.of_row[row + 1]; ++list)
+    body(list, std::span(lists.parts).subspan(lists.begin[list], lists.begin[list + 1] - lists.begin[list]));
 }
 
 /// Hands a row in the order of x to the runs of both colours.
@@ -118,7 +138,7 @@ Multigrid::Multigrid(const Checkerboard& finest) {
   }
 }
 
-void Multigrid::set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale) {
+void Multigrid::set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale, bool walls_changed) {
   Level& top = levels_.front();
   const Checkerboard& board = top.board;
   board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -130,12 +150,15 @@ void Multigrid::set_matrix(ThreadTeam& team, const Matrix<double>& finest, doubl
     }
   });
   top.complete(team);
-  for (std::size_t l = 1; l < levels_.size(); ++l) coarsen(team, levels_[l - 1], levels_[l]);
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    Level &fine = levels_[l - 1], &coarse = levels_[l];
+    if (walls_changed) fine.aggregates = find_aggregates(fine.board, fine.low(), coarse.board, fine.factor);
+    coarsen(team, fine, coarse);
+  }
 }
 
 /// The conductances of joined faces add up; the way between the centres is longer, also that to the outside.
 void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse) {
-  const float to_outside = 0.5f;  // exact where the axis of the open face is joined
   coarse.board.for_each_block(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     const std::size_t nx = coarse.extent[0].size();
     std::array<std::vector<float>, 4> sum;
@@ -154,26 +177,38 @@ void Multigrid::coarsen(ThreadTeam& team, const Level& fine, Level& coarse) {
           join(fine.matrix.outside, sum[3]);
         }
       });
-      const std::size_t J = r % coarse.extent[1].size(), K = r / coarse.extent[1].size();
-      // The way between the fine cells next to the face over that to the low neighbour; none to the cell itself.
-      const auto shorter = [&](std::size_t axis, std::size_t I) {
-        if (fine.factor[axis] == 1) return 1.0f;
-        if (coarse.extent[axis].size() == 1) return 0.0f;
-        const auto& wide = coarse.extent[axis];
-        const auto& narrow = fine.extent[axis];
-        const std::size_t below = I == 0 ? wide.size() - 1 : I - 1, fine_below = I == 0 ? narrow.size() - 1 : 2 * I - 1;
-        return (narrow[2 * I] + narrow[fine_below]) / (wide[I] + wide[below]);
+      const auto shorten = [&](std::size_t a, std::size_t I) {
+        return shorter(fine.factor[a], fine.extent[a], coarse.extent[a], I);
       };
-      const float way_y = shorter(1, J), way_z = shorter(2, K);
+      const std::size_t J = r % coarse.extent[1].size(), K = r / coarse.extent[1].size();
+      const float way_y = shorten(1, J), way_z = shorten(2, K);
       for (std::size_t i = 0; i < nx; ++i) {
-        sum[0][i] *= shorter(0, i), sum[1][i] *= way_y, sum[2][i] *= way_z;
+        sum[0][i] *= shorten(0, i), sum[1][i] *= way_y, sum[2][i] *= way_z;
         sum[3][i] *= to_outside;
       }
       for (std::size_t a = 0; a < 3; ++a) take_row(coarse.board, r, sum[a].data(), coarse.matrix.low[a].data());
       take_row(coarse.board, r, sum[3].data(), coarse.matrix.outside.data());
+      if (!fine.aggregates.empty()) join_faces_beside_walls(fine, coarse, r);
     }
   });
   coarse.complete(team);
+}
+
+/// Sets the conductances of the coarse cells of a row that are not joined in pairs.
+void Multigrid::join_faces_beside_walls(const Level& fine, Level& coarse, std::size_t row) {
+  for (std::size_t a = 0; a < 3; ++a)
+    for_each_listed(fine.aggregates.faces[a], row, [&](std::size_t list, auto faces) {
+      float sum = 0;
+      for (const auto [axis, place] : faces) sum += fine.matrix.low[axis][place];
+      const auto& lists = fine.aggregates.faces[a];
+      coarse.matrix.low[a][lists.place[list]] =
+          sum * shorter(fine.factor[a], fine.extent[a], coarse.extent[a], lists.at[list][a]);
+    });
+  for_each_listed(fine.aggregates.cells, row, [&](std::size_t list, auto cells) {
+    float sum = 0;
+    for (const auto& c : cells) sum += fine.matrix.outside[fine.board.run(c.colour, c.row) + c.m];
+    coarse.matrix.outside[fine.aggregates.cells.place[list]] = sum * to_outside;
+  });
 }
 
 /// After one sweep from zero only red cells have a residual left: what flows to them from black ones, which were zero
@@ -192,6 +227,13 @@ void Multigrid::restrict_residual(ThreadTeam& team, const Level& fine, Level& co
         for_each_joined(fine.board, 1, 0, f, [&](int m, int I) { sum[I] += inflow[m]; });
       });
       take_row(coarse.board, r, sum.data(), coarse.source.data());
+      if (fine.aggregates.empty()) continue;
+      for_each_listed(fine.aggregates.cells, r, [&](std::size_t list, auto cells) {
+        float inflow = 0;
+        for (const auto& c : cells)
+          if (c.colour == 0) inflow += Runs<float>(fine.board, fine.low(), fine.value.data(), 0, c.row).inflow(c.m);
+        coarse.source[fine.aggregates.cells.place[list]] = inflow;
+      });
     }
   });
 }
@@ -214,6 +256,11 @@ void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fin
         run_loops::add(length, correction.data(), x);
       else
         for_each_joined(fine.board, 1, 0, r, [&](int m, int I) { x[m] += correction[I]; });
+      if (!fine.aggregates.empty())
+        for (auto n = fine.aggregates.moved_of_row[r]; n < fine.aggregates.moved_of_row[r + 1]; ++n) {
+          const auto& [place, from, beside] = fine.aggregates.moved[n];
+          fine.value[place] += coarse.value[from] - coarse.value[beside];
+        }
       fine.board.fill_ghosts(x, length);
     }
   });

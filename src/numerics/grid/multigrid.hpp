@@ -2,8 +2,9 @@
 /// One multigrid V-cycle for a seven-point Poisson matrix, as a preconditioner: symmetric, in single precision, the
 /// same bits for any number of threads.
 ///
-/// Cells are merged in pairs along every axis; the conductances of merged faces are added and divided by the larger
-/// distance of the centres. Prolongation is constant, restriction sums the residuals. One red-black Gauss-Seidel sweep
+/// Cells are joined in pairs along every axis, but for those that walls part (Aggregates); the conductances of joined
+/// faces are added and divided by the larger distance of the centres. Prolongation is constant, restriction sums the
+/// residuals. One red-black Gauss-Seidel sweep
 /// before the coarse grid, one black-red sweep after it. Compare Trottenberg, Oosterlee & Schueller 2001, Multigrid,
 /// 4.3 and 8.7.
 #pragma once
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "numerics/grid/aggregates.hpp"
 #include "numerics/grid/checkerboard.hpp"
 
 namespace talus {
@@ -37,7 +39,8 @@ class Multigrid {
 
   /// Sets the matrix of the finest grid, times `scale`, which keeps single precision within its range, and computes
   /// those of the coarser ones.
-  void set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale);
+  /// \param walls_changed whether other faces are closed than at the last call
+  void set_matrix(ThreadTeam& team, const Matrix<double>& finest, double scale, bool walls_changed);
   const Matrix<float>& matrix() const { return levels_.front().matrix; }  ///< of the finest grid
 
   /// One cycle from zero: correction() := M residual().
@@ -54,6 +57,7 @@ class Multigrid {
     Matrix<float> matrix;
     std::vector<float> inverse;  // of the diagonal
     std::vector<float> value, source;
+    Aggregates aggregates;  // with the next coarser level
 
     Level(const Checkerboard& board, std::array<std::vector<float>, 3> extent);
     /// Ghosts, diagonal and its inverse from the conductances.
@@ -66,6 +70,7 @@ class Multigrid {
   };
 
   static void coarsen(ThreadTeam& team, const Level& fine, Level& coarse);
+  static void join_faces_beside_walls(const Level& fine, Level& coarse, std::size_t row);
   static void restrict_residual(ThreadTeam& team, const Level& fine, Level& coarse);
   static void add_correction(ThreadTeam& team, const Level& coarse, Level& fine);
   void cycle(ThreadTeam& team, std::size_t level);

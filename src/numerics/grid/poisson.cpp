@@ -141,9 +141,10 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
   });
   const double top = *std::max_element(largest.begin(), largest.end());
   scale_ = top > 0 ? 1 / top : 1;
-  if (is_new_ || std::count(changed.begin(), changed.end(), 1) > 0) find_closed_regions();
+  const bool walls_changed = is_new_ || std::count(changed.begin(), changed.end(), 1) > 0;
+  if (walls_changed) find_closed_regions();
   is_new_ = false;
-  multigrid_.set_matrix(team, matrix_, scale_);
+  multigrid_.set_matrix(team, matrix_, scale_, walls_changed);
 }
 
 /// residual_ := source_ - matrix value_; \returns its square

@@ -258,6 +258,38 @@ TEST(PoissonSolver, NeedsFewIterationsAndFewerFromAGoodGuess) {
   EXPECT_LE(warm, cold - 5);
 }
 
+/// A cone of closed faces, a staircase, in a box with an open top; it is open below and above.
+FaceField cone_in_a_box(const Grid& grid) {
+  FaceField faces = conductances(grid, false, not_periodic, [](const Vector3&) { return 1.0; });
+  const auto inside = [&](int i, int j, int k) {
+    const Vector3 x = grid.centre(i, j, k);
+    return x.z > 0.3 && x.z < 0.8 && std::hypot(x.x - 0.5, x.y - 0.5) < 0.1 + 0.6 * (x.z - 0.3);
+  };
+  for_each_cell(grid, [&](int i, int j, int k, std::size_t c) {
+    if (i > 0 && inside(i - 1, j, k) != inside(i, j, k)) faces[0][c] = 0;
+    if (j > 0 && inside(i, j - 1, k) != inside(i, j, k)) faces[1][c] = 0;
+    const bool is_end = k > 0 && (grid.centre(i, j, k - 1).z < 0.3 || grid.centre(i, j, k).z > 0.8);
+    if (k > 0 && !is_end && inside(i, j, k - 1) != inside(i, j, k)) faces[2][c] = 0;
+    if (k + 1 == grid.count[2]) faces[2][grid.index(i, j, k + 1)] = 2 / grid.spacing.x;
+  });
+  return faces;
+}
+
+TEST(PoissonSolver, NeedsFewIterationsBesideWallsAtAnAngle) {
+  const int n = 32;
+  const Grid grid{.count = {n, n, n}, .low = {}, .spacing = {1.0 / n, 1.0 / n, 1.0 / n}};
+  CellField source = grid.cell_field(), value = grid.cell_field(), on_two = grid.cell_field();
+  Random random(5);
+  for_each_cell(grid, [&](int, int, int, std::size_t c) { source[c] = random.uniform() - 0.4; });
+  ThreadTeam team, two(2);
+  for (const auto& [threads, found] : {std::pair{&team, &value}, {&two, &on_two}}) {
+    PoissonSolver solver(grid, not_periodic);
+    solver.set_conductance(*threads, cone_in_a_box(grid));
+    EXPECT_LE(solver.solve(*threads, source, *found, {.tolerance = 1e-6}).iterations, 30);
+  }
+  EXPECT_EQ(value, on_two);
+}
+
 TEST(PoissonSolver, GivesTheSameBitsForAnyNumberOfThreads) {
   const Silo silo(true, true);
   const CellField one = silo.solve(1, 1e-8);
