@@ -80,6 +80,41 @@ void new_coefficients(benchmark::State& state) {
   for (auto _ : state) solver.set_conductance(team, hopper.conductance);
 }
 
+void cone(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  const Grid grid{.count = {n, n, n}, .low = {}, .spacing = {1.0 / n, 1.0 / n, 1.0 / n}};
+  FaceField conductance = grid.face_field();
+  CellField source = grid.cell_field();
+  Random random(3);
+  const auto inside = [&](int i, int j, int k) {
+    const Vector3 x = grid.centre(i, j, k);
+    return x.z > 0.3 && x.z < 0.8 && std::hypot(x.x - 0.5, x.y - 0.5) < 0.1 + 0.6 * (x.z - 0.3);
+  };
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        const std::size_t c = grid.index(i, j, k);
+        const bool own = inside(i, j, k),
+                   is_above_an_end = (grid.centre(i, j, k).z > 0.3) != (grid.centre(i, j, k - 1).z > 0.3) ||
+                                     (grid.centre(i, j, k).z > 0.8) != (grid.centre(i, j, k - 1).z > 0.8);
+        conductance[0][c] = i > 0 && inside(i - 1, j, k) == own;
+        conductance[1][c] = j > 0 && inside(i, j - 1, k) == own;
+        conductance[2][c] = k > 0 && (is_above_an_end || inside(i, j, k - 1) == own);
+        if (k + 1 == n) conductance[2][grid.index(i, j, n)] = 2;
+        source[c] = random.uniform() - 0.4;
+      }
+  ThreadTeam team;
+  PoissonSolver solver(grid, {false, false, false});
+  solver.set_conductance(team, conductance);
+  PoissonSolver::Outcome outcome;
+  for (auto _ : state) {
+    CellField value = grid.cell_field();
+    outcome = solver.solve(team, source, value, {.tolerance = 1e-6});
+  }
+  state.counters["iterations"] = outcome.iterations;
+}
+
+BENCHMARK(cone)->ArgName("cells")->Arg(32)->Arg(64)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 BENCHMARK(cold)
     ->ArgNames({"contrast", "threads"})
     ->ArgsProduct({{1, 30, 100, 5000}, {1}})

@@ -225,8 +225,9 @@ Aggregates find_aggregates(const Checkerboard& fine_board, const std::array<cons
     if (i == 0) found.moved_of_row.push_back(static_cast<std::uint32_t>(found.moved.size()));
     const std::uint32_t parent = parents.of(c);
     if (parent != none && cells_listed[parent])
-      cells.push_back({parent, {static_cast<std::uint32_t>(fine_board.row(static_cast<int>(j), static_cast<int>(k))),
-                                static_cast<std::uint16_t>(colour), static_cast<std::uint16_t>(i / 2)}});
+      cells.push_back({parent,
+                       {static_cast<std::uint32_t>(fine_board.row(static_cast<int>(j), static_cast<int>(k))),
+                        static_cast<std::uint16_t>(colour), static_cast<std::uint16_t>(i / 2)}});
     if (colour == 0 && parents.is_moved(c))
       found.moved.push_back(
           {fine.place(c), parent == none ? outside : coarse.place(parent), coarse.place(parents.beside(c))});

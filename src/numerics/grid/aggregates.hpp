@@ -29,10 +29,10 @@ struct Aggregates {
   /// Lists of what each of some coarse cells consists of, by row of the coarse grid.
   template <class Part>
   struct Lists {
-    std::vector<std::uint32_t> of_row;            ///< first list of each row, and the number of lists
-    std::vector<std::uint32_t> place;             ///< of the coarse cell of each list, in the board's order
+    std::vector<std::uint32_t> of_row;             ///< first list of each row, and the number of lists
+    std::vector<std::uint32_t> place;              ///< of the coarse cell of each list, in the board's order
     std::vector<std::array<std::uint32_t, 3>> at;  ///< the coarse cell (I, J, K) of each list
-    std::vector<std::uint32_t> begin;             ///< first part of each list, and the number of parts
+    std::vector<std::uint32_t> begin;              ///< first part of each list, and the number of parts
     std::vector<Part> parts;
   };
   /// A red cell that is not joined with those beside it: where its correction comes from, and where it would.
@@ -41,7 +41,7 @@ struct Aggregates {
   };
 
   Lists<Cell> cells;
-  std::array<Lists<Face>, 3> faces;  ///< of low faces of coarse cells, by axis
+  std::array<Lists<Face>, 3> faces;         ///< of low faces of coarse cells, by axis
   std::vector<std::uint32_t> moved_of_row;  ///< first of `moved` of each row of the fine grid, and their number
   std::vector<Moved> moved;
 

@@ -229,10 +229,10 @@ void Multigrid::restrict_residual(ThreadTeam& team, const Level& fine, Level& co
       take_row(coarse.board, r, sum.data(), coarse.source.data());
       if (fine.aggregates.empty()) continue;
       for_each_listed(fine.aggregates.cells, r, [&](std::size_t list, auto cells) {
-        float inflow = 0;
+        float residual = 0;
         for (const auto& c : cells)
-          if (c.colour == 0) inflow += Runs<float>(fine.board, fine.low(), fine.value.data(), 0, c.row).inflow(c.m);
-        coarse.source[fine.aggregates.cells.place[list]] = inflow;
+          if (c.colour == 0) residual += Runs<float>(fine.board, fine.low(), fine.value.data(), 0, c.row).inflow(c.m);
+        coarse.source[fine.aggregates.cells.place[list]] = residual;
       });
     }
   });
@@ -258,8 +258,8 @@ void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fin
         for_each_joined(fine.board, 1, 0, r, [&](int m, int I) { x[m] += correction[I]; });
       if (!fine.aggregates.empty())
         for (auto n = fine.aggregates.moved_of_row[r]; n < fine.aggregates.moved_of_row[r + 1]; ++n) {
-          const auto& [place, from, beside] = fine.aggregates.moved[n];
-          fine.value[place] += coarse.value[from] - coarse.value[beside];
+          const Aggregates::Moved& cell = fine.aggregates.moved[n];
+          fine.value[cell.place] += coarse.value[cell.coarse] - coarse.value[cell.coarse_beside];
         }
       fine.board.fill_ghosts(x, length);
     }

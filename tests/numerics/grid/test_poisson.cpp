@@ -285,7 +285,7 @@ TEST(PoissonSolver, NeedsFewIterationsBesideWallsAtAnAngle) {
   for (const auto& [threads, found] : {std::pair{&team, &value}, {&two, &on_two}}) {
     PoissonSolver solver(grid, not_periodic);
     solver.set_conductance(*threads, cone_in_a_box(grid));
-    EXPECT_LE(solver.solve(*threads, source, *found, {.tolerance = 1e-6}).iterations, 30);
+    EXPECT_LE(solver.solve(*threads, source, *found, {.tolerance = 1e-6}).iterations, 24);
   }
   EXPECT_EQ(value, on_two);
 }
