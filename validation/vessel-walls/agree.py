@@ -40,8 +40,8 @@ def vessel_case(spacing):
     begin, end = text.index("[box]"), text.index("[gate]")
     box = (f'[box]\nwidth = "{100 + 2 * ROOM} mm"\ndepth = "{spacing:.7g} mm"\nheight = "{250 + ROOM} mm"\n'
            'left = "open"\nright = "open"\nfloor = "open"\n\n')
-    walls = (plate("left", (0, 0), (0, 250), spacing) + plate("right", (100, 0), (0, 250), spacing) +
-             plate("floor", (0, 0), (100, 0), spacing) + plate("plate_left", (0, 100), (30, 0), spacing) +
+    walls = (plate("side_left", (0, 0), (0, 250), spacing) + plate("side_right", (100, 0), (0, 250), spacing) +
+             plate("bottom", (0, 0), (100, 0), spacing) + plate("plate_left", (0, 100), (30, 0), spacing) +
              plate("plate_right", (70, 100), (30, 0), spacing) + plate("lid", (30, 100), (40, 0), spacing, gate=True))
     text = text[:begin] + box + walls + text[end:]
     return text.replace('[bed]\n', f'[bed]\nbottom = "{100 + ROOM} mm"\n')
