@@ -98,7 +98,8 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     Facets& facets = facets_[group];
     facets.all = vessel_.facets_near(points[begin], (1 + 1e-9) * (radius + reach_), most_facets, facets.number);
     if (facets.number.empty()) return;
-    thread_local std::vector<std::uint32_t> triangles;
+    thread_local std::vector<std::uint32_t> of_first, triangles;
+    facets.few = facets.all || vessel_.facets_near(points[begin], reach_, most_facets, of_first);
     if (!vessel_.near(points[begin], radius + reach_, most_triangles, triangles)) triangles.clear();
     std::size_t last = Surface::no_triangle;
     for (std::size_t n = begin; n < end; ++n) {
@@ -157,7 +158,7 @@ std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::s
   thread_local Around of_thread;
   Around& around = of_thread;  // its address is looked up once
   const Facets& of_group = facets_[i / together];
-  const bool few = of_group.all || vessel_.facets_near(points[i], reach_, most_facets, around.facets);
+  const bool few = of_group.all || (of_group.few && vessel_.facets_near(points[i], reach_, most_facets, around.facets));
   const bool clear =
       few && find_half_spaces(points[i], of_group.all ? of_group.number : around.facets, around.half_spaces);
   bool sought = false, all = false;

@@ -96,7 +96,8 @@ class Neighbourhood {
   std::vector<std::size_t> first_doubt_;  // of a particle; one more than particles
   std::vector<char> in_doubt_;
   struct Facets {
-    bool all = false;  // that are near: else too many
+    bool all = false;  // that are near the group: else too many
+    bool few = false;  // near its first particle: then presumably near each
     std::vector<std::uint32_t> number;
   };
   std::vector<Facets> facets_;    // near particles, by group
