@@ -131,12 +131,15 @@ def write_page(study, album, path, script, gaps=None, notes=None):
     \\param script that draws the figures \\param notes text by the caller, shown after the table"""
     path = Path(path)
     manifest = study.ensembles[0].runs[0].manifest
+    rows = [r for r in study.rows if study.of_case(r["case"])]
+    others = list(dict.fromkeys(f"`{r['case']}`" for r in study.rows if r not in rows))
+    left_out = f"Left out: rows of {', '.join(others)}, of which this folder has no run." if others else ""
     counts = [f"{sum(r['verdict'] == v for r in study.rows)} {v}" for v in ("met", "not met", "reported", "not evaluated")]
     paragraphs = [f"# {study.title}", study.source, _wrapped(
         f"Computed with Talus {manifest['version']} ({manifest['revision']}) on {manifest['machine']['processor']}; "
         f"figures and page by `{Path(script).resolve().relative_to(PROJECT).as_posix()}`. Rows, estimators and criteria "
         "were written down before the first comparison; values stand in the order of the variants."),
-        table_of_runs(study), f"**{', '.join(counts)}**", table_of_rows(study.rows)]
+        table_of_runs(study), f"**{', '.join(counts)}**", table_of_rows(rows), left_out]
     if notes:
         paragraphs.append(notes)
     if failed := failed_runs(study):

@@ -23,6 +23,30 @@ import orifice  # noqa: E402
 import study  # noqa: E402
 
 
+class Page(unittest.TestCase):
+    def test_rows_of_cases_without_a_run_are_left_out_and_named(self):
+        def row(case, verdict):
+            return {"number": 1, "case": case, "variants": ["vacuum"], "quantity": "rate", "statistic": "", "printed": "2",
+                    "source": "text", "criterion": "2 +- 1", "values": [2.0], "verdicts": [verdict], "verdict": verdict}
+
+        run = mock.MagicMock()
+        run.manifest = {"version": "1", "revision": "2", "machine": {"processor": "3"}}
+        run.summary = {"steps": 1, "cpu_seconds": 1.0, "wall_seconds": 1.0}
+        run.series = {"time": [1.0]}
+        run.air = []
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "page.md"
+            found = study.Study(pathlib.Path(folder), "name", "Title", "Source",
+                                [row("hopper", "met"), row("section", "not evaluated")],
+                                [study.Ensemble("hopper", "vacuum", [run])])
+            study.write_page(found, study.Album(pathlib.Path(folder)), page, VALIDATION / "study.py")
+            text = page.read_text(encoding="utf-8")
+        self.assertIn("1 met, 0 not met, 0 reported, 1 not evaluated", text)
+        self.assertIn("| hopper (vacuum) |", text)
+        self.assertNotIn("| section (vacuum) |", text)
+        self.assertIn("Left out: rows of `section`", text)
+
+
 class Drum(unittest.TestCase):
     def test_the_surface_of_a_lattice_has_the_angle_and_the_level_that_it_was_cut_at(self):
         spacing = 2e-3

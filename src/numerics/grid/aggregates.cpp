@@ -39,7 +39,7 @@ class Numbered {
     std::array<std::uint32_t, 3> place = at(c);
     const bool leaves = step < 0 ? place[a] == 0 : place[a] + 1 == n;
     if (leaves && !board_.is_periodic(axis)) return none;
-    place[a] = leaves ? (step < 0 ? n - 1 : 0) : place[a] + (step < 0 ? none : 1u);
+    place[a] = (step < 0 ? place[a] + n - 1 : place[a] + 1) % n;
     return number(place);
   }
   const Checkerboard& board() const { return board_; }
