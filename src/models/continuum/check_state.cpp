@@ -31,29 +31,24 @@ struct Limits {
   bool allow_velocity(const Vector3& v) const { return norm(v) <= most_speed; }
 };
 
-bool is_outside(const Box& box, const Vector3& x) {
-  bool outside = false;
-  for (int axis = 0; axis < 3; ++axis) outside = outside || x[axis] < box.low[axis] || x[axis] > box.high[axis];
-  return outside;
-}
-
 [[noreturn]] void give_up(const Parameters& p, const Box& box, const State& s, const Limits& limits, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !limits.allow_density(s.density[i]);
   const double speed = norm(s.velocity[i]);
-  const bool left = is_outside(box, x);
-  throw NumericalError({.what = density ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
-                                : std::isfinite(speed)
-                                    ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
-                                    : "the velocity is not finite",
-                        .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
-                        .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m{}", s.identity[i], x.x, x.y,
-                                             x.z, left ? ", outside the box" : ""),
-                        .step = s.step,
-                        .time = s.time,
-                        .advice = fmt::format("{}a smaller {}, a larger sph.viscosity_alpha",
-                                              left ? "removal.outside = true, which takes away what has left; " : "",
-                                              p.integration.step ? "integration.step" : "integration.courant")});
+  const bool left = !box.contains(x);
+  const bool can_be_removed = left && !p.removal.outside && !p.air.enabled;
+  throw NumericalError(
+      {.what = density                ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
+               : std::isfinite(speed) ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
+                                      : "the velocity is not finite",
+       .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+       .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m{}", s.identity[i], x.x, x.y, x.z,
+                            left ? ", outside the box" : ""),
+       .step = s.step,
+       .time = s.time,
+       .advice = fmt::format("{}a smaller {}, a larger sph.viscosity_alpha",
+                             can_be_removed ? "removal.outside = true, which takes away what has left; " : "",
+                             p.integration.step ? "integration.step" : "integration.courant")});
 }
 
 }  // namespace

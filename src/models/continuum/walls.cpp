@@ -40,10 +40,9 @@ Vector3 velocity_after_friction(const Parameters& p, const Domain& domain, int w
 
 /// Whether a particle that moved so has certainly passed no boundary.
 bool stays_inside(const Box& box, const std::vector<Wall>& walls, const Vector3& before, const Vector3& after) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(after[axis] >= box.low[axis] && after[axis] <= box.high[axis])) return false;
-  return std::all_of(walls.begin(), walls.end(),
-                     [&](const Wall& wall) { return wall.is_above(before) == wall.is_above(after); });
+  return box.contains(after) && std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {
+           return wall.is_above(before) == wall.is_above(after);
+         });
 }
 
 }  // namespace

@@ -35,6 +35,12 @@ struct Box {
   constexpr bool is_periodic(int axis) const { return face(axis, 0) == FaceKind::periodic; }
   constexpr double bound(int axis, int side) const { return side == 0 ? low[axis] : high[axis]; }
   constexpr double extent(int axis) const { return high[axis] - low[axis]; }
+  /// Its faces belong to it; no place that is not a number does.
+  constexpr bool contains(const Vector3& x) const {
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis) inside = inside && x[axis] >= low[axis] && x[axis] <= high[axis];
+    return inside;
+  }
 };
 
 /// Whether the face makes mirror particles.
