@@ -201,12 +201,15 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "of the corrected velocity gradient"},
         p.sph.continuity);
   auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
-  constexpr granular::LawName elastic{granular::Laws::index_of<granular::LinearElastic::Parameters>()};
-  auto loose_where_free = only_if(unless("law.name", p.law.name, elastic), as_sum);  // is_loose_where_free
-  loose_where_free(Parameter{"sph.density_relaxation", dimension::none, at_least(0),
-                             "share of the difference between the kernel's sum and the density that a shear strain of "
-                             "1 takes back; 0, as printed: both drift apart as the grains flow"},
-                   p.sph.density_relaxation);
+  const bool bears_tension =
+      granular::with_chosen_law(p.law, []<class Law>(const auto&) { return Law::bears_tension; });
+  auto loose_where_free =
+      only_if({"law.name", "is " + value_text(p.law.name), "of a law that bears no tension", !bears_tension}, as_sum);
+  loose_where_free(
+      Parameter{"sph.density_relaxation", dimension::none, at_least(0),
+                "share of the difference between the kernel's sum and the density that a shear strain of "
+                "1 takes back; not under a law that bears tension; 0, as printed: both drift apart as the grains flow"},
+      p.sph.density_relaxation);
   visit(Parameter{"sph.stress_form",
                   {},
                   {},
