@@ -94,12 +94,11 @@ void cone(benchmark::State& state) {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
         const std::size_t c = grid.index(i, j, k);
-        const bool own = inside(i, j, k),
-                   is_above_an_end = (grid.centre(i, j, k).z > 0.3) != (grid.centre(i, j, k - 1).z > 0.3) ||
-                                     (grid.centre(i, j, k).z > 0.8) != (grid.centre(i, j, k - 1).z > 0.8);
+        const bool own = inside(i, j, k);
+        const bool beyond_an_end = grid.centre(i, j, k - 1).z < 0.3 || grid.centre(i, j, k).z > 0.8;
         conductance[0][c] = i > 0 && inside(i - 1, j, k) == own;
         conductance[1][c] = j > 0 && inside(i, j - 1, k) == own;
-        conductance[2][c] = k > 0 && (is_above_an_end || inside(i, j, k - 1) == own);
+        conductance[2][c] = k > 0 && (beyond_an_end || inside(i, j, k - 1) == own);
         if (k + 1 == n) conductance[2][grid.index(i, j, n)] = 2;
         source[c] = random.uniform() - 0.4;
       }

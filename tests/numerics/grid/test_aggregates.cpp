@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace talus {
@@ -71,35 +72,58 @@ TEST(Aggregates, NeverJoinBothSidesOfAConeNorLeadThroughIt) {
   const auto side = [](int i, int j, int k) { return std::hypot(i - 11.5, j - 11.5) < 3 + 0.6 * k ? 1 : 0; };
   const std::array count{24, 24, 24};
   const Walled fine(count, side);
-  const Checkerboard coarse_board = half(count);
+  const Checkerboard coarse = half(count);
   const Aggregates found = aggregates(fine);
   ASSERT_FALSE(found.empty());
-  // Sides of the coarse cells: of those with lists by their parts, of the others by any of their cells.
-  std::map<std::uint32_t, int> side_of_place;
-  for (int k = 0; k < 24; ++k)
-    for (int j = 0; j < 24; ++j)
-      for (int i = 0; i < 24; ++i) side_of_place[static_cast<std::uint32_t>(fine.board.at(i, j, k))] = side(i, j, k);
-  std::map<std::uint32_t, int> side_of_coarse;
+  // Sides of the coarse cells: of those with lists by their parts, of the others by the pairs that they join.
+  std::map<std::size_t, int> side_of_place, side_of_coarse;
+  const auto for_each_cell = [](int n, auto&& body) {
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) body(i, j, k);
+  };
+  for_each_cell(24, [&](int i, int j, int k) { side_of_place[fine.board.at(i, j, k)] = side(i, j, k); });
+  const std::set<std::size_t> listed(found.cells.place.begin(), found.cells.place.end());
   std::size_t parts = 0;
   for (std::size_t list = 0; list < found.cells.place.size(); ++list)
-    for (auto n = found.cells.begin[list]; n < found.cells.begin[list + 1]; ++n) {
+    for (auto n = found.cells.begin[list]; n < found.cells.begin[list + 1]; ++n, ++parts) {
       const auto& c = found.cells.parts[n];
-      const int own = side_of_place.at(static_cast<std::uint32_t>(fine.board.run(c.colour, c.row) + c.m));
+      const int own = side_of_place.at(fine.board.run(c.colour, c.row) + c.m);
       EXPECT_EQ(side_of_coarse.emplace(found.cells.place[list], own).first->second, own);
-      ++parts;
     }
   EXPECT_GT(parts, 500u);
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t list = 0; list < found.faces[a].place.size(); ++list) {
-      std::array<std::uint32_t, 3> at = found.faces[a].at[list];
-      --at[a];
-      const auto below = static_cast<std::uint32_t>(
-          coarse_board.at(static_cast<int>(at[0]), static_cast<int>(at[1]), static_cast<int>(at[2])));
-      const auto here = side_of_coarse.find(found.faces[a].place[list]), there = side_of_coarse.find(below);
-      if (here != side_of_coarse.end() && there != side_of_coarse.end() && here->second != there->second) {
-        EXPECT_EQ(found.faces[a].begin[list], found.faces[a].begin[list + 1]) << "axis " << a;
-      }
+  for_each_cell(24, [&](int i, int j, int k) {
+    const std::size_t c = coarse.at(i / 2, j / 2, k / 2);
+    if (!listed.contains(c)) {
+      EXPECT_EQ(side_of_coarse.emplace(c, side(i, j, k)).first->second, side(i, j, k));
     }
+  });
+  // Of faces with lists, by their parts; of the others, of the faces between the pairs.
+  std::size_t faces_through = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::map<std::size_t, std::size_t> faces;
+    for (std::size_t list = 0; list < found.faces[a].place.size(); ++list)
+      faces[found.faces[a].place[list]] = found.faces[a].begin[list + 1] - found.faces[a].begin[list];
+    for_each_cell(12, [&](int i, int j, int k) {
+      const std::array at{i, j, k};
+      if (at[a] == 0) return;
+      std::array below = at;
+      --below[a];
+      const std::size_t c = coarse.at(i, j, k), n = coarse.at(below[0], below[1], below[2]);
+      if (side_of_coarse.at(c) == side_of_coarse.at(n)) return;
+      ++faces_through;
+      if (faces.contains(c)) {
+        EXPECT_EQ(faces.at(c), 0u);
+        return;
+      }
+      for (int m = 0; m < 4; ++m) {
+        std::array first{2 * i, 2 * j, 2 * k};
+        first[(a + 1) % 3] += m & 1, first[(a + 2) % 3] += m >> 1;
+        EXPECT_EQ(fine.low[a][fine.board.at(first[0], first[1], first[2])], 0) << "axis " << a;
+      }
+    });
+  }
+  EXPECT_GT(faces_through, 200u);
 }
 
 }  // namespace
