@@ -132,14 +132,14 @@ def write_page(study, album, path, script, gaps=None, notes=None):
     path = Path(path)
     manifest = study.ensembles[0].runs[0].manifest
     rows = [r for r in study.rows if study.of_case(r["case"])]
-    others = list(dict.fromkeys(f"`{r['case']}`" for r in study.rows if r not in rows))
-    left_out = f"Left out: rows of {', '.join(others)}, of which this folder has no run." if others else ""
+    others = ", ".join(dict.fromkeys(f"`{r['case']}`" for r in study.rows if not study.of_case(r["case"])))
+    left_out = _wrapped(f"Left out: rows of {others}, of which this folder has no run.") if others else ""
     counts = [f"{sum(r['verdict'] == v for r in study.rows)} {v}" for v in ("met", "not met", "reported", "not evaluated")]
     paragraphs = [f"# {study.title}", study.source, _wrapped(
         f"Computed with Talus {manifest['version']} ({manifest['revision']}) on {manifest['machine']['processor']}; "
         f"figures and page by `{Path(script).resolve().relative_to(PROJECT).as_posix()}`. Rows, estimators and criteria "
         "were written down before the first comparison; values stand in the order of the variants."),
-        table_of_runs(study), f"**{', '.join(counts)}**", table_of_rows(rows), left_out]
+        table_of_runs(study), f"**{', '.join(counts)}**", table_of_rows(rows) if rows else "", left_out]
     if notes:
         paragraphs.append(notes)
     if failed := failed_runs(study):
