@@ -9,9 +9,17 @@ namespace talus {
 
 namespace {
 
-constexpr std::size_t together = 32;     // points whose numbers follow each other
-constexpr std::size_t most_facets = 16;  // whose planes are tried one by one
-constexpr std::size_t most_triangles = 48;
+constexpr std::size_t together = 16;     // points whose numbers follow each other
+constexpr std::size_t most_slabs = 128;  // that are tried one by one
+constexpr double thin = 0.02, wide = 2;  // slabs, of the reach
+
+std::pair<Vector3, Vector3> box_around(std::span<const Vector3> points) {
+  Vector3 low = points.front(), high = low;
+  for (const Vector3& x : points)
+    for (int axis = 0; axis < 3; ++axis)
+      low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
+  return {low, high};
+}
 
 }  // namespace
 
@@ -84,65 +92,45 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   });
 }
 
-/// Particles whose numbers follow each other are mostly near each other too: where the vessel is far from all of a
-/// group, none is asked for.
+/// Particles whose numbers follow each other are mostly near each other too: they share the slabs of the vessel that
+/// reach into the box around all that they reach.
 void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> points) {
   distance_.clear();
   if (vessel_.is_empty()) return;
   distance_.assign(points.size(), infinity);
-  facets_.resize((points.size() + together - 1) / together);
-  team.run(facets_.size(), [&](std::size_t group) {
+  slabs_.resize((points.size() + together - 1) / together);
+  team.run(slabs_.size(), [&](std::size_t group) {
     const std::size_t begin = together * group, end = std::min(points.size(), begin + together);
-    double radius = 0;
-    for (std::size_t n = begin; n < end; ++n) radius = std::max(radius, norm(points[n] - points[begin]));
-    Facets& facets = facets_[group];
-    facets.all = vessel_.facets_near(points[begin], (1 + 1e-9) * (radius + reach_), most_facets, facets.number);
-    if (facets.number.empty()) return;
-    thread_local std::vector<std::uint32_t> of_first, triangles;
-    facets.few = facets.all || vessel_.facets_near(points[begin], reach_, most_facets, of_first);
-    if (!vessel_.near(points[begin], radius + reach_, most_triangles, triangles)) triangles.clear();
+    const auto [low, high] = box_around(points.subspan(begin, end - begin));
+    const double reach = (1 + 1e-9) * reach_;
+    const Vector3 around{reach, reach, reach};
+    Slabs& slabs = slabs_[group];
+    slabs.all = vessel_.slabs_within(low - around, high + around, thin * reach_, wide * reach_, most_slabs, slabs.of);
     std::size_t last = Surface::no_triangle;
     for (std::size_t n = begin; n < end; ++n) {
-      // No facet is nearer than its plane, and mostly one of its triangles is as near.
-      const double least = facets.all ? least_distance(points[n], facets.number) : reach_;
-      if (least > reach_) continue;
-      const double enough = (1 + 1e-9) * least;
-      for (const std::uint32_t t : triangles) {
-        const Surface::Plane& plane = vessel_.plane(vessel_.facet(t));
-        if (std::abs(dot(plane.normal, points[n]) - plane.offset) - plane.slack > enough) continue;
-        const double distance = norm(nearest_place(vessel_.triangles()[t], points[n]) - points[n]);
-        if (distance <= enough) distance_[n] = std::min(distance_[n], distance);
+      double least = infinity;
+      if (slabs.all) {
+        for (const Slab& slab : slabs.of) least = std::min(least, slab.distance(points[n]));
+      } else if (const auto foot = vessel_.nearest(points[n], reach_, last)) {
+        least = foot->distance, last = foot->triangle;
       }
-      if (std::isfinite(distance_[n])) continue;
-      if (const auto foot = vessel_.nearest(points[n], reach_, last))
-        distance_[n] = foot->distance, last = foot->triangle;
+      if (least <= reach_) distance_[n] = least;
     }
   });
 }
 
-/// How far a point is from all of those facets at least, m.
-double Neighbourhood::least_distance(const Vector3& x, std::span<const std::uint32_t> facets) const {
-  double least = infinity;
-  for (const std::uint32_t f : facets) {
-    const Surface::Plane& plane = vessel_.plane(f);
-    least = std::min(least, std::abs(dot(plane.normal, x) - plane.offset) - plane.slack);
-  }
-  return least;
-}
-
-/// The half spaces on the side of x of those facets, as planes: who is beyond the slack of all of them is not hidden by
-/// the facets from x. \returns whether x is clearly on one side of each
-bool Neighbourhood::find_half_spaces(const Vector3& x, std::span<const std::uint32_t> facets,
-                                     std::vector<Surface::Plane>& half_spaces) const {
+/// The half spaces on the side of x of the slabs that are near: who is beyond the slack of all of them is not hidden
+/// from x. \returns whether x is clearly on one side of each
+bool Neighbourhood::find_half_spaces(const Vector3& x, std::span<const Slab> slabs,
+                                     std::vector<Slab>& half_spaces) const {
   half_spaces.clear();
-  for (const std::uint32_t f : facets) {
-    Surface::Plane plane = vessel_.plane(f);
-    plane.slack += 1e-8 * reach_;
-    const double height = dot(plane.normal, x) - plane.offset;
-    if (std::abs(height) > reach_ + plane.slack) continue;
-    if (std::abs(height) <= plane.slack) return false;
-    if (height < 0) plane.normal = -1.0 * plane.normal, plane.offset = -plane.offset;
-    half_spaces.push_back(plane);
+  for (Slab slab : slabs) {
+    if (slab.distance(x) > reach_) continue;
+    slab.slack += 1e-8 * reach_;
+    const double height = slab.height(x);
+    if (std::abs(height) <= slab.slack) return false;
+    if (height < 0) slab.normal = -1.0 * slab.normal, slab.offset = -slab.offset;
+    half_spaces.push_back(slab);
   }
   return true;
 }
@@ -152,22 +140,19 @@ std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::s
                                          std::span<std::uint32_t> near) const {
   constexpr std::size_t most = 24;  // triangles that are tried one by one
   struct Around {
-    std::vector<std::uint32_t> facets, triangles;
-    std::vector<Surface::Plane> half_spaces;
+    std::vector<std::uint32_t> triangles;
+    std::vector<Slab> half_spaces;
   };
   thread_local Around of_thread;
   Around& around = of_thread;  // its address is looked up once
-  const Facets& of_group = facets_[i / together];
-  const bool few = of_group.all || (of_group.few && vessel_.facets_near(points[i], reach_, most_facets, around.facets));
-  const bool clear =
-      few && find_half_spaces(points[i], of_group.all ? of_group.number : around.facets, around.half_spaces);
+  const Slabs& slabs = slabs_[i / together];
+  const bool clear = slabs.all && find_half_spaces(points[i], slabs.of, around.half_spaces);
   bool sought = false, all = false;
   const auto is_hidden = [&](std::uint32_t j) {
     const Vector3 &x = points[j], d = x - points[i];
     if (const double free = distance_[i] + distance_[j]; free * free > dot(d, d)) return false;
-    if (clear && std::all_of(around.half_spaces.begin(), around.half_spaces.end(), [&](const Surface::Plane& plane) {
-          return dot(plane.normal, x) - plane.offset > plane.slack;
-        }))
+    if (clear && std::all_of(around.half_spaces.begin(), around.half_spaces.end(),
+                             [&](const Slab& slab) { return slab.height(x) > slab.slack; }))
       return false;
     if (!sought) all = vessel_.near(points[i], reach_, most, around.triangles);
     sought = true;
@@ -188,13 +173,8 @@ void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> posit
     for (std::size_t j = together * sphere; j < std::min(position.size(), together * (sphere + 1)); ++j) visit(j);
   };
   for_each(team, spheres.size(), [&](std::size_t n) {
-    Vector3 low = position[together * n], high = low;
-    within(n, [&](std::size_t j) {
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], position[j][axis]);
-        high[axis] = std::max(high[axis], position[j][axis]);
-      }
-    });
+    const auto [low, high] =
+        box_around(position.subspan(together * n, std::min(together, position.size() - together * n)));
     spheres[n] = {0.5 * (low + high), 0.5 * norm(high - low)};
   });
   std::vector<std::vector<Ghost>> found(images_.size());

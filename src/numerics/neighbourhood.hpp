@@ -62,7 +62,8 @@ class Neighbourhood {
     return std::span(in_doubt_).subspan(first_doubt_[i], first_doubt_[i + 1] - first_doubt_[i]);
   }
 
-  /// How far a particle was from the vessel when the lists were built, m; infinite beyond the reach of its neighbours.
+  /// How far a particle was from the vessel at least when the lists were built, m; infinite beyond the reach of its
+  /// neighbours.
   double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
   /// Whether a line between two places of the particle can meet the vessel, as far as that distance tells.
   bool may_meet_vessel(std::size_t i, const Vector3& a, const Vector3& b) const {
@@ -75,9 +76,7 @@ class Neighbourhood {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   void find_distances(ThreadTeam& team, std::span<const Vector3> points);
-  double least_distance(const Vector3& x, std::span<const std::uint32_t> facets) const;
-  bool find_half_spaces(const Vector3& x, std::span<const std::uint32_t> facets,
-                        std::vector<Surface::Plane>& half_spaces) const;
+  bool find_half_spaces(const Vector3& x, std::span<const Slab> slabs, std::vector<Slab>& half_spaces) const;
   std::size_t keep_unhidden(std::span<const Vector3> points, std::size_t i, std::span<std::uint32_t> near) const;
   void find_ghosts(ThreadTeam& team, std::span<const Vector3> position);
 
@@ -95,12 +94,11 @@ class Neighbourhood {
   std::vector<char> sight_may_change_;
   std::vector<std::size_t> first_doubt_;  // of a particle; one more than particles
   std::vector<char> in_doubt_;
-  struct Facets {
+  struct Slabs {
     bool all = false;  // that are near the group: else too many
-    bool few = false;  // near its first particle: then presumably near each
-    std::vector<std::uint32_t> number;
+    std::vector<Slab> of;
   };
-  std::vector<Facets> facets_;    // near particles, by group
+  std::vector<Slabs> slabs_;      // of the vessel near particles, by group
   std::vector<double> distance_;  // from the vessel, of particles and ghosts; empty without one
 };
 

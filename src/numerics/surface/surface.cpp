@@ -46,14 +46,6 @@ Surface::Surface(std::vector<Triangle> triangles, std::size_t patches)
   }
   parts_ = joined(smooth, part_count_);
   facets_ = joined(flat, facet_count_);
-  planes_.resize(facet_count_);
-  for (std::size_t t = triangles_.size(); t-- > 0;)
-    planes_[facets_[t]] = {normals_[t], dot(normals_[t], triangles_[t].corner[0])};
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    Plane& plane = planes_[facets_[t]];
-    for (const Vector3& c : triangles_[t].corner)
-      plane.slack = std::max(plane.slack, std::abs(dot(plane.normal, c) - plane.offset));
-  }
   tree_ = TriangleTree(triangles_);
 }
 
@@ -154,17 +146,20 @@ bool Surface::near(const Vector3& x, double within, std::size_t most, std::vecto
   return all;
 }
 
-bool Surface::facets_near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const {
+bool Surface::slabs_within(const Vector3& low, const Vector3& high, double thin, double wide, std::size_t most,
+                           std::vector<Slab>& found) const {
   found.clear();
   bool all = true;
-  tree_.near_place(x, within, [&](std::uint32_t t) {
-    if (is_open_[triangles_[t].patch] || std::find(found.rbegin(), found.rend(), facets_[t]) != found.rend()) return;
-    if (found.size() == most) {
-      all = false;
-      within = 0;  // enough
-    } else {
-      found.push_back(facets_[t]);
-    }
+  const Vector3 middle = 0.5 * (low + high), half = 0.5 * (high - low);
+  const auto add = [&](const Slab& slab) {
+    const Vector3& n = slab.normal;
+    const double extent = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
+    if (is_open_[slab.patch] || std::abs(slab.height(middle)) > extent + slab.slack) return;
+    if (all = all && found.size() < most; all) found.push_back(slab);
+  };
+  tree_.slabs_within(low, high, thin, wide, add, [&](std::uint32_t t) {
+    const auto& [a, b, c] = triangles_[t].corner;
+    add({least(a, least(b, c)), largest(a, largest(b, c)), normals_[t], dot(normals_[t], a), 0, triangles_[t].patch});
   });
   return all;
 }

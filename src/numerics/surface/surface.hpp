@@ -39,12 +39,6 @@ class Surface {
   /// Number of the flat piece of a part that it belongs to.
   std::uint32_t facet(std::size_t triangle) const { return facets_[triangle]; }
   std::size_t facets() const { return facet_count_; }
-  /// The plane of a facet: its triangles lie where |normal x - offset| <= slack.
-  struct Plane {
-    Vector3 normal;                ///< unit
-    double offset = 0, slack = 0;  ///< m
-  };
-  const Plane& plane(std::size_t facet) const { return planes_[facet]; }
 
   /// Takes a patch away, for good: nothing is crossed there any more.
   void open(std::size_t patch) { is_open_[patch] = true; }
@@ -73,9 +67,11 @@ class Surface {
   /// Writes triangles of patches that are not open, among them all within the distance of x, up to `most` of them.
   /// \returns whether these are all
   bool near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const;
-  /// Writes the facets, each once, of triangles of patches that are not open, among them all within the distance of x,
-  /// up to `most` of them. \returns whether these are all
-  bool facets_near(const Vector3& x, double within, std::size_t most, std::vector<std::uint32_t>& found) const;
+  /// Writes slabs of triangles of patches that are not open, among them all that reach into a box, up to `most` of
+  /// them. \param thin, wide the largest slack and extent of a slab of several triangles, m
+  /// \returns whether these are all
+  bool slabs_within(const Vector3& low, const Vector3& high, double thin, double wide, std::size_t most,
+                    std::vector<Slab>& found) const;
 
  private:
   bool is_on_one_side(std::uint32_t triangle, const Vector3& a, const Vector3& b, double slack) const;
@@ -85,7 +81,6 @@ class Surface {
   std::vector<Vector3> normals_;
   std::vector<std::uint32_t> parts_, facets_;
   std::size_t part_count_ = 0, facet_count_ = 0;
-  std::vector<Plane> planes_;  // of the facets
   std::vector<bool> is_open_;
   Vector3 low_, high_;
   TriangleTree tree_;

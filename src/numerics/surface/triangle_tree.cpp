@@ -31,6 +31,31 @@ TriangleTree::TriangleTree(std::span<const Triangle> triangles) : order_(triangl
   add(triangles, middle, 0, static_cast<std::uint32_t>(triangles.size()));
   const Vector3 extent = nodes_[0].high - nodes_[0].low;
   margin_ = 1e-9 * (extent.x + extent.y + extent.z);
+  find_flatness(triangles);
+}
+
+/// The normal of a slab is that of the whole area of its triangles.
+void TriangleTree::find_flatness(std::span<const Triangle> triangles) {
+  for (const Node& node : nodes_) {
+    const std::uint32_t patch = triangles[order_[node.begin]].patch;
+    Vector3 area;
+    bool one_patch = true;
+    for (std::uint32_t t = node.begin; t < node.end; ++t) {
+      area += triangles[order_[t]].area();
+      one_patch = one_patch && triangles[order_[t]].patch == patch;
+    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!one_patch || !(norm(area) > 0)) {
+      flatness_.push_back({{}, 0, infinity, patch});
+      continue;
+    }
+    const Vector3 normal = (1 / norm(area)) * area;
+    double low = infinity, high = -infinity;
+    for (std::uint32_t t = node.begin; t < node.end; ++t)
+      for (const Vector3& corner : triangles[order_[t]].corner)
+        low = std::min(low, dot(normal, corner)), high = std::max(high, dot(normal, corner));
+    flatness_.push_back({normal, 0.5 * (low + high), 0.5 * (high - low), patch});
+  }
 }
 
 /// \returns the number of the node

@@ -5,6 +5,7 @@
 /// Kaufmann, 2005), 6.2.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,30 @@
 #include "numerics/surface/triangle.hpp"
 
 namespace talus {
+
+inline double square_distance_from_box(const Vector3& low, const Vector3& high, const Vector3& x) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = low[axis] - x[axis], above = x[axis] - high[axis];
+    const double out = below > 0 ? below : above > 0 ? above : 0;
+    sum += out * out;
+  }
+  return sum;
+}
+
+/// Where some triangles lie: in a box, and where |normal x - offset| <= slack.
+struct Slab {
+  Vector3 low, high;             ///< corners of the box, m
+  Vector3 normal;                ///< unit
+  double offset = 0, slack = 0;  ///< m
+  std::uint32_t patch = 0;
+
+  double height(const Vector3& x) const { return dot(normal, x) - offset; }
+  /// No triangle is nearer to x, m.
+  double distance(const Vector3& x) const {
+    return std::max(std::abs(height(x)) - slack, std::sqrt(square_distance_from_box(low, high, x)));
+  }
+};
 
 class TriangleTree {
  public:
@@ -71,6 +96,31 @@ class TriangleTree {
     }
   }
 
+  /// Calls of_some(slab) and of_one(number) for triangles among which are all that reach into a box: of_some for those
+  /// of one patch that lie together in a slab which is thin and no wider than that, of_one for the others.
+  template <class Some, class One>
+  void slabs_within(const Vector3& low, const Vector3& high, double thin, double wide, Some&& of_some,
+                    One&& of_one) const {
+    if (nodes_.empty()) return;
+    std::array<std::uint32_t, most_levels> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+      const std::uint32_t n = stack[--size];
+      const Node& node = nodes_[n];
+      if (!overlap(node.low, node.high, low, high)) continue;
+      const Flatness& flatness = flatness_[n];
+      if (flatness.slack <= thin && norm(node.high - node.low) <= wide) {
+        of_some(Slab{node.low, node.high, flatness.normal, flatness.offset, flatness.slack, flatness.patch});
+      } else if (node.second == 0) {
+        for (std::uint32_t t = node.begin; t < node.end; ++t) of_one(order_[t]);
+      } else {
+        stack[size++] = node.second;
+        stack[size++] = n + 1;
+      }
+    }
+  }
+
   /// Calls visit(a, b) once for pairs of triangles among which are all whose boxes overlap.
   template <class Visit>
   void for_each_near_pair(Visit&& visit) const {
@@ -86,6 +136,12 @@ class TriangleTree {
     Vector3 low, high;
     std::uint32_t begin, end;
     std::uint32_t second;  // child; 0: a leaf
+  };
+  /// The slab of a node's triangles; infinitely thick if they are not of one patch.
+  struct Flatness {
+    Vector3 normal;
+    double offset, slack;
+    std::uint32_t patch;
   };
   /// A line from its middle, and a box's separation from it along the axes and across both.
   struct Line {
@@ -107,20 +163,16 @@ class TriangleTree {
   };
 
   static double square_distance(const Node& node, const Vector3& x) {
-    double sum = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double below = node.low[axis] - x[axis], above = x[axis] - node.high[axis];
-      const double out = below > 0 ? below : above > 0 ? above : 0;
-      sum += out * out;
-    }
-    return sum;
+    return square_distance_from_box(node.low, node.high, x);
   }
-  static bool overlap(const Node& a, const Node& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-           a.low.z <= b.high.z && b.low.z <= a.high.z;
+  static bool overlap(const Vector3& low, const Vector3& high, const Vector3& other_low, const Vector3& other_high) {
+    return low.x <= other_high.x && other_low.x <= high.x && low.y <= other_high.y && other_low.y <= high.y &&
+           low.z <= other_high.z && other_low.z <= high.z;
   }
+  static bool overlap(const Node& a, const Node& b) { return overlap(a.low, a.high, b.low, b.high); }
   std::uint32_t add(std::span<const Triangle> triangles, std::span<const Vector3> middle, std::uint32_t begin,
                     std::uint32_t end);
+  void find_flatness(std::span<const Triangle> triangles);
   template <class Visit>
   void pairs_within(std::uint32_t n, Visit& visit) const {
     const Node& node = nodes_[n];
@@ -149,6 +201,7 @@ class TriangleTree {
   }
 
   std::vector<Node> nodes_;
+  std::vector<Flatness> flatness_;    // of the nodes
   std::vector<std::uint32_t> order_;  // triangles by leaf
   double margin_ = 0;                 // m
 };

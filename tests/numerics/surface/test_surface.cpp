@@ -150,26 +150,52 @@ TEST(TriangleTree, FindsWhatAllTrianglesTell) {
   }
 }
 
-TEST(Surface, FacetsNearAPlaceAreThoseOfItsTriangles) {
-  const std::vector<Triangle> all = jumble();
-  const Surface surface(all, 1);
+/// Slabs of a vessel of two patches, one of them open: each place of a triangle that is not lies in one of them.
+TEST(Surface, SlabsHoldTheTrianglesThatReachIntoABox) {
+  std::vector<Triangle> all = jumble();
+  for (const Triangle& t : tube(200)) all.push_back({t.corner, 1});
+  for (Triangle t : square(1.2)) all.push_back({t.corner, 2});
+  Surface surface(all, 3);
+  surface.open(2);
   Random random(6);
+  constexpr double thin = 0.02, wide = 0.4;
   for (int n = 0; n < 100; ++n) {
-    const Vector3 x = anywhere(random, 1.5);
-    const double within = random.uniform(0.05, 0.5);
-    std::vector<std::uint32_t> found, few;
-    ASSERT_TRUE(surface.facets_near(x, within, surface.facets(), found));
-    EXPECT_EQ(std::set<std::uint32_t>(found.begin(), found.end()).size(), found.size()) << "each once";
-    for (std::uint32_t t = 0; t < all.size(); ++t)
-      if (norm(nearest_place(all[t], x) - x) <= within) {
-        EXPECT_NE(std::find(found.begin(), found.end(), surface.facet(t)), found.end());
-      }
-    EXPECT_EQ(surface.facets_near(x, within, 3, few), found.size() <= 3);
+    const Vector3 x = anywhere(random, 1.5), half = random.uniform(0.05, 0.5) * Vector3{1, 0.7, 0.5};
+    std::vector<Slab> found, few;
+    ASSERT_TRUE(surface.slabs_within(x - half, x + half, thin, wide, all.size(), found));
+    EXPECT_EQ(surface.slabs_within(x - half, x + half, thin, wide, 3, few), found.size() <= 3);
+    EXPECT_LE(few.size(), 3u);
+    for (const Slab& slab : found) {
+      EXPECT_LE(slab.slack, thin);
+      EXPECT_NE(slab.patch, 2u);
+    }
+    for (const Triangle& t : all) {
+      const double u = random.uniform(), v = random.uniform() * (1 - u);
+      const Vector3 place = t.corner[0] + u * (t.corner[1] - t.corner[0]) + v * (t.corner[2] - t.corner[0]),
+                    d = place - x;
+      if (t.patch == 2 || std::abs(d.x) > half.x || std::abs(d.y) > half.y || std::abs(d.z) > half.z) continue;
+      EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const Slab& slab) {
+        return slab.patch == t.patch && slab.distance(place) <= 1e-12;
+      }));
+    }
   }
-  for (std::uint32_t t = 0; t < all.size(); ++t) {
-    const Surface::Plane& plane = surface.plane(surface.facet(t));
-    for (const Vector3& c : all[t].corner) EXPECT_LE(std::abs(dot(plane.normal, c) - plane.offset), plane.slack);
-    EXPECT_LT(plane.slack, 1e-8);
+}
+
+TEST(Surface, ManyTrianglesOfAFlatWallAreFewSlabs) {
+  const Surface fine(ball(6), 1);  // 32,768 triangles
+  std::vector<Slab> slabs;
+  ASSERT_TRUE(fine.slabs_within({0.5, -0.5, -0.5}, {1.5, 0.5, 0.5}, 0.02, 1, 1000, slabs));
+  EXPECT_LE(slabs.size(), 64u);
+  Random random(9);
+  for (int n = 0; n < 100; ++n) {
+    const Vector3 x{random.uniform(0.6, 1.4), random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)};
+    double least = 10;
+    for (const Slab& slab : slabs) least = std::min(least, slab.distance(x));
+    const double distance = fine.nearest(x, 1)->distance;
+    EXPECT_LE(least, distance);
+    if (norm(x) < 1) {
+      EXPECT_GE(least, distance - 2 * 0.02);  // planes cut off what is outside only
+    }
   }
 }
 
