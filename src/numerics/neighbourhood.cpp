@@ -119,22 +119,6 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
   });
 }
 
-/// The half spaces on the side of x of the slabs that are near: who is beyond the slack of all of them is not hidden
-/// from x. \returns whether x is clearly on one side of each
-bool Neighbourhood::find_half_spaces(const Vector3& x, std::span<const Slab> slabs,
-                                     std::vector<Slab>& half_spaces) const {
-  half_spaces.clear();
-  for (Slab slab : slabs) {
-    if (slab.distance(x) > reach_) continue;
-    slab.slack += 1e-8 * reach_;
-    const double height = slab.height(x);
-    if (std::abs(height) <= slab.slack) return false;
-    if (height < 0) slab.normal = -1.0 * slab.normal, slab.offset = -slab.offset;
-    half_spaces.push_back(slab);
-  }
-  return true;
-}
-
 /// Moves those that the vessel does not hide from point i to the front, in their order. \returns how many they are
 std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::size_t i,
                                          std::span<std::uint32_t> near) const {
@@ -146,7 +130,7 @@ std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::s
   thread_local Around of_thread;
   Around& around = of_thread;  // its address is looked up once
   const Slabs& slabs = slabs_[i / together];
-  const bool clear = slabs.all && find_half_spaces(points[i], slabs.of, around.half_spaces);
+  const bool clear = slabs.all && find_half_spaces(points[i], reach_, slabs.of, around.half_spaces);
   bool sought = false, all = false;
   const auto is_hidden = [&](std::uint32_t j) {
     const Vector3 &x = points[j], d = x - points[i];

@@ -76,7 +76,6 @@ class Neighbourhood {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   void find_distances(ThreadTeam& team, std::span<const Vector3> points);
-  bool find_half_spaces(const Vector3& x, std::span<const Slab> slabs, std::vector<Slab>& half_spaces) const;
   std::size_t keep_unhidden(std::span<const Vector3> points, std::size_t i, std::span<std::uint32_t> near) const;
   void find_ghosts(ThreadTeam& team, std::span<const Vector3> position);
 

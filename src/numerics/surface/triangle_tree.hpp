@@ -5,7 +5,6 @@
 /// Kaufmann, 2005), 6.2.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,33 +12,10 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "numerics/surface/slab.hpp"
 #include "numerics/surface/triangle.hpp"
 
 namespace talus {
-
-inline double square_distance_from_box(const Vector3& low, const Vector3& high, const Vector3& x) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double below = low[axis] - x[axis], above = x[axis] - high[axis];
-    const double out = below > 0 ? below : above > 0 ? above : 0;
-    sum += out * out;
-  }
-  return sum;
-}
-
-/// Where some triangles lie: in a box, and where |normal x - offset| <= slack.
-struct Slab {
-  Vector3 low, high;             ///< corners of the box, m
-  Vector3 normal;                ///< unit
-  double offset = 0, slack = 0;  ///< m
-  std::uint32_t patch = 0;
-
-  double height(const Vector3& x) const { return dot(normal, x) - offset; }
-  /// No triangle is nearer to x, m.
-  double distance(const Vector3& x) const {
-    return std::max(std::abs(height(x)) - slack, std::sqrt(square_distance_from_box(low, high, x)));
-  }
-};
 
 class TriangleTree {
  public:

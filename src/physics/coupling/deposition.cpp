@@ -23,6 +23,8 @@ struct Deposition::Scratch {
   std::vector<RowFate> fate;  // by slots along y, z
   std::vector<Seen> seen;     // by cells along x and z: whose share each one's is
   std::vector<float> all;     // what `sum` was before cells behind the surface were left out
+  std::vector<Slab> slabs, half_spaces;
+  std::array<std::vector<double>, 3> centre;  // of the cells along each axis, m
   std::vector<std::uint32_t> near;
 };
 
@@ -44,6 +46,7 @@ Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& su
   Vector3 part;
   for (int axis = 0; axis < 3; ++axis) part[axis] = grid.spacing[axis] / CellsAlong::parts(grid, axis);
   least_reach_ = 0.5001 * norm(part);
+  beyond_reach_ = 0.5 * norm(grid.spacing - part);
 }
 
 void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> position,
@@ -155,36 +158,50 @@ void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
 }
 
 /// Takes the weights of cells behind the surface, unless there are no others. A cell that stands for one beyond a
-/// mirror is seen as it is itself: where the surface meets the mirror, both are seen or neither.
+/// mirror is seen as it is itself: where the surface meets the mirror, both are seen or neither. Cells on the
+/// particle's side of all of the surface that is near are seen; others are tried.
 void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t columns, Scratch& scratch) const {
-  constexpr std::size_t most_triangles = 64;
-  const std::optional<Surface::Foot> foot = surface_.nearest(x, reach);
-  if (!foot) return;
-  scratch.near.clear();
-  const bool are_all = surface_.near(x, reach, most_triangles, scratch.near);
-  const auto& [along_x, along_y, along_z] = scratch.along;
-  const auto centre = [&](const CellsAlong& along, int axis, std::size_t n) {
+  constexpr std::size_t most = 64;           // slabs, and triangles, that are tried one by one
+  constexpr double thin = 0.02, wide = 2.0;  // slabs, of the distance
+  const double far = reach + beyond_reach_;  // of a cell's centre at most
+  const Vector3 around{far, far, far};
+  const bool few = surface_.slabs_within(x - around, x + around, thin * far, wide * far, most, scratch.slabs);
+  if (scratch.slabs.empty()) return;
+  const bool clear = few && find_half_spaces(x, far, scratch.slabs, scratch.half_spaces);
+  if (clear && scratch.half_spaces.empty()) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const CellsAlong& along = scratch.along[static_cast<std::size_t>(axis)];
+    std::vector<double>& centre = scratch.centre[static_cast<std::size_t>(axis)];
     const double width = grid_.spacing[axis], length = width * grid_.count[static_cast<std::size_t>(axis)];
-    const double c = grid_.low[axis] + (along.cell[n] + 0.5) * width;
-    return domain_.box().face(axis, 0) == FaceKind::periodic ? c - length * std::round((c - x[axis]) / length) : c;
-  };
+    const bool is_periodic = domain_.box().face(axis, 0) == FaceKind::periodic;
+    centre.clear();
+    for (const int cell : along.cell) {
+      const double c = grid_.low[axis] + (cell + 0.5) * width;
+      centre.push_back(is_periodic ? c - length * std::round((c - x[axis]) / length) : c);
+    }
+  }
+  const auto& [along_x, along_y, along_z] = scratch.along;
   scratch.all = scratch.sum;
-  bool has_seen = false;
+  bool has_seen = false, sought = false, are_all = false;
   for (std::size_t k = 0; k < along_z.cell.size(); ++k)
-    for (std::size_t j = 0; j < along_y.cell.size(); ++j)
+    for (std::size_t j = 0; j < along_y.cell.size(); ++j) {
+      if (along_y.cell[j] == CellsAlong::left || along_z.cell[k] == CellsAlong::left) continue;
       for (std::size_t i = 0; i < along_x.cell.size(); ++i) {
         float& weight = scratch.sum[i + columns * (j + along_y.cell.size() * k)];
-        const bool left = along_x.cell[i] == CellsAlong::left || along_y.cell[j] == CellsAlong::left ||
-                          along_z.cell[k] == CellsAlong::left;
-        if (!(weight > 0) || left) continue;
-        const Vector3 c{centre(along_x, 0, i), centre(along_y, 1, j), centre(along_z, 2, k)};
-        const bool hidden =
-            norm(c - x) > foot->distance && (are_all ? surface_.blocks(x, c, scratch.near) : surface_.blocks(x, c));
-        if (hidden)
+        if (!(weight > 0) || along_x.cell[i] == CellsAlong::left) continue;
+        const Vector3 c{scratch.centre[0][i], scratch.centre[1][j], scratch.centre[2][k]};
+        const bool is_clear = clear && std::all_of(scratch.half_spaces.begin(), scratch.half_spaces.end(),
+                                                   [&](const Slab& slab) { return slab.height(c) > slab.slack; });
+        if (!is_clear && !sought) {
+          are_all = surface_.near(x, far, most, scratch.near);
+          sought = true;
+        }
+        if (!is_clear && (are_all ? surface_.blocks(x, c, scratch.near) : surface_.blocks(x, c)))
           weight = 0;
         else
           has_seen = true;
       }
+    }
   if (!has_seen) scratch.sum = scratch.all;
 }
 

@@ -76,6 +76,7 @@ class Deposition {
   const Surface& surface_;
   std::array<bool, 3> is_mirrored_{};  // along each axis: neither end of the box is open or periodic
   double least_reach_ = 0;             // with which a particle reaches the centre of the nearest part of a cell, m
+  double beyond_reach_ = 0;            // that the centre of a cell may be, of which a part is within reach, m
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
   std::vector<double> largest_;  // of each row_lanes cells, one after another
