@@ -182,7 +182,7 @@ def main():
                 "lammps": Lammps(), "liggghts": Liggghts(),
                 "talus-air": Talus(options.talus, f"{hopper}air", "Talus, continuum", "80 x 4 x 200 cells"),
                 "talus-air-fast": Talus(options.talus, f"{hopper}air-fast", "Talus, continuum, softer grains",
-                                        "80 x 4 x 200 cells"),
+                                        "80 x 1 x 200 cells"),
                 "openfoam": OpenFoam()}
     absent = {name: program.missing() for name, program in programs.items() if program.missing()}
     for name, reason in absent.items():
