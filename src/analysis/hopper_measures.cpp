@@ -34,6 +34,9 @@ bool hand_formula(const Run& run) {
 bool vessel_with_outlet(const Run& run) {
   return outlet(run) && !run.setting.section.empty();
 }
+bool vessel_with_hand_formula(const Run& run) {
+  return vessel_with_outlet(run) && hand_formula(run);
+}
 bool bin(const Run& run) {
   return run.setting.has_floor && run.setting.shape.bin().top > 0;
 }
@@ -79,6 +82,9 @@ const std::vector<Row> of_grains = {
           return first_time_at_or_below(left, 0.01);
         }},
         {{vessel_with_outlet}}),
+    Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
+        {[](const Run& r, const Place&, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
+        {{vessel_with_hand_formula}}),
     Row("discharge_rate_drift", "1",
         "slope of the line through the 10 ms means of Q times the length of the window, over their mean",
         {[](const Run& r, const Place&, const Window& w) { return drift(passed_mass(r), trend_mean, w.from, w.to); }}),

@@ -16,7 +16,7 @@ class VesselCases(ProgramTest):
     def run_case(self, name, *settings):
         """Summary, rows of the series, and positions and numbers of the last snapshot."""
         options = [word for setting in (*COARSE, *settings) for word in ("--set", setting)]
-        self.talus("run", PROJECT / "cases" / f"{name}.toml", "--out", name, "--threads", 1, *options)
+        self.run_of_case = self.talus("run", PROJECT / "cases" / f"{name}.toml", "--out", name, "--threads", 1, *options)
         quantities = json.loads((self.folder / name / "summary.json").read_text())["quantities"]
         summary = {key: entry["value"] for key, entry in quantities.items()}
         last = sorted((self.folder / name / "snapshots").glob("particles_*.vtkhdf"))[-1]
@@ -30,6 +30,7 @@ class VesselCases(ProgramTest):
     def test_square_silo(self):
         summary, series, places, _ = self.run_case("silo-square", "gate.opens=at-time", "gate.time=10 ms", "run.end=0.2 s",
                                                    "removal.below=40 mm")
+        self.assertIn("by hand: 100 %", self.run_of_case.stdout.split("Answers:")[1])
         self.assertGreater(summary["removed_mass"], 0)
         self.assertGreater(float(series[-1]["removed_mass [kg]"]), 0)
         self.assertGreater(min(p[2] for p in places), 0.03)

@@ -9,6 +9,7 @@
 
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
+#include "app/continuum/answers.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
@@ -213,6 +214,11 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
     write_fields(folder, run, within(around.low), within(around.high));
   }
   return quantities;
+}
+
+std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                         const std::vector<NamedValue>& quantities) {
+  return answers_of(read_continuum(resolved).model, quantities, folder);
 }
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,

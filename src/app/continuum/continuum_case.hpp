@@ -27,6 +27,8 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
                                               ReadRuns& runs);
 /// Box, walls and gates.
 Scene scene_of_continuum(const CaseFile& resolved);
+std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                         const std::vector<NamedValue>& quantities);
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                                       ReadRuns& runs);
 

@@ -112,8 +112,9 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
   write_png({.title = title, .panels = {picture}}, path);
 }
 
-bool draw_curve(const std::filesystem::path& table, const std::string& column, const Axis& y, const std::string& title,
-                const std::filesystem::path& path) {
+/// \param by_hand a level to draw beside the curve; 0: none
+bool draw_curve(const std::filesystem::path& table, const std::string& column, const Axis& y, double by_hand,
+                const std::string& title, const std::filesystem::path& path) {
   if (!std::filesystem::exists(table)) return false;
   const talus::Series series = read_series(table);
   if (!series.has(column)) return false;
@@ -125,7 +126,11 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
       line.y.push_back(value[n]);
     }
   if (line.x.empty()) return false;
-  write_png({.panels = {Chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}}}}, path);
+  Chart chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}};
+  if (by_hand > 0)
+    chart.series.emplace_back(Line{
+        .x = {0, line.x.back()}, .y = {by_hand, by_hand}, .label = "by hand", .colour = muted, .dash = Dash::dashed});
+  write_png({.panels = {chart}}, path);
   return true;
 }
 
@@ -233,11 +238,11 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
   if (!setting.shape.plate) return drawn;
   if (!setting.section.empty() && draw_flow(frames, run, title, pictures / "flow.png"))
     drawn.push_back(pictures / "flow.png");
-  if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"}, title,
-                 pictures / "discharge.png"))
+  if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"},
+                 setting.hand_discharge, title, pictures / "discharge.png"))
     drawn.push_back(pictures / "discharge.png");
   if (draw_curve(tables / "snapshots.csv", "surface_angle_hopper",
-                 {.label = "slope of the hopper's surface", .unit = "deg"}, title, pictures / "surface_angle.png"))
+                 {.label = "slope of the hopper's surface", .unit = "deg"}, 0, title, pictures / "surface_angle.png"))
     drawn.push_back(pictures / "surface_angle.png");
   return drawn;
 }

@@ -28,6 +28,9 @@ struct ModelEntry {
   /// Draws the pictures of a run and returns their paths, the most important one first. Null: none.
   std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder,
                                              ReadRuns& runs);
+  /// What a run answers, once it is analysed. Null: nothing. \throws FileError, InputError
+  std::vector<Answer> (*answers)(const CaseFile& resolved, const std::filesystem::path& folder,
+                                 const std::vector<NamedValue>& quantities);
   /// What stands around the particles, for a viewer.
   Scene (*scene)(const CaseFile& resolved);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.

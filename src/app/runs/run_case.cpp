@@ -51,6 +51,23 @@ void print_regime(const std::vector<RegimeLine>& regime, RunLog& log) {
   }
 }
 
+void print_answers(const std::vector<Answer>& answers, RunLog& log) {
+  if (answers.empty()) return;
+  std::size_t question = 0, answer = 0;
+  for (const Answer& line : answers) {
+    question = std::max(question, line.question.size());
+    answer = std::max(answer, line.answer.size());
+  }
+  print("Answers:\n");
+  for (const Answer& line : answers) {
+    std::string text = fmt::format("{:{}}  {:{}}", line.question, question, line.answer, answer);
+    if (!line.by_hand.empty()) text += "  by hand: " + line.by_hand;
+    text.erase(text.find_last_not_of(' ') + 1);
+    print("    {}\n", text);
+    log.write("answer {}", text);
+  }
+}
+
 /// The warnings of a card, for the summary.
 std::vector<std::string> texts_of(const std::vector<RegimeLine>& regime) {
   std::vector<std::string> texts;
@@ -129,11 +146,13 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                   .wall_seconds = loop.wall_seconds,
                   .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
+  std::vector<Answer> answers;
   ReadRuns runs;
   if (!loop.interrupted) {
     const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
     const ModelEntry& entry = model_of(resolved);
     summary.quantities = entry.analyse(resolved, folder.path(), runs);
+    if (entry.answers) answers = entry.answers(resolved, folder.path(), summary.quantities);
     if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path(), runs);
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
@@ -156,6 +175,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
+  print_answers(answers, log);
   if (prepared.run.report && has_report_page()) {
     write_run_report(folder.path(), runs);
   } else if (prepared.run.report) {
