@@ -19,8 +19,10 @@ double largest_support(const Particles& particles) {
   return sph::support * (h > 0 ? h : 1);
 }
 
-std::vector<Image> identity_and_images(const Domain& domain, double reach) {
-  std::vector<Image> images = domain.images(reach);
+/// \param any whether there are particles: without, the reach means nothing
+std::vector<Image> identity_and_images(const Domain& domain, double reach, bool any) {
+  std::vector<Image> images;
+  if (any) images = domain.images(reach);
   images.insert(images.begin(), Image{});
   return images;
 }
@@ -49,7 +51,7 @@ ParticleField::ParticleField(Particles particles, Domain domain, Places places)
     : particles_(std::move(particles)),
       domain_(std::move(domain)),
       reach_(largest_support(particles_)),
-      images_(identity_and_images(domain_, reach_)),
+      images_(identity_and_images(domain_, reach_, !particles_.position.empty())),
       grid_(particles_.position, reach_) {
   low_ = high_ = particles_.position.empty() ? Vector3{} : particles_.position[0];
   for (const Vector3& x : particles_.position)
