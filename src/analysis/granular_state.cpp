@@ -22,13 +22,31 @@ double inertial_number(double shear_rate, double pressure, double diameter, doub
   return shear_rate * diameter * std::sqrt(grain_density / pressure);
 }
 
-std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density) {
-  const auto rate = snapshot.scalars("shear_rate");
+namespace {
+/// \param rate particle -> rate of shear, 1/s
+template <class Rate>
+std::vector<double> inertial_numbers_of(const Snapshot& snapshot, Rate&& rate, double diameter, double grain_density) {
   const auto xx = snapshot.scalars("stress_xx"), yy = snapshot.scalars("stress_yy"), zz = snapshot.scalars("stress_zz");
   std::vector<double> numbers(snapshot.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    numbers[i] = inertial_number(rate[i], (xx[i] + yy[i] + zz[i]) / 3, diameter, grain_density);
+    numbers[i] = inertial_number(rate(i), (xx[i] + yy[i] + zz[i]) / 3, diameter, grain_density);
   return numbers;
+}
+}  // namespace
+
+std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density) {
+  const auto rate = snapshot.scalars("shear_rate");
+  return inertial_numbers_of(
+      snapshot, [&](std::size_t i) { return rate[i]; }, diameter, grain_density);
+}
+
+std::vector<double> inertial_numbers_of_shear(const Snapshot& snapshot, std::span<const Tensor3<>> gradients,
+                                              double diameter, double grain_density) {
+  const auto rate = [&](std::size_t i) {
+    const Tensor3<>& l = gradients[i];
+    return std::max({std::abs(l.xy + l.yx), std::abs(l.yz + l.zy), std::abs(l.zx + l.xz)});
+  };
+  return inertial_numbers_of(snapshot, rate, diameter, grain_density);
 }
 
 std::vector<bool> bearing_particles(std::span<const double> inertial) {
@@ -73,15 +91,13 @@ double stress_ratio(const Snapshot& snapshot, const std::vector<bool>& taken) {
   return vertical > 0 ? horizontal / vertical : none;
 }
 
-GradientSizes velocity_gradient_sizes(const Particles& particles, const Domain& domain,
-                                      std::span<const Vector3> velocity, std::span<const double> packing,
+GradientSizes velocity_gradient_sizes(std::span<const Tensor3<>> gradients, std::span<const double> packing,
                                       double diameter, double gravity) {
   std::vector<double> shear, normal;
   const double unit = std::sqrt(diameter / gravity);
-  std::vector<std::uint32_t> taken;
-  for (std::uint32_t i = 0; i < packing.size(); ++i)
-    if (packing[i] > dense) taken.push_back(i);
-  for (const Tensor3<>& l : velocity_gradients(particles, domain, taken, velocity)) {
+  for (std::size_t i = 0; i < packing.size(); ++i) {
+    if (!(packing[i] > dense)) continue;
+    const Tensor3<>& l = gradients[i];
     const auto largest = [&](std::initializer_list<double> components) {
       double size = 0;
       for (const double c : components) size = std::max(size, unit * std::abs(c));

@@ -21,6 +21,11 @@ double inertial_number(double shear_rate, double pressure, double diameter, doub
 /// Inertial number of every particle, from the columns shear_rate, stress_xx, stress_yy, stress_zz.
 std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, double grain_density);
 
+/// The same with the largest |du_i/dx_j + du_j/dx_i|, i != j, in place of the column shear_rate.
+/// \param gradients of each particle, 1/s
+std::vector<double> inertial_numbers_of_shear(const Snapshot& snapshot, std::span<const Tensor3<>> gradients,
+                                              double diameter, double grain_density);
+
 /// The particles that bear a pressure: those that touch nothing are in no regime.
 std::vector<bool> bearing_particles(std::span<const double> inertial);
 
@@ -48,9 +53,8 @@ struct GradientSizes {
   double shear_max = 0, normal_max = 0;                ///< largest |du_i/dx_j| with i != j, with i = j
   double shear_percentile = 0, normal_percentile = 0;  ///< 99.9th percentile over the particles of each one's largest
 };
-/// \param packing of each particle; nan if no particle is that dense
-GradientSizes velocity_gradient_sizes(const Particles& particles, const Domain& domain,
-                                      std::span<const Vector3> velocity, std::span<const double> packing,
+/// \param gradients, packing of each particle; nan if no particle is that dense
+GradientSizes velocity_gradient_sizes(std::span<const Tensor3<>> gradients, std::span<const double> packing,
                                       double diameter, double gravity);
 
 /// The same sizes, of a field of velocities that are means over cubic cells: central differences of the velocities at

@@ -2,6 +2,7 @@
 #include "analysis/hopper.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_numbers.hpp"
@@ -48,12 +49,20 @@ const std::vector<double>& HopperSnapshot::inertial() const {
   return made_once(inertial_, [&] { return inertial_numbers(now, setting.grain_diameter, setting.grain_density); });
 }
 
+const std::vector<Tensor3<>>& HopperSnapshot::velocity_gradients() const {
+  return made_once(velocity_gradients_, [&] {
+    std::vector<std::uint32_t> all(now.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return talus::velocity_gradients(particles(), domain(), all, now.vectors("velocity"));
+  });
+}
+
 const GradientSizes& HopperSnapshot::gradient_sizes() const {
   return made_once(gradient_sizes_, [&] {
     constexpr double none = HopperRun::none;
     if (now.size() == 0) return GradientSizes{none, none, none, none};
-    return velocity_gradient_sizes(particles(), domain(), now.vectors("velocity"), now.scalars("packing"),
-                                   setting.grain_diameter, setting.gravity);
+    return velocity_gradient_sizes(velocity_gradients(), now.scalars("packing"), setting.grain_diameter,
+                                   setting.gravity);
   });
 }
 

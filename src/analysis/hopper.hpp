@@ -64,8 +64,9 @@ class HopperSnapshot {
   const HopperShape& shape() const { return setting.shape; }
   const Section& packing_section() const;  ///< cells of h by h/2
   const HopperSurfaces& surfaces() const;
-  const std::vector<bool>& deep() const;        ///< deep_particles()
-  const std::vector<double>& inertial() const;  ///< inertial_numbers()
+  const std::vector<bool>& deep() const;                     ///< deep_particles()
+  const std::vector<double>& inertial() const;               ///< inertial_numbers()
+  const std::vector<Tensor3<>>& velocity_gradients() const;  ///< of each particle, 1/s
   const GradientSizes& gradient_sizes() const;
   /// Of velocities averaged over cells (HopperShape::cell), above the outlet, or wherever there are grains if there is
   /// none.
@@ -80,6 +81,7 @@ class HopperSnapshot {
   mutable std::optional<HopperSurfaces> surfaces_;
   mutable std::optional<std::vector<bool>> deep_;
   mutable std::optional<std::vector<double>> inertial_;
+  mutable std::optional<std::vector<Tensor3<>>> velocity_gradients_;
   mutable std::optional<GradientSizes> gradient_sizes_, cell_gradient_sizes_;
   mutable std::optional<ParticleField> field_;
 };

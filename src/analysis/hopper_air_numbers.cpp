@@ -11,8 +11,8 @@ namespace talus::hopper {
 namespace {
 
 constexpr double none = HopperRun::none;
-constexpr double hardly_any = 0.01, in_stream = 0.1;  // packing
-constexpr int cells_beside_plug = 5;                  // of a mean
+constexpr double hardly_any = 0.01;   // packing
+constexpr int cells_beside_plug = 5;  // of a mean
 
 /// Null where there is no air, or no outlet that it passes.
 const GridSnapshot* air_of(const HopperSnapshot& s) {

@@ -237,6 +237,9 @@ const std::vector<Row> of_grains = {
         "share with I below 10⁻² of the particles that bear a pressure and are not below the outlet, mean over the "
         "window",
         mean_of(inertial_share_of_bearing)),
+    Row("inertial_share_of_bearing_in_shear", "1",
+        "as inertial_share_of_bearing, with the largest |∂u_i/∂x_j + ∂u_j/∂x_i|, i ≠ j, for γ̇",
+        mean_of(inertial_share_of_bearing_in_shear)),
     Row("inertial_share", "1",
         "share of the particles above the outlet with I = γ̇ D √(ρ_p/p) below 10⁻²; without pressure I is infinite",
         at(inertial_share), {{always, while_it_flows}}),
@@ -274,6 +277,10 @@ const std::vector<Row> of_grains = {
         {narrowing}, {}, {"above_from", "above_to", "below_from", "below_to"}),
     Row("stream_packing", "1", "mean packing of the stream's particles from `from` to `to`, while the heap is lower",
         at(stream_packing), {}, {"from", "to"}),
+    Row("stream_packing_of_cells", "1",
+        "mean packing of the cells of three quarters of a spacing from `from` to `to`, in the middle of the depth, in "
+        "which it is above 0.1, while the heap is lower",
+        at(stream_packing_of_cells), {}, {"from", "to"}),
     Row("stream_stress_share", "1",
         "mean τ_zz of the stream's particles from `from` to `to`, while the heap is lower, over that of the grains "
         "above "

@@ -144,6 +144,14 @@ double inertial_share_of_bearing(const HopperSnapshot& s, const Place&) {
                                both(outside_outlet(s.now.positions(), s.shape()), bearing_particles(s.inertial())));
 }
 
+double inertial_share_of_bearing_in_shear(const HopperSnapshot& s, const Place&) {
+  if (s.now.size() == 0) return none;
+  const std::vector<double> inertial =
+      inertial_numbers_of_shear(s.now, s.velocity_gradients(), s.setting.grain_diameter, s.setting.grain_density);
+  return talus::inertial_share(inertial,
+                               both(outside_outlet(s.now.positions(), s.shape()), bearing_particles(inertial)));
+}
+
 double inertial_share(const HopperSnapshot& s, const Place&) {
   return talus::inertial_share(s.inertial(), above_outlet(s.now.positions(), s.shape()));
 }
@@ -163,6 +171,18 @@ double stream_width(const HopperSnapshot& s, const Place& place) {
 double stream_packing(const HopperSnapshot& s, const Place& place) {
   if (!stream_is_free(s, place)) return none;
   return mean_between(s.now.positions(), s.now.scalars("packing"), length_of(place, "from"), length_of(place, "to"));
+}
+
+double stream_packing_of_cells(const HopperSnapshot& s, const Place& place) {
+  if (!stream_is_free(s, place)) return none;
+  const double cell = s.shape().cell();
+  std::vector<double> packings;
+  for (double z = length_of(place, "from"); z < length_of(place, "to"); z += cell)
+    for (double x = 0.5 * cell; x < s.shape().width; x += cell) {
+      const double packing = s.field().packing(cell_centre({x, 0.5 * s.shape().depth, z}, cell));
+      if (packing > in_stream) packings.push_back(packing);
+    }
+  return mean(packings);
 }
 
 double stream_stress_share(const HopperSnapshot& s, const Place& place) {

@@ -10,6 +10,8 @@
 
 namespace talus::hopper {
 
+inline constexpr double in_stream = 0.1;  ///< packing of the cells that a stream passes, above
+
 enum class Where { bin, hopper };                                     ///< below the outlet, and above it
 const FreeSurface& surface_in(const HopperSnapshot& s, Where where);  ///< empty if there is no hopper
 ReposeAngle repose_in(const HopperSnapshot& s, Where where);
@@ -58,12 +60,14 @@ double stress_ratio(const HopperSnapshot& s, const Place& place);
 double stress_ratio_where_dense(const HopperSnapshot& s, const Place& place);
 double inertial_share(const HopperSnapshot& s, const Place& place);
 double inertial_share_of_bearing(const HopperSnapshot& s, const Place& place);
+double inertial_share_of_bearing_in_shear(const HopperSnapshot& s, const Place& place);
 double left_right_imbalance(const HopperSnapshot& s, const Place& place);
 
 /// The stream below the outlet, between heights `from` and `to`, as long as the heap beside it is lower than `free`, or
 /// than `from` where that is not given.
 double stream_width(const HopperSnapshot& s, const Place& place);
 double stream_packing(const HopperSnapshot& s, const Place& place);
+double stream_packing_of_cells(const HopperSnapshot& s, const Place& place);
 double stream_stripes(const HopperSnapshot& s, const Place& place);
 /// Mean vertical stress in the stream over that of the grains above the outlet.
 double stream_stress_share(const HopperSnapshot& s, const Place& place);

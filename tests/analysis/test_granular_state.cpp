@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "analysis/displacement.hpp"
 #include "analysis/particles.hpp"
@@ -54,6 +55,17 @@ TEST(InertialShare, CountsGrainsWithoutStressAsFast) {
   EXPECT_TRUE(std::isnan(inertial_share(inertial, {false, false, false, false})));
 }
 
+TEST(InertialShare, OfShearTakesTheLargestRateAcrossAxes) {
+  Tensor3<> shear, stretch;
+  shear.xz = 60, shear.zx = 40, shear.xy = -30;
+  stretch.xx = 1000, stretch.zz = -1000;
+  const std::vector<Tensor3<>> gradients = {shear, stretch, Tensor3<>{}, shear};
+  const auto inertial = inertial_numbers_of_shear(four().view(), gradients, 200e-6, 2500);
+  EXPECT_DOUBLE_EQ(inertial[0], 100 * 200e-6 * std::sqrt(2500 / (220.0 / 3)));
+  EXPECT_EQ(inertial[1], 0) << "no shear along x and z";
+  EXPECT_EQ(inertial[3], std::numeric_limits<double>::infinity()) << "without stress";
+}
+
 TEST(InertialShare, OfThoseThatBearCountsNoGrainsWithoutStress) {
   const auto inertial = inertial_numbers(four().view(), 200e-6, 2500);
   EXPECT_EQ(bearing_particles(inertial), (std::vector<bool>{true, true, true, false}));
@@ -71,15 +83,16 @@ TEST(VelocityGradientSizes, OfSimpleShearAndCompression) {
   for (const Vector3& x : points) velocity.push_back({7 * x.z - x.x, 0, 0});
   std::vector<double> packing(points.size(), 0.6);
   const ParticleField field(test::particles(points, h), domain);
-  const GradientSizes sizes =
-      velocity_gradient_sizes(field.particles(), field.domain(), velocity, packing, 200e-6, 9.8);
+  std::vector<std::uint32_t> all(points.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const auto gradients = velocity_gradients(field.particles(), field.domain(), all, velocity);
+  const GradientSizes sizes = velocity_gradient_sizes(gradients, packing, 200e-6, 9.8);
   const double unit = std::sqrt(200e-6 / 9.8);
   EXPECT_NEAR(sizes.shear_max, 7 * unit, 1e-12);
   EXPECT_NEAR(sizes.shear_percentile, 7 * unit, 1e-12);
   EXPECT_NEAR(sizes.normal_max, 1 * unit, 1e-12);
   packing.assign(points.size(), 0.4);
-  EXPECT_TRUE(
-      std::isnan(velocity_gradient_sizes(field.particles(), field.domain(), velocity, packing, 200e-6, 9.8).shear_max));
+  EXPECT_TRUE(std::isnan(velocity_gradient_sizes(gradients, packing, 200e-6, 9.8).shear_max));
 }
 
 TEST(DensityDrift, IsTheMeanOverThoseTaken) {

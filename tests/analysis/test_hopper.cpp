@@ -117,7 +117,11 @@ TEST(Hopper, FrameOfAStream) {
   EXPECT_NEAR(is(hopper::stream_width, {{"from", 0.04}, {"to", 0.06}, {"free", 0.04}}) /
                   is(hopper::stream_width, {{"from", 0.09}, {"to", 0.1}, {"free", 0.04}}),
               0.5, 0.1);
-  EXPECT_NEAR(is(hopper::stream_packing, {{"from", 0.04}, {"to", 0.09}, {"free", 0.04}}), 0.4, 1e-12);
+  const Place below{{"from", 0.04}, {"to", 0.09}, {"free", 0.04}};
+  EXPECT_NEAR(is(hopper::stream_packing, below), 0.4, 1e-12);
+  const double of_cells = is(hopper::stream_packing_of_cells, below);
+  EXPECT_LT(of_cells, 0.59) << "cells at the edges are not full";
+  EXPECT_GT(of_cells, 0.45);
   EXPECT_NEAR(is(hopper::stream_stress_share, {{"from", 0.04}, {"to", 0.09}, {"free", 0.04}}), 0.1, 1e-12);
   EXPECT_LT(is(hopper::stream_stripes, {{"from", 0.04}, {"to", 0.095}, {"free", 0.04}}), 0.02);
   EXPECT_NEAR(is(hopper::hopper_velocity, across), -0.2, 1e-9);
@@ -127,6 +131,7 @@ TEST(Hopper, FrameOfAStream) {
   EXPECT_TRUE(std::isnan(is(hopper::repose_angle_in<hopper::Where::hopper, &ReposeAngle::mean>)));
   EXPECT_NEAR(is(hopper::surface_swelling, {{"beside", 0.02}, {"width", 0.004}}), 0, 1e-9);
   EXPECT_EQ(is(hopper::inertial_share), 1) << "nothing shears";
+  EXPECT_EQ(is(hopper::inertial_share_of_bearing_in_shear), 1);
 }
 
 /// A layer on the floor that has come farther on the right than on the left, and falling grains above the floor at the
