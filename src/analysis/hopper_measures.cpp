@@ -31,12 +31,6 @@ bool outlet(const Run& run) {
 bool hand_formula(const Run& run) {
   return run.setting.hand_discharge > 0;
 }
-bool vessel_with_outlet(const Run& run) {
-  return outlet(run) && !run.setting.section.empty();
-}
-bool vessel_with_hand_formula(const Run& run) {
-  return vessel_with_outlet(run) && hand_formula(run);
-}
 bool bin(const Run& run) {
   return run.setting.has_floor && run.setting.shape.bin().top > 0;
 }
@@ -75,16 +69,6 @@ const std::vector<Row> of_grains = {
         "(Rose & Tanaka 1959). Rectangular: (4 C/π) ρ_b A (g D_h)^½, D_h the hydraulic diameter (Nedderman et al. "
         "1982); of a slit in a plate 1.04 ρ_b g^½ (W − k d)^(3/2) for each length",
         {[](const Run& r, const Place&, const Window&) { return r.setting.hand_discharge; }}, {{hand_formula}}),
-    Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
-        {[](const Run& r, const Place&, const Window&) {
-          Curve left = discharged_share(r);
-          for (double& share : left.value) share = 1 - share;
-          return first_time_at_or_below(left, 0.01);
-        }},
-        {{vessel_with_outlet}}),
-    Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
-        {[](const Run& r, const Place&, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
-        {{vessel_with_hand_formula}}),
     Row("discharge_rate_drift", "1",
         "slope of the line through the 10 ms means of Q times the length of the window, over their mean",
         {[](const Run& r, const Place&, const Window& w) { return drift(passed_mass(r), trend_mean, w.from, w.to); }}),

@@ -27,6 +27,9 @@ bool vessel(const Run& run) {
 bool vessel_with_outlet(const Run& run) {
   return vessel(run) && run.setting.shape.plate.has_value();
 }
+bool vessel_with_hand_formula(const Run& run) {
+  return vessel_with_outlet(run) && run.setting.hand_discharge > 0;
+}
 bool vessel_with_slit(const Run& run) {
   return vessel_with_outlet(run) && run.setting.outlet_length > 0;
 }
@@ -123,6 +126,18 @@ std::vector<Row> hopper_vessel_measures() {
       Row("discharge_steady_per_length", "kg/(s m)", "discharge_steady over the length of the slit",
           {[](const Run& r, const Place&, const Window&) { return plateau(r).value / r.setting.outlet_length; }},
           {{vessel_with_slit}}),
+      Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
+          {[](const Run& r, const Place&, const Window&) {
+            Curve left = discharged_share(r);
+            for (double& share : left.value) share = 1 - share;
+            return first_time_at_or_below(left, 0.01);
+          }},
+          {{vessel_with_outlet}}),
+      Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
+          {[](const Run& r, const Place&, const Window&) {
+            return 0.99 * r.setting.mass() / r.setting.hand_discharge;
+          }},
+          {{vessel_with_hand_formula}}),
       Row("share_that_moves", "1",
           "share of the particles above the outlet that are faster than a tenth of their mean; speed: displacement "
           "since the snapshot about 20 ms before, over the time between. From 0.99 on it is mass flow, below that "

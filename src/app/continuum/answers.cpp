@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 #include <string>
 
 #include "analysis/hopper.hpp"
+#include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
 
 namespace talus::app {
@@ -17,6 +20,7 @@ namespace {
 using continuum::VesselPart;
 using continuum::VesselShape;
 
+constexpr double hardly = 0.01;     // of the largest pressure
 constexpr double mass_flow = 0.99;  // of the particles move: measure share_that_moves
 
 /// A quantity of the summary; nan if it has none.
@@ -26,25 +30,35 @@ double value_of(const std::vector<NamedValue>& quantities, std::string_view name
   return found != quantities.end() ? found->value : HopperRun::none;
 }
 
-std::string formula_of_discharge(const continuum::Parameters& p) {
-  const auto outlet = continuum::outlet_of_vessel(p);
-  if (!outlet || !outlet->round) return "Beverloo, by the hydraulic diameter";
-  return std::any_of(p.vessel.begin(), p.vessel.end(), [](const VesselPart& v) { return v.shape == VesselShape::cone; })
-             ? "Beverloo; Rose & Tanaka"
-             : "Beverloo";
+/// Three digits, and the error to the same place.
+std::string with_error(double number, double error) {
+  const int places = number > 0 ? std::max(0, 2 - static_cast<int>(std::floor(std::log10(number)))) : 3;
+  return fmt::format("{:.{}f} ± {:.{}f}", number, places, error, places);
 }
 
-/// Of each wall of the vessel the band with the largest pressure at rest.
+std::string formula_of_discharge(const continuum::Parameters& p) {
+  const auto outlet = continuum::outlet_of_vessel(p);
+  if (!outlet || !outlet->round) return "Beverloo by the hydraulic diameter, flat bottom";
+  return half_angle_of_cone(p) < std::numbers::pi / 4 ? "Beverloo; Rose & Tanaka" : "Beverloo";  // nan: no cone
+}
+
+const char* kind_of(bool all_moves) {
+  return all_moves ? "mass flow" : "funnel flow";
+}
+
+/// Of each wall of the vessel the band with the largest pressure at rest; walls that bear next to none are left out.
 std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const std::filesystem::path& table) {
   if (!std::filesystem::exists(table)) return {};
   const Series loads = read_series(table);
   const auto patch = loads.column("patch"), low = loads.column("low"), high = loads.column("high"),
              pressure = loads.column("pressure_at_rest"), by_hand = loads.column("pressure_at_rest_by_hand");
+  const double most = std::accumulate(pressure.begin(), pressure.end(), 0.0,
+                                      [](double a, double b) { return b > a ? b : a; });  // some may be nan
   std::vector<Answer> answers;
   for (std::size_t v = 0; v < p.vessel.size(); ++v) {
     std::size_t largest = patch.size();
     for (std::size_t n = 0; n < patch.size(); ++n)
-      if (patch[n] == static_cast<double>(v + 1) && pressure[n] > 0 && high[n] > low[n] &&
+      if (patch[n] == static_cast<double>(v + 1) && pressure[n] > hardly * most && high[n] > low[n] &&
           (largest == patch.size() || pressure[n] > pressure[largest]))
         largest = n;
     if (largest == patch.size()) continue;
@@ -68,8 +82,7 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
   const auto value = [&](std::string_view name) { return value_of(quantities, name); };
   std::vector<Answer> answers;
   if (const double rate = value("discharge_steady"); std::isfinite(rate)) {
-    answers.push_back(
-        {"steady discharge", fmt::format("{:.3g} ± {:.2g} kg/s", rate, value("discharge_steady_error")), {}});
+    answers.push_back({"steady discharge", with_error(rate, value("discharge_steady_error")) + " kg/s", {}});
     if (const double hand = value("discharge_rate_beverloo"); hand > 0)
       answers.back().by_hand = fmt::format("{:.3g} kg/s ({})", hand, formula_of_discharge(p));
   }
@@ -77,14 +90,16 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
     const double time = value("emptying_time"), hand = value("emptying_time_by_hand");
     answers.push_back(
         {"99 % have left", std::isfinite(time) ? fmt::format("after {:.3g} s", time) : "not by the end", {}});
-    if (hand > 0) answers.back().by_hand = fmt::format("{:.3g} s (at that discharge)", hand);
+    if (hand > 0) answers.back().by_hand = fmt::format("{:.3g} s (at the discharge by hand)", hand);
     answers.push_back({"above the outlet at the end", fmt::format("{:.1f} % of the bed", 100 * std::abs(left)), {}});
   }
   if (const double share = value("share_that_moves"); std::isfinite(share)) {
     answers.push_back(
-        {share >= mass_flow ? "mass flow" : "funnel flow", fmt::format("{:.0f} % of it moves", 100 * share), {}});
-    if (const double angle = value("mass_flow_half_angle_jenike"); std::isfinite(angle))
-      answers.back().by_hand = fmt::format("mass flow up to {:.0f} degrees (Jenike)", angle);
+        {"kind of flow", fmt::format("{}, {:.0f} % of the bed moves", kind_of(share >= mass_flow), 100 * share), {}});
+    const double own = half_angle_of_cone(p) * 180 / std::numbers::pi, most = value("mass_flow_half_angle_jenike");
+    if (std::isfinite(own) && std::isfinite(most))
+      answers.back().by_hand =
+          fmt::format("{}, {:.3g} degrees of at most {:.0f} (Jenike)", kind_of(own <= most), own, most);
   }
   if (const double error = value("weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"walls bear at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});

@@ -241,7 +241,9 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
   if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"},
                  setting.hand_discharge, title, pictures / "discharge.png"))
     drawn.push_back(pictures / "discharge.png");
-  if (draw_curve(tables / "snapshots.csv", "surface_angle_hopper",
+  // That surface is a mean along y, and in a round vessel falls off at the sides though the grains lie level.
+  if (setting.section.empty() &&
+      draw_curve(tables / "snapshots.csv", "surface_angle_hopper",
                  {.label = "slope of the hopper's surface", .unit = "deg"}, 0, title, pictures / "surface_angle.png"))
     drawn.push_back(pictures / "surface_angle.png");
   return drawn;

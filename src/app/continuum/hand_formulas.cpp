@@ -121,6 +121,11 @@ double mass_flow_half_angle_by_hand(const continuum::Parameters& p) {
   return cone ? granular::mass_flow_half_angle(friction_of(p, *cone), internal_friction(p)) : HopperRun::none;
 }
 
+double half_angle_of_cone(const continuum::Parameters& p) {
+  const VesselPart* cone = emptying_cone(p);
+  return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;
+}
+
 PressureByHand pressure_by_hand(const continuum::Parameters& p, const BandOfWall& band, double ratio, double top,
                                 double height) {
   if (!(height < top)) return {};

@@ -16,6 +16,9 @@ double discharge_by_hand(const continuum::Parameters& parameters);
 /// through no cone. The friction inside is the law's, 30 degrees where it has none.
 double mass_flow_half_angle_by_hand(const continuum::Parameters& parameters);
 
+/// The half angle that it has, rad; nan without such a cone.
+double half_angle_of_cone(const continuum::Parameters& parameters);
+
 /// The pressure on a band by hand, Pa; nan where there is no formula for it.
 struct PressureByHand {
   double at_rest = HopperRun::none, in_flow = HopperRun::none;

@@ -2,6 +2,7 @@
 #include "models/continuum/initial.hpp"
 
 #include "models/continuum/atmosphere.hpp"
+#include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
 
 namespace talus::continuum {
@@ -16,6 +17,8 @@ State initial_state(const Parameters& parameters, const Material& material) {
   state.density.assign(count, parameters.bed.packing * parameters.grains.density);
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
   for (auto& column : state.material.stress) column.assign(count, 0.0);
+  if (draws_by_lasting_rate(parameters))
+    for (auto& column : state.lasting_rate) column.assign(count, 0.0);
   if (parameters.collisions.form != granular::Collisions::none)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});

@@ -13,10 +13,6 @@ namespace talus::continuum {
 
 namespace {
 
-void set(std::array<std::vector<double>, 6>& s, std::size_t i, const SymmetricTensor3<>& t) {
-  s[0][i] = t.xx, s[1][i] = t.yy, s[2][i] = t.zz, s[3][i] = t.xy, s[4][i] = t.yz, s[5][i] = t.zx;
-}
-
 template <class Law>
 granular::MaterialPoint<Law> load(const MaterialColumns& columns, std::size_t i) {
   granular::MaterialPoint<Law> point{tensor_at(columns.stress, i), {}};
@@ -27,7 +23,7 @@ granular::MaterialPoint<Law> load(const MaterialColumns& columns, std::size_t i)
 
 template <class Law>
 void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::size_t i, bool keep_history) {
-  set(columns.stress, i, point.stress);
+  set_tensor(columns.stress, i, point.stress);
   if (!keep_history) return;
   std::size_t slot = 0;
   Law::for_each_slot([&](granular::HistorySlot, double& value) { columns.history[slot++][i] = value; }, point.history);
@@ -130,7 +126,8 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, const Gradie
   if (!collisions_) return;
   for_each(team, density.size(), [&](std::size_t i) {
     const double mean_stress = std::max(trace(tensor_at(next.stress, i)) / 3, 0.0);
-    set(next.collisional, i, granular::collisional_stress(*collisions_, fall_time_, mean_stress, velocity_gradient[i]));
+    set_tensor(next.collisional, i,
+               granular::collisional_stress(*collisions_, fall_time_, mean_stress, velocity_gradient[i]));
   });
 }
 
@@ -141,9 +138,9 @@ double Material::strain(const MaterialColumns& columns, std::size_t i) const {
 }
 
 void Material::mirror(MaterialColumns& columns, std::size_t particle, const Image& image) const {
-  set(columns.stress, particle, image.tensor(tensor_at(columns.stress, particle)));
+  set_tensor(columns.stress, particle, image.tensor(tensor_at(columns.stress, particle)));
   if (!columns.collisional[0].empty())
-    set(columns.collisional, particle, image.tensor(tensor_at(columns.collisional, particle)));
+    set_tensor(columns.collisional, particle, image.tensor(tensor_at(columns.collisional, particle)));
   const auto remembered = slots();
   constexpr int axes[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
   const auto begins_tensor = [&](std::size_t k) {

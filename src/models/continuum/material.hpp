@@ -63,6 +63,10 @@ inline SymmetricTensor3<> tensor_at(const std::array<std::vector<double>, 6>& s,
   return {s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]};
 }
 
+inline void set_tensor(std::array<std::vector<double>, 6>& s, std::size_t i, const SymmetricTensor3<>& t) {
+  s[0][i] = t.xx, s[1][i] = t.yy, s[2][i] = t.zz, s[3][i] = t.xy, s[4][i] = t.yz, s[5][i] = t.zx;
+}
+
 /// The whole stress of a particle, Eq. 7: the law's and that by collisions, Pa.
 inline SymmetricTensor3<> stress_of(const MaterialColumns& columns, std::size_t i) {
   const SymmetricTensor3<> stress = tensor_at(columns.stress, i);

@@ -46,6 +46,10 @@ double density_relaxation(const Parameters& p) {
   return is_loose_where_free(p) ? p.sph.density_relaxation : 0;
 }
 
+bool draws_by_lasting_rate(const Parameters& p) {
+  return !p.vessel.empty() && density_relaxation(p) > 0;
+}
+
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);

@@ -17,6 +17,11 @@ bool is_loose_where_free(const Parameters& parameters);
 /// mirrors; what else there is adds up with the strain (docs/decisions/0043-the-density-is-that-of-the-places.md).
 double density_relaxation(const Parameters& parameters);
 
+/// Whether they are drawn by the shear that lasts (State::lasting_rate) and not by each step's. Particles beside a
+/// round wall of a vessel jitter: a shear to and fro, by which a density loses nothing that would have to be taken
+/// back, and beside walls the kernel's sum is some per cent off (docs/decisions/0047-a-jitter-draws-no-density.md).
+bool draws_by_lasting_rate(const Parameters& parameters);
+
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.
 void begin_densities(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

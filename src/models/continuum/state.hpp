@@ -77,6 +77,9 @@ struct State {
       packing;                 ///< as the kernel deposits it: sum of m W over particles and images, over rho_p; derived
   std::vector<double> strain;  ///< |e|, norm of the strain that the law remembers; 0 if it remembers none; derived
   std::vector<double> shear_rate;  ///< (2 D':D')^(1/2), D' the deviator of the rate of deformation, last evaluated, 1/s
+  /// D', averaged over what went before (measure_shear_rate), 1/s: xx yy zz xy yz zx; empty: densities are not drawn by
+  /// it.
+  std::array<std::vector<double>, 6> lasting_rate;
 
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
   std::array<Vector3, most_walls> wall_impulse{};
@@ -106,6 +109,8 @@ inline constexpr std::array<const char*, 6> stress_names = {"stress_xx", "stress
 inline constexpr std::array<const char*, 6> collisional_names = {"collisional_stress_xx", "collisional_stress_yy",
                                                                  "collisional_stress_zz", "collisional_stress_xy",
                                                                  "collisional_stress_yz", "collisional_stress_zx"};
+inline constexpr std::array<const char*, 6> lasting_names = {"lasting_rate_xx", "lasting_rate_yy", "lasting_rate_zz",
+                                                             "lasting_rate_xy", "lasting_rate_yz", "lasting_rate_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 inline constexpr const char* fed_names[3] = {"fed_momentum_x", "fed_momentum_y", "fed_momentum_z"};
@@ -208,6 +213,8 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"packing", "1", FieldRole::derived}, s.packing);
   visit(FieldInfo{"strain", "1", FieldRole::derived}, s.strain);
   visit(FieldInfo{"shear_rate", "1/s"}, s.shear_rate);
+  for (std::size_t c = 0; c < 6 && !s.lasting_rate[c].empty(); ++c)
+    visit(FieldInfo{detail::lasting_names[c], "1/s", FieldRole::kept, false}, s.lasting_rate[c]);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     for (int axis = 0; axis < 3; ++axis)
       visit(FieldInfo{detail::impulse_names[wall][static_cast<std::size_t>(axis)], "N s"}, s.wall_impulse[wall][axis]);

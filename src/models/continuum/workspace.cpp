@@ -14,6 +14,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr std::uint64_t builds_between_sorts = 16;
+constexpr double passages_that_last = 20;  // of the fastest wave over a spacing: jitter is quicker, flow far slower
 constexpr double edge_of_drawn_field = 3;  // in spacings
 
 }  // namespace
@@ -23,6 +24,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
+      lasting_time(passages_that_last * parameters.bed.spacing / sound_speed),
       vessel(surface_of(parameters)),
       load_fields(continuum::load_fields(parameters, vessel)),
       load_bands(continuum::load_bands(parameters, load_fields)),
@@ -84,9 +86,13 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 
 void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {
   s.shear_rate.resize(s.position.size());
+  const double share = s.last_step / (s.last_step + w.lasting_time);
   for_each(team, s.position.size(), [&](std::size_t i) {
     const SymmetricTensor3<> rate = deviator(symmetric_part(w.rates.velocity_gradient[i]));
-    s.shear_rate[i] = std::sqrt(2 * double_dot(rate, rate));
+    s.shear_rate[i] = shear_of(rate);
+    if (s.lasting_rate[0].empty()) return;
+    const SymmetricTensor3<> before = tensor_at(s.lasting_rate, i);
+    set_tensor(s.lasting_rate, i, before + share * (rate - before));
   });
 }
 

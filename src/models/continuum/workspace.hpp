@@ -2,6 +2,7 @@
 /// The workspace of a step, and its update from the state.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Workspace {
   Material material;
   double sound_speed;   ///< bound for the time step, m/s
   double loading_time;  ///< over which gravity is raised, s
+  double lasting_time;  ///< a shear that turns back sooner draws no density, s
   Surface vessel;       ///< empty without one
   std::vector<InletLayer> inlets;
   SurfaceFields load_fields;  ///< of the vessel
@@ -60,8 +62,14 @@ void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& stat
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
+/// (2 D':D')^(1/2), 1/s. \param rate D', a deviator, 1/s
+inline double shear_of(const SymmetricTensor3<>& rate) {
+  return std::sqrt(2 * double_dot(rate, rate));
+}
+
 /// From the last velocity gradients: with the leapfrog those at the midpoint of the step, which cannot be recomputed
-/// from the state at its end. A resumed run reads it from its checkpoint.
+/// from the state at its end. A resumed run reads it from its checkpoint. The rate that lasts is its mean over what
+/// went before, weighted by exp(-t/lasting_time).
 void measure_shear_rate(ThreadTeam& team, State& state, const Workspace& workspace);
 
 }  // namespace talus::continuum
