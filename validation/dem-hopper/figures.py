@@ -24,7 +24,6 @@ MM = 1e-3
 DEPTH = 5e-3  # m, for which discharges are given
 CELL = 2.0    # mm, of the referee's pictures
 FASTEST = 1.5  # m/s, of the colours
-SHADES = ("#1b1b1b", "#5b616e", "#8b93a1", "#b6bcc6")
 PROFILE, HEIGHTS = 0.2, (105, 120, 140, 160)  # s, mm
 
 
@@ -102,7 +101,8 @@ def styles_of(rows):
     for run in dict.fromkeys(row["run"] for row in rows):
         diameter, rolling = kinds[run]
         name = f"beads, {diameter:g} mm" + (", rolling" if rolling else "")
-        styles[run] = {"color": SHADES[sizes.index(diameter)], "linestyle": "--" if rolling else "-", "linewidth": 0.9,
+        styles[run] = {"color": plt.cm.Greys_r(0.75 * sizes.index(diameter) / len(sizes)),
+                       "linestyle": "--" if rolling else "-", "linewidth": 0.9,
                        "label": None if name in named else name}
         named.add(name)
     return styles
