@@ -17,7 +17,6 @@ namespace talus::app {
 
 namespace {
 
-using continuum::VesselPart;
 using continuum::VesselShape;
 
 constexpr double hardly = 0.01;     // of the largest pressure
