@@ -77,19 +77,47 @@ std::uint64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
 CellGrid::CellGrid(std::span<const Vector3> points, double cell_size) : origin_(lowest(points)), cell_size_(cell_size) {
   if (!(cell_size > 0)) throw std::invalid_argument("the edge of a cell must be positive");
   check_fits(points, origin_, cell_size);
-  std::vector<Keyed> keyed(points.size());
-  for (std::uint32_t n = 0; n < points.size(); ++n) {
-    const Index cell = cell_of(points[n]);
-    last_ = {std::max(last_.i, cell.i), std::max(last_.j, cell.j), std::max(last_.k, cell.k)};
-    keyed[n] = {cell_key(cell.i, cell.j, cell.k), n};
+  std::vector<Index> cell(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    cell[n] = cell_of(points[n]);
+    last_ = {std::max(last_.i, cell[n].i), std::max(last_.j, cell[n].j), std::max(last_.k, cell[n].k)};
   }
+  order_.resize(points.size());
+  constexpr std::int64_t most_a_point = 4;
+  const auto most = most_a_point * static_cast<std::int64_t>(points.size()) + 64;
+  // None of the products is too large for its type.
+  if ((last_.i + 1) * (last_.j + 1) <= most && (last_.i + 1) * (last_.j + 1) * (last_.k + 1) <= most)
+    sort_into_box(cell);
+  else
+    sort_by_key(cell);
+  cells_.push_back({~std::uint64_t{0}, points.size()});
+}
+
+void CellGrid::sort_into_box(std::span<const Index> cell) {
+  const auto all = static_cast<std::size_t>((last_.i + 1) * (last_.j + 1) * (last_.k + 1));
+  std::vector<std::uint32_t> next(all + 1, 0);  // place in the order of the next point of a cell of the box
+  for (const Index& at : cell) ++next[place_in_box(at.i, at.j, at.k) + 1];
+  first_cell_.resize(all + 1);
+  std::size_t place = 0;
+  for (std::int64_t k = 0; k <= last_.k; ++k)
+    for (std::int64_t j = 0; j <= last_.j; ++j)
+      for (std::int64_t i = 0; i <= last_.i; ++i, ++place) {
+        first_cell_[place] = static_cast<std::uint32_t>(cells_.size());
+        if (next[place + 1] != 0) cells_.push_back({cell_key(i, j, k), next[place]});
+        next[place + 1] += next[place];
+      }
+  first_cell_[all] = static_cast<std::uint32_t>(cells_.size());
+  for (std::uint32_t n = 0; n < cell.size(); ++n) order_[next[place_in_box(cell[n].i, cell[n].j, cell[n].k)]++] = n;
+}
+
+void CellGrid::sort_by_key(std::span<const Index> cell) {
+  std::vector<Keyed> keyed(cell.size());
+  for (std::uint32_t n = 0; n < cell.size(); ++n) keyed[n] = {cell_key(cell[n].i, cell[n].j, cell[n].k), n};
   sort(keyed);
-  order_.resize(keyed.size());
   for (std::size_t n = 0; n < keyed.size(); ++n) {
     order_[n] = keyed[n].point;
     if (cells_.empty() || cells_.back().key != keyed[n].key) cells_.push_back({keyed[n].key, n});
   }
-  cells_.push_back({~std::uint64_t{0}, keyed.size()});
 }
 
 CellGrid::Index CellGrid::cell_of(const Vector3& x) const {
@@ -100,6 +128,10 @@ CellGrid::Index CellGrid::cell_of(const Vector3& x) const {
 std::span<const CellGrid::Cell> CellGrid::cells_in_row(std::int64_t first, std::int64_t last, std::int64_t j,
                                                        std::int64_t k) const {
   if (first > last) return {};
+  if (!first_cell_.empty())
+    return std::span(cells_).subspan(
+        first_cell_[place_in_box(first, j, k)],
+        first_cell_[place_in_box(last, j, k) + 1] - first_cell_[place_in_box(first, j, k)]);
   const auto begin = std::lower_bound(cells_.begin(), cells_.end(), cell_key(first, j, k),
                                       [](const Cell& cell, std::uint64_t key) { return cell.key < key; });
   auto end = begin;  // the cell at the end of all stops it

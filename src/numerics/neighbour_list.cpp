@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/compiled_for.hpp"
 #include "numerics/cell_grid.hpp"
@@ -23,19 +24,22 @@ class NumberSet {
     words_.resize(bound / 64 + 1);
     used_.resize(words_.size() / 64 + 1);
   }
-  void insert(std::uint32_t n) {
-    words_[n / 64] |= std::uint64_t{1} << (n % 64);
-    used_[n / 4096] |= std::uint64_t{1} << (n / 64 % 64);
+  void insert(std::span<const std::uint32_t> numbers) {
+    std::uint64_t *const words = words_.data(), *const used = used_.data();  // looked up once
+    for (const std::uint32_t n : numbers) {
+      words[n / 64] |= std::uint64_t{1} << (n % 64);
+      used[n / 4096] |= std::uint64_t{1} << (n / 64 % 64);
+    }
   }
-  /// Calls visit(n) for each number and leaves the set empty.
-  template <class Visit>
-  void drain(Visit&& visit) {
+  /// Writes the numbers and leaves the set empty. \returns the place behind the last one
+  std::uint32_t* drain(std::uint32_t* numbers) {
     for (std::size_t u = 0; u < used_.size(); ++u)
-      for (; used_[u] != 0; used_[u] &= used_[u] - 1) {
-        const std::size_t w = 64 * u + static_cast<std::size_t>(std::countr_zero(used_[u]));
-        for (; words_[w] != 0; words_[w] &= words_[w] - 1)
-          visit(static_cast<std::uint32_t>(64 * w + static_cast<std::size_t>(std::countr_zero(words_[w]))));
+      for (std::uint64_t words = std::exchange(used_[u], 0); words != 0; words &= words - 1) {
+        const std::size_t w = 64 * u + static_cast<std::size_t>(std::countr_zero(words));
+        for (std::uint64_t bits = std::exchange(words_[w], 0); bits != 0; bits &= bits - 1)
+          *numbers++ = static_cast<std::uint32_t>(64 * w + static_cast<std::size_t>(std::countr_zero(bits)));
       }
+    return numbers;
   }
 
  private:
@@ -79,35 +83,47 @@ class Surroundings {
       const double reach = cells.largest[cell] + cells.largest[near] + skin;
       constexpr double rounding = 1 - 1e-9;
       if (rounding * square > reach * reach) return;
-      for (const std::uint32_t j : cells.grid.points_of(near)) numbers_.insert(j), ++count;
+      const auto points = cells.grid.points_of(near);
+      numbers_.insert(points), count += points.size();
     });
     size_ = (count + PointBlock::size - 1) / PointBlock::size;
-    if (blocks_.size() < size_) blocks_.resize(size_), near_.resize(PointBlock::size * size_);
+    if (blocks_.size() < size_) blocks_.resize(size_), sorted_.resize(most());
+    numbers_.drain(sorted_.data());
     places_.clear();
-    std::size_t n = 0;
-    numbers_.drain([&](std::uint32_t j) {
-      if (places_.size() < listed.size() && listed[places_.size()] == j) places_.push_back(n);
-      PointBlock& block = blocks_[n / PointBlock::size];
-      const std::size_t place = n++ % PointBlock::size;
-      block.x[place] = position[j].x, block.y[place] = position[j].y, block.z[place] = position[j].z;
-      block.radius[place] = radius[j];
-      block.number[place] = j;
-    });
-    for (; n < PointBlock::size * size_; ++n)
+    std::size_t place = 0;
+    for (const std::uint32_t j : listed) {
+      while (sorted_[place] != j) ++place;
+      places_.push_back(place);
+    }
+    const std::uint32_t* const sorted = sorted_.data();
+    PointBlock* const blocks = blocks_.data();
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::uint32_t j = sorted[n];
+      PointBlock& block = blocks[n / PointBlock::size];
+      const std::size_t k = n % PointBlock::size;
+      const auto [x, y, z] = position[j];
+      block.x[k] = x, block.y[k] = y, block.z[k] = z;
+      block.radius[k] = radius[j];
+      block.number[k] = j;
+    }
+    for (std::size_t n = count; n < most(); ++n)
       blocks_[size_ - 1].x[n % PointBlock::size] = std::numeric_limits<double>::infinity();
   }
 
-  /// Those near the n-th listed point, sorted; until the next call.
-  std::span<std::uint32_t> near(PickNear* pick, std::size_t n, double skin) {
-    return std::span(near_).first(pick(blocks_.data(), size_, places_[n], skin, near_.data()));
+  /// How many are near a point at most.
+  std::size_t most() const { return PointBlock::size * size_; }
+
+  /// Writes those near the n-th listed point, sorted. \param near has room for most() \returns how many they are
+  std::size_t find_near(PickNear* pick, std::size_t n, double skin, std::uint32_t* near) const {
+    return pick(blocks_.data(), size_, places_[n], skin, near);
   }
 
  private:
   NumberSet numbers_;
   std::vector<PointBlock> blocks_;
-  std::size_t size_ = 0;             // of the blocks in use
-  std::vector<std::size_t> places_;  // of the listed points in the blocks
-  std::vector<std::uint32_t> near_;
+  std::size_t size_ = 0;               // of the blocks in use
+  std::vector<std::size_t> places_;    // of the listed points in the blocks
+  std::vector<std::uint32_t> sorted_;  // numbers of the points
 };
 
 }  // namespace
@@ -136,14 +152,16 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
     thread_local Surroundings of_thread;
     Surroundings& around = of_thread;  // its address is looked up once
     std::vector<std::uint32_t>& list = found_[chunk];
-    list.clear();
+    std::size_t end = 0;
     for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
       around.gather(cells, position, radius, skin, cell, listed);
       for (std::size_t n = 0; n < listed.size(); ++n) {
-        const std::span<std::uint32_t> near = around.near(pick_near, n, skin);
-        const std::size_t length = keep ? keep(listed[n], near) : near.size();
-        list.insert(list.end(), near.begin(), near.begin() + static_cast<std::ptrdiff_t>(length));
+        if (list.size() < end + around.most()) list.resize(2 * (end + around.most()));
+        std::uint32_t* const near = list.data() + end;
+        std::size_t length = around.find_near(pick_near, n, skin, near);
+        if (keep) length = keep(listed[n], {near, length});
         length_[listed[n]] = static_cast<std::uint32_t>(length);
+        end += length;
       }
     });
   });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The records that the sums over pairs read, from the columns of the particles.
+#include <algorithm>
 #include <cmath>
 
 #include "models/continuum/material.hpp"
@@ -25,17 +26,69 @@ SingleStressRecord single(const SymmetricTensor3<>& s, float half_density) {
           0};
 }
 
+/// Within the loop over the particles: what a call returns by memory, in halves of what is then read, is waited for.
+[[gnu::always_inline]] inline SymmetricTensor3<> specific_stress(const ParticleView& particles, std::size_t i,
+                                                                 sph::StressForm form, double grain_density) {
+  const double density = particles.density[i];
+  const double packing = form == sph::StressForm::printed ? density / grain_density : 1;  // else unused
+  return sph::specific_stress(stress_of(particles.material, i), density, packing, form);
+}
+
+/// What an image does to the numbers of a record, where it only turns signs and shifts places, as most do: then a
+/// record is a short loop without branches, for which the compiler takes registers.
+struct Signs {
+  bool suffice;
+  double motion[8], shift[8], stress[8];       // factors, what is added to the motion, factors
+  float single_velocity[4], single_stress[8];  // factors of the later half of the motion, and of the stress
+
+  explicit Signs(const Image& image) : suffice(is_diagonal(image.map) && is_diagonal(image.vector_map)) {
+    const Tensor3<>&m = image.map, &v = image.vector_map;
+    const SymmetricTensor3<> t = image.tensor({1, 1, 1, 1, 1, 1});
+    const double of_motion[] = {m.xx, m.yy, m.zz, 1, v.xx, v.yy, v.zz, 1};
+    const double of_stress[] = {t.xx, t.yy, t.zz, t.xy, t.yz, t.zx, 1, 1};
+    for (int k = 0; k < 8; ++k) {
+      motion[k] = of_motion[k], stress[k] = of_stress[k];
+      shift[k] = k < 3 ? image.offset[k] : 0;
+      single_stress[k] = static_cast<float>(stress[k]);
+    }
+    for (int k = 0; k < 4; ++k) single_velocity[k] = static_cast<float>(motion[4 + k]);
+  }
+  Vector3 position(const Vector3& x) const {
+    return {motion[0] * x.x + shift[0], motion[1] * x.y + shift[1], motion[2] * x.z + shift[2]};
+  }
+
+ private:
+  static bool is_diagonal(const Tensor3<>& q) {
+    return q.xy == 0 && q.xz == 0 && q.yx == 0 && q.yz == 0 && q.zx == 0 && q.zy == 0;
+  }
+};
+
+std::vector<Signs> signs_of(std::span<const Image> images) {
+  return {images.begin(), images.end()};
+}
+
+template <class Number, class Record>
+Number* numbers(Record& record) {
+  return reinterpret_cast<Number*>(&record);
+}
+template <int count, class Number>
+void multiply(const Number* record, const Number* factor, Number* product) {
+  Number all[count];
+  for (int k = 0; k < count; ++k) all[k] = factor[k] * record[k];
+  std::copy_n(all, count, product);
+}
+template <int count, class Number>
+void multiply_and_shift(const Number* record, const Number* factor, const Number* shift, Number* result) {
+  Number all[count];
+  for (int k = 0; k < count; ++k) all[k] = factor[k] * record[k] + shift[k];
+  std::copy_n(all, count, result);
+}
+
 }  // namespace
 
 /// Particles near each other are within the reach, at the middle of a step a little beyond: a quarter of the range.
 double Sweep::quantum_for(double reach) {
   return std::exp2(std::ceil(std::log2(reach)) + 2 - 32);
-}
-
-SymmetricTensor3<> Sweep::specific_stress(const ParticleView& particles, std::size_t i) const {
-  const double density = particles.density[i];
-  const double packing = stress_form_ == sph::StressForm::printed ? density / grain_density_ : 1;  // else unused
-  return sph::specific_stress(stress_of(particles.material, i), density, packing, stress_form_);
 }
 
 /// Walls of a vessel read the records in double precision whatever that of the pairs.
@@ -56,12 +109,19 @@ void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool st
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
     motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, mass_ / density};
     if (!stresses) return;
-    const SymmetricTensor3<> s = specific_stress(particles, i);
+    const SymmetricTensor3<> s = specific_stress(particles, i, stress_form_, grain_density_);
     stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
   });
+  const std::vector<Signs> signs = signs_of(neighbourhood_.images());
   for_each(team, ghosts.size(), [&](std::size_t g) {
+    MotionRecord& source = motion_[ghosts[g].source];
+    if (const Signs& image = signs[ghosts[g].image]; image.suffice) {
+      multiply_and_shift<8>(numbers<double>(source), image.motion, image.shift, numbers<double>(motion_[count + g]));
+      if (stresses)
+        multiply<8>(numbers<double>(stress_[ghosts[g].source]), image.stress, numbers<double>(stress_[count + g]));
+      return;
+    }
     const Image& image = neighbourhood_.image(ghosts[g]);
-    const MotionRecord& source = motion_[ghosts[g].source];
     const Vector3 x = image.position({source.position[0], source.position[1], source.position[2]});
     const Vector3 u = image.vector({source.velocity[0], source.velocity[1], source.velocity[2]});
     motion_[count + g] = {{x.x, x.y, x.z}, source.half_length, {u.x, u.y, u.z}, source.volume};
@@ -93,11 +153,25 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
     single_motion_[i] =
         single(particles.position[i], particles.velocity[i], static_cast<float>(0.5 * particles.smoothing_length[i]),
                static_cast<float>(mass_ / density), per_quantum);
-    if (stresses) single_stress_[i] = single(specific_stress(particles, i), static_cast<float>(0.5 * density));
+    if (!stresses) return;
+    const SymmetricTensor3<> s = specific_stress(particles, i, stress_form_, grain_density_);
+    single_stress_[i] = single(s, static_cast<float>(0.5 * density));
   });
+  const std::vector<Signs> signs = signs_of(neighbourhood_.images());
   for_each(team, ghosts.size(), [&](std::size_t g) {
-    const Image& image = neighbourhood_.image(ghosts[g]);
     const std::size_t source = ghosts[g].source;
+    if (const Signs& image = signs[ghosts[g].image]; image.suffice) {
+      const auto place = in_quanta(image.position(particles.position[source]), per_quantum);
+      SingleMotionRecord& to = single_motion_[count + g];
+      for (std::size_t axis = 0; axis < 3; ++axis) to.position[axis] = place[axis];
+      to.half_length = single_motion_[source].half_length;
+      multiply<4>(numbers<float>(single_motion_[source]) + 4, image.single_velocity, numbers<float>(to) + 4);
+      if (stresses)
+        multiply<8>(numbers<float>(single_stress_[source]), image.single_stress,
+                    numbers<float>(single_stress_[count + g]));
+      return;
+    }
+    const Image& image = neighbourhood_.image(ghosts[g]);
     single_motion_[count + g] =
         single(image.position(particles.position[source]), image.vector(particles.velocity[source]),
                single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
@@ -106,7 +180,9 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
     single_stress_[count + g] =
         single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
   });
-  constexpr float vast = 1e15F;  // m; its fifth power is beyond the range of a float, its square is not
+  // Its square is in the range of a float; one over its cube is zero, and not one of the numbers just above it, which
+  // cost a processor a hundred cycles each.
+  constexpr float vast = 1e16F;  // m
   single_motion_.back() = {{}, vast, {}, 0};
   single_stress_.back() = {{}, single_stress_.front().half_density, 0};
 }

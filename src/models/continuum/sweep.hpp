@@ -88,7 +88,6 @@ class Sweep {
   void pack(ThreadTeam& team, const ParticleView& particles, bool stresses);  // pack.cpp
   void pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses);
   void pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses);
-  SymmetricTensor3<> specific_stress(const ParticleView& particles, std::size_t i) const;
   static double quantum_for(double reach);
   /// Computes the gradients that the stabilisers need from the packed records, and packs them (stabilise.cpp).
   void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
