@@ -113,7 +113,8 @@ void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool st
     stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
   });
   const std::vector<Signs> signs = signs_of(neighbourhood_.images());
-  for_each(team, ghosts.size(), [&](std::size_t g) {
+  for_each(team, packed_ghosts_.size(), [&](std::size_t n) {
+    const std::size_t g = packed_ghosts_[n];
     MotionRecord& source = motion_[ghosts[g].source];
     if (const Signs& image = signs[ghosts[g].image]; image.suffice) {
       multiply_and_shift<8>(numbers<double>(source), image.motion, image.shift, numbers<double>(motion_[count + g]));
@@ -158,8 +159,8 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
     single_stress_[i] = single(s, static_cast<float>(0.5 * density));
   });
   const std::vector<Signs> signs = signs_of(neighbourhood_.images());
-  for_each(team, ghosts.size(), [&](std::size_t g) {
-    const std::size_t source = ghosts[g].source;
+  for_each(team, packed_ghosts_.size(), [&](std::size_t n) {
+    const std::size_t g = packed_ghosts_[n], source = ghosts[g].source;
     if (const Signs& image = signs[ghosts[g].image]; image.suffice) {
       const auto place = in_quanta(image.position(particles.position[source]), per_quantum);
       SingleMotionRecord& to = single_motion_[count + g];

@@ -98,7 +98,7 @@ struct Parameters {
     Method method = Method::runge_kutta;
     double courant = 0.3;
     std::optional<double> step;
-    double skin = 0.4;
+    double skin = 0.6;
     PairPrecision pair_precision = PairPrecision::in_double;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
@@ -294,7 +294,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(
       Parameter{"integration.skin", dimension::none, between(0, 2),
                 "largest skin of the neighbour lists, in particle spacings, that of particles which would move half of "
-                "it in twenty steps; those at rest have a quarter: with a larger one lists are rebuilt less often but "
+                "it in twenty steps; those at rest have a fiftieth: with a larger one lists are rebuilt less often but "
                 "are longer"},
       p.integration.skin);
   visit(Parameter{"integration.pair_precision",

@@ -72,6 +72,7 @@ void Sweep::find_groups() {
   const std::size_t count = neighbourhood_.particles();
   std::vector<std::size_t> end(neighbourhood_.images().size());  // of the ghosts of each image, which follow each other
   for (std::size_t g = 0; g < ghosts.size(); ++g) end[ghosts[g].image] = count + g + 1;
+  std::vector<char> is_listed(ghosts.size(), 0);
   groups_.clear();
   longest_ = 1;
   first_group_.assign(1, 0);
@@ -94,6 +95,7 @@ void Sweep::find_groups() {
           if (load.wall >= 0) walls |= 1u << load.wall;
       }
       groups_.back().end = static_cast<std::uint32_t>(n + 1);
+      is_listed[neighbours[n] - count] = 1;
     }
     add_loads(std::span(groups_).subspan(first_group_.back()), walls, loads_);
     first_group_.push_back(static_cast<std::uint32_t>(groups_.size()));
@@ -101,6 +103,10 @@ void Sweep::find_groups() {
     walls_.push_back(walls);
     first_wall_.push_back(first_wall_.back() + static_cast<std::uint32_t>(std::popcount(walls)));
   }
+  // Ghosts within the reach of a few that reach far are near nobody. The walls of a vessel may ask for any.
+  packed_ghosts_.clear();
+  for (std::size_t g = 0; g < ghosts.size(); ++g)
+    if (is_listed[g] || !vessel_.is_empty()) packed_ghosts_.push_back(static_cast<std::uint32_t>(g));
 }
 
 /// Which neighbours load which wall. \param walls a bit for each that the images of the groups load

@@ -136,6 +136,7 @@ class Sweep {
   std::vector<SingleMotionRecord> single_motion_;
   std::vector<SingleStressRecord> single_stress_;
   std::vector<SingleStabiliserRecord> single_stabilisers_;
+  std::vector<std::uint32_t> packed_ghosts_;  // that have records
   std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other
   std::size_t longest_ = 1;                 // list of neighbours
   std::vector<std::uint32_t> first_group_;  // of a particle; one more than particles

@@ -47,7 +47,7 @@ void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
 }
 
 void set_list_reference(State& s, const Workspace& w) {
-  constexpr double steps = 20, least_share = 0.25;  // of half of the skin
+  constexpr double steps = 20, least_share = 0.02;  // of half of the skin
   const double most = 0.5 * w.sweep.skin();
   s.list_position = s.position;
   s.list_smoothing_length = w.smoothing_length;
