@@ -41,7 +41,11 @@ LawColumns columns_of(const MaterialColumns& old, const GradientColumns& velocit
   for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
   for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = velocity_gradient.component[c].data();
   columns.expansion = old.history[0].data(), columns.contacts = old.history[1].data();
-  if (keep_history) columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
+  for (std::size_t c = 0; c < 6; ++c) columns.fabric[c] = old.history[2 + c].data();
+  if (keep_history) {
+    columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
+    for (std::size_t c = 0; c < 6; ++c) columns.next_fabric[c] = next.history[2 + c].data();
+  }
   columns.density = density.data();
   columns.time_step = time_step;
   return columns;

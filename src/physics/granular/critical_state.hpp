@@ -91,6 +91,16 @@ class CriticalState {
             p.healing_time);
     healing(Parameter{"breaking_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},
             p.breaking_strain);
+    visit(Parameter{"fabric_friction", dimension::none, at_least(0),
+                    "mu_F, part of the friction that contacts bear which past shear has made, and against the shear when "
+                    "it turns back; 0: none"},
+          p.fabric_friction);
+    visit(Parameter{"fabric_contraction", dimension::none, at_least(0),
+                    "chi, loss of volume per shear strain when the shear turns back; 0: none"},
+          p.fabric_contraction);
+    auto fabric = only_if({"fabric_friction", "and fabric_contraction are 0", "one above 0", p.has_fabric()}, visit);
+    fabric(Parameter{"fabric_strain", dimension::none, above(0), "gamma_F, shear strain in which these contacts form anew"},
+           p.fabric_strain);
   }
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);
@@ -102,11 +112,14 @@ class CriticalState {
   struct History {
     Number expansion = 0.0;  ///< reference packing over phi_s, less 1
     Number contacts = 0.0;   ///< c
+    SymmetricTensor3<Number> fabric;  ///< F
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
     visit(HistorySlot{"expansion", "1"}, history.expansion);
     visit(HistorySlot{"contacts", "1"}, history.contacts);
+    for_each_tensor_slot(visit, {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy", "fabric_yz", "fabric_zx"}, "1",
+                         history.fabric);
   }
 
   template <class Number>
@@ -114,9 +127,9 @@ class CriticalState {
                                               const Tensor3<Number>& velocity_gradient, const Number& density,
                                               double time_step) const {
     const CriticalStatePoint<Number> point =
-        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts}, velocity_gradient, density,
-                time_step);
-    return {point.stress, {point.expansion, point.contacts}};
+        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts, old.history.fabric},
+                velocity_gradient, density, time_step);
+    return {point.stress, {point.expansion, point.contacts, point.fabric}};
   }
   const CriticalStateCoefficients& coefficients() const { return coefficients_; }
 
