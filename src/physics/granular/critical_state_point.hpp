@@ -104,11 +104,11 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   Number dilated = (touching + dilation) / (1.0 + dilation / critical_volume);
   if (has_fabric) {
     dilated = dilated / (1.0 + contraction * slip);
-    // dF/dgamma = (N - F)/gamma_F, implicit: |F| cannot pass 1. Grains apart have none.
-    const Number share = (1 / p.fabric_strain) * slip;
-    const SymmetricTensor3<Number> next =
-        (1.0 / (1.0 + share)) * (fabric + (share / maximum(size, Number(c.tiny))) * from_centre);
-    point.fabric = select_tensor(touch, next, SymmetricTensor3<Number>{});
+    // dF/dgamma = (N - F)/gamma_F, implicit: |F| cannot pass 1. Apart, all shear takes it away: grains that part for a
+    // moment find each other as they were, those that fall far do not.
+    const Number share = (1 / p.fabric_strain) * select(touch, slip, (c.sqrt2 * time_step) * norm(rate));
+    const Number drawn = select(touch, share / maximum(size, Number(c.tiny)), Number(0.0));
+    point.fabric = (1.0 / (1.0 + share)) * (fabric + drawn * from_centre);
   }
   point.expansion = select(touch, dilated, touching) - 1.0;
   const double healing = time_step / p.healing_time;

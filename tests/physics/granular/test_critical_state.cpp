@@ -222,9 +222,13 @@ TEST(CriticalState, ContractsAndIsWeakWhenItsShearTurnsBack) {
     EXPECT_NEAR(signed_friction(), -(0.5 - 2 * 0.2 * std::exp(-strain / 0.3)), 2e-4) << strain;
     EXPECT_NEAR(std::log(state_packing(p, grains.point) / last), 0.4 * 0.3 * (1 - std::exp(-strain / 0.3)), 3e-5);
   }
-  // Grains apart have no fabric.
-  const Point apart = grains.law.update(grains.point, {}, 0.5 * grain_density, increment);
-  EXPECT_EQ(apart.history.fabric, SymmetricTensor3<>{});
+  // Grains that part keep their fabric until they are sheared.
+  Point apart = grains.law.update(grains.point, {}, 0.5 * grain_density, increment);
+  EXPECT_EQ(apart.history.fabric, grains.point.history.fabric);
+  for (int k = 0; k < 3000; ++k)
+    apart = grains.law.update(apart, pure_shear(1), 0.5 * grain_density, increment);
+  EXPECT_EQ(apart.stress, SymmetricTensor3<>{});
+  EXPECT_NEAR(norm(apart.history.fabric), std::exp(-1.0) * norm(grains.point.history.fabric), 1e-3);
 }
 
 TEST(CriticalState, TurnsItsStressWithAStressedBlock) {
