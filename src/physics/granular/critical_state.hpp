@@ -8,13 +8,19 @@
 ///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' d (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
 ///     dilatancy   d ln phi_s = -beta dgamma,  beta = k (phi_s - phi_c(I)),   phi_c(I) = phi_c - Delta min(I, 0.3)
 ///     contacts    dc/dt = (1 - c)/T - (c/gamma_0) dgamma/dt
+///     fabric      dF/dgamma = (N - F)/gamma_F,  turned with the spin;  beta less chi (1 - N:F)/2;
+///                 yield |s - 2^(1/2) mu_F p F| <= 2^(1/2) (M - mu_F) p
 ///     apart       p = 0 and s = 0 where phi < phi_s:  phi_s follows phi down to phi_min,  c = 0
 ///
 /// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
+/// F, deviatoric and of a norm up to 1, is the direction in which past shear has made contacts, N that of the present
+/// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker by
+/// 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + Delta_mu c) p dgamma/dt with b = 1.
+/// With fabric M is M - mu_F (1 - N:F) there, and at least beta again.
 /// Healing and coming apart change no stored energy.
 ///
 /// Limits: at fixed I and p, 1/phi_s relaxes exponentially with gamma, that is, phi_s is logistic, at the rate k phi_c;
@@ -29,7 +35,10 @@
 /// (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of ageing of Dieterich and Ruina (Ruina, J.
 /// Geophys. Res. 88, 10359, 1983), with a strain in place of a length; slopes of glass beads start some 2 to 5 degrees
 /// above where they stop (Forterre & Pouliquen, Annu. Rev. Fluid Mech. 40, 1, 2008). Range: dry beads, I up to 0.3.
-/// completed: Delta_mu, T, gamma_0 and phi_min are choices.
+/// Fabric: loss of volume after a reversal, Toiya, Stambaugh & Losert, Phys. Rev. Lett. 93, 088001 (2004); contacts that
+/// form along the compression and carry the stress, with an evolution in the strain, Sun & Sundaresan, J. Fluid Mech.
+/// 682, 590 (2011); chi, gamma_F, mu_F of discrete elements: validation/bead-shear. completed: Delta_mu, T, gamma_0 and
+/// phi_min are choices; so is that grains apart lose F by all their shear, within gamma_F.
 #pragma once
 
 #include <string_view>
