@@ -15,8 +15,8 @@
 /// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
 /// F, deviatoric and of a norm up to 1, is the direction in which past shear has made contacts, N that of the present
-/// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker by
-/// 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
+/// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker
+/// by 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + Delta_mu c) p dgamma/dt with b = 1.
@@ -35,10 +35,10 @@
 /// (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of ageing of Dieterich and Ruina (Ruina, J.
 /// Geophys. Res. 88, 10359, 1983), with a strain in place of a length; slopes of glass beads start some 2 to 5 degrees
 /// above where they stop (Forterre & Pouliquen, Annu. Rev. Fluid Mech. 40, 1, 2008). Range: dry beads, I up to 0.3.
-/// Fabric: loss of volume after a reversal, Toiya, Stambaugh & Losert, Phys. Rev. Lett. 93, 088001 (2004); contacts that
-/// form along the compression and carry the stress, with an evolution in the strain, Sun & Sundaresan, J. Fluid Mech.
-/// 682, 590 (2011); chi, gamma_F, mu_F of discrete elements: validation/bead-shear. completed: Delta_mu, T, gamma_0 and
-/// phi_min are choices; so is that grains apart lose F by all their shear, within gamma_F.
+/// Fabric: loss of volume after a reversal, Toiya, Stambaugh & Losert, Phys. Rev. Lett. 93, 088001 (2004); contacts
+/// that form along the compression and carry the stress, with an evolution in the strain, Sun & Sundaresan, J. Fluid
+/// Mech. 682, 590 (2011); chi, gamma_F, mu_F of discrete elements: validation/bead-shear. completed: Delta_mu, T,
+/// gamma_0 and phi_min are choices; so is that grains apart lose F by all their shear, within gamma_F.
 #pragma once
 
 #include <string_view>
@@ -100,15 +100,17 @@ class CriticalState {
             p.healing_time);
     healing(Parameter{"breaking_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},
             p.breaking_strain);
-    visit(Parameter{"fabric_friction", dimension::none, at_least(0),
-                    "mu_F, part of the friction that contacts bear which past shear has made, and against the shear when "
-                    "it turns back; 0: none"},
-          p.fabric_friction);
+    visit(
+        Parameter{"fabric_friction", dimension::none, at_least(0),
+                  "mu_F, part of the friction that contacts bear which past shear has made, and against the shear when "
+                  "it turns back; 0: none"},
+        p.fabric_friction);
     visit(Parameter{"fabric_contraction", dimension::none, at_least(0),
                     "chi, loss of volume per shear strain when the shear turns back; 0: none"},
           p.fabric_contraction);
     auto fabric = only_if({"fabric_friction", "and fabric_contraction are 0", "one above 0", p.has_fabric()}, visit);
-    fabric(Parameter{"fabric_strain", dimension::none, above(0), "gamma_F, shear strain in which these contacts form anew"},
+    fabric(Parameter{"fabric_strain", dimension::none, above(0),
+                     "gamma_F, shear strain in which these contacts form anew"},
            p.fabric_strain);
   }
   /// Contradictions between keys that are each valid by themselves.
@@ -119,8 +121,8 @@ class CriticalState {
 
   template <class Number>
   struct History {
-    Number expansion = 0.0;  ///< reference packing over phi_s, less 1
-    Number contacts = 0.0;   ///< c
+    Number expansion = 0.0;           ///< reference packing over phi_s, less 1
+    Number contacts = 0.0;            ///< c
     SymmetricTensor3<Number> fabric;  ///< F
   };
   template <class Visit, class H>

@@ -225,8 +225,7 @@ TEST(CriticalState, ContractsAndIsWeakWhenItsShearTurnsBack) {
   // Grains that part keep their fabric until they are sheared.
   Point apart = grains.law.update(grains.point, {}, 0.5 * grain_density, increment);
   EXPECT_EQ(apart.history.fabric, grains.point.history.fabric);
-  for (int k = 0; k < 3000; ++k)
-    apart = grains.law.update(apart, pure_shear(1), 0.5 * grain_density, increment);
+  for (int k = 0; k < 3000; ++k) apart = grains.law.update(apart, pure_shear(1), 0.5 * grain_density, increment);
   EXPECT_EQ(apart.stress, SymmetricTensor3<>{});
   EXPECT_NEAR(norm(apart.history.fabric), std::exp(-1.0) * norm(grains.point.history.fabric), 1e-3);
 }
