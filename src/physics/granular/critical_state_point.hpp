@@ -30,7 +30,7 @@ struct CriticalStateParameters {
   double fabric_contraction = 0;    ///< chi
   double fabric_strain = 0.3;       ///< gamma_F
 
-  bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
+  constexpr bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
 };
 
 /// The parameters, with what follows from them and the grains.
