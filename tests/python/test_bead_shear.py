@@ -11,6 +11,7 @@ sys.argv.pop()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "validation" / "bead-shear"))
 
 import numpy as np  # noqa: E402
+import settle  # noqa: E402
 import shear  # noqa: E402
 
 
@@ -71,6 +72,40 @@ class States(unittest.TestCase):
         self.assertAlmostEqual(fits[0.2][1][0], 0.55, delta=0.005)
         self.assertGreater(fits[0.2][0][0], fits[0.0][0][0] + 0.1)
         self.assertLess(fits[0.2][1][0], fits[0.0][1][0] - 0.03)
+
+
+class Reversals(unittest.TestCase):
+    strains = np.linspace(0.005, 0.495, 50)
+
+    def turned(self, parameters):
+        forward, fabric = settle.law(parameters, self.strains, 0.59, 0j, 1)
+        back, _ = settle.law(parameters, self.strains, forward[0][-5:].mean(), fabric, -1)
+        return [(np.vstack([self.strains, forward]), np.vstack([self.strains, back]))]
+
+    def test_a_law_that_made_the_curves_is_found_again(self):
+        true = np.array([0.4, 0.25, 0.2, 7.0, 0.56, 0.45, 0.6])
+        runs = self.turned(true)
+        runs[0][0][1][0] = 0.59
+        found, _, left = settle.least_squares(lambda p: settle.misfit(p, runs), (0.5, 0.3, 0.25, 8, 0.55, 0.48, 0.7))
+        self.assertLess(left, 0.2)
+        np.testing.assert_allclose(found, true, rtol=0.05)
+
+    def test_steady_shear_leaves_the_fabric_behind_by_its_spin(self):
+        _, fabric = settle.law((0.4, 0.3, 0.2, 8, 0.55, 0.48, 0.5), [6.0], 0.55, 0j, 1)
+        self.assertAlmostEqual(fabric.real, 1 / (1 + 0.3**2), delta=2e-3)
+
+    def test_what_turned_back_contracts_at_first(self):
+        packing, strains = 0.55, np.array([0.005, 0.015])
+        (found, _), _ = settle.law((0.4, 0.3, 0.2, 0, 0.55, 0.48, 0.5), strains, packing, 1 + 0j, -1)
+        self.assertAlmostEqual(np.log(found[1] / found[0]) / 0.01, 0.4 * np.exp(-0.01 / 0.3), delta=3e-3)
+
+    @unittest.skipUnless(settle.REVERSAL.exists(), "no table")
+    def test_the_table_has_the_parameters_of_the_page(self):
+        found, errors, left = settle.least_squares(lambda p: settle.misfit(p, settle.reversals()),
+                                                   (0.5, 0.3, 0.25, 8, 0.55, 0.48, 0.7))
+        self.assertLess(left, 1)
+        np.testing.assert_allclose(found[:3], (0.5, 0.3, 0.25), rtol=0.15)
+        self.assertLess((errors[:3] / found[:3]).max(), 0.05)
 
 
 if __name__ == "__main__":

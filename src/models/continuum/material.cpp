@@ -13,11 +13,15 @@ namespace talus::continuum {
 
 namespace {
 
+/// Slots that the law does not use have no columns and stay as they are.
 template <class Law>
 granular::MaterialPoint<Law> load(const MaterialColumns& columns, std::size_t i) {
   granular::MaterialPoint<Law> point{tensor_at(columns.stress, i), {}};
   std::size_t slot = 0;
-  Law::for_each_slot([&](granular::HistorySlot, double& value) { value = columns.history[slot++][i]; }, point.history);
+  const auto read = [&](granular::HistorySlot, double& value) {
+    if (slot < columns.history.size()) value = columns.history[slot++][i];
+  };
+  Law::for_each_slot(read, point.history);
   return point;
 }
 
@@ -26,7 +30,10 @@ void store(granular::MaterialPoint<Law>& point, MaterialColumns& columns, std::s
   set_tensor(columns.stress, i, point.stress);
   if (!keep_history) return;
   std::size_t slot = 0;
-  Law::for_each_slot([&](granular::HistorySlot, double& value) { columns.history[slot++][i] = value; }, point.history);
+  const auto write = [&](granular::HistorySlot, double& value) {
+    if (slot < columns.history.size()) columns.history[slot++][i] = value;
+  };
+  Law::for_each_slot(write, point.history);
 }
 
 template <class Law>
@@ -42,6 +49,10 @@ LawColumns columns_of(const MaterialColumns& old, const GradientColumns& velocit
   for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = velocity_gradient.component[c].data();
   columns.expansion = old.history[0].data(), columns.contacts = old.history[1].data();
   if (keep_history) columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
+  for (std::size_t c = 0; c < 6 && old.history.size() > 2; ++c) {
+    columns.fabric[c] = old.history[2 + c].data();
+    if (keep_history) columns.next_fabric[c] = next.history[2 + c].data();
+  }
   columns.density = density.data();
   columns.time_step = time_step;
   return columns;
@@ -63,10 +74,11 @@ Material::Material(const Parameters& p) : law_(granular::make_law(p.law, p.grain
 
 std::vector<granular::HistorySlot> Material::slots() const {
   return std::visit(
-      []<class Law>(const Law&) {
+      []<class Law>(const Law& law) {
         std::vector<granular::HistorySlot> slots;
         typename Law::template History<double> history{};
         Law::for_each_slot([&](granular::HistorySlot slot, double&) { slots.push_back(slot); }, history);
+        if constexpr (requires { law.slots_in_use(); }) slots.resize(law.slots_in_use());
         return slots;
       },
       law_);

@@ -19,7 +19,7 @@ class Material {
  public:
   explicit Material(const Parameters& parameters);
 
-  /// What the law remembers of each particle.
+  /// What the law with its parameters remembers of each particle.
   std::vector<granular::HistorySlot> slots() const;
 
   /// Whether the law takes the strain from displacements (displacement.hpp) in place of its rate.

@@ -8,13 +8,19 @@
 ///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' d (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
 ///     dilatancy   d ln phi_s = -beta dgamma,  beta = k (phi_s - phi_c(I)),   phi_c(I) = phi_c - Delta min(I, 0.3)
 ///     contacts    dc/dt = (1 - c)/T - (c/gamma_0) dgamma/dt
+///     fabric      dF/dgamma = (N - F)/gamma_F,  turned with the spin;  beta less chi (1 - N:F)/2;
+///                 yield |s - 2^(1/2) mu_F p F| <= 2^(1/2) (M - mu_F) p
 ///     apart       p = 0 and s = 0 where phi < phi_s:  phi_s follows phi down to phi_min,  c = 0
 ///
 /// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
+/// F, deviatoric and of a norm up to 1, is the direction in which past shear has made contacts, N that of the present
+/// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker
+/// by 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + Delta_mu c) p dgamma/dt with b = 1.
+/// With fabric M is M - mu_F (1 - N:F) there, and at least beta again.
 /// Healing and coming apart change no stored energy.
 ///
 /// Limits: at fixed I and p, 1/phi_s relaxes exponentially with gamma, that is, phi_s is logistic, at the rate k phi_c;
@@ -29,7 +35,10 @@
 /// (2006), 0.2 to 0.3. Strength that ages and is lost by slip: the law of ageing of Dieterich and Ruina (Ruina, J.
 /// Geophys. Res. 88, 10359, 1983), with a strain in place of a length; slopes of glass beads start some 2 to 5 degrees
 /// above where they stop (Forterre & Pouliquen, Annu. Rev. Fluid Mech. 40, 1, 2008). Range: dry beads, I up to 0.3.
-/// completed: Delta_mu, T, gamma_0 and phi_min are choices.
+/// Fabric: loss of volume after a reversal, Toiya, Stambaugh & Losert, Phys. Rev. Lett. 93, 088001 (2004); contacts
+/// that form along the compression and carry the stress, with an evolution in the strain, Sun & Sundaresan, J. Fluid
+/// Mech. 682, 590 (2011); chi, gamma_F, mu_F of discrete elements: validation/bead-shear. completed: Delta_mu, T,
+/// gamma_0 and phi_min are choices; so is that grains apart lose F by all their shear, within gamma_F.
 #pragma once
 
 #include <string_view>
@@ -91,6 +100,18 @@ class CriticalState {
             p.healing_time);
     healing(Parameter{"breaking_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},
             p.breaking_strain);
+    visit(
+        Parameter{"fabric_friction", dimension::none, at_least(0),
+                  "mu_F, part of the friction that contacts bear which past shear has made, and against the shear when "
+                  "it turns back; 0: none"},
+        p.fabric_friction);
+    visit(Parameter{"fabric_contraction", dimension::none, at_least(0),
+                    "chi, loss of volume per shear strain when the shear turns back; 0: none"},
+          p.fabric_contraction);
+    auto fabric = only_if({"fabric_friction", "and fabric_contraction are 0", "one above 0", p.has_fabric()}, visit);
+    fabric(Parameter{"fabric_strain", dimension::none, above(0),
+                     "gamma_F, shear strain in which these contacts form anew"},
+           p.fabric_strain);
   }
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);
@@ -100,13 +121,16 @@ class CriticalState {
 
   template <class Number>
   struct History {
-    Number expansion = 0.0;  ///< reference packing over phi_s, less 1
-    Number contacts = 0.0;   ///< c
+    Number expansion = 0.0;           ///< reference packing over phi_s, less 1
+    Number contacts = 0.0;            ///< c
+    SymmetricTensor3<Number> fabric;  ///< F
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
     visit(HistorySlot{"expansion", "1"}, history.expansion);
     visit(HistorySlot{"contacts", "1"}, history.contacts);
+    for_each_tensor_slot(visit, {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy", "fabric_yz", "fabric_zx"}, "1",
+                         history.fabric);
   }
 
   template <class Number>
@@ -114,11 +138,13 @@ class CriticalState {
                                               const Tensor3<Number>& velocity_gradient, const Number& density,
                                               double time_step) const {
     const CriticalStatePoint<Number> point =
-        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts}, velocity_gradient, density,
-                time_step);
-    return {point.stress, {point.expansion, point.contacts}};
+        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts, old.history.fabric},
+                velocity_gradient, density, time_step);
+    return {point.stress, {point.expansion, point.contacts, point.fabric}};
   }
   const CriticalStateCoefficients& coefficients() const { return coefficients_; }
+  /// How many slots of the history, from the first, the law with these parameters reads and writes.
+  std::size_t slots_in_use() const { return parameters_.has_fabric() ? 8 : 2; }
 
   /// c = ((K + 4G/3)/rho_b)^(1/2), m/s.
   double sound_speed(double density) const;

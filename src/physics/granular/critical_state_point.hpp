@@ -26,6 +26,11 @@ struct CriticalStateParameters {
   double strength_at_rest = 0.08;   ///< Delta_mu
   double healing_time = 10e-3;      ///< T, s
   double breaking_strain = 0.05;    ///< gamma_0
+  double fabric_friction = 0;       ///< mu_F
+  double fabric_contraction = 0;    ///< chi
+  double fabric_strain = 0.3;       ///< gamma_F
+
+  constexpr bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
 };
 
 /// The parameters, with what follows from them and the grains.
@@ -45,6 +50,7 @@ template <class Number>
 struct CriticalStatePoint {
   SymmetricTensor3<Number> stress;  ///< Pa
   Number expansion, contacts;       ///< CriticalState::History
+  SymmetricTensor3<Number> fabric;  ///< the same; zero and left so without fabric
 };
 
 /// The point after a time step (ConstitutiveLaw).
@@ -68,19 +74,43 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const Number friction = p.friction + (p.fast_friction - p.friction) * (inertial / (inertial + p.inertial_number)) +
                           p.dilatant_friction * dilatancy + p.strength_at_rest * old.contacts;
 
+  const Tensor3<Number> turn = rotation_of_step(velocity_gradient, time_step);
   const SymmetricTensor3<Number> trial =
-      transformed(deviator(old.stress), rotation_of_step(velocity_gradient, time_step)) -
-      (2 * p.shear_modulus * time_step) * rate;
-  const Number size = norm(trial);
+      transformed(deviator(old.stress), turn) - (2 * p.shear_modulus * time_step) * rate;
+  const bool has_fabric = p.has_fabric();
+  SymmetricTensor3<Number> fabric, centre, from_centre = trial;
+  if (has_fabric) {
+    fabric = transformed(old.fabric, turn);
+    centre = ((c.sqrt2 * p.fabric_friction) * pressure) * fabric;
+    from_centre = trial - centre;
+  }
+  const Number size = norm(from_centre);
   // At least beta, which the pressure takes back: no heat is drawn from grains far denser than the critical packing.
-  const Number most = (c.sqrt2 * maximum(maximum(friction, dilatancy), Number(0.0))) * pressure;
+  Number least = dilatancy, radius = friction, contraction = 0.0;
+  if (has_fabric) {
+    const Number turned = 1.0 - double_dot(from_centre, fabric) / maximum(size, Number(c.tiny));
+    contraction = (0.5 * p.fabric_contraction) * turned;
+    least = dilatancy - contraction - p.fabric_friction * (1.0 - turned);
+    radius = friction - p.fabric_friction;
+  }
+  const Number most = (c.sqrt2 * maximum(maximum(radius, least), Number(0.0))) * pressure;
   const Number slip = (1 / (c.sqrt2 * p.shear_modulus)) * maximum(size - most, Number(0.0));
 
   CriticalStatePoint<Number> point;
-  point.stress = isotropic(pressure) + (minimum(size, most) / maximum(size, Number(c.tiny))) * trial;
+  const SymmetricTensor3<Number> kept = (minimum(size, most) / maximum(size, Number(c.tiny))) * from_centre;
+  point.stress = isotropic(pressure) + (has_fabric ? centre + kept : kept);
   // d(1/phi_s)/dgamma = k (1 - phi_c/phi_s), implicit: it cannot pass the critical packing.
   const Number dilation = (p.dilatancy * p.reference_packing) * slip;
-  point.expansion = select(touch, (touching + dilation) / (1.0 + dilation / critical_volume), touching) - 1.0;
+  Number dilated = (touching + dilation) / (1.0 + dilation / critical_volume);
+  if (has_fabric) {
+    dilated = dilated / (1.0 + contraction * slip);
+    // dF/dgamma = (N - F)/gamma_F, implicit: |F| cannot pass 1. Apart, all shear takes it away: grains that part for a
+    // moment find each other as they were, those that fall far do not.
+    const Number share = (1 / p.fabric_strain) * select(touch, slip, (c.sqrt2 * time_step) * norm(rate));
+    const Number drawn = select(touch, share / maximum(size, Number(c.tiny)), Number(0.0));
+    point.fabric = (1.0 / (1.0 + share)) * (fabric + drawn * from_centre);
+  }
+  point.expansion = select(touch, dilated, touching) - 1.0;
   const double healing = time_step / p.healing_time;
   point.contacts =
       select(touch, (old.contacts + healing) / (1.0 + healing + (1 / p.breaking_strain) * slip), Number(0.0));

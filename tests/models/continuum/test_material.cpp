@@ -17,11 +17,11 @@ struct Points {
   GradientColumns gradient;
   std::vector<double> density;
 
-  Points() {
+  explicit Points(bool with_fabric) {
     Random random(11);
     for (auto* columns : {&old.stress, &old.collisional})
       for (auto& column : *columns) column.resize(count);
-    old.history.assign(2, std::vector<double>(count));
+    old.history.assign(8, std::vector<double>(count));
     gradient.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const double pressure = random.uniform(0, 2000);
@@ -30,57 +30,73 @@ struct Points {
       density.push_back(2500 * random.uniform(0.5, 0.65));
       old.history[0][i] = random.uniform(-0.05, 0.05);
       old.history[1][i] = random.uniform(0, 1);
+      for (std::size_t c = 0; c < 6; ++c) old.history[2 + c][i] = with_fabric ? random.uniform(-0.5, 0.5) : 0;
     }
   }
 };
 
+granular::CriticalState::Parameters grains(bool with_fabric) {
+  if (!with_fabric) return {};
+  return {.fabric_friction = 0.25, .fabric_contraction = 0.5};
+}
+
 TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {
-  Parameters p;
-  p.law = granular::CriticalState::Parameters{};
-  p.collisions.form = granular::Collisions::none;
-  const Points points;
-  const granular::CriticalState law(granular::CriticalState::Parameters{}, p.grains.density, p.grains.diameter);
-  MaterialColumns next = points.old;
-  ThreadTeam team(2);
-  Material(p).update(team, points.old, points.gradient, {}, points.density, 1e-5, next, true);
-  std::size_t loose = 0;
-  for (std::size_t i = 0; i < Points::count; ++i) {
-    const granular::MaterialPoint<granular::CriticalState> old{tensor_at(points.old.stress, i),
-                                                               {points.old.history[0][i], points.old.history[1][i]}};
-    const auto expected = law.update(old, points.gradient[i], points.density[i], 1e-5);
-    EXPECT_EQ(tensor_at(next.stress, i), expected.stress);
-    EXPECT_EQ(next.history[0][i], expected.history.expansion);
-    EXPECT_EQ(next.history[1][i], expected.history.contacts);
-    loose += expected.stress.xx == 0;
+  for (const bool with_fabric : {false, true}) {
+    Parameters p;
+    p.law = grains(with_fabric);
+    p.collisions.form = granular::Collisions::none;
+    const Points points(with_fabric);
+    const granular::CriticalState law(grains(with_fabric), p.grains.density, p.grains.diameter);
+    MaterialColumns next = points.old;
+    ThreadTeam team(2);
+    Material(p).update(team, points.old, points.gradient, {}, points.density, 1e-5, next, true);
+    std::size_t loose = 0;
+    for (std::size_t i = 0; i < Points::count; ++i) {
+      const auto h = [&](std::size_t k) { return points.old.history[k][i]; };
+      const granular::MaterialPoint<granular::CriticalState> old{tensor_at(points.old.stress, i),
+                                                                 {h(0), h(1), {h(2), h(3), h(4), h(5), h(6), h(7)}}};
+      const auto expected = law.update(old, points.gradient[i], points.density[i], 1e-5);
+      EXPECT_EQ(tensor_at(next.stress, i), expected.stress);
+      EXPECT_EQ(next.history[0][i], expected.history.expansion);
+      EXPECT_EQ(next.history[1][i], expected.history.contacts);
+      const SymmetricTensor3<> fabric{next.history[2][i], next.history[3][i], next.history[4][i],
+                                      next.history[5][i], next.history[6][i], next.history[7][i]};
+      EXPECT_EQ(fabric, expected.history.fabric);
+      loose += expected.stress.xx == 0;
+    }
+    EXPECT_GT(loose, 10u);
+    EXPECT_LT(loose, 70u);
   }
-  EXPECT_GT(loose, 10u);
-  EXPECT_LT(loose, 70u);
 }
 
 TEST(Material, EveryInstructionSetHasTheSameBits) {
-  const Points points;
-  const granular::CriticalState law(granular::CriticalState::Parameters{}, 2500, 200e-6);
-  constexpr std::size_t end = Points::count / law_block * law_block;
-  std::vector<MaterialColumns> found;
-  for (const auto& [set, update] :
-       {std::pair{InstructionSet::portable, &update_law_portable}, std::pair{InstructionSet::avx2, &update_law_avx2},
-        std::pair{InstructionSet::avx512, &update_law_avx512}}) {
-    if (!is_available(set)) continue;
-    MaterialColumns next = points.old;
-    LawColumns columns{};
-    for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = points.old.stress[c].data();
-    for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
-    for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = points.gradient.component[c].data();
-    columns.expansion = points.old.history[0].data(), columns.contacts = points.old.history[1].data();
-    columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
-    columns.density = points.density.data();
-    columns.time_step = 1e-5;
-    update(law.coefficients(), columns, 0, end);
-    found.push_back(next);
-  }
-  for (const MaterialColumns& other : found) {
-    EXPECT_EQ(other.stress, found.front().stress);
-    EXPECT_EQ(other.history, found.front().history);
+  for (const bool with_fabric : {false, true}) {
+    const Points points(with_fabric);
+    const granular::CriticalState law(grains(with_fabric), 2500, 200e-6);
+    constexpr std::size_t end = Points::count / law_block * law_block;
+    std::vector<MaterialColumns> found;
+    for (const auto& [set, update] :
+         {std::pair{InstructionSet::portable, &update_law_portable}, std::pair{InstructionSet::avx2, &update_law_avx2},
+          std::pair{InstructionSet::avx512, &update_law_avx512}}) {
+      if (!is_available(set)) continue;
+      MaterialColumns next = points.old;
+      LawColumns columns{};
+      for (std::size_t c = 0; c < 6; ++c) columns.stress[c] = points.old.stress[c].data();
+      for (std::size_t c = 0; c < 6; ++c) columns.next_stress[c] = next.stress[c].data();
+      for (std::size_t c = 0; c < 6; ++c) columns.fabric[c] = points.old.history[2 + c].data();
+      for (std::size_t c = 0; c < 6; ++c) columns.next_fabric[c] = next.history[2 + c].data();
+      for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = points.gradient.component[c].data();
+      columns.expansion = points.old.history[0].data(), columns.contacts = points.old.history[1].data();
+      columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
+      columns.density = points.density.data();
+      columns.time_step = 1e-5;
+      update(law.coefficients(), columns, 0, end);
+      found.push_back(next);
+    }
+    for (const MaterialColumns& other : found) {
+      EXPECT_EQ(other.stress, found.front().stress);
+      EXPECT_EQ(other.history, found.front().history);
+    }
   }
 }
 
