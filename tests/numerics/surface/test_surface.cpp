@@ -87,6 +87,15 @@ TEST(Surface, AnOpenPatchIsNotThere) {
   EXPECT_NEAR(surface.nearest({-0.5, 0.5, 0}, 2)->distance, std::sqrt(0.5), 1e-12) << "the diagonal of the other half";
 }
 
+TEST(Surface, CopiesShareTheTrianglesAndHaveGatesOfTheirOwn) {
+  const Surface shut(square(1), 1);
+  Surface opened = shut;
+  opened.open(0);
+  EXPECT_EQ(opened.triangles().data(), shut.triangles().data());
+  EXPECT_FALSE(opened.blocks({0.1, 0, -1}, {0.1, 0, 1}));
+  EXPECT_TRUE(shut.blocks({0.1, 0, -1}, {0.1, 0, 1}));
+}
+
 TEST(Surface, EdgesBoundSmoothParts) {
   EXPECT_EQ(Surface(tube(24), 1).parts(), 1u);
   EXPECT_EQ(Surface(tube(4), 1).parts(), 4u);
