@@ -37,7 +37,8 @@ class TriangleTree {
     stack[size++] = {0, square_distance(nodes_[0], x)};
     while (size > 0) {
       const auto [n, square] = stack[--size];
-      if (square * (1 - rounding) > within * within) continue;
+      // Boxes around what is at an angle to the axes are thick; slabs are not.
+      if (square * (1 - rounding) > within * within || is_farther(flatness_[n], x, within + margin_)) continue;
       const Node& node = nodes_[n];
       if (node.second == 0) {
         for (std::uint32_t t = node.begin; t < node.end; ++t) visit(order_[t]);
@@ -146,6 +147,9 @@ class TriangleTree {
     }
   };
 
+  static bool is_farther(const Flatness& slab, const Vector3& x, double distance) {
+    return std::abs(dot(slab.normal, x) - slab.offset) - slab.slack > distance;
+  }
   static bool is_beside(const Flatness& slab, const Vector3& a, const Vector3& b, double margin) {
     const double at_a = dot(slab.normal, a) - slab.offset, at_b = dot(slab.normal, b) - slab.offset;
     const double beyond = slab.slack + margin;
