@@ -46,9 +46,11 @@ std::vector<std::filesystem::path> write_results(const EnsemblePlan& plan, const
     pictures.insert(pictures.end(), drawn.begin(), drawn.end());
     groups.push_back({&group, quantity_spreads(group)});
   }
-  if (has_report_page())
+  if (has_report_page()) {
+    ReadRuns runs;
     write_report({.title = request.folder.stem().string(), .runs = entries_of(plan.groups), .comparisons = {}},
-                 request.folder / "report.html");
+                 request.folder / "report.html", runs);
+  }
   print("{}", sweep_text(groups));
   if (request.vary.empty()) return pictures;
   write_sweep(groups, request.folder);

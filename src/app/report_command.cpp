@@ -42,7 +42,7 @@ ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path path = !options.out.empty() ? std::filesystem::path(options.out)
                                      : one ? options.folders.front() / std::filesystem::path("report.html")
                                            : std::filesystem::path("report.html");
-  write_report(request, path);
+  write_report(request, path, runs);
   print("Report: {} ({:.1f} MB)\n", path.string(), static_cast<double>(std::filesystem::file_size(path)) / 1e6);
   return ExitStatus::done;
 }

@@ -2,6 +2,7 @@
 /// A case that was read and found valid, joined to its model: what the commands work with.
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -41,6 +42,7 @@ struct PreparedCase {
   std::set<std::string, std::less<>> filled_in;  ///< keys whose values follow from the case's material
   std::string instruction_set;                   ///< that the choice resolves to on this machine
   std::string inputs;  ///< digest of what the files hold that the case names; empty if it names none
+  std::any read;       ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
 
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;

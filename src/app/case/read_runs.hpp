@@ -16,13 +16,33 @@ class ReadRuns {
   /// std::bad_any_cast if it was read as another kind of run
   template <class Run, class Read>
   const Run& of(const std::filesystem::path& folder, Read&& read) {
-    std::any& run = runs_[std::filesystem::canonical(folder)];
-    if (!run.has_value()) run = Run(std::forward<Read>(read)());
-    return std::any_cast<const Run&>(run);
+    return kept<Run>(runs_[std::filesystem::canonical(folder)], std::forward<Read>(read));
+  }
+
+  /// The case of the run in a folder, in the same way.
+  template <class Case, class Read>
+  const Case& case_of(const std::filesystem::path& folder, Read&& read) {
+    return kept<Case>(cases_[std::filesystem::canonical(folder)], std::forward<Read>(read));
+  }
+  /// Null where it has not been read. A comparison of many runs need not keep the cases of all.
+  template <class Case>
+  const Case* find_case(const std::filesystem::path& folder) const {
+    const auto found = cases_.find(std::filesystem::canonical(folder));
+    return found == cases_.end() ? nullptr : std::any_cast<Case>(&found->second);
+  }
+  /// It is that one, read before the run. \param read a Case; empty: not kept
+  void keep_case(const std::filesystem::path& folder, std::any read) {
+    if (read.has_value()) cases_[std::filesystem::canonical(folder)] = std::move(read);
   }
 
  private:
-  std::map<std::filesystem::path, std::any> runs_;
+  template <class Kept, class Read>
+  static const Kept& kept(std::any& value, Read&& read) {
+    if (!value.has_value()) value = Kept(std::forward<Read>(read)());
+    return std::any_cast<const Kept&>(value);
+  }
+
+  std::map<std::filesystem::path, std::any> runs_, cases_;
 };
 
 }  // namespace talus::app

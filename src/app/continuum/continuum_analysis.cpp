@@ -124,7 +124,20 @@ void write_residence(const std::filesystem::path& path, const HopperRun& run,
               rows);
 }
 
+/// Along y, m.
+double middle_of_vessel(const continuum::Parameters& p) {
+  const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
+  return 0.5 * (around.low.y + around.high.y);
+}
+
 }  // namespace
+
+std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Parameters& p) {
+  if (p.vessel.empty()) return {};
+  Surface surface = continuum::surface_of(p);
+  continuum::open_gates(p, surface, std::numeric_limits<double>::infinity());
+  return section_at(surface, middle_of_vessel(p));
+}
 
 HopperSetting hopper_setting(const continuum::Parameters& p) {
   const continuum::Lattice lattice = continuum::lattice_of(p);
@@ -146,11 +159,8 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
   setting.hand_discharge = discharge_by_hand(p);
   if (!p.vessel.empty()) {
-    const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
-    setting.middle = 0.5 * (around.low.y + around.high.y);
-    Surface surface = continuum::surface_of(p);
-    continuum::open_gates(p, surface, std::numeric_limits<double>::infinity());
-    setting.section = section_at(surface, setting.middle);
+    setting.middle = middle_of_vessel(p);
+    setting.section = section_of_vessel(p);
     setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(p);
     setting.bands = bands_of(p);
     if (const auto outlet = continuum::outlet_of_vessel(p); outlet && !outlet->round)

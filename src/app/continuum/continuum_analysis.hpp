@@ -3,6 +3,7 @@
 /// analysis/hopper.hpp.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "numerics/named_value.hpp"
 
 namespace talus::app {
+
+/// What is drawn of a vessel: the section through its middle with its gates open; nothing without one.
+std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Parameters& parameters);
 
 /// The case as the analysis needs it.
 HopperSetting hopper_setting(const continuum::Parameters& parameters);

@@ -158,6 +158,11 @@ ContinuumCase read_continuum(const CaseFile& file) {
   return read;
 }
 
+/// That of a run, read once by those who share what they read.
+const ContinuumCase& case_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
+  return runs.case_of<ContinuumCase>(folder, [&] { return read_continuum(resolved); });
+}
+
 }  // namespace
 
 ParameterList continuum_parameters() {
@@ -169,8 +174,8 @@ ParameterList continuum_parameters() {
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
-  const ContinuumCase read = read_continuum(file);
-  const Parameters& p = read.model;
+  ContinuumCase read = read_continuum(file);
+  const Parameters p = read.model;
   PreparedCase prepared = prepared_case("continuum", read);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.inputs = digest_of_files(p);
@@ -185,24 +190,27 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.headline = p.plate.height || continuum::outlet_of(p)
                           ? run::Headline{.column = "discharge_rate", .name = "discharge"}
                           : run::Headline{.column = "speed_max", .name = "fastest"};
+  prepared.read = std::move(read);
   return prepared;
 }
 
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  return runs.of<HopperRun>(folder,
-                            [&] { return read_hopper(folder, hopper_setting(read_continuum(resolved).model)); });
+  return runs.of<HopperRun>(folder, [&] {
+    const auto* const read = runs.find_case<ContinuumCase>(folder);
+    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model));
+  });
 }
 
-Scene scene_of_continuum(const CaseFile& resolved) {
-  const Parameters p = read_continuum(resolved).model;
+Scene scene_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
+  const Parameters& p = case_of(resolved, folder, runs).model;
   Scene scene = scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
-  for (const auto& [from, to] : hopper_setting(p).section) scene.walls.push_back({from, to});
+  for (const auto& [from, to] : section_of_vessel(p)) scene.walls.push_back({from, to});
   return scene;
 }
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                               ReadRuns& runs) {
-  const Parameters p = read_continuum(resolved).model;
+  const Parameters& p = case_of(resolved, folder, runs).model;
   const HopperRun& run = hopper_run_of(resolved, folder, runs);
   std::vector<NamedValue> quantities = analyze_continuum(folder, run);
   if (!p.vessel.empty()) {
@@ -217,13 +225,13 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 }
 
 std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                         const std::vector<NamedValue>& quantities) {
-  return answers_of(read_continuum(resolved).model, quantities, folder);
+                                         const std::vector<NamedValue>& quantities, ReadRuns& runs) {
+  return answers_of(case_of(resolved, folder, runs).model, quantities, folder);
 }
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                                       ReadRuns& runs) {
-  return draw_continuum(folder, hopper_run_of(resolved, folder, runs), read_continuum(resolved).run.title);
+  return draw_continuum(folder, hopper_run_of(resolved, folder, runs), case_of(resolved, folder, runs).run.title);
 }
 
 }  // namespace talus::app

@@ -26,9 +26,9 @@ const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                               ReadRuns& runs);
 /// Box, walls and gates.
-Scene scene_of_continuum(const CaseFile& resolved);
+Scene scene_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
 std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                         const std::vector<NamedValue>& quantities);
+                                         const std::vector<NamedValue>& quantities, ReadRuns& runs);
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                                       ReadRuns& runs);
 

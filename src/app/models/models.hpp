@@ -30,9 +30,9 @@ struct ModelEntry {
                                              ReadRuns& runs);
   /// What a run answers, once it is analysed. Null: nothing. \throws FileError, InputError
   std::vector<Answer> (*answers)(const CaseFile& resolved, const std::filesystem::path& folder,
-                                 const std::vector<NamedValue>& quantities);
-  /// What stands around the particles, for a viewer.
-  Scene (*scene)(const CaseFile& resolved);
+                                 const std::vector<NamedValue>& quantities, ReadRuns& runs);
+  /// What stands around the particles of a run, for a viewer.
+  Scene (*scene)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
   ParameterList (*parameters)();
   /// Reads runs that a reference is about. Null: no study is of this model. \throws FileError

@@ -121,7 +121,8 @@ RunFrames::RunFrames(const std::filesystem::path& path) : folder_(path) {
   if (!std::filesystem::exists(folder.manifest()))
     throw FileError(path.string(), "holds no run of Talus (no manifest.json)");
   const CaseFile resolved = CaseFile::from_text(read_manifest(folder.manifest()).case_text, folder.manifest().string());
-  scene_ = model_of(resolved).scene(resolved);
+  ReadRuns runs;
+  scene_ = model_of(resolved).scene(resolved, path, runs);
   numbers_ = folder.snapshot_numbers();
   has_particles_ = !numbers_.empty();
   if (!has_particles_) numbers_ = folder.snapshot_numbers("air");

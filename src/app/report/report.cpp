@@ -85,7 +85,7 @@ Json quantities_of(const ReportEntry& entry, const Summary& summary) {
 }
 
 Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& limits,
-             std::vector<std::string>& blocks) {
+             std::vector<std::string>& blocks, ReadRuns& runs) {
   const RunFolder folder(entry.folder);
   const Manifest manifest = read_manifest(folder.manifest());
   const Summary summary = read_summary(folder.summary());
@@ -108,7 +108,7 @@ Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& 
   run["quantities"] = quantities_of(entry, summary);
   if (model.name == "continuum") run["symbols"] = symbols_of_hopper_measures;
   if (model.name == "cloud") run["symbols"] = symbols_of_avalanche_measures;
-  run["scene"] = json_of(model.scene(resolved));
+  run["scene"] = json_of(model.scene(resolved, entry.folder, runs));
   if (with_particles) run["frames"] = pack_run(entry.folder, origin, limits, blocks);
   if (entry.bands.empty()) {
     run["tables"] = pack_tables(entry.folder, series, origin, blocks);
@@ -152,12 +152,13 @@ std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& fold
 
 }  // namespace
 
-void write_report(const ReportRequest& request, const std::filesystem::path& path) {
+void write_report(const ReportRequest& request, const std::filesystem::path& path, ReadRuns& runs) {
   ReportContent content{.title = request.title, .header = {}, .blocks = {}, .pictures = {}};
   Json header{{"title", request.title}, {"version", program_version()}, {"revision", program_revision()}};
   header["runs"] = Json::array();
   for (const ReportEntry& entry : request.runs)
-    header["runs"].push_back(json_of(entry, header["runs"].size() < most_viewers, request.limits, content.blocks));
+    header["runs"].push_back(
+        json_of(entry, header["runs"].size() < most_viewers, request.limits, content.blocks, runs));
   header["definitions"] = definitions_of(header["runs"]);
   header["comparisons"] = Json::array();
   for (const std::string& comparison : request.comparisons) header["comparisons"].push_back(Json::parse(comparison));
@@ -177,7 +178,7 @@ void write_run_report(const std::filesystem::path& folder, ReadRuns& runs) {
   write_report({.title = title_of_run(folder),
                 .runs = {entry_of_run(folder)},
                 .comparisons = published_comparisons(folder, runs)},
-               RunFolder(folder).report());
+               RunFolder(folder).report(), runs);
 }
 
 std::string title_of_run(const std::filesystem::path& folder) {

@@ -37,7 +37,7 @@ struct ReportRequest {
 };
 
 /// \throws FileError; InputError if a manifest's case cannot be read
-void write_report(const ReportRequest& request, const std::filesystem::path& path);
+void write_report(const ReportRequest& request, const std::filesystem::path& path, ReadRuns& runs);
 
 /// The report of one run in its own folder, with what a paper prints about its case.
 /// \throws FileError, InputError

@@ -145,7 +145,7 @@ ExitStatus reproduce(const StudyRequest& request) {
   print("{}", text);
   if (has_report_page())
     write_report({.title = reference.title, .runs = entries_of(groups), .comparisons = {json}},
-                 request.folder / "report.html");
+                 request.folder / "report.html", read);
 
   if (!draw_page(project, request)) return ExitStatus::files;
   if (!result.failed.empty()) return ExitStatus::numerical;

@@ -151,8 +151,9 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   if (!loop.interrupted) {
     const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
     const ModelEntry& entry = model_of(resolved);
+    runs.keep_case(folder.path(), prepared.read);
     summary.quantities = entry.analyse(resolved, folder.path(), runs);
-    if (entry.answers) answers = entry.answers(resolved, folder.path(), summary.quantities);
+    if (entry.answers) answers = entry.answers(resolved, folder.path(), summary.quantities, runs);
     if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path(), runs);
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});

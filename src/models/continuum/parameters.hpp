@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -102,6 +103,9 @@ struct Parameters {
     PairPrecision pair_precision = PairPrecision::in_double;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
+
+  /// Of the vessel, for surface_of(). Not a key.
+  std::shared_ptr<VesselSurface> surface = std::make_shared<VesselSurface>();
 };
 
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.

@@ -218,15 +218,6 @@ VesselBounds bounds_of_vessel(const Parameters& p) {
   return all;
 }
 
-Surface surface_of(const Parameters& p) {
-  std::vector<Triangle> all;
-  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    const std::vector<Triangle> own = triangles_of(p, n);
-    all.insert(all.end(), own.begin(), own.end());
-  }
-  return Surface(std::move(all), p.vessel.size());
-}
-
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
   std::optional<VesselOutlet> lowest;
   const auto offer = [&](const VesselPart& v, double height, double width, double depth, bool round) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -180,10 +181,29 @@ std::vector<Problem> check_vessel(const Parameters& parameters);
 /// Of a part: that of its key, or its shape and number.
 std::string name_of(const Parameters& parameters, std::size_t part);
 
-/// The surface of the vessel, patch n of part n, all gates shut; empty without a vessel.
+/// The surface of the vessel, patch n of part n, all gates shut; empty without a vessel. It is made when it is first
+/// asked for (VesselSurface).
 /// Round parts are polygons whose sides are nowhere farther from the circle than a fiftieth of bed.spacing, and whose
 /// area of cross-section is the circle's.
 Surface surface_of(const Parameters& parameters);
+
+/// A surface and what it was made of. Parameters and their copies hold one together, so that a fine surface is made
+/// once, whoever asks for it; a vessel of other triangles, as that of a coarser bed, takes its place.
+class VesselSurface {
+ public:
+  Surface of(const Parameters& parameters);
+
+ private:
+  struct Part {
+    std::shared_ptr<const DrawnSurface> drawn;  // of a file, whose triangles need not be compared
+    FileUnit unit;
+    std::vector<Triangle> triangles;  // of others
+    bool operator==(const Part&) const = default;
+  };
+  std::mutex mutex_;
+  std::vector<Part> parts_;
+  Surface surface_;
+};
 
 /// A place of a round part from one of a part whose axis is z.
 Vector3 placed(const VesselPart& part, const Vector3& place);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
 #include "models/continuum/layout.hpp"
 #include "models/continuum/vessel.hpp"
@@ -168,21 +167,10 @@ std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const Surf
 
 SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, const WallLoads& w, double time,
                          double gate_time) {
-  SurfaceSnapshot snapshot{.time = time, .points = {}, .triangles = {}, .columns = {}};
-  std::map<std::tuple<double, double, double>, std::int64_t> number;
-  for (const Triangle& t : mesh.triangles) {
-    std::array<std::int64_t, 3> corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vector3& x = t.corner[c];
-      const auto [found, is_new] =
-          number.try_emplace({x.x, x.y, x.z}, static_cast<std::int64_t>(snapshot.points.size()));
-      if (is_new) snapshot.points.push_back(x);
-      corners[c] = found->second;
-    }
-    snapshot.triangles.push_back(corners);
-  }
+  SurfaceSnapshot snapshot{.time = time, .points = mesh.points, .triangles = mesh.corners, .columns = {}};
   const auto add = [&](const char* name, const char* unit, auto&& value_of) {
     std::vector<std::decay_t<decltype(value_of(std::size_t{0}))>> values;
+    values.reserve(mesh.field.size());
     for (const std::uint32_t n : mesh.field) values.push_back(value_of(n));
     snapshot.columns.push_back({name, unit, std::move(values)});
   };

@@ -2,10 +2,12 @@
 /// A surface of triangles: the walls of a vessel. It has no thickness; grains may stand on either side of it. Its
 /// triangles belong to patches, which a gate may open, and to smooth parts, which edges bound.
 ///
-/// A tree of boxes finds the triangles near a place, so that the cost hardly grows with their number.
+/// A tree of boxes finds the triangles near a place, so that the cost hardly grows with their number. What is made of
+/// the triangles is made once: a copy of a surface shares it, and has only its own gates.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,20 +27,20 @@ class Surface {
   /// \throws std::invalid_argument for a triangle without area, of no patch, or not finite
   Surface(std::vector<Triangle> triangles, std::size_t patches);
 
-  bool is_empty() const { return triangles_.empty(); }
-  std::span<const Triangle> triangles() const { return triangles_; }
-  const Vector3& normal(std::size_t triangle) const { return normals_[triangle]; }  ///< unit
+  bool is_empty() const { return made_->triangles.empty(); }
+  std::span<const Triangle> triangles() const { return made_->triangles; }
+  const Vector3& normal(std::size_t triangle) const { return made_->normals[triangle]; }  ///< unit
   std::size_t patches() const { return is_open_.size(); }
-  const Vector3& low() const { return low_; }  ///< corners of the box around it, m
-  const Vector3& high() const { return high_; }
+  const Vector3& low() const { return made_->low; }  ///< corners of the box around it, m
+  const Vector3& high() const { return made_->high; }
 
   /// Number of the smooth part of a triangle: those of a patch that are joined by edges across which the surface turns
   /// by less than 32 degrees.
-  std::uint32_t part(std::size_t triangle) const { return parts_[triangle]; }
-  std::size_t parts() const { return part_count_; }
+  std::uint32_t part(std::size_t triangle) const { return made_->parts[triangle]; }
+  std::size_t parts() const { return made_->part_count; }
   /// Number of the flat piece of a part that it belongs to.
-  std::uint32_t facet(std::size_t triangle) const { return facets_[triangle]; }
-  std::size_t facets() const { return facet_count_; }
+  std::uint32_t facet(std::size_t triangle) const { return made_->facets[triangle]; }
+  std::size_t facets() const { return made_->facet_count; }
 
   /// Takes a patch away, for good: nothing is crossed there any more.
   void open(std::size_t patch) { is_open_[patch] = true; }
@@ -74,16 +76,20 @@ class Surface {
                     std::vector<Slab>& found) const;
 
  private:
+  /// What does not change once it is made: copies of a surface share it.
+  struct Made {
+    std::vector<Triangle> triangles;
+    std::vector<Vector3> normals;
+    std::vector<std::uint32_t> parts, facets;
+    std::size_t part_count = 0, facet_count = 0;
+    Vector3 low, high;
+    TriangleTree tree;
+  };
+  static const std::shared_ptr<const Made>& nothing();
   bool is_on_one_side(std::uint32_t triangle, const Vector3& a, const Vector3& b, double slack) const;
-  std::vector<std::uint32_t> joined(double cosine, std::size_t& count) const;
 
-  std::vector<Triangle> triangles_;
-  std::vector<Vector3> normals_;
-  std::vector<std::uint32_t> parts_, facets_;
-  std::size_t part_count_ = 0, facet_count_ = 0;
+  std::shared_ptr<const Made> made_ = nothing();
   std::vector<bool> is_open_;
-  Vector3 low_, high_;
-  TriangleTree tree_;
 };
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "numerics/surface/triangle_edges.hpp"
 #include "numerics/surface/triangle_tree.hpp"
 
 namespace talus {
@@ -14,37 +15,6 @@ namespace talus {
 namespace {
 
 using Kind = SurfaceFault::Kind;
-
-auto order(const Vector3& a) {
-  return std::tie(a.x, a.y, a.z);
-}
-
-struct Edge {
-  Vector3 from, to;  // in order
-  std::uint32_t triangle;
-  bool reversed;  // the triangle runs through it from `to` to `from`
-};
-
-std::vector<Edge> sorted_edges(std::span<const Triangle> triangles, const std::vector<bool>& skip) {
-  std::vector<Edge> edges;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    for (std::size_t c = 0; c < 3 && !skip[t]; ++c) {
-      const Vector3 &a = triangles[t].corner[c], &b = triangles[t].corner[(c + 1) % 3];
-      edges.push_back(order(a) < order(b) ? Edge{a, b, t, false} : Edge{b, a, t, true});
-    }
-  const auto key = [](const Edge& e) { return std::tuple(order(e.from), order(e.to), e.triangle); };
-  std::sort(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return key(a) < key(b); });
-  return edges;
-}
-
-/// Calls visit(first, count) for the edges between the same two corners.
-template <class Visit>
-void for_each_edge(const std::vector<Edge>& edges, Visit&& visit) {
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end].from == edges[begin].from && edges[end].to == edges[begin].to) ++end;
-    visit(begin, end - begin);
-  }
-}
 
 bool is_finite(const Triangle& t) {
   return std::all_of(t.corner.begin(), t.corner.end(),
@@ -61,12 +31,32 @@ bool is_flat(const Triangle& t) {
   return !(2 * norm(t.area()) > 1e-7 * longest);
 }
 
-bool share_a_corner(const Triangle& a, const Triangle& b) {
-  for (const Vector3& p : a.corner)
-    for (const Vector3& q : b.corner)
-      if (p == q) return true;
-  return false;
+using Corners = std::array<std::uint32_t, 3>;  // by number
+
+bool are_the_same(Corners a, Corners b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
 }
+
+bool share_a_corner(const Corners& a, const Corners& b) {
+  return std::any_of(a.begin(), a.end(), [&](std::uint32_t p) { return p == b[0] || p == b[1] || p == b[2]; });
+}
+
+/// Around a triangle.
+struct Box {
+  Vector3 low, high;
+
+  explicit Box(const Triangle& t) : low(t.corner[0]), high(t.corner[0]) {
+    for (const Vector3& c : t.corner)
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
+  }
+  bool meets(const Box& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&
+           b.low.z <= high.z;
+  }
+};
 
 /// Where an edge of one passes through the inside of the other, away from its ends: triangles that touch do not cross.
 std::optional<Vector3> passage(const Triangle& a, const Triangle& b) {
@@ -119,43 +109,47 @@ std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles, bool cl
     faults.push_back({finite ? Kind::without_area : Kind::not_finite, t, {}, triangles[t].middle()});
   }
   std::vector<SurfaceFault> turned, branching, rims;
-  const std::vector<Edge> edges = sorted_edges(triangles, skip);
-  for_each_edge(edges, [&](std::size_t first, std::size_t count) {
-    const Edge &a = edges[first], &b = edges[std::min(first + 1, edges.size() - 1)];
-    const Vector3 middle = 0.5 * (a.from + a.to);
-    if (count == 1 && closed) rims.push_back({Kind::open_rim, a.triangle, {}, middle});
-    if (count > 2) branching.push_back({Kind::branching, a.triangle, edges[first + 2].triangle, middle});
-    if (count == 2 && a.reversed == b.reversed) turned.push_back({Kind::turned_over, a.triangle, b.triangle, middle});
+  const TriangleEdges edges(triangles, skip);
+  edges.for_each([&](std::span<const TriangleEdges::Edge> same) {
+    const auto add = [&](std::vector<SurfaceFault>& to, Kind kind, std::optional<std::uint32_t> other) {
+      const auto& corner = triangles[same[0].triangle].corner;
+      const std::size_t side = same[0].side;
+      to.push_back({kind, same[0].triangle, other, 0.5 * (corner[side] + corner[(side + 1) % 3])});
+    };
+    if (same.size() == 1 && closed) add(rims, Kind::open_rim, {});
+    if (same.size() > 2) add(branching, Kind::branching, same[2].triangle);
+    if (same.size() == 2 && same[0].reversed == same[1].reversed) add(turned, Kind::turned_over, same[1].triangle);
   });
 
   std::vector<Triangle> whole;
   std::vector<std::uint32_t> number;
+  std::vector<Box> boxes;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     if (!skip[t]) {
       whole.push_back(triangles[t]);
       whole.back().patch = 0;
       number.push_back(t);
+      boxes.emplace_back(triangles[t]);
     }
   std::vector<SurfaceFault> twice, through;
   if (!whole.empty()) {
     TriangleTree(whole).for_each_near_pair([&](std::uint32_t a, std::uint32_t b) {
+      if (!boxes[a].meets(boxes[b])) return;
       if (b < a) std::swap(a, b);
-      const auto corners = [](std::array<Vector3, 3> c) {
-        std::sort(c.begin(), c.end(), [](const Vector3& p, const Vector3& q) { return order(p) < order(q); });
-        return c;
-      };
-      if (corners(whole[a].corner) == corners(whole[b].corner)) {
-        twice.push_back({Kind::twice, number[a], number[b], whole[a].middle()});
-      } else if (!share_a_corner(whole[a], whole[b])) {
-        auto x = passage(whole[a], whole[b]);
-        if (!x) x = passage(whole[b], whole[a]);
-        if (x) through.push_back({Kind::crossing_another, number[a], number[b], *x});
+      const Corners &of_a = edges.corners()[number[a]], &of_b = edges.corners()[number[b]];
+      if (share_a_corner(of_a, of_b)) {
+        if (are_the_same(of_a, of_b)) twice.push_back({Kind::twice, number[a], number[b], whole[a].middle()});
+        return;
       }
+      auto x = passage(whole[a], whole[b]);
+      if (!x) x = passage(whole[b], whole[a]);
+      if (x) through.push_back({Kind::crossing_another, number[a], number[b], *x});
     });
   }
   for (std::vector<SurfaceFault>* of : {&twice, &turned, &branching, &rims, &through}) {
     std::sort(of->begin(), of->end(), [](const SurfaceFault& a, const SurfaceFault& b) {
-      return std::tie(a.triangle, a.other) < std::tie(b.triangle, b.other);
+      return std::tie(a.triangle, a.other, a.place.x, a.place.y, a.place.z) <
+             std::tie(b.triangle, b.other, b.place.x, b.place.y, b.place.z);
     });
     faults.insert(faults.end(), of->begin(), of->end());
   }

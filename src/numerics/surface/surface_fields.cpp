@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "numerics/surface/triangle_edges.hpp"
+
 namespace talus {
 
 namespace {
@@ -94,6 +96,9 @@ FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double ed
       left.push_back({{middle, b, c}, whole.patch});
     }
   }
+  const TriangleEdges edges(mesh.triangles);
+  mesh.points.assign(edges.places().begin(), edges.places().end());
+  for (const auto& [a, b, c] : edges.corners()) mesh.corners.push_back({a, b, c});
   return mesh;
 }
 

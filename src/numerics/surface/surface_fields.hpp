@@ -52,7 +52,9 @@ class SurfaceFields {
 /// to whose middle it is: what is drawn of the fields.
 struct FieldMesh {
   std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> field;  ///< of each triangle
+  std::vector<std::uint32_t> field;                  ///< of each triangle
+  std::vector<Vector3> points;                       ///< the corners of all of them, each once
+  std::vector<std::array<std::int64_t, 3>> corners;  ///< of each triangle, numbers of points
 };
 /// \param edge > 0, m
 FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double edge);

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "numerics/cell_grid.hpp"
+#include "numerics/surface/triangle_edges.hpp"
 
 namespace talus {
 
@@ -19,7 +20,7 @@ constexpr double near = 1.5;       // how far a rest looks for a square, in side
 
 /// A flat piece of the surface: triangles of a smooth part in one plane that hang together.
 struct Facet {
-  std::vector<std::uint32_t> triangles;
+  std::span<const std::uint32_t> triangles;
   Vector3 along, across;  // unit vectors in its plane
 };
 
@@ -34,50 +35,87 @@ struct Sum {
   }
 };
 
-/// Squares along the longest edge at the border of the facet: a rectangle is cut without rests.
+/// Squares along the longest edge at the border of the facet: a rectangle is cut without rests. Of edges of one length
+/// the one whose ends come first.
+struct Longest {
+  double length = 0;
+  std::array<double, 6> ends{};
+
+  void offer(const Vector3& a, const Vector3& b) {
+    const std::array<double, 6> forward{a.x, a.y, a.z, b.x, b.y, b.z}, backward{b.x, b.y, b.z, a.x, a.y, a.z};
+    const std::array<double, 6>& e = std::min(forward, backward);
+    const double size = norm(Vector3{e[3] - e[0], e[4] - e[1], e[5] - e[2]});
+    if (size > length || (size == length && size > 0 && e < ends)) length = size, ends = e;
+  }
+  Vector3 direction() const { return (1 / length) * Vector3{ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]}; }
+};
+
+struct Facets {
+  std::vector<std::uint32_t> triangles;  // by facet
+  std::vector<Facet> all;
+};
+
 /// \param sector whose triangles are taken, null: all
-std::vector<Facet> facets_of(const Surface& surface, const Sector* sector) {
-  std::vector<Facet> facets(surface.facets());
-  for (std::uint32_t t = 0; t < surface.triangles().size(); ++t)
-    if (!sector || sector->copy_at(surface.triangles()[t].middle()) == 0)
-      facets[surface.facet(t)].triangles.push_back(t);
-  std::erase_if(facets, [](const Facet& facet) { return facet.triangles.empty(); });
-  for (Facet& facet : facets) {
-    std::map<std::array<double, 6>, int> edges;
-    for (const std::uint32_t t : facet.triangles)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Vector3 &a = surface.triangles()[t].corner[c], &b = surface.triangles()[t].corner[(c + 1) % 3];
-        const std::array<double, 6> forward{a.x, a.y, a.z, b.x, b.y, b.z}, backward{b.x, b.y, b.z, a.x, a.y, a.z};
-        ++edges[std::min(forward, backward)];
-      }
-    double longest = 0;
-    for (const auto& [e, times] : edges) {
-      const Vector3 d{e[3] - e[0], e[4] - e[1], e[5] - e[2]};
-      if (times == 1 && norm(d) > longest) longest = norm(d), facet.along = (1 / longest) * d;
+Facets facets_of(const Surface& surface, const Sector* sector) {
+  const std::span<const Triangle> triangles = surface.triangles();
+  std::vector<bool> left_out(triangles.size());
+  std::vector<std::uint32_t> first(surface.facets() + 1, 0);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    left_out[t] = sector && sector->copy_at(triangles[t].middle()) != 0;
+    if (!left_out[t]) ++first[surface.facet(t) + 1];
+  }
+  for (std::size_t f = 1; f < first.size(); ++f) first[f] += first[f - 1];
+  Facets result;
+  result.triangles.resize(first.back());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (!left_out[t]) result.triangles[next[surface.facet(t)]++] = t;
+  std::vector<Longest> longest(surface.facets());
+  const TriangleEdges edges(triangles, left_out);
+  edges.for_each([&](std::span<const TriangleEdges::Edge> same) {
+    for (const TriangleEdges::Edge& e : same) {
+      const std::uint32_t facet = surface.facet(e.triangle);
+      const auto is_of_facet = [&](const TriangleEdges::Edge& other) { return surface.facet(other.triangle) == facet; };
+      if (std::count_if(same.begin(), same.end(), is_of_facet) > 1) continue;  // not at its border
+      const auto& corner = triangles[e.triangle].corner;
+      longest[facet].offer(corner[e.side], corner[(e.side + 1) % 3]);
     }
-    const Vector3& n = surface.normal(facet.triangles.front());
-    if (!(longest > 0)) {  // no border: cannot be flat
-      const Triangle& t = surface.triangles()[facet.triangles.front()];
+  });
+  for (std::size_t f = 0; f < surface.facets(); ++f) {
+    Facet facet{std::span(result.triangles).subspan(first[f], first[f + 1] - first[f]), {}, {}};
+    if (facet.triangles.empty()) continue;
+    if (longest[f].length > 0) {
+      facet.along = longest[f].direction();
+    } else {  // no border: cannot be flat
+      const Triangle& t = triangles[facet.triangles.front()];
       facet.along = t.corner[1] - t.corner[0];
       facet.along = (1 / norm(facet.along)) * facet.along;
     }
-    facet.across = cross(n, facet.along);
+    facet.across = cross(surface.normal(facet.triangles.front()), facet.along);
+    result.all.push_back(facet);
   }
-  return facets;
+  return result;
 }
 
-using Polygon = std::vector<std::array<double, 2>>;
+/// Of a triangle that is cut four times there are at most 13 corners, each cut adding half of them where rounding goes
+/// against it, and no memory needs to be asked for.
+struct Polygon {
+  std::array<std::array<double, 2>, 16> corner;
+  std::size_t count = 0;
+
+  void add(const std::array<double, 2>& x) { corner[count++] = x; }
+};
 
 /// What of a convex polygon lies above (side 1) or below (-1) a coordinate of one of its axes.
 Polygon clipped(const Polygon& polygon, std::size_t axis, double bound, int side) {
   Polygon rest;
-  for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const auto &p = polygon[n], &q = polygon[(n + 1) % polygon.size()];
+  for (std::size_t n = 0; n < polygon.count; ++n) {
+    const auto &p = polygon.corner[n], &q = polygon.corner[n + 1 < polygon.count ? n + 1 : 0];
     const double a = side * (p[axis] - bound), b = side * (q[axis] - bound);
-    if (a >= 0) rest.push_back(p);
+    if (a >= 0) rest.add(p);
     if ((a >= 0) != (b >= 0)) {
       const double t = a / (a - b);
-      rest.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+      rest.add({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
     }
   }
   return rest;
@@ -87,8 +125,8 @@ Polygon clipped(const Polygon& polygon, std::size_t axis, double bound, int side
 std::pair<double, std::array<double, 2>> area_of(const Polygon& polygon) {
   double area = 0;
   std::array<double, 2> middle{};
-  for (std::size_t n = 2; n < polygon.size(); ++n) {
-    const auto &p = polygon[0], &q = polygon[n - 1], &r = polygon[n];
+  for (std::size_t n = 2; n < polygon.count; ++n) {
+    const auto &p = polygon.corner[0], &q = polygon.corner[n - 1], &r = polygon.corner[n];
     const double part = 0.5 * std::abs((q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1]));
     area += part;
     for (std::size_t axis = 0; axis < 2; ++axis) middle[axis] += part * (p[axis] + q[axis] + r[axis]) / 3;
@@ -96,6 +134,28 @@ std::pair<double, std::array<double, 2>> area_of(const Polygon& polygon) {
   if (area > 0) middle = {middle[0] / area, middle[1] / area};
   return {area, middle};
 }
+
+/// The squares of a facet, each with what lies in it: in rows, or by what is in them alone where they are very many.
+class Squares {
+ public:
+  Squares(std::int64_t rows, std::int64_t columns)
+      : columns_(columns), all_(rows * columns <= most ? static_cast<std::size_t>(rows * columns) : 0) {}
+
+  Sum& at(std::int64_t row, std::int64_t column) {
+    return all_.empty() ? some_[{row, column}] : all_[static_cast<std::size_t>(row * columns_ + column)];
+  }
+  void append_to(std::vector<Sum>& squares) const {
+    for (const auto& [place, sum] : some_) squares.push_back(sum);
+    for (const Sum& sum : all_)
+      if (sum.area > 0) squares.push_back(sum);
+  }
+
+ private:
+  static constexpr std::int64_t most = 65536;
+  std::int64_t columns_;
+  std::vector<Sum> all_;
+  std::map<std::pair<std::int64_t, std::int64_t>, Sum> some_;
+};
 
 /// What of a facet lies in each square.
 void cut(const Surface& surface, const Facet& facet, double distance, std::vector<Sum>& squares) {
@@ -107,22 +167,23 @@ void cut(const Surface& surface, const Facet& facet, double distance, std::vecto
   std::array<double, 2> low{infinity, infinity}, high{-infinity, -infinity}, side{};
   std::array<int, 2> count{};
   for (const std::uint32_t t : facet.triangles)
-    for (const Vector3& c : surface.triangles()[t].corner)
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        low[axis] = std::min(low[axis], flat(c)[axis]);
-        high[axis] = std::max(high[axis], flat(c)[axis]);
-      }
+    for (const Vector3& c : surface.triangles()[t].corner) {
+      const std::array<double, 2> x = flat(c);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
+    }
   for (std::size_t axis = 0; axis < 2; ++axis) {
     count[axis] = std::max(1, static_cast<int>(std::ceil((high[axis] - low[axis]) / distance - 1e-9)));
     side[axis] = (high[axis] - low[axis]) / count[axis];
   }
-  std::map<std::pair<int, int>, Sum> cells;
+  Squares cells(count[1], count[0]);
   for (const std::uint32_t t : facet.triangles) {
     Polygon triangle;
-    for (const Vector3& c : surface.triangles()[t].corner) triangle.push_back(flat(c));
+    for (const Vector3& c : surface.triangles()[t].corner) triangle.add(flat(c));
     const auto range = [&](const Polygon& polygon, std::size_t axis) {
       double least = infinity, most = -infinity;
-      for (const auto& p : polygon) least = std::min(least, p[axis]), most = std::max(most, p[axis]);
+      for (std::size_t n = 0; n < polygon.count; ++n)
+        least = std::min(least, polygon.corner[n][axis]), most = std::max(most, polygon.corner[n][axis]);
       const auto cell = [&](double x) {
         return std::clamp(static_cast<int>(std::floor((x - low[axis]) / side[axis])), 0, count[axis] - 1);
       };
@@ -132,19 +193,20 @@ void cut(const Surface& surface, const Facet& facet, double distance, std::vecto
     for (int row = first_row; row <= last_row; ++row) {
       const Polygon strip =
           clipped(clipped(triangle, 1, low[1] + row * side[1], 1), 1, low[1] + (row + 1) * side[1], -1);
-      if (strip.size() < 3) continue;
+      if (strip.count < 3) continue;
       const auto [first, last] = range(strip, 0);
       for (int column = first; column <= last; ++column) {
         const Polygon piece =
             clipped(clipped(strip, 0, low[0] + column * side[0], 1), 0, low[0] + (column + 1) * side[0], -1);
         const auto [area, middle] = area_of(piece);
         if (area > 0)
-          cells[{row, column}].add(area, origin + middle[0] * facet.along + middle[1] * facet.across,
-                                   surface.normal(facet.triangles.front()));
+          cells.at(row, column)
+              .add(area, origin + middle[0] * facet.along + middle[1] * facet.across,
+                   surface.normal(facet.triangles.front()));
       }
     }
   }
-  for (const auto& [cell, sum] : cells) squares.push_back(sum);
+  cells.append_to(squares);
 }
 
 SurfacePoint point_of(const Sum& sum, std::uint32_t patch, std::uint32_t part) {
@@ -167,7 +229,8 @@ std::vector<SurfacePoint> spread(const Surface& surface, double distance, const 
     rests.push_back({part, patch, {whole(x.x), whole(x.y), whole(x.z)}, sum});
   };
   std::vector<Sum> squares;
-  for (const Facet& facet : facets_of(surface, sector)) {
+  const Facets facets = facets_of(surface, sector);
+  for (const Facet& facet : facets.all) {
     squares.clear();
     cut(surface, facet, distance, squares);
     const std::uint32_t t = facet.triangles.front();

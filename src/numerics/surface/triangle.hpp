@@ -16,6 +16,7 @@ struct Triangle {
 
   Vector3 area() const;    ///< area times unit normal, m^2
   Vector3 normal() const;  ///< unit; not finite for a triangle without area
+  bool operator==(const Triangle&) const = default;
   Vector3 middle() const { return (1.0 / 3) * (corner[0] + corner[1] + corner[2]); }
 };
 

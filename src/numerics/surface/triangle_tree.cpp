@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <utility>
 
 namespace talus {
 
@@ -23,61 +21,85 @@ struct Box {
 
 }  // namespace
 
-TriangleTree::TriangleTree(std::span<const Triangle> triangles) : order_(triangles.size()) {
+TriangleTree::TriangleTree(std::span<const Triangle> triangles) {
   if (triangles.empty()) return;
-  std::iota(order_.begin(), order_.end(), 0u);
-  std::vector<Vector3> middle;
-  for (const Triangle& t : triangles) middle.push_back(t.middle());
-  add(triangles, middle, 0, static_cast<std::uint32_t>(triangles.size()));
+  std::vector<Middle> middles;
+  middles.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) middles.push_back({triangles[t].middle(), t});
+  add(middles, 0, static_cast<std::uint32_t>(triangles.size()));
+  std::vector<Triangle> in_order;  // what a node looks at stands together
+  in_order.reserve(triangles.size());
+  order_.reserve(triangles.size());
+  for (const Middle& m : middles) order_.push_back(m.triangle), in_order.push_back(triangles[m.triangle]);
+  find_boxes(in_order);
   const Vector3 extent = nodes_[0].high - nodes_[0].low;
   margin_ = 1e-9 * (extent.x + extent.y + extent.z);
-  find_flatness(triangles);
+  find_flatness(in_order);
+}
+
+/// Children stand behind their parent: from the last node to the first.
+void TriangleTree::find_boxes(std::span<const Triangle> in_order) {
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    Box around;
+    if (node.second == 0) {
+      for (std::uint32_t t = node.begin; t < node.end; ++t)
+        for (const Vector3& corner : in_order[t].corner) around.add(corner);
+    } else {
+      for (const std::size_t child : {n + 1, std::size_t{node.second}})
+        around.add(nodes_[child].low), around.add(nodes_[child].high);
+    }
+    node.low = around.low, node.high = around.high;
+  }
 }
 
 /// The normal of a slab is that of the whole area of its triangles.
-void TriangleTree::find_flatness(std::span<const Triangle> triangles) {
+void TriangleTree::find_flatness(std::span<const Triangle> in_order) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Vector3> areas;
+  areas.reserve(in_order.size());
+  for (const Triangle& t : in_order) areas.push_back(t.area());
+  std::vector<std::uint32_t> last_alike(in_order.size());  // of the triangles of its patch that follow each other
+  for (std::size_t t = in_order.size(); t-- > 0;)
+    last_alike[t] = t + 1 < in_order.size() && in_order[t].patch == in_order[t + 1].patch
+                        ? last_alike[t + 1]
+                        : static_cast<std::uint32_t>(t);
+  flatness_.reserve(nodes_.size());
   for (const Node& node : nodes_) {
-    const std::uint32_t patch = triangles[order_[node.begin]].patch;
+    const std::uint32_t patch = in_order[node.begin].patch;
+    flatness_.push_back({{}, 0, infinity, patch});
+    if (last_alike[node.begin] + 1 < node.end) continue;
     Vector3 area;
-    bool one_patch = true;
-    for (std::uint32_t t = node.begin; t < node.end; ++t) {
-      area += triangles[order_[t]].area();
-      one_patch = one_patch && triangles[order_[t]].patch == patch;
-    }
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (!one_patch || !(norm(area) > 0)) {
-      flatness_.push_back({{}, 0, infinity, patch});
-      continue;
-    }
+    for (std::uint32_t t = node.begin; t < node.end; ++t) area += areas[t];
+    if (!(norm(area) > 0)) continue;
     const Vector3 normal = (1 / norm(area)) * area;
     double low = infinity, high = -infinity;
     for (std::uint32_t t = node.begin; t < node.end; ++t)
-      for (const Vector3& corner : triangles[order_[t]].corner)
-        low = std::min(low, dot(normal, corner)), high = std::max(high, dot(normal, corner));
-    flatness_.push_back({normal, 0.5 * (low + high), 0.5 * (high - low), patch});
+      for (const Vector3& corner : in_order[t].corner) {
+        const double height = dot(normal, corner);
+        low = std::min(low, height), high = std::max(high, height);
+      }
+    flatness_.back() = {normal, 0.5 * (low + high), 0.5 * (high - low), patch};
   }
 }
 
-/// \returns the number of the node
-std::uint32_t TriangleTree::add(std::span<const Triangle> triangles, std::span<const Vector3> middle,
-                                std::uint32_t begin, std::uint32_t end) {
+/// Without boxes. \returns the number of the node
+std::uint32_t TriangleTree::add(std::span<Middle> middles, std::uint32_t begin, std::uint32_t end) {
   const auto n = static_cast<std::uint32_t>(nodes_.size());
-  Box around, of_middles;
-  for (std::uint32_t t = begin; t < end; ++t) {
-    for (const Vector3& corner : triangles[order_[t]].corner) around.add(corner);
-    of_middles.add(middle[order_[t]]);
-  }
-  nodes_.push_back({around.low, around.high, begin, end, 0});
+  nodes_.push_back({{}, {}, begin, end, 0});
   if (end - begin <= leaf) return n;
-  const Vector3 extent = of_middles.high - of_middles.low;
+  Box around;
+  for (const Middle& m : middles.subspan(begin, end - begin)) around.add(m.place);
+  const Vector3 extent = around.high - around.low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  double Vector3::*const along = axis == 0 ? &Vector3::x : axis == 1 ? &Vector3::y : &Vector3::z;
   const std::uint32_t half = begin + (end - begin) / 2;
-  const auto at = [&](std::uint32_t place) { return order_.begin() + place; };
-  std::nth_element(at(begin), at(half), at(end), [&](std::uint32_t a, std::uint32_t b) {
-    return std::pair(middle[a][axis], a) < std::pair(middle[b][axis], b);
+  const auto at = [&](std::uint32_t place) { return middles.begin() + place; };
+  std::nth_element(at(begin), at(half), at(end), [along](const Middle& a, const Middle& b) {
+    return a.place.*along < b.place.*along || (a.place.*along == b.place.*along && a.triangle < b.triangle);
   });
-  add(triangles, middle, begin, half);
-  const std::uint32_t second = add(triangles, middle, half, end);
+  add(middles, begin, half);
+  const std::uint32_t second = add(middles, half, end);
   nodes_[n].second = second;
   return n;
 }

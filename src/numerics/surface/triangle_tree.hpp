@@ -37,7 +37,8 @@ class TriangleTree {
     stack[size++] = {0, square_distance(nodes_[0], x)};
     while (size > 0) {
       const auto [n, square] = stack[--size];
-      if (square * (1 - rounding) > within * within) continue;
+      // Boxes around what is at an angle to the axes are thick; slabs are not.
+      if (square * (1 - rounding) > within * within || is_farther(flatness_[n], x, within + margin_)) continue;
       const Node& node = nodes_[n];
       if (node.second == 0) {
         for (std::uint32_t t = node.begin; t < node.end; ++t) visit(order_[t]);
@@ -51,7 +52,8 @@ class TriangleTree {
     }
   }
 
-  /// Calls visit(number) for triangles among which are all that the straight line from a to b meets.
+  /// Calls visit(number) for triangles among which are all that the straight line from a to b meets. What lies in a
+  /// slab on one side of which the whole line is is left out.
   template <class Visit>
   void along_line(const Vector3& a, const Vector3& b, Visit&& visit) const {
     if (nodes_.empty()) return;
@@ -62,7 +64,7 @@ class TriangleTree {
     while (size > 0) {
       const std::uint32_t n = stack[--size];
       const Node& node = nodes_[n];
-      if (!line.meets(node.low, node.high)) continue;
+      if (!line.meets(node.low, node.high) || is_beside(flatness_[n], a, b, line.margin)) continue;
       if (node.second == 0) {
         for (std::uint32_t t = node.begin; t < node.end; ++t) visit(order_[t]);
       } else {
@@ -73,7 +75,8 @@ class TriangleTree {
   }
 
   /// Calls of_some(slab) and of_one(number) for triangles among which are all that reach into a box: of_some for those
-  /// of one patch that lie together in a slab which is thin and no wider than that, of_one for the others.
+  /// of one patch that lie together in a slab which is thin and no wider than that, of_one for the others. They return
+  /// whether to go on.
   template <class Some, class One>
   void slabs_within(const Vector3& low, const Vector3& high, double thin, double wide, Some&& of_some,
                     One&& of_one) const {
@@ -87,9 +90,11 @@ class TriangleTree {
       if (!overlap(node.low, node.high, low, high)) continue;
       const Flatness& flatness = flatness_[n];
       if (flatness.slack <= thin && norm(node.high - node.low) <= wide) {
-        of_some(Slab{node.low, node.high, flatness.normal, flatness.offset, flatness.slack, flatness.patch});
+        if (!of_some(Slab{node.low, node.high, flatness.normal, flatness.offset, flatness.slack, flatness.patch}))
+          return;
       } else if (node.second == 0) {
-        for (std::uint32_t t = node.begin; t < node.end; ++t) of_one(order_[t]);
+        for (std::uint32_t t = node.begin; t < node.end; ++t)
+          if (!of_one(order_[t])) return;
       } else {
         stack[size++] = node.second;
         stack[size++] = n + 1;
@@ -112,6 +117,10 @@ class TriangleTree {
     Vector3 low, high;
     std::uint32_t begin, end;
     std::uint32_t second;  // child; 0: a leaf
+  };
+  struct Middle {
+    Vector3 place;
+    std::uint32_t triangle;
   };
   /// The slab of a node's triangles; infinitely thick if they are not of one patch.
   struct Flatness {
@@ -138,6 +147,14 @@ class TriangleTree {
     }
   };
 
+  static bool is_farther(const Flatness& slab, const Vector3& x, double distance) {
+    return std::abs(dot(slab.normal, x) - slab.offset) - slab.slack > distance;
+  }
+  static bool is_beside(const Flatness& slab, const Vector3& a, const Vector3& b, double margin) {
+    const double at_a = dot(slab.normal, a) - slab.offset, at_b = dot(slab.normal, b) - slab.offset;
+    const double beyond = slab.slack + margin;
+    return (at_a > beyond && at_b > beyond) || (at_a < -beyond && at_b < -beyond);
+  }
   static double square_distance(const Node& node, const Vector3& x) {
     return square_distance_from_box(node.low, node.high, x);
   }
@@ -146,9 +163,9 @@ class TriangleTree {
            low.z <= other_high.z && other_low.z <= high.z;
   }
   static bool overlap(const Node& a, const Node& b) { return overlap(a.low, a.high, b.low, b.high); }
-  std::uint32_t add(std::span<const Triangle> triangles, std::span<const Vector3> middle, std::uint32_t begin,
-                    std::uint32_t end);
-  void find_flatness(std::span<const Triangle> triangles);
+  std::uint32_t add(std::span<Middle> middles, std::uint32_t begin, std::uint32_t end);
+  void find_boxes(std::span<const Triangle> in_order);
+  void find_flatness(std::span<const Triangle> in_order);
   template <class Visit>
   void pairs_within(std::uint32_t n, Visit& visit) const {
     const Node& node = nodes_[n];

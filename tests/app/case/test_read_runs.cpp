@@ -28,5 +28,24 @@ TEST(ReadRuns, AFolderIsReadOnceHoweverItIsWritten) {
   EXPECT_EQ(later.of<std::string>(folder, read), "run 4");
 }
 
+TEST(ReadRuns, TheCaseOfARunIsReadOnceOrHandedOver) {
+  const ScratchFolder scratch;
+  const std::filesystem::path folder = scratch.path() / "r", other = scratch.path() / "s";
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_directories(other);
+  ReadRuns runs;
+  int times = 0;
+  const auto read = [&] { return "case " + std::to_string(++times); };
+  EXPECT_EQ(runs.find_case<std::string>(folder), nullptr);
+  EXPECT_EQ(runs.case_of<std::string>(folder, read), "case 1");
+  EXPECT_EQ(runs.case_of<std::string>(folder.string() + "/", read), "case 1");
+  ASSERT_NE(runs.find_case<std::string>(folder), nullptr);
+  EXPECT_EQ(runs.of<std::string>(folder, [] { return std::string("run"); }), "run") << "the run is another thing";
+  runs.keep_case(other, {});
+  EXPECT_EQ(runs.find_case<std::string>(other), nullptr);
+  runs.keep_case(other, std::string("before the run"));
+  EXPECT_EQ(runs.case_of<std::string>(other, read), "before the run");
+}
+
 }  // namespace
 }  // namespace talus::app

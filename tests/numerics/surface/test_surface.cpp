@@ -87,6 +87,15 @@ TEST(Surface, AnOpenPatchIsNotThere) {
   EXPECT_NEAR(surface.nearest({-0.5, 0.5, 0}, 2)->distance, std::sqrt(0.5), 1e-12) << "the diagonal of the other half";
 }
 
+TEST(Surface, CopiesShareTheTrianglesAndHaveGatesOfTheirOwn) {
+  const Surface shut(square(1), 1);
+  Surface opened = shut;
+  opened.open(0);
+  EXPECT_EQ(opened.triangles().data(), shut.triangles().data());
+  EXPECT_FALSE(opened.blocks({0.1, 0, -1}, {0.1, 0, 1}));
+  EXPECT_TRUE(shut.blocks({0.1, 0, -1}, {0.1, 0, 1}));
+}
+
 TEST(Surface, EdgesBoundSmoothParts) {
   EXPECT_EQ(Surface(tube(24), 1).parts(), 1u);
   EXPECT_EQ(Surface(tube(4), 1).parts(), 4u);
@@ -148,6 +157,29 @@ TEST(TriangleTree, FindsWhatAllTrianglesTell) {
     EXPECT_EQ(surface.near(a, norm(b - a), 3, few), near.size() <= 3);
     EXPECT_LE(few.size(), 3u);
   }
+}
+
+/// Lines that mostly pass by: what lies in a slab beside a line is left out of the search.
+TEST(TriangleTree, ShortLinesAtAFineSurfaceMeetWhatAllTrianglesTell) {
+  std::vector<Triangle> all = ball(4);
+  for (const Triangle& t : tube(300)) all.push_back({t.corner, 1});
+  const Surface surface(all, 2);
+  Random random(11);
+  int met = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const Vector3 a = anywhere(random, 1), x = (random.uniform(0.97, 1.03) / norm(a)) * a,
+                  y = x + anywhere(random, 0.1);
+    std::optional<Surface::Crossing> first;
+    for (std::uint32_t t = 0; t < all.size(); ++t)
+      if (const auto at = crossing(all[t], x, y); at && (!first || *at < first->at)) first = Surface::Crossing{t, *at};
+    const auto found = surface.first_crossing(x, y);
+    ASSERT_EQ(found.has_value(), first.has_value());
+    if (!found) continue;
+    ++met;
+    EXPECT_EQ(found->triangle, first->triangle);
+    EXPECT_EQ(found->at, first->at);
+  }
+  EXPECT_GT(met, 200);
 }
 
 /// Slabs of a vessel of two patches, one of them open: each place of a triangle that is not lies in one of them.
@@ -241,6 +273,18 @@ TEST(SurfacePoints, HaveTheAreaOfTheSurfaceAndItsMoments) {
     for (const Triangle& t : surface.triangles()) exact += norm(t.area()) * t.middle();
     EXPECT_NEAR(area, area_of(surface), 1e-9 * area);
     EXPECT_NEAR(norm(moment - exact), 0, 1e-9 * area);
+  }
+}
+
+TEST(SurfacePoints, AreInRowsHoweverManyTheyAre) {
+  for (const int side : {100, 400}) {
+    const std::vector<SurfacePoint> points = spread_points(Surface(square(1), 1), 2.0 / side);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(side * side));
+    const double apart = norm(points[1].place - points[0].place);
+    EXPECT_NEAR(apart, 2.0 / side, 1e-9);
+    for (std::size_t n = 1; n < points.size(); ++n)
+      EXPECT_NEAR(norm(points[n].place - points[n - 1].place), n % side == 0 ? std::hypot(2, apart) - 0 : apart,
+                  n % side == 0 ? 0.1 : 1e-9);
   }
 }
 

@@ -51,6 +51,11 @@ TEST(SurfaceFields, TheMeshIsTheSurfaceCutFine) {
   const Surface surface(tube_with_floor(), 2);
   const SurfaceFields fields(surface, 0.4);
   const FieldMesh mesh = mesh_of(surface, fields, 0.5);
+  ASSERT_EQ(mesh.corners.size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_EQ(mesh.points[static_cast<std::size_t>(mesh.corners[t][c])], mesh.triangles[t].corner[c]);
+  EXPECT_LT(mesh.points.size(), mesh.triangles.size()) << "each corner once";
   EXPECT_NEAR(area_of(mesh.triangles), area_of(tube_with_floor()), 1e-10);
   ASSERT_EQ(mesh.field.size(), mesh.triangles.size());
   for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
