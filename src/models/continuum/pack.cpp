@@ -5,6 +5,7 @@
 
 #include "models/continuum/material.hpp"
 #include "models/continuum/quanta.hpp"
+#include "models/continuum/specific_stress.hpp"
 #include "models/continuum/sweep.hpp"
 
 namespace talus::continuum {
@@ -24,14 +25,6 @@ SingleStressRecord single(const SymmetricTensor3<>& s, float half_density) {
            static_cast<float>(s.yz), static_cast<float>(s.zx)},
           half_density,
           0};
-}
-
-/// Within the loop over the particles: what a call returns by memory, in halves of what is then read, is waited for.
-[[gnu::always_inline]] inline SymmetricTensor3<> specific_stress(const ParticleView& particles, std::size_t i,
-                                                                 sph::StressForm form, double grain_density) {
-  const double density = particles.density[i];
-  const double packing = form == sph::StressForm::printed ? density / grain_density : 1;  // else unused
-  return sph::specific_stress(stress_of(particles.material, i), density, packing, form);
 }
 
 /// What an image does to the numbers of a record, where it only turns signs and shifts places, as most do: then a

@@ -12,6 +12,7 @@
 #include "models/continuum/loading.hpp"
 #include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/stress_regularisation.hpp"
 #include "models/continuum/vessel_friction.hpp"
 #include "models/continuum/walls.hpp"
 #include "physics/sph/pair_terms.hpp"
@@ -192,6 +193,7 @@ void Step::stress() const {
   const bool displaced = w.material.by_displacements();
   if (displaced) w.resets.assign(w.material.resets(s.material).begin(), w.material.resets(s.material).end());
   w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, s.density, dt, s.material, true);
+  if (stress_regularisation(p) > 0) regularise_stress(team, p, dt, w.rates, s);
   if (!displaced) return;
   const std::span<const double> resets = w.material.resets(s.material);
   for_each(team, resets.size(), [&](std::size_t i) {

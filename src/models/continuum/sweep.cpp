@@ -7,6 +7,8 @@
 
 #include "base/compiled_for.hpp"
 #include "models/continuum/material.hpp"
+#include "models/continuum/specific_stress.hpp"
+#include "models/continuum/stress_regularisation.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
 
@@ -30,6 +32,7 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
       skin_(p.integration.skin * p.bed.spacing),
       stress_form_(p.sph.stress_form),
       corrected_continuity_(p.sph.continuity == Continuity::corrected),
+      asks_stress_around_(stress_regularisation(p) > 0),
       precision_(p.integration.pair_precision),
       constants_{.mass = mass,
                  .sound_speed = sound_speed,
@@ -43,11 +46,13 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
-    sum_[static_cast<std::size_t>(terms)] = TALUS_COMPILED_FOR(set, sum_neighbours)(
-        terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_);
+    sum_[static_cast<std::size_t>(terms)] =
+        TALUS_COMPILED_FOR(set, sum_neighbours)(terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_,
+                                                asks_stress_around_ ? StressAround::asked : StressAround::unasked);
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
   if (stabilised)
-    prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared, precision_);
+    prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared, precision_,
+                                                           StressAround::unasked);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -184,6 +189,8 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       vessel_.meet(team, particles.position, particles.smoothing_length);
   }
   if (prepare_sum_) prepare_stabilisers(team, particles);
+  if (terms != SweepTerms::gradients && asks_stress_around_)
+    for (auto& component : rates.stress_around) component.resize(count);
   if (terms != SweepTerms::gradients) {
     rates.by_walls.walls = walls_;
     rates.by_walls.first = first_wall_;
@@ -224,6 +231,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     for (std::size_t n = 0; n < size; ++n) {
       const std::size_t i = first + n;
       rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
+      if (asks_stress_around_) set_tensor(rates.stress_around, i, stress_around(particles, i, sums[n]));
       rates.kernel_density[i] = sums[n].kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
       std::copy_n(sums[n].wall_acceleration, first_wall_[i + 1] - first_wall_[i],
                   rates.by_walls.value.data() + first_wall_[i]);
@@ -234,6 +242,14 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
       compute(b * together);
   });
+}
+
+/// With that of the particle itself.
+SymmetricTensor3<> Sweep::stress_around(const ParticleView& particles, std::size_t i, const PairSums& sums) const {
+  const double own = sph::cubic_spline(0.0, particles.smoothing_length[i]);
+  const double* s = sums.stress;
+  return SymmetricTensor3<>{s[0], s[1], s[2], s[3], s[4], s[5]} +
+         own * specific_stress(particles, i, stress_form_, grain_density_);
 }
 
 void Sweep::add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const {

@@ -42,6 +42,9 @@ struct Rates {
   std::vector<double> density_rate;   ///< Eq. 16, kg/(m^3 s)
   GradientColumns velocity_gradient;
   std::vector<double> kernel_density;  ///< sum of m W over particles and images, kg/m^3
+  /// Sum of W tau/rho^2 over the particle, its neighbours and images, m^2/(kg s^2): xx yy zz xy yz zx; empty unless
+  /// stresses are regularised.
+  std::array<std::vector<double>, 6> stress_around;
   WallAccelerations by_walls;
   /// By the walls of the vessel, part of the acceleration: of the particles that may meet some, and these.
   std::vector<WallForces> vessel;
@@ -106,6 +109,7 @@ class Sweep {
   Neighbours seen_from(std::span<const Vector3> position, std::size_t i, Seen& seen) const;
   void pick_seen(std::span<const Vector3> position, std::size_t i, Seen& seen, Neighbours& found) const;
   Records records() const;
+  SymmetricTensor3<> stress_around(const ParticleView& particles, std::size_t i, const PairSums& sums) const;
   /// Adds the walls of the vessel to the sums of a particle's velocity gradient and density rate.
   void add_walls_of_vessel(const ParticleView& particles, std::size_t i, PairSums& sums) const;
   /// Adds the forces of the vessel on a particle, and its share of the kernel's sum. \pre those of pairs are there
@@ -120,6 +124,7 @@ class Sweep {
   double skin_;
   sph::StressForm stress_form_;
   bool corrected_continuity_;
+  bool asks_stress_around_;
   PairPrecision precision_;
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_;  // by SweepTerms
@@ -137,13 +142,13 @@ class Sweep {
   std::vector<SingleStressRecord> single_stress_;
   std::vector<SingleStabiliserRecord> single_stabilisers_;
   std::vector<std::uint32_t> packed_ghosts_;  // that have records
-  std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other
-  std::size_t longest_ = 1;                 // list of neighbours
-  std::vector<std::uint32_t> first_group_;  // of a particle; one more than particles
-  std::vector<WallLoad> loads_;             // of every particle's neighbours
-  std::vector<std::uint32_t> first_load_;   // of a particle; one more than particles
-  std::vector<std::uint32_t> walls_;        // WallAccelerations::walls
-  std::vector<std::uint32_t> first_wall_;   // WallAccelerations::first
+  std::vector<NeighbourGroup> groups_;        // of every particle's neighbours, one particle after the other
+  std::size_t longest_ = 1;                   // list of neighbours
+  std::vector<std::uint32_t> first_group_;    // of a particle; one more than particles
+  std::vector<WallLoad> loads_;               // of every particle's neighbours
+  std::vector<std::uint32_t> first_load_;     // of a particle; one more than particles
+  std::vector<std::uint32_t> walls_;          // WallAccelerations::walls
+  std::vector<std::uint32_t> first_wall_;     // WallAccelerations::first
 };
 
 }  // namespace talus::continuum

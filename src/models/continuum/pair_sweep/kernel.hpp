@@ -115,6 +115,7 @@ struct alignas(64) PairSums {
   double velocity[9];          ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
   double density_rate;         ///< Eq. 16, kg/(m^3 s)
   double density_gradient[8];  ///< sum of w (rho_j - rho_i) d (GradientSums), where stabilisers are prepared; 3 of them
+  double stress[8];            ///< sum of W tau_j/rho_j^2, m^2/(kg s^2): xx yy zz xy yz zx, and two unused
   double acceleration[3];      ///< Eq. 17 without gravity, m/s^2
   double kernel_density;       ///< sum of m W without the particle itself, kg/m^3
   double wall_acceleration[20];  ///< that by images, along the normals of the walls that they load, these in order
@@ -130,6 +131,9 @@ enum class PairPrecision { in_double, in_single };
 /// Whether stabilisers act; before they can, the gradients that they take are measured.
 enum class Stabilisers { none, prepared, acting };
 
+/// Whether sums of forces sum the stress around a particle too.
+enum class StressAround { unasked, asked };
+
 /// Only the requested sums are written.
 using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums);
@@ -141,7 +145,8 @@ using VelocityGradients = void(const PairSums* sums, double (*gradient)[PairSums
 VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
 /// \param stabilisers prepared: of `gradients` only
-using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision);
+using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+                                          StressAround stress_around);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

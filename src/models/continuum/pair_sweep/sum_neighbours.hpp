@@ -119,7 +119,8 @@ struct PairGeometry {
   }
 };
 
-template <class Real, bool gradients, bool forces, Stabilisers stabilisers>
+template <class Real, bool gradients, bool forces, Stabilisers stabilisers,
+          StressAround stress_around = StressAround::unasked>
 void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, PairSums& sums) {
   using Number = SimdVector<Real>;
@@ -135,6 +136,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
   const PairAccelerations<Real> pairs(neighbours);
   SimdVector3<Real> acceleration{zero, zero, zero};
+  Number around[8] = {zero, zero, zero, zero, zero, zero, zero, zero};
   for (std::uint32_t first = 0; first < end; first += Number::lanes) {
     const std::uint32_t* const record = neighbours.record + first;
     const auto [d, du, volume, h, square, q, inverse_h, slope] = PairGeometry<Real>(records, own, record);
@@ -162,7 +164,10 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
     }
     if constexpr (forces) {
       const Number approach = multiply_add(du.x, d.x, multiply_add(du.y, d.y, du.z * d.z));
-      kernel_density = multiply_add(Number(constants.mass), sph::cubic_spline_of(q, inverse_h), kernel_density);
+      const Number kernel = sph::cubic_spline_of(q, inverse_h);
+      kernel_density = multiply_add(Number(constants.mass), kernel, kernel_density);
+      if constexpr (stress_around == StressAround::asked)
+        TALUS_UNROLL for (int c = 0; c < 6; ++c) around[c] = multiply_add(kernel, stress[c], around[c]);
       const Number mean_density = Number(loaded.half_density) + stress[6];
       Number viscosity;
       if constexpr (stabilisers == Stabilisers::acting) {
@@ -187,6 +192,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       acceleration = {acceleration.x + a.x, acceleration.y + a.y, acceleration.z + a.z};
     }
   }
+  if constexpr (forces && stress_around == StressAround::asked) store_sums(around, sums.stress);
   if constexpr (forces) store_forces(neighbours, pairs, acceleration, kernel_density, sums);
   if constexpr (gradients) {
     const SymmetricTensor3<Number>& m = gradient.moment;
@@ -215,22 +221,30 @@ TALUS_INLINE void velocity_gradients(const PairSums* sums, double (*gradient)[Pa
   }
 }
 
-template <class Real, Stabilisers stabilisers>
+template <class Real, Stabilisers stabilisers, StressAround stress_around>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
-  return terms == SweepTerms::all         ? sum_neighbours<Real, true, true, stabilisers>
+  return terms == SweepTerms::all         ? sum_neighbours<Real, true, true, stabilisers, stress_around>
          : terms == SweepTerms::gradients ? sum_neighbours<Real, true, false, stabilisers>
-                                          : sum_neighbours<Real, false, true, stabilisers>;
+                                          : sum_neighbours<Real, false, true, stabilisers, stress_around>;
 }
 
-template <class Real>
+template <class Real, StressAround stress_around>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers) {
-  return stabilisers == Stabilisers::none     ? choose<Real, Stabilisers::none>(terms)
-         : stabilisers == Stabilisers::acting ? choose<Real, Stabilisers::acting>(terms)
+  return stabilisers == Stabilisers::none     ? choose<Real, Stabilisers::none, stress_around>(terms)
+         : stabilisers == Stabilisers::acting ? choose<Real, Stabilisers::acting, stress_around>(terms)
                                               : sum_neighbours<Real, true, false, Stabilisers::prepared>;
 }
 
-TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision) {
-  return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers) : choose<double>(terms, stabilisers);
+template <class Real>
+TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, StressAround stress_around) {
+  return stress_around == StressAround::asked ? choose<Real, StressAround::asked>(terms, stabilisers)
+                                              : choose<Real, StressAround::unasked>(terms, stabilisers);
+}
+
+TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+                                  StressAround stress_around) {
+  return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers, stress_around)
+                                               : choose<double>(terms, stabilisers, stress_around);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET

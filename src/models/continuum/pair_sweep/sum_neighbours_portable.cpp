@@ -4,8 +4,9 @@
 
 namespace talus::continuum {
 
-SumNeighbours sum_neighbours_portable(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision) {
-  return choose(terms, stabilisers, precision);
+SumNeighbours sum_neighbours_portable(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+                                      StressAround stress_around) {
+  return choose(terms, stabilisers, precision, stress_around);
 }
 
 void velocity_gradients_portable(const PairSums* sums, double (*gradient)[PairSums::together]) {
