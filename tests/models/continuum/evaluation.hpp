@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -87,6 +88,12 @@ inline auto linear(const Tensor3<>& l) {
     return Vector3{l.xx * x.x + l.xy * x.y + l.xz * x.z, l.yx * x.x + l.yy * x.y + l.yz * x.z,
                    l.zx * x.x + l.zy * x.y + l.zz * x.z};
   };
+}
+
+/// 1 and -1 from particle to particle of a lattice.
+inline double alternating(const Vector3& x) {
+  const auto n = [](double place) { return static_cast<int>(std::floor(place / spacing)); };
+  return (n(x.x) + n(x.y) + n(x.z)) % 2 == 0 ? 1 : -1;
 }
 
 /// A lattice on the floor, at the left and the front face, which are mirrors; its other sides are free. Linear fields

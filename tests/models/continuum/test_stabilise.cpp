@@ -22,12 +22,6 @@ Parameters endless() {
   return p;
 }
 
-/// 1 and -1 from particle to particle of a lattice.
-double alternating(const Vector3& x) {
-  const auto n = [](double place) { return static_cast<int>(std::floor(place / spacing)); };
-  return (n(x.x) + n(x.y) + n(x.z)) % 2 == 0 ? 1 : -1;
-}
-
 TEST(Stabilise, DensitiesThatAreLinearStay) {
   Parameters p = free_block(6, 5, 7);
   p.sph.density_diffusion = 0.1;

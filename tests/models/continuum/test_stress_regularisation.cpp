@@ -30,12 +30,6 @@ Parameters endless() {
   return p;
 }
 
-/// 1 and -1 from particle to particle of a lattice.
-double alternating(const Vector3& x) {
-  const auto n = [](double place) { return static_cast<int>(std::floor(place / spacing)); };
-  return (n(x.x) + n(x.y) + n(x.z)) % 2 == 0 ? 1 : -1;
-}
-
 void set_shear(Rates& rates, double rate) {
   for (std::size_t c = 0; c < 9; ++c)
     for (double& component : rates.velocity_gradient.component[c]) component = c == 1 ? rate : 0;
