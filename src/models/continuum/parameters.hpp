@@ -100,7 +100,8 @@ struct Parameters {
     Method method = Method::runge_kutta;
     double courant = 0.3;
     std::optional<double> step;
-    double skin = 0.6;
+    double skin = 0.4;
+    double skin_at_rest = 0.25;
     PairPrecision pair_precision = PairPrecision::in_double;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
@@ -304,12 +305,13 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.courant", dimension::none, above(0),
                   "time step times the speed of pressure waves over the smallest smoothing length"},
         p.integration.courant);
-  visit(
-      Parameter{"integration.skin", dimension::none, between(0, 2),
-                "largest skin of the neighbour lists, in particle spacings, that of particles which would move half of "
-                "it in twenty steps; those at rest have a fiftieth: with a larger one lists are rebuilt less often but "
-                "are longer"},
-      p.integration.skin);
+  visit(Parameter{"integration.skin", dimension::none, between(0, 2),
+                  "largest skin of the neighbour lists, of particles that move half of it in 20 steps, in spacings"},
+        p.integration.skin);
+  visit(Parameter{"integration.skin_at_rest", dimension::none, between(0, 1),
+                  "share of that skin which particles at rest have: with a smaller one lists of a bed are shorter, and "
+                  "built anew as soon as it moves"},
+        p.integration.skin_at_rest);
   visit(Parameter{"integration.pair_precision",
                   {},
                   {},

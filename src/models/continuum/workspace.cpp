@@ -24,6 +24,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
+      skin_at_rest(parameters.integration.skin_at_rest),
       lasting_time(passages_that_last * parameters.bed.spacing / sound_speed),
       vessel(surface_of(parameters)),
       load_fields(continuum::load_fields(parameters, vessel)),
@@ -47,13 +48,13 @@ void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
 }
 
 void set_list_reference(State& s, const Workspace& w) {
-  constexpr double steps = 20, least_share = 0.02;  // of half of the skin
+  constexpr double steps = 20;
   const double most = 0.5 * w.sweep.skin();
   s.list_position = s.position;
   s.list_smoothing_length = w.smoothing_length;
   s.list_margin.resize(s.position.size());
   for (std::size_t i = 0; i < s.position.size(); ++i)
-    s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), least_share * most, most);
+    s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), w.skin_at_rest * most, most);
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {

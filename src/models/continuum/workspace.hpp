@@ -23,6 +23,7 @@ struct Workspace {
   Material material;
   double sound_speed;   ///< bound for the time step, m/s
   double loading_time;  ///< over which gravity is raised, s
+  double skin_at_rest;  ///< share of the skin
   double lasting_time;  ///< a shear that turns back sooner draws no density, s
   Surface vessel;       ///< empty without one
   std::vector<InletLayer> inlets;
