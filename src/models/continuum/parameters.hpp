@@ -231,14 +231,13 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "speed of sound in the linear part of that viscosity: the law's largest, or the local one, which is "
                   "none where grains bear no pressure"},
         p.sph.viscosity_speed);
-  const bool keeps_deviator = granular::with_chosen_law(
-      p.law, []<class Law>(const auto&) { return std::is_same_v<Law, granular::CriticalState>; });
-  auto of_kept_deviator =
-      only_if({"law.name", "is " + value_text(p.law.name), "critical-state", keeps_deviator}, visit);
-  of_kept_deviator(Parameter{"sph.stress_regularisation", dimension::none, at_least(0),
-                             "share of the neighbours' mean in what the strain of a step makes anew of the deviatoric "
-                             "stress: what differs from particle to particle without a cause decays; 0: none"},
-                   p.sph.stress_regularisation);
+  auto of_critical_state = only_if(
+      {"law.name", "is " + value_text(p.law.name), "critical-state", p.law.template is<granular::CriticalState>()},
+      visit);
+  of_critical_state(Parameter{"sph.stress_regularisation", dimension::none, at_least(0),
+                              "how strongly shear draws the deviatoric stress to that of the neighbours; 1: by as much "
+                              "as the shear of a step makes anew of it; 0: not at all"},
+                    p.sph.stress_regularisation);
   visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
                   "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
                   "particle to particle; 0.1 in delta-SPH; 0: none"},

@@ -189,9 +189,9 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       vessel_.meet(team, particles.position, particles.smoothing_length);
   }
   if (prepare_sum_) prepare_stabilisers(team, particles);
-  if (terms != SweepTerms::gradients && asks_stress_around_)
-    for (auto& component : rates.stress_around) component.resize(count);
   if (terms != SweepTerms::gradients) {
+    if (asks_stress_around_)
+      for (auto& component : rates.stress_around) component.resize(count);
     rates.by_walls.walls = walls_;
     rates.by_walls.first = first_wall_;
     rates.by_walls.value.resize(first_wall_.back());

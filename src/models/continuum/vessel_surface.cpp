@@ -26,7 +26,7 @@ Surface VesselSurface::of(const Parameters& p) {
   if (parts == parts_) return surface_;
   std::vector<Triangle> all;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    const std::vector<Triangle> own = triangles_of(p, n);
+    const std::vector<Triangle> own = parts[n].drawn ? triangles_of(p, n) : parts[n].triangles;
     all.insert(all.end(), own.begin(), own.end());
   }
   surface_ = Surface(std::move(all), p.vessel.size());

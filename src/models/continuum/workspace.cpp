@@ -24,7 +24,6 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
-      skin_at_rest(parameters.integration.skin_at_rest),
       lasting_time(passages_that_last * parameters.bed.spacing / sound_speed),
       vessel(surface_of(parameters)),
       load_fields(continuum::load_fields(parameters, vessel)),
@@ -47,14 +46,14 @@ void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
            [&](std::size_t i) { w.smoothing_length[i] = w.sweep.smoothing_length(s.density[i]); });
 }
 
-void set_list_reference(State& s, const Workspace& w) {
+void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
   constexpr double steps = 20;
   const double most = 0.5 * w.sweep.skin();
   s.list_position = s.position;
   s.list_smoothing_length = w.smoothing_length;
   s.list_margin.resize(s.position.size());
   for (std::size_t i = 0; i < s.position.size(); ++i)
-    s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), w.skin_at_rest * most, most);
+    s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), p.integration.skin_at_rest * most, most);
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
@@ -68,7 +67,7 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
     if (!s.reset_position.empty()) s.reset_position[i] += wrapped - s.position[i];
     s.position[i] = wrapped;
   }
-  set_list_reference(s, w);
+  set_list_reference(p, s, w);
   ++s.list_builds;
   w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
 }

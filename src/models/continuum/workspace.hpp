@@ -23,7 +23,6 @@ struct Workspace {
   Material material;
   double sound_speed;   ///< bound for the time step, m/s
   double loading_time;  ///< over which gravity is raised, s
-  double skin_at_rest;  ///< share of the skin
   double lasting_time;  ///< a shear that turns back sooner draws no density, s
   Surface vessel;       ///< empty without one
   std::vector<InletLayer> inlets;
@@ -55,7 +54,7 @@ void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& w
 
 /// Notes where neighbour lists are built, and how far each particle may move before the next ones: those that are fast
 /// farther than those at rest, so that lists of a bed are short and those of a stream hold for some steps.
-void set_list_reference(State& state, const Workspace& workspace);
+void set_list_reference(const Parameters& parameters, State& state, const Workspace& workspace);
 
 /// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

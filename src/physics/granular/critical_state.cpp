@@ -21,6 +21,10 @@ std::vector<Problem> CriticalState::check(const Parameters& p) {
     problems.push_back({.key = "fast_friction",
                         .what = "fast flow would have less friction than slow flow, and would run away",
                         .allowed = "at least friction"});
+  if (p.fabric_friction > p.friction)
+    problems.push_back({.key = "fabric_friction",
+                        .what = "grains whose shear turns back would push on by themselves",
+                        .allowed = "at most friction"});
   for (const auto& [key, packing] :
        {std::pair{"critical_packing", p.critical_packing}, std::pair{"reference_packing", p.reference_packing}})
     if (packing < p.loosest_packing)

@@ -318,6 +318,9 @@ TEST(CriticalState, NamesContradictions) {
   EXPECT_TRUE(CriticalState::check({}).empty());
   ASSERT_EQ(CriticalState::check({.friction = 0.5, .fast_friction = 0.4}).size(), 1u);
   EXPECT_EQ(CriticalState::check({.friction = 0.5, .fast_friction = 0.4})[0].key, "fast_friction");
+  ASSERT_EQ(CriticalState::check({.friction = 0.3, .fabric_friction = 0.31}).size(), 1u);
+  EXPECT_EQ(CriticalState::check({.friction = 0.3, .fabric_friction = 0.31})[0].key, "fabric_friction");
+  EXPECT_TRUE(CriticalState::check({.friction = 0.3, .fabric_friction = 0.3}).empty());
   EXPECT_EQ(CriticalState::check({.reference_packing = 0.45})[0].key, "reference_packing");
   EXPECT_EQ(CriticalState::check({.loosening = 1.7})[0].key, "loosening");
 }
