@@ -76,6 +76,7 @@ std::uint32_t SurfaceFields::at(std::uint32_t part, const Vector3& place) const 
 
 FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double edge) {
   FieldMesh mesh;
+  std::vector<Triangle> triangles;
   for (std::uint32_t t = 0; t < surface.triangles().size(); ++t) {
     std::vector<Triangle> left{surface.triangles()[t]};
     while (!left.empty()) {
@@ -87,7 +88,7 @@ FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double ed
         if (const double l = norm(whole.corner[(c + 1) % 3] - whole.corner[c]); l > length) length = l, longest = c;
       if (length <= edge) {
         mesh.field.push_back(fields.at(surface.part(t), whole.middle()));
-        mesh.triangles.push_back(whole);
+        triangles.push_back(whole);
         continue;
       }
       const Vector3 &a = whole.corner[longest], &b = whole.corner[(longest + 1) % 3],
@@ -96,7 +97,7 @@ FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double ed
       left.push_back({{middle, b, c}, whole.patch});
     }
   }
-  const TriangleEdges edges(mesh.triangles);
+  const TriangleEdges edges(triangles);
   mesh.points.assign(edges.places().begin(), edges.places().end());
   for (const auto& [a, b, c] : edges.corners()) mesh.corners.push_back({a, b, c});
   return mesh;

@@ -51,10 +51,9 @@ class SurfaceFields {
 /// The triangles of a surface, cut until no edge is longer than a length, each with the field in whose part and nearest
 /// to whose middle it is: what is drawn of the fields.
 struct FieldMesh {
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> field;                  ///< of each triangle
-  std::vector<Vector3> points;                       ///< the corners of all of them, each once
+  std::vector<Vector3> points;                       ///< the corners of all triangles, each once
   std::vector<std::array<std::int64_t, 3>> corners;  ///< of each triangle, numbers of points
+  std::vector<std::uint32_t> field;                  ///< of each triangle
 };
 /// \param edge > 0, m
 FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double edge);

@@ -10,11 +10,18 @@
 namespace talus::app {
 namespace {
 
-TEST(ReadRuns, AFolderIsReadOnceHoweverItIsWritten) {
+/// Two folders.
+class ReadRunsTest : public testing::Test {
+ protected:
+  ReadRunsTest() {
+    std::filesystem::create_directories(folder);
+    std::filesystem::create_directories(other);
+  }
   const ScratchFolder scratch;
   const std::filesystem::path folder = scratch.path() / "r", other = scratch.path() / "s";
-  std::filesystem::create_directories(folder);
-  std::filesystem::create_directories(other);
+};
+
+TEST_F(ReadRunsTest, AFolderIsReadOnceHoweverItIsWritten) {
   ReadRuns runs;
   int times = 0;
   const auto read = [&] { return "run " + std::to_string(++times); };
@@ -28,11 +35,7 @@ TEST(ReadRuns, AFolderIsReadOnceHoweverItIsWritten) {
   EXPECT_EQ(later.of<std::string>(folder, read), "run 4");
 }
 
-TEST(ReadRuns, TheCaseOfARunIsReadOnceOrHandedOver) {
-  const ScratchFolder scratch;
-  const std::filesystem::path folder = scratch.path() / "r", other = scratch.path() / "s";
-  std::filesystem::create_directories(folder);
-  std::filesystem::create_directories(other);
+TEST_F(ReadRunsTest, TheCaseOfARunIsReadOnceOrHandedOver) {
   ReadRuns runs;
   int times = 0;
   const auto read = [&] { return "case " + std::to_string(++times); };
