@@ -210,14 +210,25 @@ double repose(const HopperRun& run, const Window& window, bool nearer) {
   return bin_is_nearer == nearer ? bin : hopper;
 }
 
-std::optional<double> ratio_at_largest(Pair runs, const Window& window) {
-  const LargestMean first = largest_discharge(runs[0].front(), window);
-  return first.value /
-         mean_rate(passed_mass(runs[1].front()), first.time - 0.5 * largest_mean, first.time + 0.5 * largest_mean);
+namespace {
+
+/// Mean over the members, of which the kth of one group stands beside the kth of the other, the fewer again from the
+/// first on.
+template <class Number>
+std::optional<double> mean_over_members(Pair runs, Number&& of) {
+  const std::size_t count = std::max(runs[0].size(), runs[1].size());
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) sum += of(runs[0][k % runs[0].size()], runs[1][k % runs[1].size()]);
+  return sum / static_cast<double>(count);
 }
 
-std::optional<double> share_of_larger(Pair runs, const Window& window) {
-  const HopperRun &first = runs[0].front(), &second = runs[1].front();
+double ratio_of_rates(const HopperRun& first, const HopperRun& second, const Window& window) {
+  const LargestMean largest = largest_discharge(first, window);
+  const double from = largest.time - 0.5 * largest_mean, to = largest.time + 0.5 * largest_mean;
+  return largest.value / mean_rate(passed_mass(second), from, to);
+}
+
+double share_in_which_larger(const HopperRun& first, const HopperRun& second, const Window& window) {
   const double to = std::min({window.to, first.end(), second.end()});
   const Curve a = mean_rates(passed_mass(first), largest_mean, largest_every, window.from, to);
   const Curve b = mean_rates(passed_mass(second), largest_mean, largest_every, window.from, to);
@@ -227,8 +238,7 @@ std::optional<double> share_of_larger(Pair runs, const Window& window) {
   return larger / static_cast<double>(a.value.size());
 }
 
-std::optional<double> largest_share_difference(Pair runs, const Window& window) {
-  const HopperRun &first = runs[0].front(), &second = runs[1].front();
+double largest_difference_of_shares(const HopperRun& first, const HopperRun& second, const Window& window) {
   const Curve a = discharged_share(first), b = discharged_share(second);
   const double to = std::min({window.to, first.end(), second.end()});
   double largest = none;
@@ -237,6 +247,21 @@ std::optional<double> largest_share_difference(Pair runs, const Window& window) 
     if (t > to) return largest;
     if (covers(a, t, t) && covers(b, t, t)) largest = std::fmax(largest, std::abs(value_at(a, t) - value_at(b, t)));
   }
+}
+
+}  // namespace
+
+std::optional<double> ratio_at_largest(Pair runs, const Window& window) {
+  return mean_over_members(runs, [&](const auto& a, const auto& b) { return ratio_of_rates(a, b, window); });
+}
+
+std::optional<double> share_of_larger(Pair runs, const Window& window) {
+  return mean_over_members(runs, [&](const auto& a, const auto& b) { return share_in_which_larger(a, b, window); });
+}
+
+std::optional<double> largest_share_difference(Pair runs, const Window& window) {
+  return mean_over_members(runs,
+                           [&](const auto& a, const auto& b) { return largest_difference_of_shares(a, b, window); });
 }
 
 }  // namespace talus::hopper

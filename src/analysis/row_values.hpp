@@ -78,10 +78,14 @@ class RowValues {
         break;
     }
     if (row_.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
+    return of_each(members, row_.statistic);
+  }
+
+  double of_each(const std::vector<Run>& members, Statistic statistic) const {
     std::vector<double> numbers;
     for (const Run& member : members) numbers.push_back(of_run(member));
     if (measure_->may_be_missing) numbers = finite_values(std::move(numbers));
-    return numbers.empty() ? std::nan("") : evaluate(row_.statistic, numbers);
+    return numbers.empty() ? std::nan("") : evaluate(statistic, numbers);
   }
 
   std::optional<double> of_variants() const {
@@ -89,7 +93,7 @@ class RowValues {
       return std::nullopt;
     if (row_.statistic == Statistic::ratio || row_.statistic == Statistic::difference) {
       std::vector<double> numbers;
-      for (const auto* members : groups_) numbers.push_back(of_run(members->front()));
+      for (const auto* members : groups_) numbers.push_back(of_each(*members, Statistic::mean));
       return evaluate(row_.statistic, numbers);
     }
     std::vector<std::vector<Run>> groups;

@@ -316,8 +316,8 @@ TEST(Hopper, APeriodIsTakenAsLongAsThereAreGrains) {
   EXPECT_TRUE(std::isnan(measure("period_density", run, window)));
 }
 
-TEST(Hopper, RowsOfTwoRuns) {
-  const HopperRun slow = run_of_a_steady_flow();
+/// A run with one and a half times the discharge, and a bin that is steeper by 5 degrees.
+HopperRun faster(const HopperRun& slow) {
   HopperRun fast = slow;
   for (const std::size_t column : {2, 3})
     for (double& value : fast.series.columns[column]) value *= 1.5;
@@ -325,7 +325,12 @@ TEST(Hopper, RowsOfTwoRuns) {
                       return number_by_hand(n, number, place) +
                              (number == hopper::surface_angle_in<hopper::Where::bin> ? 5 : 0);
                     }};
-  const std::vector<HopperRun> first = {fast}, second = {slow};
+  return fast;
+}
+
+TEST(Hopper, RowsOfTwoRuns) {
+  const HopperRun slow = run_of_a_steady_flow();
+  const std::vector<HopperRun> first = {faster(slow)}, second = {slow};
   const MeasuresOfModel<HopperRun> measures{hopper_measures(), hopper_pair_measures(), {}};
   const auto of = [&](std::string quantity, Statistic statistic = Statistic::mean,
                       Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
@@ -344,6 +349,25 @@ TEST(Hopper, RowsOfTwoRuns) {
       << "the ripple ends two thirds through a period";
   EXPECT_EQ(of("surface_angle_bin", Statistic::difference, {.at = 1.5}), std::nullopt) << "after the end";
   EXPECT_THROW(of("discharge_rate_max"), std::out_of_range) << "a number of one run";
+}
+
+TEST(Hopper, RowsOfTwoVariantsAreMeansOverTheirMembers) {
+  const HopperRun slow = run_of_a_steady_flow();
+  const std::vector<HopperRun> first = {faster(slow), slow}, second = {slow};
+  const MeasuresOfModel<HopperRun> measures{hopper_measures(), hopper_pair_measures(), {}};
+  const auto of = [&](std::string quantity, Statistic statistic, Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
+    const ComparisonRow row{
+        .quantity = std::move(quantity), .from = From::variants, .statistic = statistic, .window = window};
+    return *RowValues<HopperRun>(row, {&first, &second}, measures).values().at(0);
+  };
+  EXPECT_NEAR(of("discharge_rate_max", Statistic::ratio), 1.25, 1e-9);
+  EXPECT_NEAR(of("surface_angle_bin", Statistic::difference, {.at = 0.5}), 2.5, 1e-12);
+  EXPECT_NEAR(of("discharge_rate_ratio_at_max", Statistic::mean), 1.25, 1e-9);
+  EXPECT_EQ(of("discharge_rate_share_larger", Statistic::mean), 0.5);
+  EXPECT_NEAR(
+      of("discharge_resolution_difference", Statistic::mean, {}),
+      0.5 * 0.5 * (0.2 * 0.28 + 1.5 * 0.02 * 0.006 / (2 * pi) + 0.05 * 3e-3 * std::sqrt(pi)) / slow.setting.mass(),
+      1e-6);
 }
 
 std::vector<std::string> names_in_summary(const HopperRun& run) {

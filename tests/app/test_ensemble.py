@@ -6,7 +6,7 @@ import shutil
 import signal
 import unittest
 
-from program import ProgramTest, bits, rows, state, tree
+from program import PROJECT, ProgramTest, bits, rows, state, tree
 
 VARIED = ("--members", 3, "--vary", "slope.angle=30 deg,50 deg")
 # A member takes a few tenths of a second.
@@ -49,6 +49,17 @@ class Ensemble(ProgramTest):
         self.assertAlmostEqual(float(row["standard_deviation"]),
                                (sum((value - mean) ** 2 for value in values) / 2) ** 0.5, delta=1e-9 * mean)
         self.assertEqual((float(row["least"]), float(row["largest"])), (min(values), max(values)))
+
+    def test_members_of_a_bed_differ_by_its_disorder(self):
+        few = ("--set", "gate.opens=from-the-start", "--set", "run.end=1 ms")
+        case = PROJECT / "cases/yuu2011-section-vacuum.toml"
+        self.talus("ensemble", case, "--out", "e", "--members", 3, *few, "--set", "bed.disorder=1e-6")
+        members = self.members("e")
+        self.assertEqual(len({bits(path)["series.csv"] for path in members}), 3)
+        self.talus("run", case, "--out", "alone", *few, "--set", "bed.disorder=1e-6", "--set", "seed=2")
+        self.assertEqual(bits(self.folder / "alone"), bits(members[1]))
+        self.talus("ensemble", case, "--out", "lattice", "--members", 3, *few)
+        self.assertEqual(self.members("lattice"), [], "nothing is random: one run, in the folder itself")
 
     def test_a_sweep_is_a_table_of_values_against_quantities(self):
         said = self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, "--vary",

@@ -178,6 +178,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   const Parameters p = read.model;
   PreparedCase prepared = prepared_case("continuum", read);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
+  prepared.seed = p.seed;
   prepared.inputs = digest_of_files(p);
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);

@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/initial.hpp"
 
+#include "base/random.hpp"
 #include "models/continuum/atmosphere.hpp"
 #include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
 
 namespace talus::continuum {
 
+namespace {
+
+/// Uniformly within bed.disorder spacings along each axis.
+void displace(const Parameters& parameters, std::vector<Vector3>& positions) {
+  const double most = parameters.bed.disorder * parameters.bed.spacing;
+  if (!(most > 0)) return;
+  Random random(static_cast<std::uint64_t>(parameters.seed));
+  for (Vector3& x : positions)
+    for (int axis = 0; axis < 3; ++axis) x[axis] += random.uniform(-most, most);
+}
+
+}  // namespace
+
 State initial_state(const Parameters& parameters, const Material& material) {
   State state;
   state.mass = lattice_of(parameters).mass;
   state.position = bed_positions(parameters);
+  displace(parameters, state.position);
   const std::size_t count = state.position.size();
   const std::array<double, 3> velocity = parameters.bed.velocity.value_or(std::array<double, 3>{});
   state.velocity.assign(count, Vector3{velocity[0], velocity[1], velocity[2]});

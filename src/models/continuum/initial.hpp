@@ -9,7 +9,8 @@
 namespace talus::continuum {
 
 /// Fills the bed of the case with the lattice of lattice_of(). Source: Yuu & Umekage 2011, section 3 ("The initial
-/// imaginary particle configuration is regular and uniform").
+/// imaginary particle configuration is regular and uniform"); bed.disorder then moves each particle by so much, at
+/// random by the case's seed.
 State initial_state(const Parameters& parameters, const Material& material);
 
 }  // namespace talus::continuum

@@ -3,7 +3,7 @@
 /// with a plate across it (Yuu & Umekage 2011). SI, angles in radians; the initial values are the defaults.
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +14,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/air/parameters.hpp"
+#include "models/continuum/bed.hpp"
 #include "models/continuum/choices.hpp"
 #include "models/continuum/inlets.hpp"
 #include "models/continuum/inner_walls.hpp"
@@ -51,15 +52,8 @@ struct Parameters {
     double diameter = 200e-6;
     MaterialRange range;  ///< of the material. Not a key: who reads the case fills it in
   } grains;
-  struct Bed {
-    double packing = 0.6;
-    double spacing = 0;
-    std::optional<double> mass;
-    double height = 0;  ///< m; with a mass that which holds it (with_level, filling.hpp)
-    std::optional<double> bottom;
-    std::optional<double> left, right;
-    std::optional<std::array<double, 3>> velocity;
-  } bed;
+  BedParameters bed;
+  std::int64_t seed = 1;
   granular::LawParameters law;
   granular::CollisionParameters collisions;
   struct Sph {
@@ -158,33 +152,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
 
-  visit(Parameter{"bed.packing", dimension::none, between(1e-4, 0.74), "packing fraction at the start"}, p.bed.packing);
-  visit(
-      Parameter{"bed.spacing", dimension::length, above(0),
-                "distance of the particles at the start; adjusted to whole numbers of particles along each side", true},
-      p.bed.spacing);
-  visit(
-      Parameter{
-          "bed.mass",
-          {0, 1, 0, 0},
-          above(0),
-          "mass of the bed, to the nearest particle, in place of bed.height: the bed fills its region from below"},
-      p.bed.mass);
-  auto filled = only_if({"bed.mass", "is given", "left out", !p.bed.mass}, visit);
-  filled(Parameter{"bed.height", dimension::length, above(0),
-                   "height of the bed at the start, where there is no bed.mass; the bed fills the region that is "
-                   "connected with the middle of its top, with no plate or wall between",
-                   true},
-         p.bed.height);
-  visit(Parameter{"bed.bottom", dimension::length, at_least(0),
-                  "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
-        p.bed.bottom);
-  visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
-        p.bed.left);
-  visit(Parameter{"bed.right", dimension::length, above(0), "end of the bed along x; left out: the right face"},
-        p.bed.right);
-  visit(Parameter{"bed.velocity", dimension::velocity, {}, "initial velocity of the bed; left out: at rest"},
-        p.bed.velocity);
+  for_each_parameter_of_bed(visit, p.bed, p.seed);
 
   granular::for_each_parameter(visit, p.law);
   granular::for_each_parameter(visit, p.collisions);
