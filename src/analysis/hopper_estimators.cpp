@@ -215,7 +215,7 @@ namespace {
 /// Mean over the members, of which the kth of one group stands beside the kth of the other, the fewer again from the
 /// first on.
 template <class Number>
-std::optional<double> mean_over_members(Pair runs, Number&& of) {
+double mean_over_members(Pair runs, const Number& of) {
   const std::size_t count = std::max(runs[0].size(), runs[1].size());
   double sum = 0;
   for (std::size_t k = 0; k < count; ++k) sum += of(runs[0][k % runs[0].size()], runs[1][k % runs[1].size()]);
