@@ -2,7 +2,8 @@
 /// What walls of a vessel cost: a step in a cone under a cylinder beside one of as many particles in a box of mirrors,
 /// a rebuild of the neighbour lists of both, and the same vessel in 10^5 triangles beside itself. The beds bear their
 /// weight; a step is one without a rebuild. Both sides of a ratio are measured in turn; the least times are compared.
-/// Argument: particles, about so many.
+/// Arguments: particles, about so many; by how many hundredths of a spacing they are moved at most, at random, from the
+/// lattice on which they are laid. On it all lists of a box are equally long, which no bed that has moved has.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -23,9 +24,10 @@ namespace {
 constexpr double spacing = 2.5e-3;
 
 /// As cases/silo-cone.toml.
-Parameters grains() {
+Parameters grains(double disorder) {
   Parameters p;
   p.bed.spacing = spacing;
+  p.bed.disorder = disorder;
   p.gate = {.opens = GateOpens::at_time, .time = 1e3};
   p.grains.density = 2500;
   p.law = granular::CriticalState::Parameters{.bulk_modulus = 0.30625e6, .shear_modulus = 0.18375e6};
@@ -39,8 +41,8 @@ Parameters grains() {
 }
 
 /// Twice as high as wide.
-Parameters box(double particles) {
-  Parameters p = grains();
+Parameters box(double particles, double disorder) {
+  Parameters p = grains(disorder);
   const double side = std::round(std::cbrt(0.5 * particles)), height = std::round(particles / (side * side));
   p.box.width = p.box.depth = side * spacing;
   p.box.height = (height + 10) * spacing;
@@ -50,8 +52,8 @@ Parameters box(double particles) {
 }
 
 /// A cylinder as high as wide on a cone of 30 degrees.
-Parameters silo(double particles) {
-  Parameters p = grains();
+Parameters silo(double particles, double disorder) {
+  Parameters p = grains(disorder);
   // Of the radius R: the cylinder 2 pi R^3, the cone without its tip 0.52 pi R^3.
   const double radius = std::cbrt(particles / (2.52 * std::numbers::pi)) * spacing;
   const double outlet = 0.46 * radius, cone = (radius - outlet) * std::numbers::sqrt3, bottom = 4 * spacing;
@@ -168,17 +170,20 @@ void compare(benchmark::State& run, const Parameters& first, const Parameters& s
   number("lists_ratio", beds[1].least_lists / beds[0].least_lists);
 }
 
+double disorder_of(const benchmark::State& run) {
+  return 0.01 * static_cast<double>(run.range(1));
+}
 void vessel_over_box(benchmark::State& run) {
   const auto particles = static_cast<double>(run.range(0));
-  compare(run, box(particles), silo(particles));
+  compare(run, box(particles, disorder_of(run)), silo(particles, disorder_of(run)));
 }
 void triangulated_over_primitive(benchmark::State& run) {
-  const Parameters p = silo(static_cast<double>(run.range(0)));
+  const Parameters p = silo(static_cast<double>(run.range(0)), disorder_of(run));
   compare(run, p, triangulated(p, 100'000));
 }
 
 void sizes(benchmark::internal::Benchmark* stage) {
-  stage->Arg(10'000)->Arg(100'000)->Unit(benchmark::kMillisecond);
+  stage->ArgNames({"particles", "disorder"})->ArgsProduct({{10'000, 100'000}, {0, 10}})->Unit(benchmark::kMillisecond);
 }
 BENCHMARK(vessel_over_box)->Apply(sizes);
 BENCHMARK(triangulated_over_primitive)->Apply(sizes);

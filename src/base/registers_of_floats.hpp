@@ -105,6 +105,26 @@ TALUS_INLINE FloatRegister sums(const FloatRegister (&x)[floats]) {
 #undef TALUS_QUADS
 }
 
+/// The same of eight registers of sixteen floats, in half of one.
+template <class Register>
+TALUS_INLINE FloatHalf sums_of_eight(const Register (&x)[8]) {
+  static_assert(sizeof(Register) == 16 * sizeof(float));
+  Register halves[4];  // of x[m] and x[4 + m]: the sums of their first and third, second and fourth quads
+  TALUS_UNROLL for (int m = 0; m < 4; ++m) {
+    halves[m] = __builtin_shufflevector(x[m], x[4 + m], 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23) +
+                __builtin_shufflevector(x[m], x[4 + m], 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
+  }
+  const auto quads = [](Register a, Register b) {
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27) +
+           __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31);
+  };
+  const Register even = quads(halves[0], halves[2]), odd = quads(halves[1], halves[3]);  // of 0 4 2 6, of 1 5 3 7
+  const Register two = __builtin_shufflevector(even, odd, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29) +
+                       __builtin_shufflevector(even, odd, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+  return __builtin_shufflevector(two, two, 0, 1, 8, 9, 4, 5, 12, 13) +
+         __builtin_shufflevector(two, two, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
 /// The same of four registers, in narrower ones.
 TALUS_INLINE FloatQuad sums_of_four(const FloatRegister (&x)[4]) {
   FloatQuad quad[4];
@@ -132,17 +152,52 @@ TALUS_INLINE FloatRegister differences_of_bits(FloatRegister a, std::uint32_t b)
   return __builtin_convertvector((Whole)((Bits)a - b), FloatRegister);
 }
 
+// __builtin_convertvector of gcc 12 goes by way of memory, two lanes at a time.
+#if defined(__AVX512F__)
+TALUS_INLINE __m512d as_doubles(FloatHalf x) {
+  return _mm512_maskz_cvtps_pd(0xff, x);
+}
+TALUS_INLINE __m256d as_doubles(FloatQuad x) {
+  return _mm256_cvtps_pd(x);
+}
+TALUS_INLINE FloatHalf lower_half(FloatRegister x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+TALUS_INLINE FloatHalf upper_half(FloatRegister x) {
+  return __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+#elif defined(__AVX2__)
+TALUS_INLINE __m256d as_doubles(FloatHalf x) {
+  return _mm256_cvtps_pd(x);
+}
+TALUS_INLINE FloatHalf lower_half(FloatRegister x) {
+  return __builtin_shufflevector(x, x, 0, 1, 2, 3);
+}
+TALUS_INLINE FloatHalf upper_half(FloatRegister x) {
+  return __builtin_shufflevector(x, x, 4, 5, 6, 7);
+}
+#else
+typedef double DoublePair __attribute__((vector_size(16)));
+TALUS_INLINE DoublePair as_doubles(FloatHalf x) {
+  return __builtin_convertvector(x, DoublePair);
+}
+TALUS_INLINE FloatHalf lower_half(FloatRegister x) {
+  return __builtin_shufflevector(x, x, 0, 1);
+}
+TALUS_INLINE FloatHalf upper_half(FloatRegister x) {
+  return __builtin_shufflevector(x, x, 2, 3);
+}
+#endif
+
 /// Writes floats as doubles.
 template <class Floats>
 TALUS_INLINE void store_as_doubles(Floats x, double* values) {
-  constexpr int count = sizeof(x) / sizeof(float), lanes = count < bytes / 8 ? count : bytes / 8;
-  typedef float Part __attribute__((vector_size(lanes * 4)));
-  typedef double Doubles __attribute__((vector_size(lanes * 8)));
-  Part part[count / lanes];
-  __builtin_memcpy(part, &x, sizeof(x));
-  TALUS_UNROLL for (int k = 0; k < count / lanes; ++k) {
-    const Doubles wide = __builtin_convertvector(part[k], Doubles);
-    __builtin_memcpy(values + k * lanes, &wide, sizeof(wide));
+  if constexpr (std::is_same_v<Floats, FloatRegister>) {
+    store_as_doubles(lower_half(x), values);
+    store_as_doubles(upper_half(x), values + floats / 2);
+  } else {
+    const auto wide = as_doubles(x);
+    __builtin_memcpy(values, &wide, sizeof(wide));
   }
 }
 

@@ -32,12 +32,9 @@ inline void sum_points(const WallPoints& points, const std::uint32_t* place, dou
   const Number scale = points.quantum * per_h, per_square = per_h * per_h;
   sph::WallSums<Number> sums;  // of lengths in smoothing lengths
   for (std::uint32_t first = 0; first < points.count; first += Number::lanes) {
+    const std::uint32_t* const number = points.number + first;
     Number column[8];
-    load_columns(
-        [&](int lane) {
-          return reinterpret_cast<const float*>(points.all + points.number[first + static_cast<std::uint32_t>(lane)]);
-        },
-        column);
+    load_columns([&](int lane) { return reinterpret_cast<const float*>(points.all + number[lane]); }, column);
     const auto along = [&](int axis) {
       Number quanta;
       quanta.row[0] = registers::differences_of_bits(column[axis].row[0], place[axis]);
@@ -72,11 +69,10 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
   const Number zero = 0.0;
   WallVector sum{zero, zero, zero};
   for (std::uint32_t first = 0; first < others.count; first += Number::lanes) {
+    const std::uint32_t *const record = others.record + first, *const sits = others.seat + first;
     Number motion[8], stress[8], seat[8];
-    load_columns(
-        [&](int lane) { return records.motion[others.record[first + static_cast<std::uint32_t>(lane)]].position; },
-        motion);
-    load_columns([&](int lane) { return seats[others.seat[first + static_cast<std::uint32_t>(lane)]].normal; }, seat);
+    load_columns([&](int lane) { return records.motion[record[lane]].position; }, motion);
+    load_columns([&](int lane) { return seats[sits[lane]].normal; }, seat);
     const WallVector both{seat[0] + Number(own.normal[0]), seat[1] + Number(own.normal[1]),
                           seat[2] + Number(own.normal[2])};
     const WallVector d{motion[0] - Number(place.position[0]), motion[1] - Number(place.position[1]),
@@ -87,11 +83,7 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
     const Number square = inner(d, d) + 4.0 * own.distance * seat[3] + 1e-30;
     const auto acts = square < 4.0 * h * h && size > Number(least_sum) && seat[4] > zero;
     if (lane_bits(acts) == 0) continue;
-    load_columns(
-        [&](int lane) {
-          return records.stress[others.record[first + static_cast<std::uint32_t>(lane)]].specific_stress;
-        },
-        stress);
+    load_columns([&](int lane) { return records.stress[record[lane]].specific_stress; }, stress);
     const Number turned = reciprocal_sqrt(size + 1e-30);
     const WallVector n{turned * both.x, turned * both.y, turned * both.z};
     const Number inverse_h = 1.0 / h, inverse_distance = reciprocal_sqrt(square);
