@@ -43,6 +43,7 @@ void apply_vessel_friction(ThreadTeam& team, const Parameters& p, const SurfaceF
       const double push = state.mass * duration * dot(wall.acceleration, wall.normal);
       received[wall.patch] -= (state.mass * duration) * wall.acceleration;
       std::vector<LoadOfField>& of_chunk = noted[place / chunk_size];
+      if (of_chunk.empty()) of_chunk.reserve(2 * chunk_size);
       of_chunk.push_back({wall.field, push, -push * wall.normal});
       const double coefficient = p.vessel[wall.patch].friction.value_or(p.walls.coefficient);
       if (!rough) continue;

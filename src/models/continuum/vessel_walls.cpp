@@ -112,8 +112,9 @@ Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& record
                                      const std::span<const std::uint32_t>* seen, double mass) const {
   const std::uint32_t first = first_pair_[wall.stand], size = first_pair_[wall.stand + 1] - first;
   WallPairs pairs{pair_record_.data() + first, pair_seat_.data() + first, size};
-  thread_local std::vector<std::uint32_t> record, seat;
   if (seen) {
+    thread_local std::vector<std::uint32_t> of_thread[2];
+    auto& [record, seat] = of_thread;
     record.clear(), seat.clear();
     for (std::uint32_t n = 0; n < size; ++n)
       if (std::binary_search(seen->begin(), seen->end(), pairs.record[n]))
