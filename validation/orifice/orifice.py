@@ -36,12 +36,12 @@ def cases(options):
                 "title": f"Discharge through a round hole of {outlet:g} mm"})
 
 
-def rates(folder):
-    """Means of the discharge of the whole vessel over 20 ms within the window, kg/s, and their middles, s."""
+def rates(folder, window):
+    """Means of the discharge of the whole vessel over 20 ms within a window, kg/s, and their middles, s."""
     run = talus.Run(folder)
     time, rate = run.series["time"] - run.gate_time, run.series["discharge_rate"]
     passed = np.concatenate([[0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(time))])
-    begin, end = REFERENCE["window"]
+    begin, end = window
     edges = np.linspace(begin, end, round((end - begin) / MEAN) + 1)
     if time[-1] < end:
         sys.exit(f"{folder}: ends at {time[-1]:.3f} s, before the window does")
@@ -62,15 +62,15 @@ def lost(discharge, diameter):
     return -intercept / slope
 
 
-def measure(options):
-    """The rows by name; by set ("coarse", "fine", "extrapolated") D, Q, its uncertainty, C."""
+def by_set(out, window):
+    """By set ("coarse", "fine", "extrapolated") D, Q, its uncertainty, C."""
     found = {}
     for name in SETS:
         chosen = REFERENCE[name]
         diameter = 1e-3 * np.array(chosen["outlets"], dtype=float)
-        means = [rates(folder_of(options.out, outlet, chosen["spacing"])) for outlet in chosen["outlets"]]
+        means = [rates(folder_of(out, outlet, chosen["spacing"]), window) for outlet in chosen["outlets"]]
         discharge = np.array([m.mean() for m, _ in means])
-        length = REFERENCE["window"][1] - REFERENCE["window"][0]
+        length = window[1] - window[0]
         found[name] = {"D": diameter, "Q": discharge, "C": constants(discharge, diameter),
                        "error": np.array([2 * m.std(ddof=1) / np.sqrt(len(m)) for m, _ in means]),
                        "drift": np.array([np.polyfit(t, m, 1)[0] * length / m.mean() for m, t in means])}
@@ -80,10 +80,23 @@ def measure(options):
     ratio = REFERENCE["coarse"]["spacing"] / REFERENCE["fine"]["spacing"]
     extrapolated = q["fine"] + (q["fine"] - q["coarse"]) / (ratio - 1)
     found["extrapolated"] = {"D": both, "Q": extrapolated, "C": constants(extrapolated, both)}
+    return found
+
+
+def rows_of(found):
+    fine, extrapolated = found["fine"], found["extrapolated"]
     c = fine["C"]
-    return {"exponent": exponent(fine["Q"], fine["D"]), "exponent-extrapolated": exponent(extrapolated, both),
-            "constant": c.mean(), "constant-extrapolated": found["extrapolated"]["C"].mean(),
-            "scatter": np.abs(c / c.mean() - 1).max(), "plateau": np.abs(fine["drift"]).max()}, found
+    return {"exponent": exponent(fine["Q"], fine["D"]),
+            "exponent-extrapolated": exponent(extrapolated["Q"], extrapolated["D"]),
+            "constant": c.mean(), "constant-extrapolated": extrapolated["C"].mean(),
+            "scatter": np.abs(c / c.mean() - 1).max(), "plateau": np.abs(fine["drift"]).max()}
+
+
+def measure(options):
+    """The rows by name, and what they are made of, by_set() of the window."""
+    found = by_set(options.out, REFERENCE["window"])
+    early = rows_of(by_set(options.out, REFERENCE["early_window"]))
+    return rows_of(found) | {f"{name}-early": value for name, value in early.items()}, found
 
 
 def tell(numbers, found):
