@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -106,6 +107,38 @@ TYPED_TEST(SimdVectors, LoadColumnsOfRowsAndSumTheirLanes) {
   for (int c = 0; c < columns; ++c) {
     for (int k = 0; k < Number::lanes; ++k) EXPECT_EQ(column[c].row[0][k], 100 * (Number::lanes - 1 - k) + c);
     EXPECT_EQ(sum[c], Number::lanes * c + 50 * Number::lanes * (Number::lanes - 1));
+  }
+}
+
+/// Sums of the first columns of some whose sums depend on their order. \pre at most 32
+template <class T, int count>
+void expect_sums_as_of_eight(const SimdVector<T> (&column)[32]) {
+  SimdVector<T> some[count];
+  std::copy_n(column, count, some);
+  alignas(64) double sum[count];
+  store_sums(some, sum);
+  for (int first = 0; first < count; first += 8) {
+    SimdVector<T> eight[8];
+    std::copy_n(column + first, 8, eight);
+    alignas(64) double expected[8];
+    store_sums(eight, expected);
+    for (int c = 0; c < 8 && first + c < count; ++c)
+      EXPECT_EQ(sum[first + c], expected[c]) << count << ", " << first + c;
+  }
+}
+
+TYPED_TEST(SimdVectors, SumsOverTheLanesAreTheSameHoweverManyColumnsThereAre) {
+  using Number = SimdVector<TypeParam>;
+  Number column[32];
+  for (int c = 0; c < 32; ++c) column[c] = 1.0 / (Number::ramp(static_cast<std::size_t>(3 * c)) + 0.7);
+  expect_sums_as_of_eight<TypeParam, 8>(column);
+  expect_sums_as_of_eight<TypeParam, 16>(column);
+  expect_sums_as_of_eight<TypeParam, 24>(column);
+  expect_sums_as_of_eight<TypeParam, 32>(column);
+  if constexpr (sizeof(TypeParam) == sizeof(float)) {
+    expect_sums_as_of_eight<TypeParam, 4>(column);
+    expect_sums_as_of_eight<TypeParam, 20>(column);
+    expect_sums_as_of_eight<TypeParam, 28>(column);
   }
 }
 
