@@ -39,8 +39,14 @@ double tangent_of(const VesselPart& cone) {
   return (cone.upper_radius - cone.lower_radius) / (cone.top - cone.bottom);
 }
 
+/// A cone that narrows downwards.
+bool is_hopper(const VesselPart& v) {
+  return v.shape == VesselShape::cone && v.along == continuum::Along::z && v.upper_radius > v.lower_radius;
+}
+
 /// Area over circumference of upright walls; 0 for others.
 double hydraulic_radius(const VesselPart& v) {
+  if (v.along != continuum::Along::z) return 0;
   if (v.shape == VesselShape::cylinder) return 0.5 * v.radius;
   if (v.shape == VesselShape::box) return 0.5 * v.width * v.depth / (v.width + v.depth);
   return 0;
@@ -80,9 +86,7 @@ PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart
 const VesselPart* emptying_cone(const continuum::Parameters& p) {
   const auto outlet = continuum::outlet_of_vessel(p);
   for (const VesselPart& v : p.vessel)
-    if (outlet && outlet->round && v.shape == VesselShape::cone && v.along == continuum::Along::z &&
-        v.bottom == outlet->middle.z && v.upper_radius > v.lower_radius)
-      return &v;
+    if (outlet && outlet->round && is_hopper(v) && v.bottom == outlet->middle.z) return &v;
   return nullptr;
 }
 
@@ -130,8 +134,7 @@ PressureByHand pressure_by_hand(const continuum::Parameters& p, const BandOfWall
                                 double height) {
   if (!(height < top)) return {};
   const VesselPart& v = p.vessel[band.patch];
-  if (v.shape == VesselShape::cone && v.upper_radius > v.lower_radius)
-    return pressure_of_cone(p, v, ratio, top, height);
+  if (is_hopper(v)) return pressure_of_cone(p, v, ratio, top, height);
   const double vertical = janssen_at(p, ratio, top, height);
   if (hydraulic_radius(v) > 0) return {ratio * vertical, ratio * vertical};
   return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none} : PressureByHand{};

@@ -75,6 +75,14 @@ TEST(PressureByHand, IsJanssensAndWalkers) {
       << "no formula of the lid of a cone";
 }
 
+TEST(PressureByHand, IsNotThatOfUprightWallsWhereTheyLie) {
+  continuum::Parameters p = small_silo();
+  const std::vector<BandOfWall> bands = bands_of(p);
+  for (continuum::VesselPart& wall : p.vessel) wall.along = continuum::Along::y;
+  for (const std::size_t band : {2, 10})
+    EXPECT_TRUE(std::isnan(pressure_by_hand(p, bands[band], ratio, top, 0.1).at_rest));
+}
+
 TEST(PressureByHand, SmoothWallsLeaveTheWholeWeightToTheFloor) {
   continuum::Parameters p = small_silo();
   p.walls.friction = continuum::Friction::none;
