@@ -105,26 +105,6 @@ TALUS_INLINE FloatRegister sums(const FloatRegister (&x)[floats]) {
 #undef TALUS_QUADS
 }
 
-/// The same of eight registers of sixteen floats, in half of one.
-template <class Register>
-TALUS_INLINE FloatHalf sums_of_eight(const Register (&x)[8]) {
-  static_assert(sizeof(Register) == 16 * sizeof(float));
-  Register halves[4];  // of x[m] and x[4 + m]: the sums of their first and third, second and fourth quads
-  TALUS_UNROLL for (int m = 0; m < 4; ++m) {
-    halves[m] = __builtin_shufflevector(x[m], x[4 + m], 0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23) +
-                __builtin_shufflevector(x[m], x[4 + m], 8, 9, 10, 11, 12, 13, 14, 15, 24, 25, 26, 27, 28, 29, 30, 31);
-  }
-  const auto quads = [](Register a, Register b) {
-    return __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27) +
-           __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31);
-  };
-  const Register even = quads(halves[0], halves[2]), odd = quads(halves[1], halves[3]);  // of 0 4 2 6, of 1 5 3 7
-  const Register two = __builtin_shufflevector(even, odd, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29) +
-                       __builtin_shufflevector(even, odd, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
-  return __builtin_shufflevector(two, two, 0, 1, 8, 9, 4, 5, 12, 13) +
-         __builtin_shufflevector(two, two, 2, 3, 10, 11, 6, 7, 14, 15);
-}
-
 /// The same of four registers, in narrower ones.
 TALUS_INLINE FloatQuad sums_of_four(const FloatRegister (&x)[4]) {
   FloatQuad quad[4];

@@ -36,7 +36,7 @@ TALUS_INLINE void store_sums(const SimdVector<double> (&x)[count], double* sum) 
   }
 }
 
-/// The same in floats, summed in floats: as many at once as a register has lanes, half as many, then four.
+/// The same in floats, summed in floats: as many at once as a register has lanes, then four.
 template <int count>
 TALUS_INLINE void store_sums(const SimdVector<float> (&x)[count], double* sum) {
   using Register = SimdVector<float>::Register;
@@ -46,13 +46,7 @@ TALUS_INLINE void store_sums(const SimdVector<float> (&x)[count], double* sum) {
     TALUS_UNROLL for (int k = 0; k < lanes; ++k) block[k] = x[c + k].row[0];
     registers::store_as_doubles(registers::sums(block), sum + c);
   }
-  constexpr int half = lanes == 16 ? (count - whole) / 8 * 8 : 0;
-  if constexpr (half > 0) {
-    Register block[8];
-    TALUS_UNROLL for (int k = 0; k < 8; ++k) block[k] = x[whole + k].row[0];
-    registers::store_as_doubles(registers::sums_of_eight(block), sum + whole);
-  }
-  TALUS_UNROLL for (int c = whole + half; c < count; c += 4) {
+  TALUS_UNROLL for (int c = whole; c < count; c += 4) {
     Register block[4];
     TALUS_UNROLL for (int k = 0; k < 4; ++k) block[k] = x[c + k].row[0];
     registers::store_as_doubles(registers::sums_of_four(block), sum + c);
