@@ -45,14 +45,20 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
       vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields, sector_of(p)) {
   const InstructionSet set = resolve(p.integration.instruction_set);
   const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
-  for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces})
-    sum_[static_cast<std::size_t>(terms)] =
-        TALUS_COMPILED_FOR(set, sum_neighbours)(terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_,
-                                                asks_stress_around_ ? StressAround::asked : StressAround::unasked);
+  const auto choose = [&](SweepTerms terms, StressGradient stress_gradient) {
+    return TALUS_COMPILED_FOR(set, sum_neighbours)(
+        terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_,
+        asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient);
+  };
+  for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces}) {
+    const auto n = static_cast<std::size_t>(terms);
+    sum_[n] = choose(terms, StressGradient::unasked);
+    sum_at_vessel_[n] = choose(terms, StressGradient::asked);
+  }
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
   if (stabilised)
     prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared, precision_,
-                                                           StressAround::unasked);
+                                                           StressAround::unasked, StressGradient::unasked);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -197,6 +203,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     rates.by_walls.value.resize(first_wall_.back());
   }
   const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
+  const SumNeighbours sum_at_vessel = sum_at_vessel_[static_cast<std::size_t>(terms)];
   const Records all = records();
   constexpr std::size_t together = PairSums::together, blocks_at_once = 16;
   const auto compute = [&](std::size_t first) {
@@ -210,7 +217,8 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
         continue;
       }
       const Neighbours neighbours = seen_from(particles.position, first + n, seen);
-      sum(all, static_cast<std::uint32_t>(first + n), neighbours, constants_, sums[n]);
+      const bool at_vessel = !vessel_.is_empty() && !vessel_.of(first + n).empty();
+      (at_vessel ? sum_at_vessel : sum)(all, static_cast<std::uint32_t>(first + n), neighbours, constants_, sums[n]);
       if (terms != SweepTerms::gradients && !vessel_.is_empty() && vessel_.place_of(first + n) >= 0)
         add_forces_of_vessel(particles, first + n, neighbours, sums[n], rates);
     }
@@ -269,7 +277,8 @@ void Sweep::add_forces_of_vessel(const ParticleView& particles, std::size_t i, c
   const NearWalls met = vessel_.of(i);
   const bool silent = local_sound_speed_ && !(trace(stress_of(particles.material, i)) > 0);
   WallForces& forces = rates.vessel[static_cast<std::size_t>(vessel_.place_of(i))];
-  find_forces_of_walls(vessel_, records(), i, neighbours, constants_, silent ? 0 : constants_.sound_speed, forces);
+  find_forces_of_walls(vessel_, records(), i, sums.stress_gradient, constants_, silent ? 0 : constants_.sound_speed,
+                       forces);
   if (met.empty()) return;
   const std::span<const std::uint32_t> seen(neighbours.record, neighbours.group[neighbours.groups - 1].end);
   Vector3 acceleration;

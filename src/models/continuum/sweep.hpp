@@ -127,7 +127,7 @@ class Sweep {
   bool asks_stress_around_;
   PairPrecision precision_;
   PairConstants constants_;
-  std::array<SumNeighbours, 3> sum_;  // by SweepTerms
+  std::array<SumNeighbours, 3> sum_, sum_at_vessel_;  // by SweepTerms; that of particles that meet walls of the vessel
   VelocityGradients* velocity_gradients_;
   SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
   bool local_sound_speed_;

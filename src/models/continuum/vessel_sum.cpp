@@ -34,13 +34,10 @@ Vector3 evened(const NearWall& wall) {
 /// Gradient of the specific stress along x, y and z from the neighbours alone, exact for a linear field; none where
 /// they do not span the space. It is made smaller where the pressure would be gone within a smoothing length: grains
 /// that hardly bear any have none beyond the wall.
-std::array<SymmetricTensor3<>, 3> stress_gradient(const VesselWalls& walls, const Records& records, std::size_t self,
-                                                  const Neighbours& neighbours) {
+std::array<SymmetricTensor3<>, 3> stress_gradient(const Records& records, std::size_t self, const StressSums& sums) {
   const MotionRecord& own = records.motion[self];
   const double pressure = trace(stress_at(records.stress[self]));
   if (!(pressure > 0)) return {};
-  StressSums sums;
-  walls.sum_stresses(records, self, neighbours, sums);
   const double* m = sums.moment;
   const SymmetricTensor3<> moment{m[0], m[1], m[2], m[3], m[4], m[5]};
   const Tensor3<> whole = full(moment);
@@ -98,16 +95,15 @@ double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& su
   return -opening;
 }
 
-void find_forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self,
-                          const Neighbours& neighbours, const PairConstants& constants, double sound_speed,
-                          WallForces& forces) {
+void find_forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self, const StressSums& sums,
+                          const PairConstants& constants, double sound_speed, WallForces& forces) {
   forces.count = 0;
   const NearWalls met = walls.of(self);
   if (met.empty()) return;
   const MotionRecord& own = records.motion[self];
   const double density = 2 * records.stress[self].half_density;
   const SymmetricTensor3<> stress = stress_at(records.stress[self]);
-  const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(walls, records, self, neighbours);
+  const std::array<SymmetricTensor3<>, 3> gradient = stress_gradient(records, self, sums);
   const Vector3 velocity{own.velocity[0], own.velocity[1], own.velocity[2]};
   const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
   for (const NearWall& wall : met) {

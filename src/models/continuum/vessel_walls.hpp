@@ -96,11 +96,6 @@ class VesselWalls {
   /// \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
   Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
                           const std::span<const std::uint32_t>* seen, double mass) const;
-  /// Sums for the gradient of the stress.
-  void sum_stresses(const Records& records, std::size_t particle, const Neighbours& neighbours,
-                    StressSums& sums) const {
-    sweep_.stresses(records, static_cast<std::uint32_t>(particle), neighbours, sums);
-  }
 
  private:
   /// A particle at a smooth part of a wall.

@@ -31,8 +31,8 @@ TALUS_INLINE RadialIntegrals<Number> radial_integrals(Number q, Number inverse_h
   const Number u = maximum(Number(2.0) - q, Number(0.0)), v = maximum(Number(1.0) - q, Number(0.0));
   const Number u3 = u * u * u, v3 = v * v * v;
   // Horner's rule from the last coefficient.
-  const auto series = [](const Number& x, auto... coefficients) {
-    Number sum = 0.0;
+  const auto series = [](const Number& x, double last, auto... coefficients) {
+    Number sum = last;
     ((sum = multiply_add(sum, x, Number(coefficients))), ...);
     return sum;
   };

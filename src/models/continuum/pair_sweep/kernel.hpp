@@ -109,6 +109,13 @@ struct Neighbours {
   std::uint32_t scratch_size;  ///< in numbers, three times the longest list, padded
 };
 
+/// From which the gradient of the stress around a particle follows: sums over its neighbours j, with d = x_j - x_i and
+/// w = -V_j F_ij >= 0.
+struct alignas(64) StressSums {
+  double moment[6];    ///< sum w d d: xx yy zz xy yz zx
+  double along[6][3];  ///< of the components of the specific stress: sum w (s_j - s_i) d
+};
+
 /// Sums over the neighbours j of i, with d = x_j - x_i.
 struct alignas(64) PairSums {
   double moment[6];            ///< GradientSums::moment: xx yy zz xy yz zx
@@ -119,6 +126,7 @@ struct alignas(64) PairSums {
   double acceleration[3];      ///< Eq. 17 without gravity, m/s^2
   double kernel_density;       ///< sum of m W without the particle itself, kg/m^3
   double wall_acceleration[20];  ///< that by images, along the normals of the walls that they load, these in order
+  StressSums stress_gradient;    ///< where walls ask for them
 
   static constexpr std::uint32_t together = 8;  ///< particles whose sums go on together
 };
@@ -134,6 +142,10 @@ enum class Stabilisers { none, prepared, acting };
 /// Whether sums of forces sum the stress around a particle too.
 enum class StressAround { unasked, asked };
 
+/// Whether sums of forces sum what the gradient of the stress follows from, as walls of a vessel ask; always in double
+/// precision.
+enum class StressGradient { unasked, asked };
+
 /// Only the requested sums are written.
 using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const Neighbours& neighbours,
                                const PairConstants& constants, PairSums& sums);
@@ -146,7 +158,7 @@ VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity
 
 /// \param stabilisers prepared: of `gradients` only
 using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                          StressAround stress_around);
+                                          StressAround stress_around, StressGradient stress_gradient);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

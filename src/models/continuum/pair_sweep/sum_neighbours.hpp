@@ -119,8 +119,34 @@ struct PairGeometry {
   }
 };
 
+/// Sums for the gradient of the specific stress; empty where nobody asks.
+template <bool asked>
+struct StressGradientSums {};
+template <>
+struct StressGradientSums<true> {
+  using Number = SimdVector<double>;
+  Number value[24];  ///< as StressSums
+
+  TALUS_INLINE StressGradientSums() {
+    // In two halves, which are unrolled: as one loop, an instruction that fills memory takes as long as a register of
+    // neighbours.
+    TALUS_UNROLL for (int n = 0; n < 12; ++n) value[n] = 0.0, value[12 + n] = 0.0;
+  }
+  TALUS_INLINE void add(const SimdVector3<double>& d, const Number& weight, const Number* stress, const double* own) {
+    const Number w[3] = {weight * d.x, weight * d.y, weight * d.z};
+    value[0] = multiply_add(w[0], d.x, value[0]), value[1] = multiply_add(w[1], d.y, value[1]);
+    value[2] = multiply_add(w[2], d.z, value[2]), value[3] = multiply_add(w[0], d.y, value[3]);
+    value[4] = multiply_add(w[1], d.z, value[4]), value[5] = multiply_add(w[2], d.x, value[5]);
+    TALUS_UNROLL for (int c = 0; c < 6; ++c) {
+      const Number change = stress[c] - Number(own[c]);
+      TALUS_UNROLL for (int axis = 0; axis < 3; ++axis) value[6 + 3 * c + axis] =
+          multiply_add(change, w[axis], value[6 + 3 * c + axis]);
+    }
+  }
+};
+
 template <class Real, bool gradients, bool forces, Stabilisers stabilisers,
-          StressAround stress_around = StressAround::unasked>
+          StressAround stress_around = StressAround::unasked, StressGradient stress_gradient = StressGradient::unasked>
 void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, PairSums& sums) {
   using Number = SimdVector<Real>;
@@ -137,11 +163,13 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   const PairAccelerations<Real> pairs(neighbours);
   SimdVector3<Real> acceleration{zero, zero, zero};
   Number around[8] = {zero, zero, zero, zero, zero, zero, zero, zero};
+  constexpr bool slopes = stress_gradient == StressGradient::asked && sizeof(Real) == sizeof(double);
+  [[maybe_unused]] StressGradientSums<slopes> stress_slopes;
   for (std::uint32_t first = 0; first < end; first += Number::lanes) {
     const std::uint32_t* const record = neighbours.record + first;
     const auto [d, du, volume, h, square, q, inverse_h, slope] = PairGeometry<Real>(records, own, record);
     Number stress[8];
-    if constexpr (forces || stabilisers != Stabilisers::none)
+    if constexpr (forces || slopes || stabilisers != Stabilisers::none)
       load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.stress + record[lane]); }, stress);
     Number its[16];
     if constexpr (stabilisers == Stabilisers::acting)
@@ -191,9 +219,15 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       pairs.store(first, a);
       acceleration = {acceleration.x + a.x, acceleration.y + a.y, acceleration.z + a.z};
     }
+    if constexpr (slopes) stress_slopes.add(d, -1.0 * volume * slope, stress, loaded.specific_stress);
   }
   if constexpr (forces && stress_around == StressAround::asked) store_sums(around, sums.stress);
   if constexpr (forces) store_forces(neighbours, pairs, acceleration, kernel_density, sums);
+  if constexpr (slopes)
+    store_sums(stress_slopes.value, sums.stress_gradient.moment);
+  else if constexpr (stress_gradient == StressGradient::asked)
+    sum_neighbours<double, false, false, Stabilisers::none, StressAround::unasked, StressGradient::asked>(
+        all_records, self, neighbours, constants, sums);
   if constexpr (gradients) {
     const SymmetricTensor3<Number>& m = gradient.moment;
     const Tensor3<Number>& v = gradient.velocity;
@@ -221,30 +255,40 @@ TALUS_INLINE void velocity_gradients(const PairSums* sums, double (*gradient)[Pa
   }
 }
 
-template <class Real, Stabilisers stabilisers, StressAround stress_around>
+template <class Real, Stabilisers stabilisers, StressAround stress_around, StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
-  return terms == SweepTerms::all         ? sum_neighbours<Real, true, true, stabilisers, stress_around>
-         : terms == SweepTerms::gradients ? sum_neighbours<Real, true, false, stabilisers>
-                                          : sum_neighbours<Real, false, true, stabilisers, stress_around>;
+  return terms == SweepTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient>
+         : terms == SweepTerms::gradients
+             ? sum_neighbours<Real, true, false, stabilisers>
+             : sum_neighbours<Real, false, true, stabilisers, stress_around, stress_gradient>;
 }
 
-template <class Real, StressAround stress_around>
+template <class Real, StressAround stress_around, StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers) {
-  return stabilisers == Stabilisers::none     ? choose<Real, Stabilisers::none, stress_around>(terms)
-         : stabilisers == Stabilisers::acting ? choose<Real, Stabilisers::acting, stress_around>(terms)
+  return stabilisers == Stabilisers::none     ? choose<Real, Stabilisers::none, stress_around, stress_gradient>(terms)
+         : stabilisers == Stabilisers::acting ? choose<Real, Stabilisers::acting, stress_around, stress_gradient>(terms)
                                               : sum_neighbours<Real, true, false, Stabilisers::prepared>;
 }
 
-template <class Real>
+template <class Real, StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, StressAround stress_around) {
-  return stress_around == StressAround::asked ? choose<Real, StressAround::asked>(terms, stabilisers)
-                                              : choose<Real, StressAround::unasked>(terms, stabilisers);
+  return stress_around == StressAround::asked
+             ? choose<Real, StressAround::asked, stress_gradient>(terms, stabilisers)
+             : choose<Real, StressAround::unasked, stress_gradient>(terms, stabilisers);
+}
+
+template <class Real>
+TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, StressAround stress_around,
+                                  StressGradient stress_gradient) {
+  return stress_gradient == StressGradient::asked
+             ? choose<Real, StressGradient::asked>(terms, stabilisers, stress_around)
+             : choose<Real, StressGradient::unasked>(terms, stabilisers, stress_around);
 }
 
 TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                  StressAround stress_around) {
-  return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers, stress_around)
-                                               : choose<double>(terms, stabilisers, stress_around);
+                                  StressAround stress_around, StressGradient stress_gradient) {
+  return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers, stress_around, stress_gradient)
+                                               : choose<double>(terms, stabilisers, stress_around, stress_gradient);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET

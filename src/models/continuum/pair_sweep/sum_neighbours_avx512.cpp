@@ -5,8 +5,8 @@
 namespace talus::continuum {
 
 SumNeighbours sum_neighbours_avx512(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                    StressAround stress_around) {
-  return choose(terms, stabilisers, precision, stress_around);
+                                    StressAround stress_around, StressGradient stress_gradient) {
+  return choose(terms, stabilisers, precision, stress_around, stress_gradient);
 }
 
 void velocity_gradients_avx512(const PairSums* sums, double (*gradient)[PairSums::together]) {

@@ -50,12 +50,6 @@ struct WallPairs {
   std::uint32_t count;
 };
 
-/// Sums over the neighbours j of i, with d = x_j - x_i and w = -V_j F_ij >= 0.
-struct alignas(64) StressSums {
-  double moment[6];    ///< sum w d d: xx yy zz xy yz zx
-  double along[6][3];  ///< of the components of the specific stress: sum w (s_j - s_i) d
-};
-
 /// Functions that are compiled once for each instruction set.
 struct WallSweep {
   /// \param place of the particle, in quanta; \param h its smoothing length, m
@@ -64,8 +58,6 @@ struct WallSweep {
   /// \param mass of a particle, kg; \param acceleration 3 numbers and one of no meaning, aligned, m/s^2
   void (*images)(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
                  const WallPairs& others, double mass, double* acceleration);
-  /// \param neighbours those up to the end of the last group
-  void (*stresses)(const Records& records, std::uint32_t self, const Neighbours& neighbours, StressSums& sums);
 };
 
 WallSweep wall_sweep_portable(), wall_sweep_avx2(), wall_sweep_avx512();

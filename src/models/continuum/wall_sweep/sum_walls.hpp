@@ -106,38 +106,5 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
   acceleration[0] = sum_lanes(sum.x, 0), acceleration[1] = sum_lanes(sum.y, 0), acceleration[2] = sum_lanes(sum.z, 0);
 }
 
-inline void sum_stresses(const Records& records, std::uint32_t self, const Neighbours& neighbours, StressSums& sums) {
-  using Number = WallNumber;
-  const MotionRecord& place = records.motion[self];
-  const StressRecord& loaded = records.stress[self];
-  const std::uint32_t end = neighbours.group[neighbours.groups - 1].end;
-  Number all[24];
-  for (Number& sum : all) sum = 0.0;
-  for (std::uint32_t first = 0; first < end; first += Number::lanes) {
-    const std::uint32_t* const record = neighbours.record + first;
-    Number motion[8], stress[8];
-    load_columns([&](int lane) { return records.motion[record[lane]].position; }, motion);
-    load_columns([&](int lane) { return records.stress[record[lane]].specific_stress; }, stress);
-    const WallVector d{motion[0] - Number(place.position[0]), motion[1] - Number(place.position[1]),
-                       motion[2] - Number(place.position[2])};
-    const Number h = Number(place.half_length) + motion[3], inverse_h = 1.0 / h;
-    const Number square = inner(d, d) + 1e-30, inverse_distance = reciprocal_sqrt(square);
-    const Number weight =
-        -1.0 * motion[7] *
-        sph::cubic_spline_slope_of(square * inverse_distance * inverse_h, h * inverse_distance, inverse_h);
-    const WallVector w{weight * d.x, weight * d.y, weight * d.z};
-    all[0] = multiply_add(w.x, d.x, all[0]), all[1] = multiply_add(w.y, d.y, all[1]);
-    all[2] = multiply_add(w.z, d.z, all[2]), all[3] = multiply_add(w.x, d.y, all[3]);
-    all[4] = multiply_add(w.y, d.z, all[4]), all[5] = multiply_add(w.z, d.x, all[5]);
-    TALUS_UNROLL for (int c = 0; c < 6; ++c) {
-      const Number change = stress[c] - Number(loaded.specific_stress[c]);
-      all[6 + 3 * c] = multiply_add(change, w.x, all[6 + 3 * c]);
-      all[7 + 3 * c] = multiply_add(change, w.y, all[7 + 3 * c]);
-      all[8 + 3 * c] = multiply_add(change, w.z, all[8 + 3 * c]);
-    }
-  }
-  store_sums(all, sums.moment);
-}
-
 }  // namespace TALUS_INSTRUCTION_SET
 }  // namespace talus::continuum

@@ -5,7 +5,7 @@
 namespace talus::continuum {
 
 WallSweep wall_sweep_avx2() {
-  return {sum_points, sum_images, sum_stresses};
+  return {sum_points, sum_images};
 }
 
 }  // namespace talus::continuum
