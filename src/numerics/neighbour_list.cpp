@@ -10,7 +10,6 @@
 
 #include "base/compiled_for.hpp"
 #include "numerics/cell_grid.hpp"
-#include "numerics/near_points/kernel.hpp"
 
 namespace talus {
 
@@ -52,8 +51,10 @@ struct Cells {
   double farthest;  ///< that a pair may be apart, m
   double edge;      ///< m
   CellGrid grid;
-  std::int64_t range;           ///< how many cells a pair is apart at most
-  std::vector<double> largest;  ///< radius of the points of each cell, m
+  std::int64_t range;                      ///< how many cells a pair is apart at most
+  std::vector<double> largest;             ///< radius of the points of each cell, m
+  std::vector<std::uint32_t> block;        ///< that have points in a cell, rising, one cell after the other
+  std::vector<std::uint32_t> first_block;  ///< of a cell, in these; one more at the end
 
   Cells(std::span<const Vector3> position, std::span<const double> radius, double skin)
       : farthest(2 * *std::max_element(radius.begin(), radius.end()) + skin),
@@ -61,8 +62,19 @@ struct Cells {
         grid(position, edge),
         range(static_cast<std::int64_t>(std::ceil(farthest / edge))),
         largest(grid.cells(), 0.0) {
-    for (std::size_t c = 0; c < largest.size(); ++c)
-      for (const std::uint32_t n : grid.points_of(c)) largest[c] = std::max(largest[c], radius[n]);
+    block.reserve(position.size());
+    for (std::size_t c = 0; c < largest.size(); ++c) {
+      first_block.push_back(static_cast<std::uint32_t>(block.size()));
+      for (const std::uint32_t n : grid.points_of(c)) {
+        largest[c] = std::max(largest[c], radius[n]);
+        const auto of_point = static_cast<std::uint32_t>(n / PointBlock::size);
+        if (block.size() == first_block.back() || block.back() != of_point) block.push_back(of_point);
+      }
+    }
+    first_block.push_back(static_cast<std::uint32_t>(block.size()));
+  }
+  std::span<const std::uint32_t> blocks_of(std::size_t cell) const {
+    return std::span(block).subspan(first_block[cell], first_block[cell + 1] - first_block[cell]);
   }
 
  private:
@@ -71,59 +83,79 @@ struct Cells {
   }
 };
 
-/// The points around a cell, sorted by number.
+/// All points by number, and a box around each block of them.
+void fill_blocks(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
+                 std::vector<PointBlock>& blocks, std::vector<BlockBox>& boxes) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  blocks.resize((position.size() + PointBlock::size - 1) / PointBlock::size);
+  boxes.resize(blocks.size());
+  for_each(team, blocks.size(), [&](std::size_t b) {
+    PointBlock& block = blocks[b];
+    BlockBox box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
+    for (std::size_t k = 0; k < PointBlock::size; ++k) {
+      const std::size_t n = b * PointBlock::size + k;
+      block.number[k] = static_cast<std::uint32_t>(n);
+      if (n >= position.size()) {
+        block.x[k] = infinity, block.y[k] = block.z[k] = block.radius[k] = 0;
+        continue;
+      }
+      const Vector3& x = position[n];
+      block.x[k] = x.x, block.y[k] = x.y, block.z[k] = x.z;
+      block.radius[k] = radius[n];
+      box.low = {std::min(box.low.x, x.x), std::min(box.low.y, x.y), std::min(box.low.z, x.z)};
+      box.high = {std::max(box.high.x, x.x), std::max(box.high.y, x.y), std::max(box.high.z, x.z)};
+      box.radius = std::max(box.radius, radius[n]);
+    }
+    boxes[b] = box;
+  });
+}
+
+/// The boxes of the blocks that have points around a cell, by the numbers of the blocks.
 class Surroundings {
  public:
-  /// \param cells \param cell, listed one of them and its points, sorted
-  void gather(const Cells& cells, std::span<const Vector3> position, std::span<const double> radius, double skin,
-              std::size_t cell, std::span<const std::uint32_t> listed) {
-    std::size_t count = 0;
-    numbers_.allow(position.size());
+  void gather(const Cells& cells, std::span<const BlockBox> boxes, double skin, std::size_t cell) {
+    blocks_.allow(boxes.size());
+    std::size_t most = 0;
     cells.grid.for_each_cell_near(cell, cells.range, [&](std::size_t near, double square) {
       const double reach = cells.largest[cell] + cells.largest[near] + skin;
       constexpr double rounding = 1 - 1e-9;
       if (rounding * square > reach * reach) return;
-      const auto points = cells.grid.points_of(near);
-      numbers_.insert(points), count += points.size();
+      const auto blocks = cells.blocks_of(near);
+      blocks_.insert(blocks), most += blocks.size();
     });
-    size_ = (count + PointBlock::size - 1) / PointBlock::size;
-    if (blocks_.size() < size_) blocks_.resize(size_), sorted_.resize(most());
-    numbers_.drain(sorted_.data());
-    places_.clear();
-    std::size_t place = 0;
-    for (const std::uint32_t j : listed) {
-      while (sorted_[place] != j) ++place;
-      places_.push_back(place);
+    if (sorted_.size() < most) sorted_.resize(most);
+    count_ = static_cast<std::size_t>(blocks_.drain(sorted_.data()) - sorted_.data());
+    if (boxes_.size() < registers()) boxes_.resize(registers());
+    for (std::size_t n = 0; n < registers() * BlockBoxes::size; ++n) {
+      BlockBoxes& to = boxes_[n / BlockBoxes::size];
+      const std::size_t k = n % BlockBoxes::size;
+      const BlockBox& box = n < count_ ? boxes[sorted_[n]] : nowhere;
+      to.low[0][k] = box.low.x, to.low[1][k] = box.low.y, to.low[2][k] = box.low.z;
+      to.high[0][k] = box.high.x, to.high[1][k] = box.high.y, to.high[2][k] = box.high.z;
+      to.radius[k] = box.radius;
+      to.block[k] = n < count_ ? sorted_[n] : 0;
     }
-    const std::uint32_t* const sorted = sorted_.data();
-    PointBlock* const blocks = blocks_.data();
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::uint32_t j = sorted[n];
-      PointBlock& block = blocks[n / PointBlock::size];
-      const std::size_t k = n % PointBlock::size;
-      const auto [x, y, z] = position[j];
-      block.x[k] = x, block.y[k] = y, block.z[k] = z;
-      block.radius[k] = radius[j];
-      block.number[k] = j;
-    }
-    for (std::size_t n = count; n < most(); ++n)
-      blocks_[size_ - 1].x[n % PointBlock::size] = std::numeric_limits<double>::infinity();
   }
 
-  /// How many are near a point at most.
-  std::size_t most() const { return PointBlock::size * size_; }
+  /// How many numbers find_near needs room for.
+  std::size_t most() const { return PointBlock::size * BlockBoxes::size * registers(); }
 
-  /// Writes those near the n-th listed point, sorted. \param near has room for most() \returns how many they are
-  std::size_t find_near(PickNear* pick, std::size_t n, double skin, std::uint32_t* near) const {
-    return pick(blocks_.data(), size_, places_[n], skin, near);
+  /// Writes those near a point, sorted. \param near has room for most() \returns how many they are
+  std::size_t find_near(PickNear* pick, const PointBlock* blocks, std::size_t point, double skin,
+                        std::uint32_t* near) const {
+    return pick(blocks, boxes_.data(), registers(), point, skin, near);
   }
 
  private:
-  NumberSet numbers_;
-  std::vector<PointBlock> blocks_;
-  std::size_t size_ = 0;               // of the blocks in use
-  std::vector<std::size_t> places_;    // of the listed points in the blocks
-  std::vector<std::uint32_t> sorted_;  // numbers of the points
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr BlockBox nowhere{{infinity, infinity, infinity}, {infinity, infinity, infinity}, 0};
+
+  std::size_t registers() const { return (count_ + BlockBoxes::size - 1) / BlockBoxes::size; }
+
+  NumberSet blocks_;
+  std::vector<std::uint32_t> sorted_;
+  std::size_t count_ = 0;  // of the blocks
+  std::vector<BlockBoxes> boxes_;
 };
 
 }  // namespace
@@ -136,6 +168,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
   if (count == 0) return neighbours_.clear();
 
   const Cells cells(position, radius, skin);
+  fill_blocks(team, position, radius, blocks_, boxes_);
   const CellGrid& grid = cells.grid;
   constexpr std::size_t cells_at_once = 32;
   const std::size_t chunks = (grid.cells() + cells_at_once - 1) / cells_at_once;
@@ -154,13 +187,13 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
     std::vector<std::uint32_t>& list = found_[chunk];
     std::size_t end = 0;
     for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
-      around.gather(cells, position, radius, skin, cell, listed);
-      for (std::size_t n = 0; n < listed.size(); ++n) {
+      around.gather(cells, boxes_, skin, cell);
+      for (const std::uint32_t i : listed) {
         if (list.size() < end + around.most()) list.resize(2 * (end + around.most()));
         std::uint32_t* const near = list.data() + end;
-        std::size_t length = around.find_near(pick_near, n, skin, near);
-        if (keep) length = keep(listed[n], {near, length});
-        length_[listed[n]] = static_cast<std::uint32_t>(length);
+        std::size_t length = around.find_near(pick_near, blocks_.data(), i, skin, near);
+        if (keep) length = keep(i, {near, length});
+        length_[i] = static_cast<std::uint32_t>(length);
         end += length;
       }
     });

@@ -76,15 +76,32 @@ TEST(NearPoints, AreTheSameForAllInstructionSets) {
   for (std::size_t b = 0; b < count; ++b)
     for (std::size_t k = 0; k < size; ++k) {
       PointBlock& block = blocks[b];
-      block.x[k] = b + 1 == count && k > 2 ? std::numeric_limits<double>::infinity() : random.uniform(0, 4);
+      const double low = 0.2 * static_cast<double>(b);  // so that some blocks are out of reach
+      block.x[k] = b + 1 == count && k > 2 ? std::numeric_limits<double>::infinity() : low + random.uniform(0, 2);
       block.y[k] = random.uniform(0, 4), block.z[k] = random.uniform(0, 4);
       block.radius[k] = random.uniform(0.5, 0.9);
       block.number[k] = static_cast<std::uint32_t>(3 * (size * b + k));
     }
+  constexpr std::size_t groups = (count + BlockBoxes::size - 1) / BlockBoxes::size;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<BlockBoxes> boxes(groups);
+  for (std::size_t b = 0; b < groups * BlockBoxes::size; ++b) {
+    BlockBoxes& box = boxes[b / BlockBoxes::size];
+    const std::size_t lane = b % BlockBoxes::size;
+    box.block[lane] = static_cast<std::uint32_t>(b), box.radius[lane] = 0.9;
+    for (std::size_t axis = 0; axis < 3; ++axis) box.low[axis][lane] = box.high[axis][lane] = infinity;
+    if (b >= count) continue;
+    const double* const columns[3] = {blocks[b].x, blocks[b].y, blocks[b].z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double* const column = columns[axis];
+      box.low[axis][lane] = *std::min_element(column, column + size);
+      box.high[axis][lane] = *std::max_element(column, column + size);
+    }
+  }
   for (const std::size_t self : {std::size_t{0}, std::size_t{77}, size * (count - 1) + 2}) {
     const auto picked = [&](PickNear* pick) {
-      std::vector<std::uint32_t> near(size * count);
-      near.resize(pick(blocks.data(), count, self, 0.2, near.data()));
+      std::vector<std::uint32_t> near(size * BlockBoxes::size * groups);
+      near.resize(pick(blocks.data(), boxes.data(), groups, self, 0.2, near.data()));
       return near;
     };
     const std::vector<std::uint32_t> near = picked(pick_near_portable);
@@ -92,6 +109,16 @@ TEST(NearPoints, AreTheSameForAllInstructionSets) {
     EXPECT_TRUE(std::is_sorted(near.begin(), near.end()));
     EXPECT_THAT(near, testing::Not(testing::Contains(3 * self)));
     EXPECT_LT(near.back(), 3 * (size * (count - 1) + 3));
+    std::vector<std::uint32_t> expected;
+    const auto point = [&](std::size_t n) {
+      const PointBlock& block = blocks[n / size];
+      return Vector3{block.x[n % size], block.y[n % size], block.z[n % size]};
+    };
+    const auto radius = [&](std::size_t n) { return blocks[n / size].radius[n % size]; };
+    for (std::size_t n = 0; n < size * count; ++n)
+      if (n != self && norm(point(n) - point(self)) <= radius(n) + radius(self) + 0.2)
+        expected.push_back(static_cast<std::uint32_t>(3 * n));
+    EXPECT_EQ(near, expected);
 #if defined(__x86_64__)
     if (is_available(InstructionSet::avx2)) {
       EXPECT_EQ(picked(pick_near_avx2), near);

@@ -73,9 +73,19 @@ class VesselWalls::PointsAround {
       }
     });
     for (; n % PointBlock::size != 0; ++n) blocks_[n / PointBlock::size].x[n % PointBlock::size] = infinity;
-    size_ = n / PointBlock::size;
+    const auto blocks = static_cast<std::uint32_t>(n / PointBlock::size);
+    boxes_.resize((blocks - 1 + BlockBoxes::size - 1) / BlockBoxes::size);
+    for (std::uint32_t k = 0; k < boxes_.size() * BlockBoxes::size; ++k) {
+      BlockBoxes& to = boxes_[k / BlockBoxes::size];
+      const std::size_t lane = k % BlockBoxes::size;
+      // Around all space: the points are few.
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        to.low[axis][lane] = 1 + k < blocks ? -infinity : infinity, to.high[axis][lane] = infinity;
+      to.radius[lane] = 0;
+      to.block[lane] = 1 + k;
+    }
     for (std::size_t lane = 1; lane < PointBlock::size; ++lane) place_of(0).x[lane] = infinity;
-    near_.resize(PointBlock::size * size_);
+    near_.resize(PointBlock::size * BlockBoxes::size * boxes_.size());
   }
 
   /// The records of those within reach, rising; until the next call.
@@ -83,12 +93,12 @@ class VesselWalls::PointsAround {
     static PickNear* const pick_near = TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), pick_near);
     PointBlock& own = blocks_[0];
     own.x[0] = x.x, own.y[0] = x.y, own.z[0] = x.z, own.radius[0] = reach;
-    return std::span(near_).first(pick_near(blocks_.data(), size_, 0, 0, near_.data()));
+    return std::span(near_).first(pick_near(blocks_.data(), boxes_.data(), boxes_.size(), 0, 0, near_.data()));
   }
 
  private:
   std::vector<PointBlock> blocks_;
-  std::size_t size_ = 0;  // of the blocks in use
+  std::vector<BlockBoxes> boxes_;  // of all but the first
   std::vector<std::uint32_t> near_;
 };
 

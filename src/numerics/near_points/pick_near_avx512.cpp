@@ -4,9 +4,9 @@
 
 namespace talus {
 
-std::size_t pick_near_avx512(const PointBlock* blocks, std::size_t count, std::size_t self, double skin,
-                             std::uint32_t* near) {
-  return pick_near(blocks, count, self, skin, near);
+std::size_t pick_near_avx512(const PointBlock* blocks, const BlockBoxes* boxes, std::size_t count, std::size_t self,
+                             double skin, std::uint32_t* near) {
+  return pick_near(blocks, boxes, count, self, skin, near);
 }
 
 }  // namespace talus
