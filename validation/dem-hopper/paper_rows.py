@@ -17,6 +17,8 @@ from surfaces import band, outward_angle
 DATA = Path(__file__).resolve().parent / "data"
 FLANKS = (0.005, 0.035), (0.065, 0.095)  # m
 SWELLING_AT, STRESS_AT = 0.2, 0.4  # s
+ANGLES_AT = 0.2, 0.24, 0.28, 0.3, 0.32, 0.34, 0.4, 0.44  # s
+FINE = 0.2  # mm, the paper's beads
 
 
 def groups(name, *keys):
@@ -47,6 +49,19 @@ def stream_width(x, z, packing, low, high):
     return np.subtract(*np.interp([0.95, 0.05], share / share[-1], places))
 
 
+def rolling_diameters():
+    """Of the runs with rolling friction, mm."""
+    with open(DATA / "numbers.csv", encoding="utf-8") as file:
+        return {row["run"]: float(row["diameter_mm"]) for row in csv.DictReader(file) if float(row["rolling"]) > 0}
+
+
+def prolonged(diameters, values):
+    """The line through values over diameters at FINE, and its standard error."""
+    line, covariance = np.polyfit(diameters, values, 1, cov=True)
+    at = np.array([FINE, 1])
+    return line @ at, np.sqrt(at @ covariance @ at)
+
+
 def main():
     surfaces = {key: rows[:, :2].T * 1e-3 for key, rows in groups("surfaces.csv", "run", "time_s").items()}  # x and z, m
     states = groups("states.csv", "run", "time_s", "place")
@@ -62,6 +77,13 @@ def main():
                   for place in ("bin, beside", "bin, below")]
         above, middle = 1e3 * np.array(swelling(*surfaces[run, str(SWELLING_AT)]))
         print(f"| {run} | {', '.join(ratios)} | {above:.1f}, {middle:.1f} | {angles.max():.1f}, {fall:.1f} | {times[-1]} |")
+    diameters = rolling_diameters()
+    print("\n| t, s | 26: inward angle of the hopper, rolling friction, prolonged to 0.2 mm, degrees |\n|---|---|")
+    for time in ANGLES_AT:
+        runs = [run for run in diameters if (run, str(time)) in surfaces]
+        angles = [-outward_angle(*surfaces[run, str(time)], 0.022, 0.045) for run in runs]
+        value, error = prolonged([diameters[run] for run in runs], angles)
+        print(f"| {time} | {value:.1f} ± {error:.1f} |")
     print("\n| picture | t, s | 14: width of the stream at 40-60 over 90-98 mm |\n|---|---|---|")
     for path in sorted(DATA.glob("picture-*.csv")):
         for (time,), rows in groups(path.name, "time_s").items():
