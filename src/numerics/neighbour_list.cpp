@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "base/compiled_for.hpp"
 #include "numerics/cell_grid.hpp"
+#include "numerics/near_points/kernel.hpp"
 
 namespace talus {
 
@@ -83,14 +85,24 @@ struct Cells {
   }
 };
 
+/// Around the points of a block.
+struct BlockBox {
+  Vector3 low, high;  ///< m
+  double radius;      ///< the largest of the points, m
+};
+
 /// All points by number, and a box around each block of them.
-void fill_blocks(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                 std::vector<PointBlock>& blocks, std::vector<BlockBox>& boxes) {
+struct Blocks {
+  std::vector<PointBlock> points;
+  std::vector<BlockBox> boxes;
+};
+Blocks blocks_of(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  blocks.resize((position.size() + PointBlock::size - 1) / PointBlock::size);
-  boxes.resize(blocks.size());
-  for_each(team, blocks.size(), [&](std::size_t b) {
-    PointBlock& block = blocks[b];
+  Blocks blocks;
+  blocks.points.resize((position.size() + PointBlock::size - 1) / PointBlock::size);
+  blocks.boxes.resize(blocks.points.size());
+  for_each(team, blocks.points.size(), [&](std::size_t b) {
+    PointBlock& block = blocks.points[b];
     BlockBox box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
     for (std::size_t k = 0; k < PointBlock::size; ++k) {
       const std::size_t n = b * PointBlock::size + k;
@@ -106,8 +118,9 @@ void fill_blocks(ThreadTeam& team, std::span<const Vector3> position, std::span<
       box.high = {std::max(box.high.x, x.x), std::max(box.high.y, x.y), std::max(box.high.z, x.z)};
       box.radius = std::max(box.radius, radius[n]);
     }
-    boxes[b] = box;
+    blocks.boxes[b] = box;
   });
+  return blocks;
 }
 
 /// The boxes of the blocks that have points around a cell, by the numbers of the blocks.
@@ -168,7 +181,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
   if (count == 0) return neighbours_.clear();
 
   const Cells cells(position, radius, skin);
-  fill_blocks(team, position, radius, blocks_, boxes_);
+  std::optional<Blocks> blocks = blocks_of(team, position, radius);
   const CellGrid& grid = cells.grid;
   constexpr std::size_t cells_at_once = 32;
   const std::size_t chunks = (grid.cells() + cells_at_once - 1) / cells_at_once;
@@ -187,17 +200,18 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
     std::vector<std::uint32_t>& list = found_[chunk];
     std::size_t end = 0;
     for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
-      around.gather(cells, boxes_, skin, cell);
+      around.gather(cells, blocks->boxes, skin, cell);
       for (const std::uint32_t i : listed) {
         if (list.size() < end + around.most()) list.resize(2 * (end + around.most()));
         std::uint32_t* const near = list.data() + end;
-        std::size_t length = around.find_near(pick_near, blocks_.data(), i, skin, near);
+        std::size_t length = around.find_near(pick_near, blocks->points.data(), i, skin, near);
         if (keep) length = keep(i, {near, length});
         length_[i] = static_cast<std::uint32_t>(length);
         end += length;
       }
     });
   });
+  blocks.reset();  // before the lists take memory twice
   for (std::size_t i = 0; i < count; ++i)
     first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
   // Sums go through the particles by number: in that order their lists lie in memory.

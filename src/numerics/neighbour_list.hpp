@@ -11,15 +11,8 @@
 
 #include "base/parallel.hpp"
 #include "base/vector.hpp"
-#include "numerics/near_points/kernel.hpp"
 
 namespace talus {
-
-/// Around the points of a block.
-struct BlockBox {
-  Vector3 low, high;  ///< m
-  double radius;      ///< the largest of the points, m
-};
 
 class NeighbourList {
  public:
@@ -56,9 +49,7 @@ class NeighbourList {
   std::vector<std::uint32_t> neighbours_;
   std::vector<std::size_t> first_;  // a multiple of `padded_to`
   std::vector<std::uint32_t> length_;
-  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory, as are:
-  std::vector<PointBlock> blocks_;
-  std::vector<BlockBox> boxes_;
+  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory
 };
 
 }  // namespace talus
