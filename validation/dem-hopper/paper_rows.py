@@ -16,7 +16,7 @@ from surfaces import band, outward_angle
 
 DATA = Path(__file__).resolve().parent / "data"
 FLANKS = (0.005, 0.035), (0.065, 0.095)  # m
-SWELLING_AT, STRESS_AT = 0.2, 0.4  # s
+SWELLING_AT, STRESS_AT, RATE_AT, RATES_OVER = 0.2, 0.4, 0.12, 0.02  # s
 ANGLES_AT = 0.2, 0.24, 0.28, 0.3, 0.32, 0.34, 0.4, 0.44  # s
 FINE = 0.2  # mm, the paper's beads
 
@@ -49,6 +49,14 @@ def stream_width(x, z, packing, low, high):
     return np.subtract(*np.interp([0.95, 0.05], share / share[-1], places))
 
 
+def share_of_largest(times, masses):
+    """The discharge about RATE_AT over its largest, both means over RATES_OVER."""
+    middles = np.arange(RATES_OVER, times[-1] - RATES_OVER / 2, RATES_OVER / 10)
+    passed = [np.interp(middles + side * RATES_OVER / 2, times, masses) for side in (1, -1)]
+    rates = np.subtract(*passed)
+    return np.interp(RATE_AT, middles, rates) / rates.max()
+
+
 def rolling_diameters():
     """Of the runs with rolling friction, mm."""
     with open(DATA / "numbers.csv", encoding="utf-8") as file:
@@ -65,9 +73,10 @@ def prolonged(diameters, values):
 def main():
     surfaces = {key: rows[:, :2].T * 1e-3 for key, rows in groups("surfaces.csv", "run", "time_s").items()}  # x and z, m
     states = groups("states.csv", "run", "time_s", "place")
-    print("| run | 11: sigma_xx/sigma_zz in the bin beside and below, 0.4 s | 21: swelling above flanks, in the middle, "
+    discharges = groups("discharge.csv", "run")
+    print("| run | 3: discharge at 0.12 s over its largest | 11: sigma_xx/sigma_zz in the bin beside and below, 0.4 s | 21: swelling above flanks, in the middle, "
           "0.2 s, mm | 26: largest inward angle, and its largest fall, degrees | until, s |")
-    print("|" + "---|" * 5)
+    print("|" + "---|" * 6)
     for run in sorted({run for run, _ in surfaces}):
         times = sorted((time for r, time in surfaces if r == run), key=float)
         angles = np.array([-outward_angle(*surfaces[run, time], 0.022, 0.045) for time in times])
@@ -76,7 +85,8 @@ def main():
         ratios = [f"{states[run, str(STRESS_AT), place][0, -1]:.2f}" if (run, str(STRESS_AT), place) in states else "-"
                   for place in ("bin, beside", "bin, below")]
         above, middle = 1e3 * np.array(swelling(*surfaces[run, str(SWELLING_AT)]))
-        print(f"| {run} | {', '.join(ratios)} | {above:.1f}, {middle:.1f} | {angles.max():.1f}, {fall:.1f} | {times[-1]} |")
+        share = share_of_largest(*discharges[run,][:, :2].T)
+        print(f"| {run} | {share:.2f} | {', '.join(ratios)} | {above:.1f}, {middle:.1f} | {angles.max():.1f}, {fall:.1f} | {times[-1]} |")
     diameters = rolling_diameters()
     print("\n| t, s | 26: inward angle of the hopper, rolling friction, prolonged to 0.2 mm, degrees |\n|---|---|")
     for time in ANGLES_AT:
