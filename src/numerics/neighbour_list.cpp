@@ -2,11 +2,11 @@
 #include "numerics/neighbour_list.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "base/compiled_for.hpp"
@@ -178,54 +178,61 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
   skin_ = -1;
   first_.assign(count + 1, 0);
   length_.assign(count, 0);
-  if (count == 0) return neighbours_.clear();
+  if (count == 0) return;
 
   const Cells cells(position, radius, skin);
-  std::optional<Blocks> blocks = blocks_of(team, position, radius);
+  const Blocks blocks = blocks_of(team, position, radius);
   const CellGrid& grid = cells.grid;
   constexpr std::size_t cells_at_once = 32;
   const std::size_t chunks = (grid.cells() + cells_at_once - 1) / cells_at_once;
-  const auto for_each_listed = [&](std::size_t chunk, const auto& visit) {  // the listed points of one cell at a time
-    for (std::size_t c = chunk * cells_at_once; c < std::min(grid.cells(), (chunk + 1) * cells_at_once); ++c) {
-      const auto points = grid.points_of(c);
-      const auto ghosts = std::lower_bound(points.begin(), points.end(), count);
-      if (ghosts != points.begin()) visit(c, std::span(points.begin(), ghosts));
-    }
-  };
   static PickNear* const pick_near = TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), pick_near);
   found_.resize(std::max(chunks, found_.size()));
-  team.run(chunks, [&](std::size_t chunk) {
-    thread_local Surroundings of_thread;
-    Surroundings& around = of_thread;  // its address is looked up once
-    std::vector<std::uint32_t>& list = found_[chunk];
-    std::size_t end = 0;
-    for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
-      around.gather(cells, blocks->boxes, skin, cell);
-      for (const std::uint32_t i : listed) {
-        if (list.size() < end + around.most()) list.resize(2 * (end + around.most()));
-        std::uint32_t* const near = list.data() + end;
-        std::size_t length = around.find_near(pick_near, blocks->points.data(), i, skin, near);
-        if (keep) length = keep(i, {near, length});
-        length_[i] = static_cast<std::uint32_t>(length);
-        end += length;
+  std::vector<std::uint32_t> place(chunks);  // of what a chunk has found, in these
+  const std::size_t at_once = std::max(found_at_once, count / 8);
+  for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
+    end = std::min(count, begin + at_once);
+    const auto for_each_listed = [&](std::size_t chunk, const auto& visit) {  // those of one cell at a time
+      for (std::size_t c = chunk * cells_at_once; c < std::min(grid.cells(), (chunk + 1) * cells_at_once); ++c) {
+        const auto points = grid.points_of(c);
+        const auto first = std::lower_bound(points.begin(), points.end(), begin);
+        const auto last = std::lower_bound(first, points.end(), end);
+        if (first != last) visit(c, std::span(first, last));
       }
+    };
+    std::atomic<std::uint32_t> places{0};
+    team.run(chunks, [&](std::size_t chunk) {
+      thread_local Surroundings of_thread;
+      Surroundings& around = of_thread;  // its address is looked up once
+      std::vector<std::uint32_t>* list = nullptr;
+      std::size_t filled = 0;
+      for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
+        if (list == nullptr) list = &found_[place[chunk] = places++];
+        around.gather(cells, blocks.boxes, skin, cell);
+        for (const std::uint32_t i : listed) {
+          if (list->size() < filled + around.most()) list->resize((filled + around.most()) * 5 / 4);
+          std::uint32_t* const near = list->data() + filled;
+          std::size_t length = around.find_near(pick_near, blocks.points.data(), i, skin, near);
+          if (keep) length = keep(i, {near, length});
+          length_[i] = static_cast<std::uint32_t>(length);
+          filled += length;
+        }
+      });
     });
-  });
-  blocks.reset();  // before the lists take memory twice
-  for (std::size_t i = 0; i < count; ++i)
-    first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
-  // Sums go through the particles by number: in that order their lists lie in memory.
-  neighbours_.resize(first_[count]);
-  team.run(chunks, [&](std::size_t chunk) {
-    const std::uint32_t* list = found_[chunk].data();
-    for_each_listed(chunk, [&](std::size_t, std::span<const std::uint32_t> listed) {
-      for (const std::uint32_t i : listed) {
-        std::uint32_t* const end = std::copy_n(list, length_[i], neighbours_.data() + first_[i]);
-        std::fill(end, neighbours_.data() + first_[i + 1], static_cast<std::uint32_t>(position.size()));
-        list += length_[i];
-      }
+    for (std::size_t i = begin; i < end; ++i)
+      first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
+    if (neighbours_.capacity() < first_[end]) neighbours_.reserve(first_[end] / end * count / 10 * 11);
+    neighbours_.resize(std::max(neighbours_.size(), first_[end]));
+    team.run(chunks, [&](std::size_t chunk) {
+      const std::uint32_t* list = found_[place[chunk]].data();
+      for_each_listed(chunk, [&](std::size_t, std::span<const std::uint32_t> listed) {
+        for (const std::uint32_t i : listed) {
+          std::uint32_t* const behind = std::copy_n(list, length_[i], neighbours_.data() + first_[i]);
+          std::fill(behind, neighbours_.data() + first_[i + 1], static_cast<std::uint32_t>(position.size()));
+          list += length_[i];
+        }
+      });
     });
-  });
+  }
 }
 
 bool NeighbourList::holds(ThreadTeam& team, std::span<const Vector3> position) const {

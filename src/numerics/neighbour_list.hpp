@@ -43,13 +43,17 @@ class NeighbourList {
   /// registers can be read.
   static constexpr std::size_t padded_to = 16;
 
+  /// Lists are found cell by cell and then laid by number. Only those of an eighth of the points, and of so many at
+  /// least, are found at once, and take memory twice.
+  static constexpr std::size_t found_at_once = std::size_t{1} << 15;
+
  private:
   double skin_ = -1;
   std::vector<Vector3> reference_;
   std::vector<std::uint32_t> neighbours_;
   std::vector<std::size_t> first_;  // a multiple of `padded_to`
   std::vector<std::uint32_t> length_;
-  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while the list is built; kept for its memory
+  std::vector<std::vector<std::uint32_t>> found_;  // by cells, while lists are built; kept for its memory
 };
 
 }  // namespace talus

@@ -69,6 +69,41 @@ TEST(NeighbourList, FindsThePairsOfParticlesAndGhostsThatAreKept) {
   }
 }
 
+TEST(NeighbourList, OfMorePointsThanAreFoundAtOnceIsTheSame) {
+  constexpr int side = 33;  // of a lattice whose planes have numbers far apart: cells have points of several turns
+  constexpr std::size_t count = std::size_t{side} * side * side;
+  static_assert(count > NeighbourList::found_at_once);
+  const auto number = [](int x, int y, int z) {
+    return static_cast<std::uint32_t>((7 * x % side * side + y) * side + z);
+  };
+  std::vector<Vector3> points(count);
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z) points[number(x, y, z)] = Vector3{1.0 * x, 1.0 * y, 1.0 * z};
+  ThreadTeam team(2);
+  NeighbourList list;
+  const std::size_t listed = count - 3 * side;
+  for (const double radius : {0.45, 0.55})  // the second time into used memory, which is too small
+    list.build(team, points, std::vector<double>(count, radius), 0, listed, nullptr);
+  std::size_t wrong = 0;
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z) {
+        const std::uint32_t i = number(x, y, z);
+        if (i >= listed) continue;
+        std::vector<std::uint32_t> expected;
+        for (const int step : {-1, 1}) {
+          if (x + step >= 0 && x + step < side) expected.push_back(number(x + step, y, z));
+          if (y + step >= 0 && y + step < side) expected.push_back(number(x, y + step, z));
+          if (z + step >= 0 && z + step < side) expected.push_back(number(x, y, z + step));
+        }
+        std::sort(expected.begin(), expected.end());
+        const auto found = list.of(i);
+        wrong += !std::equal(found.begin(), found.end(), expected.begin(), expected.end());
+      }
+  EXPECT_EQ(wrong, 0u);
+}
+
 TEST(NearPoints, AreTheSameForAllInstructionSets) {
   constexpr std::size_t size = PointBlock::size, count = 30;
   Random random(5);

@@ -60,6 +60,17 @@ std::vector<Signs> signs_of(std::span<const Image> images) {
   return {images.begin(), images.end()};
 }
 
+/// Room for as many records, some of it spare. A vector that grows by itself keeps what it held, which is not needed,
+/// and takes three times its memory meanwhile.
+template <class Record>
+void make_room(std::vector<Record>& records, std::size_t count) {
+  if (records.capacity() < count) {
+    std::vector<Record>().swap(records);
+    records.reserve(count + count / 16);
+  }
+  records.resize(count);
+}
+
 template <class Number, class Record>
 Number* numbers(Record& record) {
   return reinterpret_cast<Number*>(&record);
@@ -95,8 +106,8 @@ void Sweep::pack(ThreadTeam& team, const ParticleView& particles, bool stresses)
 void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
   const auto ghosts = neighbourhood_.ghosts();
-  motion_.resize(count + ghosts.size() + 1);
-  stress_.resize(motion_.size());
+  make_room(motion_, count + ghosts.size() + 1);
+  make_room(stress_, motion_.size());
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
@@ -140,8 +151,8 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
   const std::size_t count = particles.position.size();
   const auto ghosts = neighbourhood_.ghosts();
   const double per_quantum = 1 / quantum_;
-  single_motion_.resize(count + ghosts.size() + 1);
-  single_stress_.resize(single_motion_.size());
+  make_room(single_motion_, count + ghosts.size() + 1);
+  make_room(single_stress_, single_motion_.size());
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     single_motion_[i] =
