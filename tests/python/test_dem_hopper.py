@@ -161,6 +161,14 @@ class PaperRows(unittest.TestCase):
         packing = np.where(abs(x - 50) < 20, 0.5, 0)  # twenty columns of cells
         self.assertAlmostEqual(paper_rows.stream_width(x, z, packing, 40, 60), 36, delta=1e-9)
 
+    def test_a_pictures_packing_is_not_its_speed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "picture-d100-s1.csv"
+            path.write_text("time_s,x_mm,z_mm,packing,speed_m_per_s\n0.16,1,41,0.5,1.2\n0.16,3,43,0.25,1.1\n0.2,5,45,0.1,1\n")
+            pictures = paper_rows.packings(path)
+        self.assertEqual(sorted(pictures), [0.16, 0.2])
+        np.testing.assert_array_equal(pictures[0.16], [[1, 3], [41, 43], [0.5, 0.25]])
+
 
 class Folder(unittest.TestCase):
     def setUp(self):

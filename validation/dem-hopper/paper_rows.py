@@ -41,6 +41,15 @@ def swelling(x, z):
     return top - np.mean(flanks), top - band(x, z, 3e-3, 7e-3)
 
 
+def packings(path):
+    """Of a file of a picture, by time: x and z of its cells, mm, and their packing."""
+    found = defaultdict(list)
+    with open(path, encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            found[float(row["time_s"])].append([float(row[name]) for name in ("x_mm", "z_mm", "packing")])
+    return {time: np.array(rows).T for time, rows in found.items()}
+
+
 def stream_width(x, z, packing, low, high):
     """Between 5 and 95 % of what is there; in the unit of the places."""
     there = (z > low) & (z < high)
@@ -96,10 +105,9 @@ def main():
         print(f"| {time} | {value:.1f} ± {error:.1f} |")
     print("\n| picture | t, s | 14: width of the stream at 40-60 over 90-98 mm |\n|---|---|---|")
     for path in sorted(DATA.glob("picture-*.csv")):
-        for (time,), rows in groups(path.name, "time_s").items():
-            x, z, packing = rows[:, 0], rows[:, 1], rows[:, 3]
-            if float(time) in (0.16, 0.2):  # falls freely down to 40 mm
-                widths = [stream_width(x, z, packing, *ends) for ends in ((40, 60), (90, 98))]
+        for time, cells in packings(path).items():
+            if time in (0.16, 0.2):  # falls freely down to 40 mm
+                widths = [stream_width(*cells, *ends) for ends in ((40, 60), (90, 98))]
                 print(f"| {path.stem} | {time} | {widths[0]:.1f} / {widths[1]:.1f} = {widths[0] / widths[1]:.2f} |")
 
 

@@ -5,7 +5,8 @@
 usage: run.py FOLDER [--diameter M] [--seed N] [--rolling MU] [--end S] ...
 
 A folder with a checkpoint is resumed, to a later --end if one is given; its other options are then those that it was
-begun with. On one core about 8 million bead steps a second.
+begun with. On one core about 8 million bead steps a second. With --processes the box is divided along its width, by
+MPI; sums are then in another order, so that the beads part from those of one process.
 """
 import argparse
 import json
@@ -41,12 +42,13 @@ def arguments():
     parser.add_argument("folder", type=Path)
     for name, (_, initial, text) in OPTIONS.items():
         parser.add_argument(f"--{name}", type=int if name == "seed" else float, help=f"{text} (initially {initial})")
+    parser.add_argument("--processes", type=int, default=1, help="that share the beads")
     return vars(parser.parse_args())
 
 
 def main():
     given = arguments()
-    folder = given.pop("folder")
+    folder, processes = given.pop("folder"), given.pop("processes")
     given = {name.replace("_", "-"): value for name, value in given.items() if value is not None}
     checkpoint, record = newest_checkpoint(folder), folder / "parameters.json"
     if checkpoint:
@@ -63,9 +65,12 @@ def main():
     record.write_text(json.dumps(parameters, indent=1) + "\n", encoding="utf-8")
     if not shutil.which("lmp"):
         sys.exit("lmp: not found; Debian's package is called lammps")
+    if processes > 1 and not shutil.which("mpirun"):
+        sys.exit("mpirun: not found; Debian's package is called openmpi-bin")
     beads = MASS * parameters["depth"] / (DENSITY * 0.5236 * 1.01 * parameters["diameter"]**3)
     print(f"{beads:.0f} beads; progress in {folder}/lammps.log", flush=True)
-    command = ["lmp", "-in", "hopper.in", "-screen", "none", "-log", "lammps.log"]
+    shared = ["mpirun", "--oversubscribe", "-np", str(processes)] if processes > 1 else []
+    command = [*shared, "lmp", "-in", "hopper.in", "-screen", "none", "-log", "lammps.log"]
     for name, (variable, _, _) in OPTIONS.items():
         command += ["-var", variable, f"{parameters[name]:.10g}"]
     if checkpoint:
