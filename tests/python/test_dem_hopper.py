@@ -22,6 +22,7 @@ import fields  # noqa: E402
 import frames as referee  # noqa: E402
 import numpy as np  # noqa: E402
 import paper_rows  # noqa: E402
+import slit  # noqa: E402
 import surfaces  # noqa: E402
 import talus  # noqa: E402
 import trend  # noqa: E402
@@ -168,6 +169,24 @@ class PaperRows(unittest.TestCase):
             pictures = paper_rows.packings(path)
         self.assertEqual(sorted(pictures), [0.16, 0.2])
         np.testing.assert_array_equal(pictures[0.16], [[1, 3], [41, 43], [0.5, 0.25]])
+
+
+class Slit(unittest.TestCase):
+    def test_a_stream_has_its_packing_velocity_stress_and_discharge(self):
+        bed = lattice(lambda x: np.where(abs(x - 0.05) < 0.016, 0.12, 0.0))
+        away, ones = bed.x - 0.05, np.ones(len(bed.x))
+        one = (bed.x, bed.z, -0.5 * away, -2.0 * ones, bed.volume, 30 * APART**3 * ones, 60 * APART**3 * ones)
+        profile = slit.means([one, one], DEPTH)
+        packing, downwards, inwards, xx, zz = profile[3].T  # in the slit
+        np.testing.assert_allclose(packing, [PACKING] * 5 + [0, 0], rtol=1e-6)
+        np.testing.assert_allclose(downwards[:5], 2)
+        np.testing.assert_allclose(inwards[:5], 0.5 * (slit.EDGES[:5] + slit.EDGES[1:6]) / 2, rtol=1e-6)
+        np.testing.assert_allclose((xx[:5], zz[:5]), [[30] * 5, [60] * 5], rtol=1e-6)
+        self.assertAlmostEqual(slit.discharge(profile, 3), 2500 * PACKING * 2 * 0.032 * 5e-3, delta=1e-6)
+
+    def test_a_run_that_ends_before_has_none(self):
+        with self.assertRaises(ValueError):
+            slit.means([], DEPTH)
 
 
 class Folder(unittest.TestCase):
