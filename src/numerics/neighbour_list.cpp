@@ -220,6 +220,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
     });
     for (std::size_t i = begin; i < end; ++i)
       first_[i + 1] = first_[i] + (length_[i] + padded_to - 1) / padded_to * padded_to;
+    // Room for all, by the length of those that are known: a vector that grows by itself takes its memory twice.
     if (neighbours_.capacity() < first_[end]) neighbours_.reserve(first_[end] / end * count / 10 * 11);
     neighbours_.resize(std::max(neighbours_.size(), first_[end]));
     team.run(chunks, [&](std::size_t chunk) {

@@ -43,8 +43,8 @@ class NeighbourList {
   /// registers can be read.
   static constexpr std::size_t padded_to = 16;
 
-  /// Lists are found cell by cell and then laid by number. Only those of an eighth of the points, and of so many at
-  /// least, are found at once, and take memory twice.
+  /// Lists are found cell by cell, and then lie by number, as sums go through them. Only those of an eighth of the
+  /// points, and of so many at least, are found at once, and take memory twice.
   static constexpr std::size_t found_at_once = std::size_t{1} << 15;
 
  private:
