@@ -12,7 +12,8 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from frames import DENSITY, MASS, WIDTH, Run
+from frames import DENSITY, DEPTH, MASS, WIDTH, Run
+from tables import write_rows
 
 HERE = Path(__file__).resolve().parent
 TABLE = HERE / "data" / "slit.csv"
@@ -49,7 +50,7 @@ def means(samples, depth):
 
 
 def of_beads(folder):
-    run = Run(Path(folder))
+    run = Run(folder)
     if not run.reaches(WINDOW[1]):
         raise ValueError(f"{folder}: ends before {WINDOW[1]} s")
     return means(((f.x, f.z, f.velocity[:, 0], f.velocity[:, 2], f.volume, f.stress[:, 0], f.stress[:, 2])
@@ -57,6 +58,7 @@ def of_beads(folder):
 
 
 def of_talus(folder):
+    """Of a run of the whole hopper, whose slice is DEPTH deep."""
     sys.path.insert(0, str(HERE.parents[1] / "python"))
     import talus
     run = talus.Run(folder)
@@ -69,28 +71,22 @@ def of_talus(folder):
                 bulk = solid * DENSITY / s["density"]
                 yield x[:, 0], x[:, 2], u[:, 0], u[:, 2], solid, bulk * s["stress_xx"], bulk * s["stress_zz"]
 
-    return means(samples(), 5e-3)
+    return means(samples(), DEPTH)
 
 
 def discharge(profile, k):
     """Through a height, kg/s in 5 mm."""
-    return 2 * DENSITY * 5e-3 * np.nansum(profile[k, :, 0] * profile[k, :, 1] * np.diff(EDGES))
+    return 2 * DENSITY * DEPTH * np.nansum(profile[k, :, 0] * profile[k, :, 1] * np.diff(EDGES))
 
 
 def write(folders):
     rows = []
-    if TABLE.is_file():
-        with open(TABLE, encoding="utf-8") as file:
-            rows = [row for row in csv.reader(file)][1:]
-    names = {Path(folder).name for folder in folders}
-    rows = [row for row in rows if row[0] not in names]
     for folder in folders:
         profile = of_beads(folder)
         for k, n in np.ndindex(profile.shape[:2]):
             place = [f"{1e3 * HEIGHTS[k].mean():g}", f"{1e3 * EDGES[n:n + 2].mean():g}"]
-            rows.append([Path(folder).name, *place, *(f"{value:.3g}" for value in profile[k, n])])
-    with open(TABLE, "w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([["run", "z_mm", "x_mm", *COLUMNS], *rows])
+            rows.append([folder.name, *place, *(f"{value:.3g}" for value in profile[k, n])])
+    write_rows(TABLE, ["run", "z_mm", "x_mm", *COLUMNS], rows, {folder.name for folder in folders})
 
 
 def read(name):

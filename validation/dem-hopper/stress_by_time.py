@@ -7,13 +7,12 @@ usage: stress_by_time.py RUN_FOLDER ...
 Sums of the contact stress over all beads of a place, as row 11 of ../yuu2011/reference.toml sums over particles: what falls
 bears none. Means over the frames within 2 ms. Rows of other runs are kept.
 """
-import csv
 import sys
 from pathlib import Path
 
 import numpy as np
 from frames import PLATE, TOP, WIDTH, Run
-from tables import BOXES
+from tables import BOXES, write_rows
 
 FILE = Path(__file__).resolve().parent / "data" / "stress.csv"
 COLUMNS = ("run", "time_s", "place", "packing", "sxx_Pa", "syy_Pa", "szz_Pa", "sxx_over_szz")
@@ -44,14 +43,9 @@ def rows_of(run):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    rows = []
-    if FILE.exists():
-        with open(FILE, encoding="utf-8") as file:
-            rows = list(csv.reader(file))[1:]
-    for folder in map(Path, sys.argv[1:]):
-        rows = [row for row in rows if row[0] != folder.name] + list(rows_of(Run(folder)))
-    with open(FILE, "w", encoding="utf-8", newline="") as out:
-        csv.writer(out, lineterminator="\n").writerows([COLUMNS, *rows])
+    folders = [Path(name) for name in sys.argv[1:]]
+    rows = [row for folder in folders for row in rows_of(Run(folder))]
+    write_rows(FILE, COLUMNS, rows, {folder.name for folder in folders})
 
 
 if __name__ == "__main__":

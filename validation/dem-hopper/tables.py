@@ -21,6 +21,17 @@ BOXES = {"bed before": ((0.01, 0.05), (0.105, 0.15), (0.0,)),
          "bin, below": ((0.04, 0.05), (0.004, 0.016), (0.2, 0.3, 0.4))}
 
 
+def write_rows(path, head, rows, mine):
+    """A CSV file whose first column names a run. \param mine runs whose rows are replaced; those of others stay, in
+    front"""
+    kept = []
+    if path.exists():
+        with open(path, encoding="utf-8", newline="") as file:
+            kept = [row for row in list(csv.reader(file))[1:] if row[0] not in mine]
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *kept, *rows])
+
+
 class Tables:
     """The CSV files, each with a line of names and units; a line a row, of all runs one after the other."""
 
@@ -48,15 +59,7 @@ class Tables:
         folder.mkdir(parents=True, exist_ok=True)
         mine = {row[0] for rows in self.rows.values() for row in rows}
         for name, rows in self.rows.items():
-            path = folder / f"{name}.csv"
-            kept = []
-            if path.exists():
-                with open(path, encoding="utf-8", newline="") as file:
-                    kept = [row for row in list(csv.reader(file))[1:] if row[0] not in mine]
-            with open(path, "w", encoding="utf-8", newline="") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(self.HEADS[name].split(","))
-                writer.writerows(kept + rows)
+            write_rows(folder / f"{name}.csv", self.HEADS[name].split(","), rows, mine)
 
 
 def add_run(tables, run):
