@@ -22,6 +22,7 @@ import fields  # noqa: E402
 import frames as referee  # noqa: E402
 import numpy as np  # noqa: E402
 import paper_rows  # noqa: E402
+import rows  # noqa: E402
 import slit  # noqa: E402
 import surfaces  # noqa: E402
 import talus  # noqa: E402
@@ -147,6 +148,43 @@ class Trend(unittest.TestCase):
         k, rate = trend.beverloo(diameter, 2e-3 * (40 - 1.4 * diameter)**1.5)
         self.assertAlmostEqual(k, 1.4)
         self.assertAlmostEqual(rate, 2e-3 * (40 - 1.4 * 0.2)**1.5)
+
+    def test_a_slope_has_the_error_that_the_seeds_give_it(self):
+        slope, error = trend.slope_and_error({1.0: [0.0, 2.0], 3.0: [4.0, 6.0]})
+        self.assertAlmostEqual(slope, 2)
+        self.assertAlmostEqual(error, 0.5**0.5)
+        self.assertTrue(np.isnan(trend.slope_and_error({1.0: [0.0], 3.0: [4.0]})[1]))
+
+
+class Rows(unittest.TestCase):
+    REFERENCE = """title = "stays"
+[[row]]
+id = "rolling-bin-surface-200ms-22-36mm"
+quantity = "surface_height_bin"
+window = { at = 0.2 }
+place = { from = "22 mm", to = "36 mm" }
+printed = "19 mm"
+criterion = { value = 0.019, within = 0.005 } # why
+"""
+
+    def written(self, values):
+        numbers = {("surface_height_bin", "22-36 mm from the middle", "0.2", "mm"): values}
+        return rows.rewritten(self.REFERENCE, {"rolling": numbers, "round": {}})
+
+    def test_a_row_has_the_value_on_the_line_and_keeps_its_width(self):
+        written = self.written({2.0: [19.0], 1.0: [23.0, 23.1]})
+        self.assertIn('printed = "19.0 (2 mm), 23.1 (1 mm); at 0.2 mm: 26.3 mm"', written)
+        self.assertIn("criterion = { value = 0.02629, within = 0.005 } # why", written)
+        self.assertTrue(written.startswith('title = "stays"'))
+
+    def test_without_a_trend_it_has_the_mean_and_of_one_size_it_stays(self):
+        self.assertIn("value = 0.0215,", self.written({2.0: [19.0, 23.0], 1.0: [20.0, 24.0]}))
+        self.assertEqual(self.written({2.0: [19.0]}), self.REFERENCE)
+
+    def test_the_rows_are_those_of_the_tables(self):
+        text = (SCRIPTS / "reference.toml").read_text(encoding="utf-8")
+        table = SCRIPTS / "data" / "numbers.csv"
+        self.assertEqual(text, rows.rewritten(text, {"round": trend.read(table, 0.0), "rolling": trend.read(table, 0.2)}))
 
 
 class PaperRows(unittest.TestCase):

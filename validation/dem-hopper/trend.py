@@ -39,6 +39,19 @@ def line_at(diameter, means, at=GRAINS):
     return np.polyval(fit, at), abs(np.polyval(fit, diameter) - means).max() if len(diameter) > 2 else np.nan
 
 
+def slope_and_error(values):
+    """Slope of the line through the means of each diameter, and its standard error: that of the seeds, all diameters
+    together; nan where no diameter has two. \\param values by diameter"""
+    diameter = np.array(sorted(values))
+    seeds = np.array([len(values[d]) for d in diameter])
+    if seeds.max() < 2 or len(diameter) < 2:
+        return np.nan, np.nan
+    means = np.array([np.mean(values[d]) for d in diameter])
+    variance = sum(np.sum((np.array(values[d]) - np.mean(values[d]))**2) for d in diameter) / (seeds - 1).sum()
+    arms = (diameter - diameter.mean()) / np.sum((diameter - diameter.mean())**2)
+    return arms @ means, np.sqrt(variance * np.sum(arms**2 / seeds))
+
+
 def beverloo(diameter, rates, at=GRAINS):
     """k and the discharge at a diameter: Q^(2/3) is linear in D."""
     slope, intercept = np.polyfit(diameter, np.asarray(rates)**(2 / 3), 1)
