@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""How fast the hopper's flanks move, by depth below their surface: a table of runs of beads and of Talus.
+
+usage: flanks.py TIME RUN ...   TIME in s from the opening of the gate; RUN a folder of run.py, or of Talus, whose
+                                particles are taken for spheres of their volume
+
+Of what lies 4 to 20 mm from the walls, left and right together: mean speed, weighted with the volume, m/s, and the mean
+height of the surface there, mm.
+"""
+import sys
+from pathlib import Path
+
+import numpy as np
+from fields import Section
+from frames import DENSITY, DEPTH, FRAME, MASS, WIDTH, Frame, Run
+from surfaces import surface_heights
+
+FROM, TO, PLATE = 4e-3, 20e-3, 0.1             # m
+DEPTHS = np.array([0, 3, 6, 10, 15, 20, 30]) * 1e-3
+
+
+def of_talus(folder, time):
+    """The particles of the snapshot nearest to a time as beads."""
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
+    import talus
+    run = talus.Run(folder)
+    snapshot = min(run.snapshots, key=lambda s: abs(s.time - run.gate_time - time))
+    x = snapshot.positions
+    radius = np.full(len(x), (3 * MASS / DENSITY / len(x) / (4 * np.pi))**(1 / 3))
+    return Frame(snapshot.time - run.gate_time, radius, x[:, 0], x[:, 2], np.asarray(snapshot["velocity"]),
+                 np.zeros((len(x), 4))), DEPTH
+
+
+def of_beads(folder, time):
+    run = Run(folder)
+    return run.frame(round(time / FRAME)), run.depth
+
+
+def speeds(frame, depth):
+    """Mean height of the flanks' surface, m, and the mean speed in each of DEPTHS below it, m/s; nan where nothing lies."""
+    section = Section(frame, depth)
+    heights = surface_heights(section)[0]
+    known = np.isfinite(heights)
+    surface = np.interp(frame.x, section.x[known], heights[known])
+    there = (abs(abs(frame.x - WIDTH / 2) - (WIDTH - FROM - TO) / 2) < (TO - FROM) / 2) & (frame.z > PLATE)
+    below, volume = (surface - frame.z)[there], frame.volume[there]
+    flux, total = (np.histogram(below, DEPTHS, weights=w)[0]
+                   for w in (volume * np.linalg.norm(frame.velocity, axis=1)[there], volume))
+    flank = abs(abs(section.x - WIDTH / 2) - (WIDTH - FROM - TO) / 2) < (TO - FROM) / 2
+    with np.errstate(invalid="ignore"):
+        return np.nanmean(heights[flank]), flux / total
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    time = float(sys.argv[1])
+    print("| run | surface, mm | " + " | ".join(f"{a * 1e3:g}-{b * 1e3:g} mm" for a, b in zip(DEPTHS, DEPTHS[1:])) + " |")
+    print("|" + "---|" * (len(DEPTHS) + 1))
+    for folder in map(Path, sys.argv[2:]):
+        read = of_beads if (folder / "parameters.json").exists() else of_talus
+        height, speed = speeds(*read(folder, time))
+        print(f"| {folder.name} | {height * 1e3:.1f} | " + " | ".join(f"{value:.3f}" for value in speed) + " |")
+
+
+if __name__ == "__main__":
+    main()
