@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What validation/bead-shear/shear.py makes of states with known parameters, and of the states that are kept.
+"""What the scripts of validation/bead-shear make of states with known parameters, and of those that are kept.
 
 Usage: test_bead_shear.py TALUS
 """
@@ -10,6 +10,7 @@ from pathlib import Path
 sys.argv.pop()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "validation" / "bead-shear"))
 
+import incline  # noqa: E402
 import numpy as np  # noqa: E402
 import settle  # noqa: E402
 import shear  # noqa: E402
@@ -106,6 +107,41 @@ class Reversals(unittest.TestCase):
         self.assertLess(left, 1)
         np.testing.assert_allclose(found[:3], (0.5, 0.3, 0.25), rtol=0.15)
         self.assertLess((errors[:3] / found[:3]).max(), 0.05)
+
+
+class Slopes(unittest.TestCase):
+    STEPS, FALL = np.arange(0, 1001), np.linspace(30, 20, 1001)  # of SECONDS
+
+    def layer(self, slopes, velocity):
+        still = np.full(len(slopes), 1.0)
+        return np.column_stack([self.STEPS, slopes, velocity, 9 * still, 5.5 * still])
+
+    def stopping(self, friction):
+        """A layer that slows down by that friction from where it has SLOW to rest."""
+        time = incline.SECONDS * self.STEPS / self.STEPS[-1]
+        slope = np.radians(self.FALL)
+        rate = incline.GRAVITY * (np.sin(slope) - friction * np.cos(slope)) / np.sqrt(incline.GRAVITY * incline.DIAMETER)
+        moving = (np.tan(slope) < friction) & (time > 0)
+        velocity = 0.5 + np.cumsum(np.where(moving, rate, 0)) * time[1]
+        return np.maximum(velocity, 0)
+
+    def test_the_friction_that_stops_a_layer_is_found_though_the_slope_falls_on(self):
+        friction = np.tan(np.radians(27))
+        thickness, stops, balanced, starts = incline.angles(self.layer(self.FALL, self.stopping(friction)),
+                                                            self.layer(self.FALL[::-1], np.where(self.STEPS > 700, 1, 0)))
+        self.assertAlmostEqual(thickness, 8)
+        self.assertLess(stops, 26.5)
+        self.assertAlmostEqual(balanced, 27, delta=0.1)
+        self.assertAlmostEqual(starts, 27.01)
+
+    def test_what_does_not_stop_or_start_has_no_slope(self):
+        moving, resting = (self.layer(self.FALL, np.full(1001, v)) for v in (1.0, 0.0))
+        self.assertTrue(np.isnan(incline.angles(moving, resting)[1:]).all())
+
+    @unittest.skipUnless(incline.TABLE.exists(), "no table")
+    def test_thin_layers_stop_before_thick_ones(self):
+        table = np.genfromtxt(incline.TABLE, delimiter=",", names=True)
+        self.assertTrue((np.diff(table["balanced_at_deg"][np.argsort(table["thickness"])]) < 0).all())
 
 
 if __name__ == "__main__":
