@@ -20,8 +20,10 @@ void add_reproduce_command(CLI::App& app, Action& action) {
   options->request.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   CLI::App* command = app.add_subcommand("reproduce", "all runs of a paper, and every number it prints beside ours");
   command
-      ->add_option("STUDY", options->request.study,
-                   "whose paper: niiya2020, yuu2011; or yuu2011/laws, the constitutive laws side by side")
+      ->add_option(
+          "STUDY", options->request.study,
+          "niiya2020 or yuu2011, a paper; yuu2011/laws, the constitutive laws side by side; dem-hopper, the hopper "
+          "beside beads")
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(study_names), std::end(study_names))));
   command->add_flag("--quick", options->request.quick, "a small part of it: the [quick] of the study's reference.toml");

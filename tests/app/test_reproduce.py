@@ -35,6 +35,24 @@ class Study(ProgramTest):
         return [Path(picture).name for picture in pictures]
 
 
+class BesideBeads(Study):
+    """The hopper beside beads for 110 ms, with particles of 5 mm, one run."""
+
+    def test_rolling_friction(self):
+        self.replace("cases/yuu2011-hopper-vacuum-fast.toml", r"(?m)^end = .*$", 'end = "110 ms"')
+        reference = "validation/dem-hopper/reference.toml"
+        self.replace(reference, '"bed.spacing" = "1.25 mm"', '"bed.spacing" = "5 mm"')
+        self.replace(reference, r"(?m)^members = \d+", "members = 1")
+        self.talus("reproduce", "dem-hopper", "--out", "r", "--variant", "rolling", status=1)
+        rows = {row["id"]: row for row in json.loads((self.folder / "r/comparison.json").read_text())["rows"]}
+        self.assertIsInstance(rows["rolling-hopper-surface-100ms-0-10mm"]["values"][0], float)
+        self.assertEqual(rows["rolling-discharge"]["verdict"], "not evaluated", "the run ends before")
+        self.assertEqual(rows["discharge"]["verdict"], "not evaluated", "no round grains were run")
+        shown = self.pictures_of(self.folder / "r/dem-hopper.md")
+        self.assertIn("side_by_side_d160-r20_rolling.png", shown)
+        self.assertIn("discharge.png", shown)
+
+
 class Hopper(Study):
     """The hopper's study for 30 ms, with particles of 5 mm."""
 

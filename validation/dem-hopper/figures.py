@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hopper grain by grain beside Talus at equal times, and the page of the comparison.
 
-    build/talus compare RUNS validation/dem-hopper/reference.toml --json RUNS/comparison.json
-    python3 validation/dem-hopper/figures.py RUNS
+    build/talus reproduce dem-hopper --variant vacuum --variant rolling --out RUNS      draws them at its end
+    python3 validation/dem-hopper/figures.py RUNS                                       draws them anew
 """
 import csv
 import sys
@@ -73,6 +73,8 @@ def pictures(hopper, album):
         if ("-r" in referee) != (hopper.variant == "rolling"):
             continue  # beads with rolling friction beside the run that has their friction
         shown = [(time, rows) for (time,), rows in by(read(path.name), "time_s").items() if hopper.reaches(time)]
+        if not shown:
+            continue
         figure, axes = plt.subplots(2, len(shown), figsize=(1.75 * len(shown), 6.4), sharex=True, sharey=True, squeeze=False)
         for (time, rows), above, below in zip(shown, *axes):
             snapshot = hopper.at(time)

@@ -20,7 +20,7 @@ struct StudyRequest {
 };
 
 /// The studies there are.
-inline constexpr const char* study_names[] = {"niiya2020", "yuu2011", "yuu2011/laws"};
+inline constexpr const char* study_names[] = {"niiya2020", "yuu2011", "yuu2011/laws", "dem-hopper"};
 
 /// Runs every member of every case and radius of validation/STUDY/reference.toml that is not done yet, evaluates all
 /// rows, and writes comparison.txt and comparison.json into the folder; the page and its figures are left to
