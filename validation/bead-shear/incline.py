@@ -28,7 +28,7 @@ GRAVITY, DIAMETER = 9.8, 1e-3  # as in incline.in
 
 def angles(stop, start):
     """Thickness in diameters, and slopes in degrees: at which a layer stops, while the slope falls; that would have balanced
-    the friction as it slowed down from SLOW; at which it starts. nan where it does not. \param stop, start columns of
+    the friction as it slowed down from SLOW; at which it starts. nan where it does not. \\param stop, start columns of
     stop.txt and start.txt: step, slope, mean velocity, top and centre above the floor"""
     thickness = 2 * (stop[-1, 4] - PLANE)
     moves = np.nonzero(start[:, 2] > MOVES)[0]
@@ -36,7 +36,8 @@ def angles(stop, start):
     still = np.nonzero(stop[:, 2] < STILL)[0]
     if not len(still):
         return thickness, np.nan, np.nan, starts
-    slow = np.nonzero(stop[:still[0], 2] > SLOW)[0][-1]
+    faster = np.nonzero(stop[:still[0], 2] > SLOW)[0]
+    slow = faster[-1] if len(faster) else 0
     time = SECONDS * (stop[still[0], 0] - stop[slow, 0]) / (stop[-1, 0] - stop[0, 0])
     lost = (stop[slow, 2] - stop[still[0], 2]) * np.sqrt(GRAVITY * DIAMETER) / time
     slope = np.radians(stop[slow:still[0] + 1, 1].mean())

@@ -83,7 +83,7 @@ def rewritten(text, numbers):
         parts[at] = re.sub(r'(?m)^printed = .*$', lambda _: f'printed = "{printed}"', parts[at])
         if "value" in row["criterion"]:
             width = SHARES[row["quantity"]] * value if row["quantity"] in SHARES else row["criterion"]["within"]
-            bound = f"criterion = {{ value = {value:.4g}, within = {width:.2g} }}"
+            bound = f"criterion = {{ value = {value:.4g}, within = {width:.3g} }}"
             parts[at] = re.sub(r"(?m)^criterion = .*?\}", lambda _: bound, parts[at])
     return "".join(parts)
 
