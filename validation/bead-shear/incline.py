@@ -7,11 +7,9 @@ usage: incline.py run FOLDER   with LAMMPS (twenty minutes on one core), to data
        incline.py fit          the slopes at which a layer stops and starts, by its thickness in diameters
 """
 import csv
-import sys
-from pathlib import Path
 
 import numpy as np
-from shear import HERE, lammps, write_rows
+from shear import HERE, lammps, main, write_rows
 
 TABLE = HERE / "data" / "incline.csv"
 ROLLING = 0.2
@@ -62,9 +60,4 @@ def fit():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) == 3 and sys.argv[1] == "run":
-        run(Path(sys.argv[2]))
-    elif sys.argv[1:] == ["fit"]:
-        fit()
-    else:
-        sys.exit(__doc__)
+    main(__doc__, fit, run=run)

@@ -6,11 +6,8 @@ usage: settle.py run FOLDER    three reversals and one shaken packing with LAMMP
                                data/reversal.csv and data/agitation.csv
        settle.py fit           the fabric of the law critical-state, with standard errors, and the table of the shaken
 """
-import sys
-from pathlib import Path
-
 import numpy as np
-from shear import HERE, lammps, write_rows
+from shear import HERE, lammps, main, write_rows
 
 REVERSAL, AGITATION = HERE / "data" / "reversal.csv", HERE / "data" / "agitation.csv"
 ROLLING = 0.2
@@ -132,9 +129,4 @@ def fit():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) == 3 and sys.argv[1] == "run":
-        run(Path(sys.argv[2]))
-    elif sys.argv[1:] == ["fit"]:
-        fit()
-    else:
-        sys.exit(__doc__)
+    main(__doc__, fit, run=run)

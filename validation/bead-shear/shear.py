@@ -154,12 +154,15 @@ def dilatancy(rolling):
                                      for name in ("strain", "packing", "friction"))) for run in runs]).T
 
 
-if __name__ == "__main__":
-    if len(sys.argv) == 3 and sys.argv[1] == "run":
-        run(Path(sys.argv[2]))
-    elif len(sys.argv) == 3 and sys.argv[1] == "dilate":
-        dilate(Path(sys.argv[2]))
+def main(text, fit, **runs):
+    """The command line of these scripts: `NAME FOLDER` runs one of `runs` there, `fit` evaluates what was run."""
+    if len(sys.argv) == 3 and sys.argv[1] in runs:
+        runs[sys.argv[1]](Path(sys.argv[2]))
     elif sys.argv[1:] == ["fit"]:
         fit()
     else:
-        sys.exit(__doc__)
+        sys.exit(text)
+
+
+if __name__ == "__main__":
+    main(__doc__, fit, run=run, dilate=dilate)
