@@ -19,6 +19,7 @@ SCRIPTS = ROOT / "validation" / "dem-hopper"
 sys.path[:0] = [str(SCRIPTS), str(ROOT / "python")]
 
 import fields  # noqa: E402
+import flanks  # noqa: E402
 import frames as referee  # noqa: E402
 import numpy as np  # noqa: E402
 import paper_rows  # noqa: E402
@@ -183,8 +184,17 @@ criterion = { value = 0.019, within = 0.005 } # why
 
     def test_the_rows_are_those_of_the_tables(self):
         text = (SCRIPTS / "reference.toml").read_text(encoding="utf-8")
-        table = SCRIPTS / "data" / "numbers.csv"
-        self.assertEqual(text, rows.rewritten(text, {"round": trend.read(table, 0.0), "rolling": trend.read(table, 0.2)}))
+        self.assertEqual(text, rows.rewritten(text, rows.of_tables()))
+
+
+class Flanks(unittest.TestCase):
+    def test_speeds_are_those_of_the_depth_below_the_surface_beside_the_walls(self):
+        frame = lattice(lambda x: 0.14 + 0 * x, bottom=0.1)
+        frame.velocity[:, 2] = frame.z - 0.14  # as fast as deep
+        frame.velocity[abs(frame.x - 0.05) < 0.03, 0] = 9  # what lies farther from the walls does not count
+        height, speed = flanks.speeds(frame, DEPTH)
+        self.assertAlmostEqual(height, 0.14, delta=1e-3)
+        np.testing.assert_allclose(speed, (flanks.DEPTHS[:-1] + flanks.DEPTHS[1:]) / 2, atol=1.2e-3)
 
 
 class PaperRows(unittest.TestCase):

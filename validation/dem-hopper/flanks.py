@@ -13,10 +13,10 @@ from pathlib import Path
 
 import numpy as np
 from fields import Section
-from frames import DENSITY, DEPTH, FRAME, MASS, WIDTH, Frame, Run
+from frames import DENSITY, DEPTH, FRAME, MASS, PLATE, WIDTH, Frame, Run
 from surfaces import surface_heights
 
-FROM, TO, PLATE = 4e-3, 20e-3, 0.1             # m
+FROM, TO = 4e-3, 20e-3  # m from the walls
 DEPTHS = np.array([0, 3, 6, 10, 15, 20, 30]) * 1e-3
 
 
@@ -37,19 +37,23 @@ def of_beads(folder, time):
     return run.frame(round(time / FRAME)), run.depth
 
 
+def in_flank(x):
+    from_wall = WIDTH / 2 - abs(x - WIDTH / 2)
+    return (from_wall > FROM) & (from_wall < TO)
+
+
 def speeds(frame, depth):
     """Mean height of the flanks' surface, m, and the mean speed in each of DEPTHS below it, m/s; nan where nothing lies."""
     section = Section(frame, depth)
     heights = surface_heights(section)[0]
     known = np.isfinite(heights)
     surface = np.interp(frame.x, section.x[known], heights[known])
-    there = (abs(abs(frame.x - WIDTH / 2) - (WIDTH - FROM - TO) / 2) < (TO - FROM) / 2) & (frame.z > PLATE)
+    there = in_flank(frame.x) & (frame.z > PLATE)
     below, volume = (surface - frame.z)[there], frame.volume[there]
     flux, total = (np.histogram(below, DEPTHS, weights=w)[0]
                    for w in (volume * np.linalg.norm(frame.velocity, axis=1)[there], volume))
-    flank = abs(abs(section.x - WIDTH / 2) - (WIDTH - FROM - TO) / 2) < (TO - FROM) / 2
     with np.errstate(invalid="ignore"):
-        return np.nanmean(heights[flank]), flux / total
+        return np.nanmean(heights[in_flank(section.x)]), flux / total
 
 
 def main():

@@ -3,15 +3,14 @@
 """Writes what the beads have into the rows of reference.toml: at 0.2 mm on the line in D through the means of all sizes,
 or the mean of all sizes where the slope of that line is less than twice its standard error (trend.py).
 
-usage: rows.py [reference.toml] [data/numbers.csv]
+usage: rows.py
 
 Of the discharge the line is that of Beverloo's form (trend.py). Rows whose id begins with `rolling` are those of beads
-with a rolling friction of 0.2, the others those of round ones. Widths of the bounds stay: lengths and angles as they
-are, of the discharge 5 %, of the foot's speed 20 % of the value. Of a row that has no value, but a bound or nothing, the
-text alone is written. Rows of what numbers.csv does not have at the row's time, of two sizes at least, stay as they are.
+with a rolling friction of 0.2, the others those of round ones. Widths of the bounds stay as they are. Of a row that has
+no value, but a bound or nothing, the text alone is written. Rows of what numbers.csv does not have at the row's time,
+of two sizes at least, stay as they are.
 """
 import re
-import sys
 import tomllib
 from pathlib import Path
 
@@ -19,8 +18,6 @@ import numpy as np
 from trend import beverloo, line_at, read, slope_and_error
 
 HERE = Path(__file__).resolve().parent
-#: Widths of the bounds that are shares of the value.
-SHARES = {"discharge_rate_plateau": 0.05, "discharged_fraction": 0.05, "foot_speed": 0.2}
 
 
 def written(value, unit):
@@ -70,8 +67,13 @@ def of_beads(row, numbers):
     return None
 
 
+def of_tables():
+    """The numbers of data/numbers.csv, of round beads and of those with rolling friction."""
+    return {kind: read(HERE / "data" / "numbers.csv", rolling) for kind, rolling in (("round", 0.0), ("rolling", 0.2))}
+
+
 def rewritten(text, numbers):
-    """reference.toml with what the beads have. \\param numbers of round beads and of those with rolling friction"""
+    """reference.toml with what the beads have. \\param numbers as of_tables() has them"""
     rows = iter(tomllib.loads(text)["row"])
     parts = re.split(r"(?m)^(?=\[\[row\]\]$)", text)
     for at in range(1, len(parts)):
@@ -82,17 +84,13 @@ def rewritten(text, numbers):
         printed, value = found
         parts[at] = re.sub(r'(?m)^printed = .*$', lambda _: f'printed = "{printed}"', parts[at])
         if "value" in row["criterion"]:
-            width = SHARES[row["quantity"]] * value if row["quantity"] in SHARES else row["criterion"]["within"]
-            bound = f"criterion = {{ value = {value:.4g}, within = {width:.3g} }}"
-            parts[at] = re.sub(r"(?m)^criterion = .*?\}", lambda _: bound, parts[at])
+            parts[at] = re.sub(r"(?m)^criterion = \{ value = [^,]*", lambda _: f"criterion = {{ value = {value:.4g}", parts[at])
     return "".join(parts)
 
 
 def main():
-    reference = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE / "reference.toml"
-    table = Path(sys.argv[2]) if len(sys.argv) > 2 else HERE / "data/numbers.csv"
-    numbers = {"round": read(table, 0.0), "rolling": read(table, 0.2)}
-    reference.write_text(rewritten(reference.read_text(encoding="utf-8"), numbers), encoding="utf-8")
+    reference = HERE / "reference.toml"
+    reference.write_text(rewritten(reference.read_text(encoding="utf-8"), of_tables()), encoding="utf-8")
 
 
 if __name__ == "__main__":

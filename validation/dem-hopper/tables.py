@@ -22,7 +22,7 @@ BOXES = {"bed before": ((0.01, 0.05), (0.105, 0.15), (0.0,)),
 
 
 def write_rows(path, head, rows, mine):
-    """A CSV file whose first column names a run. \param mine runs whose rows are replaced; those of others stay, in
+    """A CSV file whose first column names a run. \\param mine runs whose rows are replaced; those of others stay, in
     front"""
     kept = []
     if path.exists():
