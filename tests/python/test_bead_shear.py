@@ -10,6 +10,7 @@ from pathlib import Path
 sys.argv.pop()
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "validation" / "bead-shear"))
 
+import edge  # noqa: E402
 import incline  # noqa: E402
 import numpy as np  # noqa: E402
 import settle  # noqa: E402
@@ -62,6 +63,14 @@ class States(unittest.TestCase):
             self.assertAlmostEqual(critical, np.interp(0.007, s["inertial_number"][::-1], s["packing"][::-1]), delta=0.012)
             self.assertAlmostEqual(slow, np.interp(0.007, s["inertial_number"][::-1], s["friction"][::-1]), delta=0.025)
 
+    def test_the_peak_of_dense_beads_is_that_of_the_law_with_a_smaller_part_of_the_dilatancy(self):
+        self.assertAlmostEqual(shear.fit_peak(8, 0.48, 0.55, np.array([0.6, 0.59]), np.array([0.5, 0.6, 0.6, 0.6, 0.5])), 0.3)
+        for rolling in shear.PACKINGS:
+            k, b, packing, friction = shear.dilatancy(rolling).mean(axis=1)
+            peaks = [shear.fit_peak(k, friction, packing, *run[1:]) for run in shear.dense_runs(rolling)]
+            self.assertAlmostEqual(np.mean(peaks), 0.37, delta=0.01)
+            self.assertLess(np.mean(peaks), b - 0.1)
+
     def test_beads_that_hardly_roll_have_more_friction_and_a_looser_critical_state(self):
         fits = {}
         for rolling in shear.PACKINGS:
@@ -107,6 +116,24 @@ class Reversals(unittest.TestCase):
         self.assertLess(left, 1)
         np.testing.assert_allclose(found[:3], (0.5, 0.3, 0.25), rtol=0.15)
         self.assertLess((errors[:3] / found[:3]).max(), 0.05)
+
+
+class Edges(unittest.TestCase):
+    def test_a_wedge_has_its_slope_its_height_and_what_is_left(self):
+        x = (np.arange(24000) + 0.5) * 1e-6
+        volume = (12e-3 - 0.5 * x) * edge.ACROSS * edge.PACKING * 1e-6
+        angle, height, left = edge.shape(x, volume, 0.024)
+        self.assertAlmostEqual(angle, np.degrees(np.arctan(0.5)), places=6)
+        self.assertAlmostEqual(height, 0.5 - 0.5 * 1.5 / 24, places=6)
+        self.assertAlmostEqual(left, 0.25, places=6)
+
+    @unittest.skipUnless(edge.TABLE.exists(), "no table")
+    def test_beads_rest_steeper_than_the_friction_of_slow_shear(self):
+        for rows in edge.beads().values():
+            angle, height, left = rows[max(rows)]
+            self.assertGreater(angle, np.degrees(np.arctan(0.48)) + 4)
+            self.assertAlmostEqual(height, 0.62, delta=0.02)
+            self.assertAlmostEqual(left, 0.345, delta=0.015)
 
 
 class Slopes(unittest.TestCase):

@@ -105,6 +105,14 @@ def fit_dilatancy(strain, packing, friction):
     return k, b, critical, slow
 
 
+def fit_peak(dilatancy, friction_critical, packing_critical, packing, friction):
+    """b by the peak: of a bed of the packing with which a run begins the law's friction is at most mu_s + b k (phi - phi_c),
+    at once; of the beads it is at most the run's largest (three rows together), after a strain of 0.03 to 0.1 in which
+    they have lost part of that packing."""
+    peak = np.convolve(friction, np.ones(3) / 3, "valid").max()
+    return (peak - friction_critical) / (dilatancy * (packing[0] - packing_critical))
+
+
 def fit_friction(inertial, friction):
     """mu_s, mu_2 and I_0 of mu_s + (mu_2 - mu_s)/(1 + I_0/I) by least squares, I_0 by search. Returns them and the
     root mean square of what is left."""
@@ -140,18 +148,26 @@ def fit():
         print(f"rolling friction {rolling:g}: friction {slow:.3f}, fast_friction {fast:.3f}, inertial_number {scale:.2f} "
               f"(left {left:.3f}); critical_packing {critical:.4f} +- {critical_error:.4f}, "
               f"loosening {fall:.3f} +- {fall_error:.3f}")
+        fits = dilatancy(rolling)
         print("    dense and sheared at constant pressure: " + ", ".join(
             f"{name} {values.mean():.3f} +- {values.std(ddof=1) / np.sqrt(len(values)):.3f}"
-            for name, values in zip(("dilatancy", "dilatant_friction", "critical_packing", "friction"), dilatancy(rolling))))
+            for name, values in zip(("dilatancy", "dilatant_friction", "critical_packing", "friction"), fits)))
+        k, _, packing, friction = fits.mean(axis=1)
+        peaks = np.array([fit_peak(k, friction, packing, *run[1:]) for run in dense_runs(rolling)])
+        print(f"    dilatant_friction by the peak {peaks.mean():.3f} +- {peaks.std(ddof=1) / np.sqrt(len(peaks)):.3f}")
+
+
+def dense_runs(rolling):
+    """Strain, packing and friction of every run of dense beads."""
+    table = np.genfromtxt(DILATION, delimiter=",", names=True)
+    table = table[table["rolling"] == rolling]
+    runs = table[["packed_at", "seed"]]
+    return [[table[name][runs == run] for name in ("strain", "packing", "friction")] for run in np.unique(runs)]
 
 
 def dilatancy(rolling):
     """What fit_dilatancy() returns, of every run."""
-    table = np.genfromtxt(DILATION, delimiter=",", names=True)
-    table = table[table["rolling"] == rolling]
-    runs = np.unique(table[["packed_at", "seed"]])
-    return np.array([fit_dilatancy(*(table[name][table[["packed_at", "seed"]] == run]
-                                     for name in ("strain", "packing", "friction"))) for run in runs]).T
+    return np.array([fit_dilatancy(*run) for run in dense_runs(rolling)]).T
 
 
 def main(text, fit, **runs):

@@ -4,7 +4,8 @@
 ///
 ///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to 1
 ///     elastic     p = 3 K e_v, e_v = ln(phi/phi_s)/3;   ds/dt = 2G (-D_dev + D^p) + W s - s W
-///     yield       |s| <= 2^(1/2) M p,  M = max(0, beta, mu(I) + b beta + Delta_mu c),  returned along s at constant p
+///     yield       |s| <= 2^(1/2) M p,  M = max(0, beta, mu(I) + b beta + r),  returned along s at constant p
+///     at rest     r = Delta_mu c,  or max(0, Delta_mu c - max(0, b beta)) if it does not add to b beta
 ///     friction    mu(I) = mu_s + (mu_2 - mu_s)/(1 + I_0/I),   I = gamma' d (rho_p/p)^(1/2),   gamma' = 2^(1/2) |D_dev|
 ///     dilatancy   d ln phi_s = -beta dgamma,  beta = k (phi_s - phi_c(I)),   phi_c(I) = phi_c - Delta min(I, 0.3)
 ///     contacts    dc/dt = (1 - c)/T - (c/gamma_0) dgamma/dt
@@ -19,7 +20,7 @@
 /// by 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
-/// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + Delta_mu c) p dgamma/dt with b = 1.
+/// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + r) p dgamma/dt with b = 1.
 /// With fabric M is M - mu_F (1 - N:F) there, and at least beta again.
 /// Healing and coming apart change no stored energy.
 ///
@@ -96,6 +97,12 @@ class CriticalState {
                     "Delta_mu, friction that grains at rest have beyond that in flow; 0: no hysteresis"},
           p.strength_at_rest);
     auto healing = only_if({"strength_at_rest", "is 0", "above 0", p.strength_at_rest > 0}, visit);
+    healing(Parameter{"strength_adds",
+                      {},
+                      {},
+                      "whether Delta_mu adds to the friction that a packing beyond the critical one gives, b beta, or "
+                      "counts only as far as it is more, as layers and heaps of beads have it"},
+            p.strength_adds);
     healing(Parameter{"healing_time", dimension::time, above(0), "T, in which grains at rest regain that strength"},
             p.healing_time);
     healing(Parameter{"breaking_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},

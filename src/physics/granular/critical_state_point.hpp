@@ -24,6 +24,7 @@ struct CriticalStateParameters {
   double dilatancy = 4;             ///< k
   double dilatant_friction = 1;     ///< b, up to 1
   double strength_at_rest = 0.08;   ///< Delta_mu
+  bool strength_adds = true;        ///< to b beta, or counts where it is more
   double healing_time = 10e-3;      ///< T, s
   double breaking_strain = 0.05;    ///< gamma_0
   double fabric_friction = 0;       ///< mu_F
@@ -71,8 +72,13 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const Number critical_volume =
       p.reference_packing / (p.critical_packing - p.loosening * minimum(inertial, Number(c.largest_inertial_number)));
   const Number dilatancy = (p.dilatancy * p.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
-  const Number friction = p.friction + (p.fast_friction - p.friction) * (inertial / (inertial + p.inertial_number)) +
-                          p.dilatant_friction * dilatancy + p.strength_at_rest * old.contacts;
+  const Number flowing = p.friction + (p.fast_friction - p.friction) * (inertial / (inertial + p.inertial_number)) +
+                         p.dilatant_friction * dilatancy;
+  Number friction = flowing + p.strength_at_rest * old.contacts;
+  if (!p.strength_adds) {
+    const Number packed = maximum(p.dilatant_friction * dilatancy, Number(0.0));
+    friction = flowing + maximum(p.strength_at_rest * old.contacts - packed, Number(0.0));
+  }
 
   const Tensor3<Number> turn = rotation_of_step(velocity_gradient, time_step);
   const SymmetricTensor3<Number> trial =

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "base/random.hpp"
@@ -137,28 +138,41 @@ TEST(CriticalState, TakesAPartOfItsDilatancyIntoItsFriction) {
   EXPECT_NEAR(peak, 8 * (0.700 - 0.585), 1e-2);
 }
 
+/// The largest ratio over a small, fast shear, beyond the friction of flow.
+double strength(ShearedAtPressure grains, double pressure) {
+  double most = 0;
+  for (int k = 0; k < 400; ++k) {
+    grains.advance(50, 1e-8, 100);
+    most = std::max(most, friction_of(grains.point.stress));
+  }
+  return most - friction_at(grains.parameters, inertial_number(50, pressure));
+}
+
 TEST(CriticalState, IsStrongerAtRestAndLosesThatByFlowing) {
   const double pressure = 1000, rate = 5;
   Parameters p{.reference_packing = 0.585, .loosening = 0};
   ShearedAtPressure grains{p, pressure};
-  const auto strength = [&](ShearedAtPressure copy) {  // the largest ratio over a small, fast shear
-    double most = 0;
-    for (int k = 0; k < 400; ++k) {
-      copy.advance(50, 1e-8, 100);
-      most = std::max(most, friction_of(copy.point.stress));
-    }
-    return most - friction_at(p, inertial_number(50, pressure));
-  };
-  EXPECT_NEAR(strength(grains), 0, 3e-3);  // new: nothing has healed yet
-  grains.advance(0, 1e-5, 2000);           // two healing times
+  EXPECT_NEAR(strength(grains, pressure), 0, 3e-3);  // new: nothing has healed yet
+  grains.advance(0, 1e-5, 2000);                     // two healing times
   EXPECT_NEAR(grains.point.history.contacts, 1 - std::exp(-2.0), 2e-3);
   grains.advance(0, 1e-5, 10000);
-  EXPECT_NEAR(strength(grains), 0.08, 3e-3);
+  EXPECT_NEAR(strength(grains, pressure), 0.08, 3e-3);
   // In steady flow 1/(1 + rate T/gamma_0) of it is left.
   grains.advance(rate, 1e-5, 30000);
   EXPECT_NEAR(grains.point.history.contacts, 1 / (1 + rate * 10e-3 / 0.05), 1e-3);
   grains.advance(500, 1e-6, 3000);
   EXPECT_NEAR(grains.point.history.contacts, 0.01, 1e-3);
+}
+
+TEST(CriticalState, StrengthAtRestAddsToThatOfThePackingOrCountsWhereItIsMore) {
+  const double pressure = 1000;
+  for (const auto& [packing, added, larger] :
+       {std::tuple{0.575, 0.04, 0.04}, {0.585, 0.08, 0.08}, {0.595, 0.12, 0.08}, {0.61, 0.18, 0.10}})
+    for (const bool adds : {true, false}) {
+      ShearedAtPressure grains{{.reference_packing = packing, .loosening = 0, .strength_adds = adds}, pressure};
+      grains.advance(0, 1e-5, 10000);  // ten healing times
+      EXPECT_NEAR(strength(grains, pressure), adds ? added : larger, 3e-3) << packing;
+    }
 }
 
 TEST(CriticalState, GrainsApartAreFreeAndTouchWhereTheyCame) {
