@@ -46,9 +46,8 @@ struct Bed {
     law.loosening = 0.09;
     law.loosest_packing = 0.52;
     law.dilatancy = 8;
-    law.dilatant_friction = 0.37;
-    law.strength_at_rest = 0.1;
-    law.strength_adds = false;
+    law.dilatant_friction = 0.5;
+    law.strength_at_rest = 0.097;
     p.law = law;
     p.collisions.form = granular::Collisions::none;
     p.sph.viscosity_alpha = 0.01;
