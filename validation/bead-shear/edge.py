@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What stays of a bed at the edge of a plate when the gate above the edge is taken away, beads of edge.in beside the law.
 
-usage: edge.py run FOLDER    with LAMMPS (an hour and a half on one core), to data/edge.csv
+usage: edge.py run FOLDER    with LAMMPS (half an hour on one core), to data/edge.csv
        edge.py beside RUN    a run of edge.toml by `talus run`: how steep it is, beside the beads
        edge.py fit           how steep the beads are, by time and by the length of the plate in diameters
 """
