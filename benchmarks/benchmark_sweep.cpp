@@ -77,7 +77,8 @@ struct Bed {
     evaluate(SweepTerms::all);
   }
   void evaluate(SweepTerms terms) {
-    sweep(team, {state.position, state.velocity, state.density, h, state.material}, terms, rates);
+    sweep(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
+          rates);
   }
 };
 

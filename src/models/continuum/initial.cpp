@@ -34,6 +34,8 @@ State initial_state(const Parameters& parameters, const Material& material) {
   for (auto& column : state.material.stress) column.assign(count, 0.0);
   if (draws_by_lasting_rate(parameters))
     for (auto& column : state.lasting_rate) column.assign(count, 0.0);
+  if (parameters.sph.hourglass_damping > 0)
+    for (auto& column : state.deformation_rate) column.assign(count, 0.0);
   if (parameters.collisions.form != granular::Collisions::none)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});

@@ -143,8 +143,9 @@ void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool st
 Records Sweep::records() const {
   return {motion_.data(),
           stress_.data(),
-          stabilisers_.data(),
-          {single_motion_.data(), single_stress_.data(), single_stabilisers_.data(), quantum_}};
+          damping_.data(),
+          diffusion_.data(),
+          {single_motion_.data(), single_stress_.data(), single_damping_.data(), single_diffusion_.data(), quantum_}};
 }
 
 void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses) {

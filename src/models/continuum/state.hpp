@@ -80,6 +80,8 @@ struct State {
   /// D', averaged over what went before (measure_shear_rate), 1/s: xx yy zz xy yz zx; empty: densities are not drawn by
   /// it.
   std::array<std::vector<double>, 6> lasting_rate;
+  /// D at the midpoint of the last step, 1/s: xx yy zz xy yz zx; empty unless what it does not explain is damped.
+  std::array<std::vector<double>, 6> deformation_rate;
 
   // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
   std::array<Vector3, most_walls> wall_impulse{};
@@ -111,6 +113,9 @@ inline constexpr std::array<const char*, 6> collisional_names = {"collisional_st
                                                                  "collisional_stress_yz", "collisional_stress_zx"};
 inline constexpr std::array<const char*, 6> lasting_names = {"lasting_rate_xx", "lasting_rate_yy", "lasting_rate_zz",
                                                              "lasting_rate_xy", "lasting_rate_yz", "lasting_rate_zx"};
+inline constexpr std::array<const char*, 6> rate_names = {"deformation_rate_xx", "deformation_rate_yy",
+                                                          "deformation_rate_zz", "deformation_rate_xy",
+                                                          "deformation_rate_yz", "deformation_rate_zx"};
 inline constexpr const char* damping_names[3] = {"impulse_damping_x", "impulse_damping_y", "impulse_damping_z"};
 inline constexpr const char* gravity_names[3] = {"impulse_gravity_x", "impulse_gravity_y", "impulse_gravity_z"};
 inline constexpr const char* fed_names[3] = {"fed_momentum_x", "fed_momentum_y", "fed_momentum_z"};
@@ -215,6 +220,8 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"shear_rate", "1/s"}, s.shear_rate);
   for (std::size_t c = 0; c < 6 && !s.lasting_rate[c].empty(); ++c)
     visit(FieldInfo{detail::lasting_names[c], "1/s", FieldRole::kept, false}, s.lasting_rate[c]);
+  for (std::size_t c = 0; c < 6 && !s.deformation_rate[c].empty(); ++c)
+    visit(FieldInfo{detail::rate_names[c], "1/s", FieldRole::kept, false}, s.deformation_rate[c]);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     for (int axis = 0; axis < 3; ++axis)
       visit(FieldInfo{detail::impulse_names[wall][static_cast<std::size_t>(axis)], "N s"}, s.wall_impulse[wall][axis]);

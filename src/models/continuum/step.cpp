@@ -81,7 +81,9 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   check_state(team, p, w.domain, s, dt);
   update_phase(team, p, s, w);
   const bool whole = p.integration.method == Method::runge_kutta;
-  if (!whole) measure_shear_rate(team, s, w);  // while the gradients are in the order of the particles
+  // While the gradients are in the order of the particles.
+  keep_deformation_rate(team, s, w);
+  if (!whole) measure_shear_rate(team, s, w);
   const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
   if (fed || !w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) {
@@ -148,7 +150,7 @@ void Step::half() const {
 /// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
 void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density,
                     std::span<const double> smoothing_length, const MaterialColumns& material, SweepTerms terms) const {
-  w.sweep(team, {w.position, velocity, density, smoothing_length, material}, terms, w.rates);
+  w.sweep(team, {w.position, velocity, density, smoothing_length, material, s.deformation_rate}, terms, w.rates);
 }
 
 /// Eq. 17. \param duration of the force of stress and gravity, that of the air's is dt, s; \param time of gravity, s

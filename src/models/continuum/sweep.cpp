@@ -40,12 +40,14 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .viscosity_beta = p.sph.viscosity_beta,
                  .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
+      damps_(p.sph.hourglass_damping > 0 || p.sph.viscosity_speed == ViscositySpeed::local),
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
       neighbourhood_(domain, vessel),
       vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields, sector_of(p)) {
   const InstructionSet set = resolve(p.integration.instruction_set);
-  const bool stabilised = p.sph.density_diffusion > 0 || p.sph.hourglass_damping > 0 || local_sound_speed_;
+  const bool diffuses = p.sph.density_diffusion > 0;
   const auto choose = [&](SweepTerms terms, StressGradient stress_gradient) {
+    const bool stabilised = (terms != SweepTerms::forces && diffuses) || (terms != SweepTerms::gradients && damps_);
     return TALUS_COMPILED_FOR(set, sum_neighbours)(
         terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_,
         asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient);
@@ -56,9 +58,9 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
     sum_at_vessel_[n] = choose(terms, StressGradient::asked);
   }
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
-  if (stabilised)
-    prepare_sum_ = TALUS_COMPILED_FOR(set, sum_neighbours)(SweepTerms::gradients, Stabilisers::prepared, precision_,
-                                                           StressAround::unasked, StressGradient::unasked);
+  if (diffuses)
+    density_gradients_ = TALUS_COMPILED_FOR(set, sum_neighbours)(
+        SweepTerms::gradients, Stabilisers::prepared, precision_, StressAround::unasked, StressGradient::unasked);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -186,7 +188,7 @@ void Sweep::pick_seen(std::span<const Vector3> position, std::size_t i, Seen& se
 void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
   rates.resize(count);
-  pack(team, particles, terms != SweepTerms::gradients || prepare_sum_);
+  pack(team, particles, terms != SweepTerms::gradients || density_gradients_);
   if (!vessel_.is_empty()) {
     rates.vessel.resize(vessel_.particles().size());
     rates.at_vessel.assign(vessel_.particles().begin(), vessel_.particles().end());
@@ -194,7 +196,10 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     if (terms != SweepTerms::gradients || !vessel_.is_met())
       vessel_.meet(team, particles.position, particles.smoothing_length);
   }
-  if (prepare_sum_) prepare_stabilisers(team, particles);
+  // Sums of all terms read the records of either stabiliser where one acts.
+  const bool whole = terms == SweepTerms::all, diffuses = density_gradients_ != nullptr;
+  if (whole ? damps_ || diffuses : terms == SweepTerms::forces && damps_) pack_damping(team, particles);
+  if (whole ? damps_ || diffuses : terms == SweepTerms::gradients && diffuses) pack_diffusion(team, particles);
   if (terms != SweepTerms::gradients) {
     if (asks_stress_around_)
       for (auto& component : rates.stress_around) component.resize(count);

@@ -60,6 +60,7 @@ struct ParticleView {
   std::span<const double> density;
   std::span<const double> smoothing_length;  ///< of these densities (Sweep::smoothing_length)
   const MaterialColumns& material;
+  const std::array<std::vector<double>, 6>& deformation_rate;  ///< State::deformation_rate
 };
 
 class Sweep {
@@ -92,8 +93,9 @@ class Sweep {
   void pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses);
   void pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses);
   static double quantum_for(double reach);
-  /// Computes the gradients that the stabilisers need from the packed records, and packs them (stabilise.cpp).
-  void prepare_stabilisers(ThreadTeam& team, const ParticleView& particles);
+  /// Records of what the stabilisers need (stabilise.cpp).
+  void pack_damping(ThreadTeam& team, const ParticleView& particles);
+  void pack_diffusion(ThreadTeam& team, const ParticleView& particles);
   void find_groups();
   void add_loads(std::span<const NeighbourGroup> groups, std::uint32_t walls, std::vector<WallLoad>& loads) const;
   /// What of a particle's list it sees at present, where that can change while the list holds; memory of the sums.
@@ -129,9 +131,8 @@ class Sweep {
   PairConstants constants_;
   std::array<SumNeighbours, 3> sum_, sum_at_vessel_;  // by SweepTerms; that of particles that meet walls of the vessel
   VelocityGradients* velocity_gradients_;
-  SumNeighbours prepare_sum_ = nullptr;  // null: no stabilisers
-  bool local_sound_speed_;
-  std::vector<StabiliserRecord> stabilisers_;  // of every record
+  SumNeighbours density_gradients_ = nullptr;  // null: densities do not diffuse
+  bool damps_, local_sound_speed_;
   Neighbourhood neighbourhood_;
   VesselWalls vessel_;
   std::vector<std::array<Domain::Load, 3>> loads_of_images_;
@@ -140,7 +141,10 @@ class Sweep {
   double quantum_ = 0;  // of the places in single precision, m
   std::vector<SingleMotionRecord> single_motion_;
   std::vector<SingleStressRecord> single_stress_;
-  std::vector<SingleStabiliserRecord> single_stabilisers_;
+  std::vector<DampingRecord> damping_;  // of every record, where stabilisers act
+  std::vector<DiffusionRecord> diffusion_;
+  std::vector<SingleDampingRecord> single_damping_;
+  std::vector<SingleDiffusionRecord> single_diffusion_;
   std::vector<std::uint32_t> packed_ghosts_;  // that have records
   std::vector<NeighbourGroup> groups_;        // of every particle's neighbours, one particle after the other
   std::size_t longest_ = 1;                   // list of neighbours

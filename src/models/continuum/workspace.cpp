@@ -74,7 +74,7 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const bool all = p.integration.method == Method::runge_kutta;
-  w.sweep(team, {s.position, s.velocity, s.density, w.smoothing_length, s.material},
+  w.sweep(team, {s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
           all ? SweepTerms::all : SweepTerms::forces, w.rates);
   s.packing.resize(s.position.size());
   s.strain.resize(s.position.size());
@@ -82,6 +82,12 @@ void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     s.packing[i] = w.rates.kernel_density[i] / p.grains.density;
     s.strain[i] = w.material.strain(s.material, i);
   });
+}
+
+void keep_deformation_rate(ThreadTeam& team, State& s, const Workspace& w) {
+  if (s.deformation_rate[0].empty()) return;
+  for_each(team, s.position.size(),
+           [&](std::size_t i) { set_tensor(s.deformation_rate, i, symmetric_part(w.rates.velocity_gradient[i])); });
 }
 
 void measure_shear_rate(ThreadTeam& team, State& s, const Workspace& w) {

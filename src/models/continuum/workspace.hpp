@@ -67,6 +67,10 @@ inline double shear_of(const SymmetricTensor3<>& rate) {
   return std::sqrt(2 * double_dot(rate, rate));
 }
 
+/// The rate of deformation at the midpoint of the step, which the forces at its end and of the next step's stages are
+/// damped by: a resumed run reads it from its checkpoint.
+void keep_deformation_rate(ThreadTeam& team, State& state, const Workspace& workspace);
+
 /// From the last velocity gradients: with the leapfrog those at the midpoint of the step, which cannot be recomputed
 /// from the state at its end. A resumed run reads it from its checkpoint. The rate that lasts is its mean over what
 /// went before, weighted by exp(-t/lasting_time).

@@ -23,16 +23,17 @@ TALUS_INLINE constexpr Number density_diffusion(double strength, const Number& h
   return (-strength) * h * volume * slope * (difference - linear);
 }
 
-/// The part of a pair's approach that the gradients of the velocity do not explain, (du - (L_i + L_j) d/2) . d, m^2/s:
-/// zero in any linear field. Its damping is the viscous counterpart of the penalty on non-affine displacements of
-/// Ganzenmueller, Comput. Methods Appl. Mech. Eng. 286, 87 (2015); nothing is remembered of a pair.
-/// \param approach du . d; \param d x_j - x_i, m; \param gradients L_i + L_j, L_ij = du_i/dx_j, 1/s
+/// The part of a pair's approach that the gradients of the velocity do not explain, (du - (L_i + L_j) d/2) . d =
+/// du . d - d . (D_i + D_j) d/2, m^2/s: zero in any linear field. Its damping is the viscous counterpart of the penalty
+/// on non-affine displacements of Ganzenmueller, Comput. Methods Appl. Mech. Eng. 286, 87 (2015); nothing is remembered
+/// of a pair.
+/// \param approach du . d; \param d x_j - x_i, m; \param rates D_i + D_j, D the symmetric part of L_ij = du_i/dx_j, 1/s
 template <class Number, class Vector>
 TALUS_INLINE constexpr Number unexplained_approach(const Number& approach, const Vector& d,
-                                                   const Tensor3<Number>& gradients) {
-  const Number x = gradients.xx * d.x + gradients.xy * d.y + gradients.xz * d.z;
-  const Number y = gradients.yx * d.x + gradients.yy * d.y + gradients.yz * d.z;
-  const Number z = gradients.zx * d.x + gradients.zy * d.y + gradients.zz * d.z;
+                                                   const SymmetricTensor3<Number>& rates) {
+  const Number x = rates.xx * d.x + rates.xy * d.y + rates.zx * d.z;
+  const Number y = rates.xy * d.x + rates.yy * d.y + rates.yz * d.z;
+  const Number z = rates.zx * d.x + rates.yz * d.y + rates.zz * d.z;
   return approach - 0.5 * (x * d.x + y * d.y + z * d.z);
 }
 

@@ -63,7 +63,16 @@ struct Evaluation {
     std::vector<double> h;
     for (const double rho : state.density) h.push_back(sweep.smoothing_length(rho));
     sweep.find_neighbours(team, state.position, h);
-    sweep(team, {state.position, state.velocity, state.density, h, state.material}, terms, rates);
+    if (!state.deformation_rate[0].empty()) {
+      sum(h, SweepTerms::gradients);
+      for (std::size_t i = 0; i < h.size(); ++i)
+        set_tensor(state.deformation_rate, i, symmetric_part(rates.velocity_gradient[i]));
+    }
+    sum(h, terms);
+  }
+  void sum(const std::vector<double>& h, SweepTerms terms) {
+    sweep(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
+          rates);
   }
 
   /// Summed over the particles: of all forces, of the walls' alone, and of the sizes of all.

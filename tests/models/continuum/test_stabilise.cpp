@@ -130,6 +130,27 @@ TEST(Stabilise, KeepMomentumToRoundOff) {
   EXPECT_LT(norm(total), 1e-13 * size);
 }
 
+TEST(Stabilise, HaveTheSameBitsForAnyNumberOfThreadsAndResumed) {
+  for (const Method method : {Method::runge_kutta, Method::leapfrog}) {
+    Parameters p = small_hopper();
+    p.sph.hourglass_damping = 0.1;
+    p.sph.density_diffusion = 0.1;
+    p.integration.method = method;
+    ThreadTeam one(1), three(3);
+    Continuum a = started(p, one), b = started(p, three);
+    for (int n = 0; n < 100; ++n) a.advance(one), b.advance(three);
+    Continuum resumed(p);
+    resumed.mutable_state() = a.state();
+    resumed.resume(three);
+    for (int n = 0; n < 100; ++n) a.advance(one), b.advance(three), resumed.advance(three);
+    EXPECT_GT(norm(tensor_at(a.state().deformation_rate, 0)), 0);
+    EXPECT_EQ(a.state().velocity, b.state().velocity);
+    EXPECT_EQ(a.state().position, b.state().position);
+    EXPECT_EQ(a.state().velocity, resumed.state().velocity);
+    EXPECT_EQ(a.state().position, resumed.state().position);
+  }
+}
+
 TEST(Stabilise, TheLocalSpeedIsTheLargestUnderPressureAndNoneApart) {
   Parameters p = free_block(6, 5, 7);
   p.sph.viscosity_alpha = 0.1;

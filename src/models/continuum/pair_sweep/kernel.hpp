@@ -23,14 +23,18 @@ struct alignas(64) StressRecord {
   double unused;
 };
 
-/// What the stabilisers (physics/sph/stabilisers.hpp) know of a particle besides.
-struct alignas(128) StabiliserRecord {
-  double density_gradient[3];   ///< kg/m^4
-  double velocity_gradient[9];  ///< 1/s, xx xy xz yx yy yz zx zy zz
-  double sound_speed;           ///< of the viscosity, m/s
-  double loaded;                ///< 1: it bears pressure, else 0
-  double dense;                 ///< 1: its density diffuses, else 0
-  double unused;
+/// What the stabilisers (physics/sph/stabilisers.hpp) know of a particle besides: where forces are damped,
+struct alignas(64) DampingRecord {
+  double deformation_rate[6];  ///< D: xx yy zz xy yz zx, 1/s
+  double sound_speed;          ///< of the viscosity, m/s
+  double loaded;               ///< 1: it bears pressure, else 0
+};
+
+/// and where densities diffuse.
+struct alignas(64) DiffusionRecord {
+  double density_gradient[3];  ///< kg/m^4
+  double dense;                ///< 1: its density diffuses, else 0
+  double unused[4];
 };
 
 /// The same in single precision. Places are whole numbers of quanta: what two of them differ by is as good as a float,
@@ -46,10 +50,14 @@ struct alignas(32) SingleStressRecord {
   float half_density;
   float unused;
 };
-struct alignas(64) SingleStabiliserRecord {
+struct alignas(32) SingleDampingRecord {
+  float deformation_rate[6];
+  float sound_speed, loaded;
+};
+struct alignas(32) SingleDiffusionRecord {
   float density_gradient[3];
-  float velocity_gradient[9];
-  float sound_speed, loaded, dense, unused;
+  float dense;
+  float unused[4];
 };
 
 /// Neighbours of a particle that load a wall, of those `block` in its list that begin at a multiple of it: the
@@ -76,7 +84,8 @@ struct PairConstants {
 struct SingleRecords {
   const SingleMotionRecord* motion = nullptr;
   const SingleStressRecord* stress = nullptr;
-  const SingleStabiliserRecord* stabilisers = nullptr;
+  const SingleDampingRecord* damping = nullptr;
+  const SingleDiffusionRecord* diffusion = nullptr;
   double quantum = 0;  ///< m, a power of two
 };
 
@@ -85,8 +94,9 @@ struct SingleRecords {
 struct Records {
   const MotionRecord* motion;
   const StressRecord* stress;
-  const StabiliserRecord* stabilisers;  ///< null where stabilisers do not act
-  SingleRecords single;                 ///< of the sums in single precision
+  const DampingRecord* damping;      ///< where stabilisers act on forces
+  const DiffusionRecord* diffusion;  ///< where they act on densities
+  SingleRecords single;              ///< of the sums in single precision
 };
 
 /// Of the neighbours of a particle those up to `end` that are particles (image -1) or seen in one image.
@@ -136,7 +146,7 @@ enum class SweepTerms { all, gradients, forces };
 /// Precision of the arithmetic of pairs.
 enum class PairPrecision { in_double, in_single };
 
-/// Whether stabilisers act; before they can, the gradients that they take are measured.
+/// Whether stabilisers act; before densities can diffuse, their gradients are measured.
 enum class Stabilisers { none, prepared, acting };
 
 /// Whether sums of forces sum the stress around a particle too.

@@ -171,9 +171,6 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
     Number stress[8];
     if constexpr (forces || slopes || stabilisers != Stabilisers::none)
       load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.stress + record[lane]); }, stress);
-    Number its[16];
-    if constexpr (stabilisers == Stabilisers::acting)
-      load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.stabilisers + record[lane]); }, its);
     if constexpr (gradients) {
       gradient.add(volume, slope, d, du);
       density_rate = density_rate + sph::density_rate(constants.mass, slope, d, du);
@@ -184,9 +181,11 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
                           density_gradient.z + weight * d.z};
     }
     if constexpr (gradients && stabilisers == Stabilisers::acting) {
-      const Real* g = records.stabilisers[self].density_gradient;
+      Number its[8];
+      load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.diffusion + record[lane]); }, its);
+      const Real* g = records.diffusion[self].density_gradient;
       const SimdVector3<Real> both{its[0] + Number(g[0]), its[1] + Number(g[1]), its[2] + Number(g[2])};
-      density_rate = density_rate + records.stabilisers[self].dense * its[14] *
+      density_rate = density_rate + records.diffusion[self].dense * its[3] *
                                         sph::density_diffusion(constants.density_diffusion, h, volume, slope, d,
                                                                2.0 * (stress[6] - Number(loaded.half_density)), both);
     }
@@ -199,14 +198,15 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       const Number mean_density = Number(loaded.half_density) + stress[6];
       Number viscosity;
       if constexpr (stabilisers == Stabilisers::acting) {
-        const auto& mine = records.stabilisers[self];
-        const Real* l = mine.velocity_gradient;
-        const Tensor3<Number> both{its[3] + Number(l[0]), its[4] + Number(l[1]),  its[5] + Number(l[2]),
-                                   its[6] + Number(l[3]), its[7] + Number(l[4]),  its[8] + Number(l[5]),
-                                   its[9] + Number(l[6]), its[10] + Number(l[7]), its[11] + Number(l[8])};
+        Number its[8];
+        load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.damping + record[lane]); }, its);
+        const auto& mine = records.damping[self];
+        const Real* r = mine.deformation_rate;
+        const SymmetricTensor3<Number> both{its[0] + Number(r[0]), its[1] + Number(r[1]), its[2] + Number(r[2]),
+                                            its[3] + Number(r[3]), its[4] + Number(r[4]), its[5] + Number(r[5])};
         viscosity =
-            sph::viscosity(viscous, approach, square, h, 0.5 * (Number(mine.sound_speed) + its[12]), mean_density) +
-            mine.loaded * its[13] *
+            sph::viscosity(viscous, approach, square, h, 0.5 * (Number(mine.sound_speed) + its[6]), mean_density) +
+            mine.loaded * its[7] *
                 sph::hourglass_damping(constants.hourglass_damping, sph::unexplained_approach(approach, d, both),
                                        square, h, mean_density);
       } else {

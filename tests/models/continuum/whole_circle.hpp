@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The state of a sector in disorder, the whole circle of its copies, and sums over the neighbours in either.
+#pragma once
+
+#include <vector>
+
+#include "base/random.hpp"
+#include "models/continuum/cases.hpp"
+#include "models/continuum/sector.hpp"
+#include "models/continuum/sweep.hpp"
+#include "models/continuum/vessel.hpp"
+
+namespace talus::continuum {
+
+/// Sums over neighbours of a state, in a domain.
+struct Sums {
+  ThreadTeam team{1};
+  Domain domain;
+  Surface vessel;
+  SurfaceFields fields;
+  Sweep sweep;
+  Rates rates;
+
+  Sums(const Parameters& p, const Domain& around, const State& s, bool walls)
+      : domain(around),
+        vessel(walls ? surface_of(p) : Surface()),
+        fields(load_fields(p, vessel)),
+        sweep(p, domain, s.mass, 50, vessel, &fields) {
+    std::vector<double> h;
+    for (const double rho : s.density) h.push_back(sweep.smoothing_length(rho));
+    sweep.find_neighbours(team, s.position, h);
+    sweep(team, {s.position, s.velocity, s.density, h, s.material, s.deformation_rate}, SweepTerms::all, rates);
+  }
+};
+
+/// The bed of a case in disorder: densities, velocities and stresses of any size.
+inline State disordered(const Parameters& p) {
+  State s = initial_state(p, Material(p));
+  Random random(7);
+  const auto some = [&](double size) { return random.uniform(-size, size); };
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    s.position[i] += 0.1 * spacing * Vector3{some(1), some(1), some(1)};
+    s.density[i] *= random.uniform(0.8, 1.1);
+    s.velocity[i] = {some(1), some(1), some(1)};
+    for (auto& column : s.material.stress) column[i] = some(1000);
+    for (auto& column : s.deformation_rate)
+      if (!column.empty()) column[i] = some(100);
+  }
+  return s;
+}
+
+/// The state of the whole circle, as a case without a sector has it.
+inline State unfolded(const State& s, const Sector& sector) {
+  const PointSet all = whole_of(s, sector);
+  const Snapshot view = all.view();
+  State whole;
+  whole.mass = s.mass;
+  const auto copy = [](const auto& span) { return std::vector(span.begin(), span.end()); };
+  whole.position = copy(view.positions()), whole.velocity = copy(view.vectors("velocity"));
+  whole.density = copy(view.scalars("density"));
+  const char* const names[] = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  for (std::size_t c = 0; c < 6; ++c) whole.material.stress[c] = copy(view.scalars(names[c]));
+  if (s.deformation_rate[0].empty()) return whole;
+  for (auto& column : whole.deformation_rate) column.resize(whole.position.size());
+  for (std::size_t n = 0; n < whole.position.size(); ++n)
+    set_tensor(whole.deformation_rate, n,
+               transformed(tensor_at(s.deformation_rate, n % s.position.size()),
+                           sector.turn(static_cast<int>(n / s.position.size()))));
+  return whole;
+}
+
+}  // namespace talus::continuum
