@@ -168,7 +168,15 @@ class Slopes(unittest.TestCase):
     @unittest.skipUnless(incline.TABLE.exists(), "no table")
     def test_thin_layers_stop_before_thick_ones(self):
         table = np.genfromtxt(incline.TABLE, delimiter=",", names=True)
+        table = table[(table["rolling"] == 0.2) & (table["seed"] == 1)]
+        self.assertEqual(len(table), 3)
         self.assertTrue((np.diff(table["balanced_at_deg"][np.argsort(table["thickness"])]) < 0).all())
+
+    def test_the_strength_at_rest_is_what_the_thickest_layers_have_beyond_slow_shear(self):
+        rows = [{"rolling": "0.2", "layers": str(layers), "starts_at_deg": str(degrees)}
+                for layers, degrees in ((8, 50), (incline.THICKEST, 30), (incline.THICKEST, 45))]
+        rows.append({"rolling": "0", "layers": str(incline.THICKEST), "starts_at_deg": "60"})
+        np.testing.assert_allclose(incline.strengths(rows, 0.2), [3**-0.5 - 0.48, 1 - 0.48])
 
 
 if __name__ == "__main__":
