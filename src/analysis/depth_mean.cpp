@@ -45,11 +45,9 @@ Section packing_section(const Particles& particles, const Domain& domain, double
   std::erase_if(images, [](const Image& image) { return image.copy[1] != 0; });
   images.insert(images.begin(), Image{});
 
-  static const sph::CubicSplineLine line;
   const double middle = 0.5 * (box.low.y + box.high.y), depth = box.extent(1);
   for (std::size_t i = 0; i < particles.position.size(); ++i) {
     const double h = particles.smoothing_length[i], support = sph::support * h;
-    const double share = particles.solid_volume / depth / (h * h);
     const Vector3 source{particles.position[i].x, middle, particles.position[i].z};
     for (const Image& image : images) {
       if (!domain.is_near(image, image.position(source), support)) continue;
@@ -62,7 +60,8 @@ Section packing_section(const Particles& particles, const Domain& domain, double
           const double dx = cell.x - particle.x, dz = cell.z - particle.z;
           const double distance = std::sqrt(dx * dx + dz * dz);
           if (distance < support && domain.is_visible(cell, particle, image))
-            section.value[row * section.columns + column] += share * line(distance / h);
+            section.value[row * section.columns + column] +=
+                particles.solid_volume / depth * sph::cubic_spline_line(distance, h);
         }
     }
   }

@@ -3,9 +3,7 @@
 /// normal.
 #pragma once
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 namespace talus::sph {
@@ -31,25 +29,5 @@ inline double cubic_spline_line(double distance, double h) {
   const double s = distance / h;
   return (detail::cubed_depth_of_chord(2, s) - 4 * detail::cubed_depth_of_chord(1, s)) / (2 * std::numbers::pi * h * h);
 }
-
-/// The same from a table, within 1e-7 of its value at the centre, and in a tenth of the time: a section takes it some
-/// fifty times for each particle.
-class CubicSplineLine {
- public:
-  CubicSplineLine() {
-    for (std::size_t n = 0; n < value_.size(); ++n)
-      value_[n] = cubic_spline_line(static_cast<double>(n) / per_length, 1);
-  }
-  /// Times h^2. \param s distance/h, from 0 to 2
-  double operator()(double s) const {
-    const double place = s * per_length;
-    const auto n = static_cast<std::size_t>(place);
-    return value_[n] + (place - static_cast<double>(n)) * (value_[n + 1] - value_[n]);
-  }
-
- private:
-  static constexpr double per_length = 4096;
-  std::array<double, 2 * 4096 + 2> value_;  // the last for a distance of 2 itself
-};
 
 }  // namespace talus::sph
