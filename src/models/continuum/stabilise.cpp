@@ -62,7 +62,7 @@ void Sweep::pack_diffusion(ThreadTeam& team, const ParticleView& particles) {
   const std::size_t count = particles.position.size();
   const auto ghosts = neighbourhood_.ghosts();
   diffusion_.assign(count + ghosts.size() + 1, {});
-  if (density_gradients_) {
+  if (diffuses_) {
     const Records all = records();
     for_each(team, count, [&](std::size_t i) {
       thread_local Seen seen;

@@ -40,16 +40,15 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
                  .viscosity_beta = p.sph.viscosity_beta,
                  .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
                  .hourglass_damping = p.sph.hourglass_damping * sound_speed},
+      diffuses_(p.sph.density_diffusion > 0),
       damps_(p.sph.hourglass_damping > 0 || p.sph.viscosity_speed == ViscositySpeed::local),
       local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
       neighbourhood_(domain, vessel),
       vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields, sector_of(p)) {
   const InstructionSet set = resolve(p.integration.instruction_set);
-  const bool diffuses = p.sph.density_diffusion > 0;
   const auto choose = [&](SweepTerms terms, StressGradient stress_gradient) {
-    const bool stabilised = (terms != SweepTerms::forces && diffuses) || (terms != SweepTerms::gradients && damps_);
     return TALUS_COMPILED_FOR(set, sum_neighbours)(
-        terms, stabilised ? Stabilisers::acting : Stabilisers::none, precision_,
+        terms, are_stabilised(terms) ? Stabilisers::acting : Stabilisers::none, precision_,
         asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient);
   };
   for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces}) {
@@ -58,9 +57,13 @@ Sweep::Sweep(const Parameters& p, const Domain& domain, double mass, double soun
     sum_at_vessel_[n] = choose(terms, StressGradient::asked);
   }
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
-  if (diffuses)
+  if (diffuses_)
     density_gradients_ = TALUS_COMPILED_FOR(set, sum_neighbours)(
         SweepTerms::gradients, Stabilisers::prepared, precision_, StressAround::unasked, StressGradient::unasked);
+}
+
+bool Sweep::are_stabilised(SweepTerms terms) const {
+  return (terms != SweepTerms::forces && diffuses_) || (terms != SweepTerms::gradients && damps_);
 }
 
 double Sweep::smoothing_length(double density) const {
@@ -188,7 +191,7 @@ void Sweep::pick_seen(std::span<const Vector3> position, std::size_t i, Seen& se
 void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates) {
   const std::size_t count = particles.position.size();
   rates.resize(count);
-  pack(team, particles, terms != SweepTerms::gradients || density_gradients_);
+  pack(team, particles, terms != SweepTerms::gradients || diffuses_);
   if (!vessel_.is_empty()) {
     rates.vessel.resize(vessel_.particles().size());
     rates.at_vessel.assign(vessel_.particles().begin(), vessel_.particles().end());
@@ -196,10 +199,10 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
     if (terms != SweepTerms::gradients || !vessel_.is_met())
       vessel_.meet(team, particles.position, particles.smoothing_length);
   }
-  // Sums of all terms read the records of either stabiliser where one acts.
-  const bool whole = terms == SweepTerms::all, diffuses = density_gradients_ != nullptr;
-  if (whole ? damps_ || diffuses : terms == SweepTerms::forces && damps_) pack_damping(team, particles);
-  if (whole ? damps_ || diffuses : terms == SweepTerms::gradients && diffuses) pack_diffusion(team, particles);
+  if (are_stabilised(terms)) {
+    if (terms != SweepTerms::gradients) pack_damping(team, particles);
+    if (terms != SweepTerms::forces) pack_diffusion(team, particles);
+  }
   if (terms != SweepTerms::gradients) {
     if (asks_stress_around_)
       for (auto& component : rates.stress_around) component.resize(count);

@@ -93,6 +93,8 @@ class Sweep {
   void pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses);
   void pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses);
   static double quantum_for(double reach);
+  /// Whether stabilisers act on these sums, which then read their records, whichever of them act.
+  bool are_stabilised(SweepTerms terms) const;
   /// Records of what the stabilisers need (stabilise.cpp).
   void pack_damping(ThreadTeam& team, const ParticleView& particles);
   void pack_diffusion(ThreadTeam& team, const ParticleView& particles);
@@ -132,7 +134,7 @@ class Sweep {
   std::array<SumNeighbours, 3> sum_, sum_at_vessel_;  // by SweepTerms; that of particles that meet walls of the vessel
   VelocityGradients* velocity_gradients_;
   SumNeighbours density_gradients_ = nullptr;  // null: densities do not diffuse
-  bool damps_, local_sound_speed_;
+  bool diffuses_, damps_, local_sound_speed_;
   Neighbourhood neighbourhood_;
   VesselWalls vessel_;
   std::vector<std::array<Domain::Load, 3>> loads_of_images_;

@@ -67,8 +67,8 @@ inline double shear_of(const SymmetricTensor3<>& rate) {
   return std::sqrt(2 * double_dot(rate, rate));
 }
 
-/// The rate of deformation at the midpoint of the step, which the forces at its end and of the next step's stages are
-/// damped by: a resumed run reads it from its checkpoint.
+/// Keeps the rate of deformation at the midpoint of the step: with it are damped the forces at the end of the step and,
+/// by the midpoint rule, within the next. A resumed run reads it from its checkpoint.
 void keep_deformation_rate(ThreadTeam& team, State& state, const Workspace& workspace);
 
 /// From the last velocity gradients: with the leapfrog those at the midpoint of the step, which cannot be recomputed

@@ -104,6 +104,22 @@ inline Continuum started(const Parameters& p, ThreadTeam& team) {
   return model;
 }
 
+/// Expects the same bits of a run on one thread, on three, and on three from a state at half of the steps.
+inline void expect_same_for_any_threads_and_resumed(const Parameters& p, int steps) {
+  ThreadTeam one(1), three(3);
+  Continuum a = started(p, one), b = started(p, three), resumed(p);
+  for (int n = 0; n < steps / 2; ++n) a.advance(one), b.advance(three);
+  resumed.mutable_state() = a.state();
+  resumed.resume(three);
+  for (int n = steps / 2; n < steps; ++n) a.advance(one), b.advance(three), resumed.advance(three);
+  for (const Continuum* other : {&b, &resumed}) {
+    EXPECT_EQ(a.state().position, other->state().position);
+    EXPECT_EQ(a.state().velocity, other->state().velocity);
+    EXPECT_EQ(a.state().material.stress, other->state().material.stress);
+    EXPECT_EQ(a.state().wall_impulse, other->state().wall_impulse);
+  }
+}
+
 /// Lets the bed settle, and go on for a while. \returns mean force on each wall over that while, N
 inline std::array<Vector3, most_walls> settled_wall_forces(Continuum& model, ThreadTeam& team, double duration) {
   const State& s = model.state();

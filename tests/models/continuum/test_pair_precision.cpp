@@ -129,19 +129,7 @@ TEST(PairPrecision, InSinglePrecisionARunIsTheSameForAnyThreadsAndResumed) {
   Parameters p = small_hopper();
   p.integration.method = Method::leapfrog;
   p.integration.pair_precision = PairPrecision::in_single;
-  ThreadTeam one(1), three(3);
-  Continuum a = started(p, one), b = started(p, three);
-  for (int n = 0; n < 150; ++n) a.advance(one), b.advance(three);
-  Continuum resumed(p);
-  resumed.mutable_state() = a.state();
-  resumed.resume(one);
-  for (int n = 0; n < 150; ++n) a.advance(one), b.advance(three), resumed.advance(three);
-  for (const Continuum* other : {&b, &resumed}) {
-    EXPECT_EQ(a.state().position, other->state().position);
-    EXPECT_EQ(a.state().velocity, other->state().velocity);
-    EXPECT_EQ(a.state().material.stress, other->state().material.stress);
-    EXPECT_EQ(a.state().wall_impulse, other->state().wall_impulse);
-  }
+  expect_same_for_any_threads_and_resumed(p, 300);
 }
 
 }  // namespace

@@ -136,18 +136,11 @@ TEST(Stabilise, HaveTheSameBitsForAnyNumberOfThreadsAndResumed) {
     p.sph.hourglass_damping = 0.1;
     p.sph.density_diffusion = 0.1;
     p.integration.method = method;
-    ThreadTeam one(1), three(3);
-    Continuum a = started(p, one), b = started(p, three);
-    for (int n = 0; n < 100; ++n) a.advance(one), b.advance(three);
-    Continuum resumed(p);
-    resumed.mutable_state() = a.state();
-    resumed.resume(three);
-    for (int n = 0; n < 100; ++n) a.advance(one), b.advance(three), resumed.advance(three);
-    EXPECT_GT(norm(tensor_at(a.state().deformation_rate, 0)), 0);
-    EXPECT_EQ(a.state().velocity, b.state().velocity);
-    EXPECT_EQ(a.state().position, b.state().position);
-    EXPECT_EQ(a.state().velocity, resumed.state().velocity);
-    EXPECT_EQ(a.state().position, resumed.state().position);
+    expect_same_for_any_threads_and_resumed(p, 200);
+    ThreadTeam team(2);
+    Continuum model = started(p, team);
+    model.advance(team);
+    EXPECT_GT(norm(tensor_at(model.state().deformation_rate, 0)), 0) << "there is something to be kept";
   }
 }
 

@@ -116,17 +116,7 @@ TEST(StressRegularisation, HasTheSameBitsForAnyNumberOfThreadsAndResumed) {
   for (const Method method : {Method::runge_kutta, Method::leapfrog}) {
     Parameters p = regularised(small_hopper());
     p.integration.method = method;
-    ThreadTeam one(1), three(3);
-    Continuum a = started(p, one), b = started(p, three);
-    for (int n = 0; n < 100; ++n) a.advance(one), b.advance(three);
-    Continuum resumed(p);
-    resumed.mutable_state() = a.state();
-    resumed.resume(three);
-    for (int n = 0; n < 100; ++n) a.advance(one), b.advance(three), resumed.advance(three);
-    EXPECT_EQ(a.state().material.stress, b.state().material.stress);
-    EXPECT_EQ(a.state().position, b.state().position);
-    EXPECT_EQ(a.state().material.stress, resumed.state().material.stress);
-    EXPECT_EQ(a.state().position, resumed.state().position);
+    expect_same_for_any_threads_and_resumed(p, 200);
   }
 }
 

@@ -33,7 +33,7 @@ struct Sums {
   }
 };
 
-/// The bed of a case in disorder: densities, velocities and stresses of any size.
+/// The bed of a case in disorder: densities, velocities, stresses and rates of any size.
 inline State disordered(const Parameters& p) {
   State s = initial_state(p, Material(p));
   Random random(7);
