@@ -49,7 +49,7 @@ def angles(stop, start):
 
 def strengths(rows, rolling):
     """How far beyond the friction of slow shear the slopes are at which the thickest layers start, one of each seed.
-    \param rows of data/incline.csv"""
+    \\param rows of data/incline.csv"""
     slopes = [float(row["starts_at_deg"]) for row in rows
               if float(row["rolling"]) == rolling and int(row["layers"]) == THICKEST]
     return np.tan(np.radians(slopes)) - SLOW_SHEAR[rolling]

@@ -95,13 +95,24 @@ def pictures(hopper, album):
                   "beads' surfaces.")
 
 
+def kinds_of_runs():
+    """Rolling friction and diameter, mm, of each run of beads."""
+    return {row["run"]: (row["rolling"], row["diameter_mm"]) for row in read("numbers.csv")}
+
+
+def read_in_order(name):
+    """A table of data/, runs without rolling friction first, and of these the coarsest."""
+    kinds = kinds_of_runs()
+    return sorted(read(name), key=lambda row: (kinds[row["run"]][0], -kinds[row["run"]][1]))
+
+
 def styles_of(rows):
     """A shade for each size of the beads, a dash for those with rolling friction; seeds look alike, the first has a name."""
-    kinds = {row["run"]: (row["diameter_mm"], row["rolling"]) for row in read("numbers.csv")}
-    sizes = sorted({diameter for diameter, _ in kinds.values()})
+    kinds = kinds_of_runs()
+    sizes = sorted({diameter for _, diameter in kinds.values()})
     styles, named = {}, set()
     for run in dict.fromkeys(row["run"] for row in rows):
-        diameter, rolling = kinds[run]
+        rolling, diameter = kinds[run]
         name = f"beads, {diameter:g} mm" + (", rolling" if rolling else "")
         styles[run] = {"color": plt.cm.Greys_r(0.75 * sizes.index(diameter) / len(sizes)),
                        "linestyle": "--" if rolling else "-", "linewidth": 0.9,
@@ -111,7 +122,7 @@ def styles_of(rows):
 
 
 def discharge(hoppers, album):
-    rows = read("discharge.csv")
+    rows = read_in_order("discharge.csv")
     styles = styles_of(rows)
     figure, ax = plt.subplots(figsize=(5.4, 3.4))
     for (run,), points in by(rows, "run").items():
@@ -126,7 +137,7 @@ def discharge(hoppers, album):
 
 
 def velocity(hoppers, album):
-    rows = [row for row in read("profiles.csv") if row["time_s"] == PROFILE]
+    rows = [row for row in read_in_order("profiles.csv") if row["time_s"] == PROFILE]
     styles = styles_of(rows)
     figure, axes = plt.subplots(1, len(HEIGHTS), figsize=(7.6, 2.9), sharey=True)
     for ax, height in zip(axes, HEIGHTS):
@@ -143,7 +154,7 @@ def velocity(hoppers, album):
                     label=f"Talus, {hopper.variant}")
         ax.set(title=f"$z$ = {height} mm", xlabel="$x$ (mm)", xlim=(0, 100))
     axes[0].set_ylabel(f"$-u_z$ at {PROFILE} s (m/s)")
-    axes[-1].legend(fontsize=6, loc="upper center")
+    axes[-1].legend(fontsize=6, loc="center left", bbox_to_anchor=(1.02, 0.5))
     album.add("velocity.png", figure, f"Velocity in the hopper at {PROFILE} s",
               "Means over cells of 4 mm by 6 mm; of the beads also over 20 ms.")
 

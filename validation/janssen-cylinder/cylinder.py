@@ -33,7 +33,7 @@ def cases(options):
 
 def load(run, window, snapshots):
     """Rows of the reference, without the prefix of an experiment, and profiles.
-    \param window of the forces before the end of the run, s \param snapshots whose stress is taken"""
+    \\param window of the forces before the end of the run, s \\param snapshots whose stress is taken"""
     series, bands = run.series, run.table("wall_loads")
     time = series["time"]
 
