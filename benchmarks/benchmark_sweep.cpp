@@ -118,10 +118,7 @@ void law(benchmark::State& run) {
   run.SetItemsProcessed(static_cast<std::int64_t>(bed.h.size()) * run.iterations());
 }
 
-void step(benchmark::State& run, Method method) {
-  Parameters p = Bed::hopper(run);
-  p.integration.method = method;
-  if (method == Method::runge_kutta) p.integration.courant = 0.3;
+void step(benchmark::State& run, const Parameters& p) {
   ThreadTeam team(static_cast<int>(run.range(3)));
   Continuum model(p);
   model.begin(team);
@@ -130,10 +127,22 @@ void step(benchmark::State& run, Method method) {
   run.SetItemsProcessed(static_cast<std::int64_t>(model.state().position.size()) * run.iterations());
 }
 void step_leapfrog(benchmark::State& run) {
-  step(run, Method::leapfrog);
+  step(run, Bed::hopper(run));
+}
+/// As cases/yuu2011-hopper-vacuum-fast.toml.
+void step_leapfrog_single(benchmark::State& run) {
+  Parameters p = Bed::hopper(run);
+  p.integration.courant = 1.5;
+  p.integration.skin = 0.6;
+  p.integration.skin_at_rest = 0.02;
+  p.integration.pair_precision = PairPrecision::in_single;
+  step(run, p);
 }
 void step_runge_kutta(benchmark::State& run) {
-  step(run, Method::runge_kutta);
+  Parameters p = Bed::hopper(run);
+  p.integration.method = Method::runge_kutta;
+  p.integration.courant = 0.3;
+  step(run, p);
 }
 
 void sizes(benchmark::internal::Benchmark* stage) {
@@ -148,6 +157,7 @@ BENCHMARK(sweep_all)->Apply(sizes);
 BENCHMARK(neighbours)->Apply(sizes);
 BENCHMARK(law)->Apply(sizes);
 BENCHMARK(step_leapfrog)->Apply(sizes);
+BENCHMARK(step_leapfrog_single)->Apply(sizes);
 BENCHMARK(step_runge_kutta)->Apply(sizes);
 
 }  // namespace

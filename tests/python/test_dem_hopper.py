@@ -41,12 +41,12 @@ def lattice(heights, bottom=0.0, time=0.0):
     return referee.Frame(time, np.full(len(x), RADIUS), x, z, np.zeros((len(x), 3)), np.zeros((len(x), 4)))
 
 
-def write(folder, frames, walls={}):
-    """A run's folder as hopper.in leaves it, a frame every 100 steps."""
+def write(folder, frames, walls={}, first=0, **parameters):
+    """A run's folder as hopper.in leaves it, a frame every 100 steps. \\param first number of the first frame"""
     (folder / "frames").mkdir(parents=True)
-    parameters = {"diameter": 2 * RADIUS, "depth": DEPTH, "seed": 1, "rolling": 0.0, "stiffness": 1.0}
+    parameters = {"diameter": 2 * RADIUS, "depth": DEPTH, "seed": 1, "rolling": 0.0, "stiffness": 1.0, **parameters}
     (folder / "parameters.json").write_text(json.dumps(parameters))
-    for n, f in enumerate(frames):
+    for n, f in enumerate(frames, first):
         head = (f"ITEM: TIMESTEP\n{100 * n}\nITEM: NUMBER OF ATOMS\n{len(f.x)}\nITEM: BOX BOUNDS ff pp ff\n0 0.1\n0 0.004\n"
                 "-0.002 0.26\nITEM: ATOMS radius x z vx vy vz c_stress[1] c_stress[2] c_stress[3] c_stress[5]\n")
         with open(folder / "frames" / f"{100 * n}.txt", "w") as file:
@@ -318,6 +318,22 @@ class Folder(unittest.TestCase):
                                text=True)
         self.assertNotEqual(wrong.returncode, 0)
         self.assertIn("three", wrong.stderr)
+
+    def test_a_hopper_alone_has_its_surface_and_its_heap_and_nothing_of_the_bin(self):
+        heap = lattice(lambda x: 0.1 + 0.5 * (abs(x - 0.05) - 0.02), bottom=0.1, time=0.44)
+        write(self.folder / "rest", [heap] * 21, first=220, **{"hopper-of": "one"})
+        run = referee.Run(self.folder / "rest")
+        self.assertEqual((min(run.steps), max(run.steps)), (220, 240))
+        subprocess.run([sys.executable, SCRIPTS / "coarse_grain.py", self.folder / "rest", "--out", self.folder / "data"],
+                       check=True)
+        with open(self.folder / "data" / "numbers.csv", encoding="utf-8") as file:
+            (number,) = csv.DictReader(file)
+        self.assertEqual((number["quantity"], number["time_s"]), ("repose_angle_hopper", "0.48"))
+        self.assertAlmostEqual(float(number["value"]), np.degrees(np.arctan(0.5)), delta=1)
+        with open(self.folder / "data" / "surfaces.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["time_s"] for row in rows}, {"0.44", "0.46", "0.48"})
+        self.assertEqual({row["bin_mm"] for row in rows}, {"nan"})
 
 
 unittest.main()

@@ -55,11 +55,16 @@ class Run:
         steps = sorted(int(path.stem) for path in (self.folder / "frames").glob("*.txt"))
         if len(steps) < 2:
             raise ValueError(f"{self.folder}: has fewer than two frames")
-        self.steps = {round(step / steps[1]): step for step in steps}  # by number of the frame; the first is 0
+        self.steps = {round(step / (steps[1] - steps[0])): step for step in steps}  # by number of the frame
         try:
             self.frame(max(self.steps))
         except (ValueError, IndexError):
             del self.steps[max(self.steps)]  # being written
+
+    @property
+    def is_hopper_alone(self):
+        """Whether it goes on from another run without what had fallen below the plate (run.py --hopper-of)."""
+        return "hopper-of" in self.parameters
 
     @property
     def end(self):

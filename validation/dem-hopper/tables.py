@@ -63,11 +63,15 @@ class Tables:
 
 
 def add_run(tables, run):
-    """All that the tables have of a run."""
-    add_discharge(tables, run)
-    add_foot(tables, run)
-    for number in range(0, max(run.steps) + 1, 10):
-        add_frame(tables, run, run.frame(number), is_last=number == max(run.steps) // 10 * 10)
+    """All that the tables have of a run; of a hopper alone its surface and its heap."""
+    if not run.is_hopper_alone:
+        add_discharge(tables, run)
+        add_foot(tables, run)
+    every_20_ms = [number for number in sorted(run.steps) if number % 10 == 0]
+    for number in every_20_ms:
+        add_frame(tables, run, run.frame(number), is_last=number == every_20_ms[-1])
+    if run.is_hopper_alone:
+        return
     add_profiles(tables, run)
     for row in wall_loads(run):
         tables.add("walls", run.name, *row)
@@ -103,6 +107,8 @@ def add_frame(tables, run, frame, is_last):
     """Surfaces and states at a time; of the last one the angles of repose."""
     section = Section(frame, run.depth)
     hopper, bin_ = surface_heights(section)
+    if run.is_hopper_alone:
+        bin_[:] = np.nan
     for at in range(3, len(section.x), 4):
         x = section.x[at - 1:at + 1].mean()
         tables.add("surfaces", run.name, frame.time, x * 1e3, hopper[at - 1:at + 1].mean() * 1e3,
@@ -125,7 +131,8 @@ def add_frame(tables, run, frame, is_last):
             tables.number(run, "stress_ratio", place, f"{frame.time:g}", "1", ratio)
     if is_last:
         tables.number(run, "repose_angle_hopper", "", f"{frame.time:g}", "deg", repose_angle(section, hopper))
-        tables.number(run, "repose_angle_bin", "", f"{frame.time:g}", "deg", repose_angle(section, bin_))
+        if not run.is_hopper_alone:
+            tables.number(run, "repose_angle_bin", "", f"{frame.time:g}", "deg", repose_angle(section, bin_))
 
 
 def add_profiles(tables, run):
