@@ -192,9 +192,14 @@ class Flanks(unittest.TestCase):
         frame = lattice(lambda x: 0.14 + 0 * x, bottom=0.1)
         frame.velocity[:, 2] = frame.z - 0.14  # as fast as deep
         frame.velocity[abs(frame.x - 0.05) < 0.03, 0] = 9  # what lies farther from the walls does not count
-        height, speed = flanks.speeds(frame, DEPTH)
+        slope, height, speed = flanks.speeds(frame, DEPTH)
+        self.assertTrue(np.isnan(slope))
         self.assertAlmostEqual(height, 0.14, delta=1e-3)
         np.testing.assert_allclose(speed, (flanks.DEPTHS[:-1] + flanks.DEPTHS[1:]) / 2, atol=1.2e-3)
+
+    def test_the_slope_is_that_of_the_heap(self):
+        slope, _, _ = flanks.speeds(lattice(lambda x: 0.1 + 0.5 * (abs(x - 0.05) - 0.02), bottom=0.1), DEPTH)
+        self.assertAlmostEqual(slope, np.degrees(np.arctan(0.5)), delta=1)
 
 
 class PaperRows(unittest.TestCase):
@@ -204,6 +209,11 @@ class PaperRows(unittest.TestCase):
         above, middle = paper_rows.swelling(x, valley)
         self.assertAlmostEqual(above, 0.002 + 0.4 * 0.001, delta=1e-9)
         self.assertLess(middle, above)
+
+    def test_beads_that_come_to_rest_in_the_hopper_alone_belong_to_their_run(self):
+        surface = paper_rows.hopper_surfaces()
+        self.assertIn(("d050-r20", "1"), surface)
+        self.assertEqual({run for run, _ in surface if run.endswith("-rest")}, set())
 
     def test_a_stream_has_the_width_between_its_twentieths(self):
         x, z = (axis.ravel() for axis in np.meshgrid(np.arange(1.0, 100, 2), np.arange(41.0, 60, 2)))

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""How fast the hopper's flanks move, by depth below their surface: a table of runs of beads and of Talus.
+"""How steep the hopper's flanks are and how fast they move, by depth below their surface: a table of runs of beads and
+of Talus.
 
 usage: flanks.py TIME RUN ...   TIME in s from the opening of the gate; RUN a folder of run.py, or of Talus, whose
                                 particles are taken for spheres of their volume
 
 Of what lies 4 to 20 mm from the walls, left and right together: mean speed, weighted with the volume, m/s, and the mean
-height of the surface there, mm.
+height of the surface there, mm. The slope is that of the angle of repose (surfaces.py).
 """
 import sys
 from pathlib import Path
@@ -14,7 +15,7 @@ from pathlib import Path
 import numpy as np
 from fields import Section
 from frames import DENSITY, DEPTH, FRAME, MASS, PLATE, WIDTH, Frame, Run
-from surfaces import surface_heights
+from surfaces import repose_angle, surface_heights
 
 FROM, TO = 4e-3, 20e-3  # m from the walls
 DEPTHS = np.array([0, 3, 6, 10, 15, 20, 30]) * 1e-3
@@ -43,7 +44,8 @@ def in_flank(x):
 
 
 def speeds(frame, depth):
-    """Mean height of the flanks' surface, m, and the mean speed in each of DEPTHS below it, m/s; nan where nothing lies."""
+    """Slope in degrees and mean height, m, of the flanks' surface, and the mean speed in each of DEPTHS below it, m/s;
+    nan where nothing lies."""
     section = Section(frame, depth)
     heights = surface_heights(section)[0]
     known = np.isfinite(heights)
@@ -53,19 +55,21 @@ def speeds(frame, depth):
     flux, total = (np.histogram(below, DEPTHS, weights=w)[0]
                    for w in (volume * np.linalg.norm(frame.velocity, axis=1)[there], volume))
     with np.errstate(invalid="ignore"):
-        return np.nanmean(heights[in_flank(section.x)]), flux / total
+        return repose_angle(section, heights), np.nanmean(heights[in_flank(section.x)]), flux / total
 
 
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     time = float(sys.argv[1])
-    print("| run | surface, mm | " + " | ".join(f"{a * 1e3:g}-{b * 1e3:g} mm" for a, b in zip(DEPTHS, DEPTHS[1:])) + " |")
-    print("|" + "---|" * (len(DEPTHS) + 1))
+    depths = [f"{a * 1e3:g}-{b * 1e3:g} mm" for a, b in zip(DEPTHS, DEPTHS[1:])]
+    print("| run | slope | surface, mm | " + " | ".join(depths) + " |")
+    print("|" + "---|" * (len(DEPTHS) + 2))
     for folder in map(Path, sys.argv[2:]):
         read = of_beads if (folder / "parameters.json").exists() else of_talus
-        height, speed = speeds(*read(folder, time))
-        print(f"| {folder.name} | {height * 1e3:.1f} | " + " | ".join(f"{value:.3f}" for value in speed) + " |")
+        slope, height, speed = speeds(*read(folder, time))
+        speeds_there = [f"{value:.3f}" for value in speed]
+        print(f"| {folder.name} | {slope:.1f}° | {height * 1e3:.1f} | " + " | ".join(speeds_there) + " |")
 
 
 if __name__ == "__main__":

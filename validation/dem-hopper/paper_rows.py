@@ -79,8 +79,15 @@ def prolonged(diameters, values):
     return line @ at, np.sqrt(at @ covariance @ at)
 
 
+def hopper_surfaces():
+    """Places and heights of the hopper's surface, m, by run and time; a run on the hopper alone (run.py --hopper-of) bears
+    the name of the one that it goes on from, and `-rest`."""
+    return {(run.removesuffix("-rest"), time): rows[:, :2].T * 1e-3
+            for (run, time), rows in groups("surfaces.csv", "run", "time_s").items()}
+
+
 def main():
-    surfaces = {key: rows[:, :2].T * 1e-3 for key, rows in groups("surfaces.csv", "run", "time_s").items()}  # x and z, m
+    surfaces = hopper_surfaces()
     states = groups("states.csv", "run", "time_s", "place")
     discharges = groups("discharge.csv", "run")
     print("| run | 3: discharge at 0.12 s over its largest | 11: sigma_xx/sigma_zz in the bin beside and below, 0.4 s | 21: swelling above flanks, in the middle, "
