@@ -161,6 +161,16 @@ class Slopes(unittest.TestCase):
         self.assertAlmostEqual(balanced, 27, delta=0.1)
         self.assertAlmostEqual(starts, 27.01)
 
+    def test_the_friction_between_two_velocities_is_found(self):
+        stop = self.layer(self.FALL, self.stopping(0.5))
+        self.assertAlmostEqual(incline.friction_between(stop, 0.45, 0.1), 0.5, delta=2e-3)
+        self.assertTrue(np.isnan(incline.friction_between(self.layer(self.FALL, np.ones(1001)), 0.45, 0.1)))
+
+    def test_round_beads_roll_along_a_flat_wall_and_others_slide(self):
+        table = np.genfromtxt(incline.WALLS, delimiter=",", names=True)
+        np.testing.assert_allclose(table["friction"][table["rolling"] == 0.2], 0.3, atol=2e-3)
+        self.assertLess(table["friction"][table["rolling"] == 0].max(), 0.2)
+
     def test_what_does_not_stop_or_start_has_no_slope(self):
         moving, resting = (self.layer(self.FALL, np.full(1001, v)) for v in (1.0, 0.0))
         self.assertTrue(np.isnan(incline.angles(moving, resting)[1:]).all())

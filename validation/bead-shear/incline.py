@@ -1,22 +1,25 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""How steep layers of the referee's beads rest: on a rough plane whose slope falls until they stop, and rises until they
-start (incline.in).
+"""How steep layers of the referee's beads rest: on a rough plane whose slope falls until they stop, and rises until
+they start (incline.in), and on a flat wall of the hopper.
 
-usage: incline.py run FOLDER   with LAMMPS (an hour on one core), to data/incline.csv
-       incline.py fit          the slopes at which a layer stops and starts, by its thickness in diameters, and the
-                               strength at rest of the thickest
+usage: incline.py run FOLDER    with LAMMPS (an hour on one core), to data/incline.csv
+       incline.py walls FOLDER  on the flat wall (some minutes), to data/walls.csv
+       incline.py fit           the slopes at which a layer stops and starts, by its thickness in diameters, the strength
+                                at rest of the thickest, and the friction of the wall
 """
 import csv
 
 import numpy as np
 from shear import HERE, lammps, main, write_rows
 
-TABLE = HERE / "data" / "incline.csv"
+TABLE, WALLS = HERE / "data" / "incline.csv", HERE / "data" / "walls.csv"
 #: Rolling friction, thickness in diameters, seed, and slopes at first, in between and at last, in degrees.
 LAYERS = ((0.2, 4, 1, 34, 24, 40), (0.2, 8, 1, 30, 24, 36),
           (0.2, 16, 1, 28, 24, 36), (0.2, 16, 2, 28, 24, 36), (0.2, 16, 3, 28, 24, 36),
           (0, 16, 1, 26, 17, 32), (0, 16, 2, 26, 17, 32), (0, 16, 3, 26, 17, 32))
+#: The same on a flat wall, on which the layer slides as a block.
+BLOCKS = ((0.2, 6, 1, 24, 8, 24), (0, 6, 1, 18, 2, 18), (0, 6, 2, 18, 2, 18), (0, 6, 3, 18, 2, 18))
 THICKEST = 16
 SLOW_SHEAR = {0.2: 0.48, 0: 0.344}  # friction that slow plane shear has, by rolling friction (shear.py)
 PLANE = 1.5  # thickness of the beads that are the plane, in diameters
@@ -24,8 +27,24 @@ COLUMNS = ("rolling", "layers", "seed", "thickness", "stops_at_deg", "balanced_a
 #: Mean velocity over (g d)^(1/2) below which a layer has stopped, above which it has started, and from which on the
 #: friction that stops it is taken.
 STILL, MOVES, SLOW = 0.005, 0.05, 0.3
+SLIDES = 1.0, 0.2  # between these mean velocities the friction of a flat wall is taken
 SECONDS = 2.0  # in which the slope falls
 GRAVITY, DIAMETER = 9.8, 1e-3  # as in incline.in
+
+
+def friction_between(stop, fast, slow):
+    """The friction that slows a layer down from the last time at which it is faster than `fast` to the first at which it is
+    slower than `slow`; nan where it never is. \\param stop columns of stop.txt; \\param fast, slow mean velocities over
+    (g d)^(1/2)"""
+    still = np.nonzero(stop[:, 2] < slow)[0]
+    if not len(still):
+        return np.nan
+    faster = np.nonzero(stop[:still[0], 2] > fast)[0]
+    first = faster[-1] if len(faster) else 0
+    time = SECONDS * (stop[still[0], 0] - stop[first, 0]) / (stop[-1, 0] - stop[0, 0])
+    lost = (stop[first, 2] - stop[still[0], 2]) * np.sqrt(GRAVITY * DIAMETER) / time
+    slope = np.radians(stop[first:still[0] + 1, 1].mean())
+    return np.tan(slope) + lost / (GRAVITY * np.cos(slope))
 
 
 def angles(stop, start):
@@ -36,15 +55,8 @@ def angles(stop, start):
     moves = np.nonzero(start[:, 2] > MOVES)[0]
     starts = start[moves[0], 1] if len(moves) else np.nan
     still = np.nonzero(stop[:, 2] < STILL)[0]
-    if not len(still):
-        return thickness, np.nan, np.nan, starts
-    faster = np.nonzero(stop[:still[0], 2] > SLOW)[0]
-    slow = faster[-1] if len(faster) else 0
-    time = SECONDS * (stop[still[0], 0] - stop[slow, 0]) / (stop[-1, 0] - stop[0, 0])
-    lost = (stop[slow, 2] - stop[still[0], 2]) * np.sqrt(GRAVITY * DIAMETER) / time
-    slope = np.radians(stop[slow:still[0] + 1, 1].mean())
-    balanced = np.arctan(np.tan(slope) + lost / (GRAVITY * np.cos(slope)))
-    return thickness, stop[still[0], 1], np.degrees(balanced), starts
+    stops = stop[still[0], 1] if len(still) else np.nan
+    return thickness, stops, np.degrees(np.arctan(friction_between(stop, SLOW, STILL))), starts
 
 
 def strengths(rows, rolling):
@@ -55,14 +67,21 @@ def strengths(rows, rolling):
     return np.tan(np.radians(slopes)) - SLOW_SHEAR[rolling]
 
 
+def layer(folder, name, rolling, thickness, seed, first, between, last, **settings):
+    """What a layer leaves: stop.txt and start.txt."""
+    place = folder / f"{name}r{rolling:g}-h{thickness}-s{seed}"
+    lammps(place, "incline.in", rolling=rolling, thickness=thickness, seed=seed, to=between, up=last,
+           **{"from": first}, **settings)
+    return [np.loadtxt(place / text) for text in ("stop.txt", "start.txt")]
+
+
 def run(folder):
-    rows = []
-    for rolling, thickness, seed, first, between, last in LAYERS:
-        place = folder / f"r{rolling:g}-h{thickness}-s{seed}"
-        lammps(place, "incline.in", rolling=rolling, thickness=thickness, seed=seed, to=between, up=last,
-               **{"from": first})
-        rows.append([rolling, thickness, seed, *angles(*(np.loadtxt(place / name) for name in ("stop.txt", "start.txt")))])
-    write_rows(TABLE, COLUMNS, rows)
+    write_rows(TABLE, COLUMNS, [[*one[:3], *angles(*layer(folder, "", *one))] for one in LAYERS])
+
+
+def walls(folder):
+    write_rows(WALLS, ("rolling", "layers", "seed", "friction"),
+               [[*one[:3], friction_between(layer(folder, "wall-", *one, smooth=1)[0], *SLIDES)] for one in BLOCKS])
 
 
 def fit():
@@ -77,7 +96,12 @@ def fit():
         strength = strengths(rows, rolling)
         print(f"rolling friction {rolling:g}: the thickest start {strength.mean():.3f} +- "
               f"{strength.std(ddof=1) / np.sqrt(len(strength)):.3f} above a friction of {friction:g}")
+    table = np.genfromtxt(WALLS, delimiter=",", names=True)
+    for rolling in SLOW_SHEAR:
+        friction = table["friction"][table["rolling"] == rolling]
+        print(f"rolling friction {rolling:g}: on a flat wall {friction.mean():.3f}, {len(friction)} seeds from "
+              f"{friction.min():.3f} to {friction.max():.3f}")
 
 
 if __name__ == "__main__":
-    main(__doc__, fit, run=run)
+    main(__doc__, fit, run=run, walls=walls)
