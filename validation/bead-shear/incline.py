@@ -99,7 +99,7 @@ def fit():
     table = np.genfromtxt(WALLS, delimiter=",", names=True)
     for rolling in SLOW_SHEAR:
         friction = table["friction"][table["rolling"] == rolling]
-        print(f"rolling friction {rolling:g}: on a flat wall {friction.mean():.3f}, {len(friction)} seeds from "
+        print(f"rolling friction {rolling:g}: on a flat wall {friction.mean():.3f}, {len(friction)} seed(s), "
               f"{friction.min():.3f} to {friction.max():.3f}")
 
 
