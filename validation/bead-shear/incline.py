@@ -68,7 +68,7 @@ def strengths(rows, rolling):
 
 
 def layer(folder, name, rolling, thickness, seed, first, between, last, **settings):
-    """What a layer leaves: stop.txt and start.txt."""
+    """What a layer of LAYERS or BLOCKS leaves, run unless it was: stop.txt and start.txt. \\param settings of incline.in"""
     place = folder / f"{name}r{rolling:g}-h{thickness}-s{seed}"
     lammps(place, "incline.in", rolling=rolling, thickness=thickness, seed=seed, to=between, up=last,
            **{"from": first}, **settings)

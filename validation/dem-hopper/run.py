@@ -7,8 +7,10 @@ usage: run.py FOLDER [--diameter M] [--seed N] [--rolling MU] [--end S] ...
 
 A folder with a checkpoint is resumed, to a later --end if one is given; its other options are then those that it was
 begun with. With --hopper-of the run goes on from the newest checkpoint of another one without what has fallen below the
-plate, which what lies on the plate does not feel: heaps of fine beads come to rest at a tenth of the cost. On one core about 8 million bead steps a second. With --processes the box is divided along its width, by
-MPI; sums are then in another order, so that the beads part from those of one process.
+plate, which what lies on the plate does not feel: heaps of fine beads come to rest at a tenth of the cost.
+
+On one core about 8 million bead steps a second. With --processes the box is divided along its width, by MPI; sums are
+then in another order, so that the beads part from those of one process.
 """
 import argparse
 import json
@@ -86,7 +88,8 @@ def main():
     if processes > 1 and not shutil.which("mpirun"):
         sys.exit("mpirun: not found; Debian's package is called openmpi-bin")
     beads = MASS * parameters["depth"] / (DENSITY * 0.5236 * 1.01 * parameters["diameter"]**3)
-    print(f"{beads:.0f} beads; progress in {folder}/lammps.log", flush=True)
+    print(f"{beads:.0f} beads{', those above the plate' if 'hopper-of' in parameters else ''}; "
+          f"progress in {folder}/{'resumed' if checkpoint else 'lammps'}.log", flush=True)
     shared = ["mpirun", "--oversubscribe", "-np", str(processes)] if processes > 1 else []
     command = [*shared, "lmp", "-in", "hopper.in", "-screen", "none", "-log", "lammps.log"]
     for name, (variable, _, _) in OPTIONS.items():
