@@ -78,7 +78,11 @@ def beside(run_folder):
     result = talus.Run(run_folder)
     length, rows = 0.048, {}
     for time in TIMES:
-        x, _, z = np.asarray(result.snapshots.at(result.gate_time + time * np.sqrt(length / GRAVITY)).positions).T
+        at = result.gate_time + time * np.sqrt(length / GRAVITY)
+        snapshot = result.snapshots.at(at)
+        if abs(snapshot.time - at) > 0.01:
+            sys.exit(f"{run_folder}: ends before {at:.3g} s")
+        x, _, z = np.asarray(snapshot.positions).T
         on = z > PLATE - DIAMETER
         rows[time] = shape(x[on], np.full(on.sum(), 0.6 * DIAMETER**3), length)
     print_rows({"beads": beads()[48], "Talus": rows})
