@@ -197,6 +197,12 @@ class Flanks(unittest.TestCase):
         self.assertAlmostEqual(height, 0.14, delta=1e-3)
         np.testing.assert_allclose(speed, (flanks.DEPTHS[:-1] + flanks.DEPTHS[1:]) / 2, atol=1.2e-3)
 
+    def test_the_slip_is_that_of_the_lowest_grains_towards_the_slit(self):
+        frame = lattice(lambda x: 0.14 + 0 * x, bottom=0.1)
+        frame.velocity[:, 0] = np.where(frame.z < 0.101, 0.01, 9) * np.sign(0.05 - frame.x)
+        self.assertAlmostEqual(flanks.slip(frame), 0.01)
+        self.assertTrue(np.isnan(flanks.slip(lattice(lambda x: 0.09 + 0 * x))))
+
     def test_the_slope_is_that_of_the_heap(self):
         slope, _, _ = flanks.speeds(lattice(lambda x: 0.1 + 0.5 * (abs(x - 0.05) - 0.02), bottom=0.1), DEPTH)
         self.assertAlmostEqual(slope, np.degrees(np.arctan(0.5)), delta=1)

@@ -7,7 +7,8 @@ usage: flanks.py TIME RUN ...   TIME in s from the opening of the gate; RUN a fo
                                 particles are taken for spheres of their volume
 
 Of what lies 4 to 20 mm from the walls, left and right together: mean speed, weighted with the volume, m/s, and the mean
-height of the surface there, mm. The slope is that of the angle of repose (surfaces.py).
+height of the surface there, mm. The slope is that of the angle of repose (surfaces.py); at the plate: how fast the
+lowest 1.5 mm move towards the slit, m/s.
 """
 import sys
 from pathlib import Path
@@ -18,6 +19,7 @@ from frames import DENSITY, DEPTH, FRAME, MASS, PLATE, WIDTH, Frame, Run
 from surfaces import repose_angle, surface_heights
 
 FROM, TO = 4e-3, 20e-3  # m from the walls
+LOWEST = 1.5e-3  # m above the plate
 DEPTHS = np.array([0, 3, 6, 10, 15, 20, 30]) * 1e-3
 
 
@@ -58,18 +60,27 @@ def speeds(frame, depth):
         return repose_angle(section, heights), np.nanmean(heights[in_flank(section.x)]), flux / total
 
 
+def slip(frame):
+    """Mean velocity towards the slit of the lowest grains on the plate beside the walls, m/s; nan if there are none."""
+    there = in_flank(frame.x) & (frame.z > PLATE) & (frame.z < PLATE + LOWEST)
+    inward = np.sign(WIDTH / 2 - frame.x) * frame.velocity[:, 0]
+    return np.average(inward[there], weights=frame.volume[there]) if there.any() else np.nan
+
+
 def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     time = float(sys.argv[1])
     depths = [f"{a * 1e3:g}-{b * 1e3:g} mm" for a, b in zip(DEPTHS, DEPTHS[1:])]
-    print("| run | slope | surface, mm | " + " | ".join(depths) + " |")
-    print("|" + "---|" * (len(DEPTHS) + 2))
+    print("| run | slope | surface, mm | " + " | ".join(depths) + " | at the plate |")
+    print("|" + "---|" * (len(DEPTHS) + 3))
     for folder in map(Path, sys.argv[2:]):
         read = of_beads if (folder / "parameters.json").exists() else of_talus
-        slope, height, speed = speeds(*read(folder, time))
-        speeds_there = [f"{value:.3f}" for value in speed]
-        print(f"| {folder.name} | {slope:.1f}° | {height * 1e3:.1f} | " + " | ".join(speeds_there) + " |")
+        frame, depth = read(folder, time)
+        slope, height, speed = speeds(frame, depth)
+        cells = [folder.name, f"{slope:.1f}°", f"{height * 1e3:.1f}", *(f"{value:.3f}" for value in speed),
+                 f"{slip(frame):.4f}"]
+        print("| " + " | ".join(cells) + " |")
 
 
 if __name__ == "__main__":
