@@ -45,13 +45,21 @@ class ThreadTeam {
 /// Elements handed to a thread at once. Part of the definition of `reduce`: changing it changes the bits of sums.
 inline constexpr std::size_t chunk_size = 256;
 
-/// Calls body(i) once for each i in [0, count). body(i) writes only what belongs to i.
+/// Calls body(first, end) for chunks that together are [0, count). It writes only what belongs to [first, end).
 template <class Body>
-void for_each(ThreadTeam& team, std::size_t count, Body&& body) {
+void for_each_chunk(ThreadTeam& team, std::size_t count, Body&& body) {
   const std::size_t chunks = (count + chunk_size - 1) / chunk_size;
   team.run(chunks, [&](std::size_t chunk) {
     const std::size_t end = (chunk + 1) * chunk_size < count ? (chunk + 1) * chunk_size : count;
-    for (std::size_t i = chunk * chunk_size; i < end; ++i) body(i);
+    body(chunk * chunk_size, end);
+  });
+}
+
+/// Calls body(i) once for each i in [0, count). body(i) writes only what belongs to i.
+template <class Body>
+void for_each(ThreadTeam& team, std::size_t count, Body&& body) {
+  for_each_chunk(team, count, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) body(i);
   });
 }
 

@@ -145,6 +145,8 @@ TYPED_TEST(SimdVectors, SumsOverTheLanesAreTheSameHoweverManyColumnsThereAre) {
 TEST(CubeRoot, IsThatOfTheLibraryOverAllMagnitudes) {
   for (double x = 1e-300; x < 1e300; x *= 1.7)
     EXPECT_NEAR(static_cast<double>(cube_root(x) / std::cbrt(static_cast<long double>(x))), 1, 3e-16) << x;
+  for (const std::uint64_t bits : {0ull, 1ull, 0xffffffffull, 0x100000000ull, 0x2ffffffffull, 0xffffffffffffffffull})
+    for (std::uint64_t less = 0; less < 5; ++less) EXPECT_EQ(third_of(bits - less), (bits - less) / 3) << bits;
   for (const double x : {0.0, -8.0, 5e-324}) EXPECT_EQ(cube_root(x), std::cbrt(x));
   EXPECT_TRUE(std::isnan(cube_root(NAN)));
 }

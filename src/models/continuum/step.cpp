@@ -38,7 +38,7 @@ struct Step {
   void drift(double duration, std::span<const Vector3> velocity) const;
   void density() const;
   void stress() const;
-  void walls(double duration) const;
+  void walls(double duration, std::span<const Vector3> position) const;
   void damping() const;
   void clock() const;
 };
@@ -60,15 +60,15 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     step.momentum(dt, s.time + 0.5 * dt);
     step.density();
     step.stress();
-    step.walls(dt);
+    step.walls(dt, w.position);
   } else {
     // The leapfrog: velocities are staggered by half a step. It neither damps nor amplifies waves, and evaluates forces
     // and gradients once each.
     const double kick = 0.5 * (s.last_step + dt);
     step.momentum(kick, s.time);
-    w.position = s.position;
-    step.walls(kick);
-    for_each(team, s.position.size(), [&](std::size_t i) { w.position[i] += (0.5 * dt) * s.velocity[i]; });
+    step.walls(kick, s.position);
+    for_each(team, s.position.size(),
+             [&](std::size_t i) { w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i]; });
     step.gradient(s.velocity, s.density, w.smoothing_length, s.material, SweepTerms::gradients);
     step.drift(dt, s.velocity);
     step.density();
@@ -203,9 +203,9 @@ void Step::stress() const {
   });
 }
 
-/// Friction, and the loads of the walls.
-void Step::walls(double duration) const {
-  apply_wall_friction(team, p, w.domain, w.rates, w.position, duration, s);
+/// Friction, and the loads of the walls. \param position of the particles that the rates are of
+void Step::walls(double duration, std::span<const Vector3> position) const {
+  apply_wall_friction(team, p, w.domain, w.rates, position, duration, s);
   apply_vessel_friction(team, p, w.load_fields, w.rates, duration, s);
 }
 

@@ -10,6 +10,7 @@
 #include "models/continuum/specific_stress.hpp"
 #include "models/continuum/stress_regularisation.hpp"
 #include "numerics/sph/cubic_spline.hpp"
+#include "numerics/sph/smoothing_lengths.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
 
 namespace talus::continuum {
@@ -69,6 +70,16 @@ bool Sweep::are_stabilised(SweepTerms terms) const {
 double Sweep::smoothing_length(double density) const {
   return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_
                                      : smoothing_ratio_ * sph::smoothing_length(mass_, density);
+}
+
+void Sweep::find_smoothing_lengths(ThreadTeam& team, std::span<const double> density, std::span<double> length) const {
+  if (fixed_smoothing_length_ > 0) {
+    std::ranges::fill(length, fixed_smoothing_length_);
+    return;
+  }
+  for_each_chunk(team, density.size(), [&](std::size_t first, std::size_t end) {
+    sph::smoothing_lengths(end - first, mass_, smoothing_ratio_, density.data() + first, length.data() + first);
+  });
 }
 
 void Sweep::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,

@@ -73,6 +73,8 @@ class Sweep {
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;
+  /// Those of many. \param length of as many, m
+  void find_smoothing_lengths(ThreadTeam& team, std::span<const double> density, std::span<double> length) const;
 
   /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
   /// of the skin

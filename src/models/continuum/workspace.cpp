@@ -42,8 +42,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
 }
 
 void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
-  for_each(team, s.position.size(),
-           [&](std::size_t i) { w.smoothing_length[i] = w.sweep.smoothing_length(s.density[i]); });
+  w.sweep.find_smoothing_lengths(team, s.density, w.smoothing_length);
 }
 
 void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
