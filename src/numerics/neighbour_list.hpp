@@ -45,7 +45,7 @@ class NeighbourList {
 
   /// Lists are found cell by cell, and then lie by number, as sums go through them. Only those of an eighth of the
   /// points, and of so many at least, are found at once, and take memory twice.
-  static constexpr std::size_t found_at_once = std::size_t{1} << 15;
+  static constexpr std::size_t found_at_once = std::size_t{1} << 14;
 
  private:
   double skin_ = -1;

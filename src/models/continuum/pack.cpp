@@ -33,6 +33,7 @@ struct Signs {
   bool suffice;
   double motion[8], shift[8], stress[8];       // factors, what is added to the motion, factors
   float single_velocity[4], single_stress[8];  // factors of the later half of the motion, and of the stress
+  int moves[3], moved = 0;                     // the axes along which it moves places, and how many they are
 
   explicit Signs(const Image& image) : suffice(is_diagonal(image.map) && is_diagonal(image.vector_map)) {
     const Tensor3<>&m = image.map, &v = image.vector_map;
@@ -45,9 +46,8 @@ struct Signs {
       single_stress[k] = static_cast<float>(stress[k]);
     }
     for (int k = 0; k < 4; ++k) single_velocity[k] = static_cast<float>(motion[4 + k]);
-  }
-  Vector3 position(const Vector3& x) const {
-    return {motion[0] * x.x + shift[0], motion[1] * x.y + shift[1], motion[2] * x.z + shift[2]};
+    for (int axis = 0; axis < 3; ++axis)
+      if (motion[axis] != 1 || shift[axis] != 0) moves[moved++] = axis;
   }
 
  private:
@@ -164,27 +164,45 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
     single_stress_[i] = single(s, static_cast<float>(0.5 * density));
   });
   const std::vector<Signs> signs = signs_of(neighbourhood_.images());
-  for_each(team, packed_ghosts_.size(), [&](std::size_t n) {
-    const std::size_t g = packed_ghosts_[n], source = ghosts[g].source;
-    if (const Signs& image = signs[ghosts[g].image]; image.suffice) {
-      const auto place = in_quanta(image.position(particles.position[source]), per_quantum);
-      SingleMotionRecord& to = single_motion_[count + g];
-      for (std::size_t axis = 0; axis < 3; ++axis) to.position[axis] = place[axis];
-      to.half_length = single_motion_[source].half_length;
-      multiply<4>(numbers<float>(single_motion_[source]) + 4, image.single_velocity, numbers<float>(to) + 4);
-      if (stresses)
-        multiply<8>(numbers<float>(single_stress_[source]), image.single_stress,
-                    numbers<float>(single_stress_[count + g]));
-      return;
+  const auto pack_alike = [&](const Signs& of_image, std::span<const std::uint32_t> alike) {
+    const Signs image = of_image;  // a copy: what is stored below could change what is referred to
+    SingleMotionRecord* const motion = single_motion_.data();
+    SingleStressRecord* const stress = single_stress_.data();
+    for (const std::uint32_t g : alike) {
+      const std::size_t source = ghosts[g].source;
+      SingleMotionRecord& to = motion[count + g];
+      to = motion[source];
+      for (int n = 0; n < image.moved; ++n) {
+        const int axis = image.moves[n];
+        const double place = image.motion[axis] * particles.position[source][axis] + image.shift[axis];
+        to.position[axis] = whole_quanta(per_quantum * place);
+      }
+      multiply<4>(numbers<float>(motion[source]) + 4, image.single_velocity, numbers<float>(to) + 4);
+      if (stresses) multiply<8>(numbers<float>(stress[source]), image.single_stress, numbers<float>(stress[count + g]));
     }
-    const Image& image = neighbourhood_.image(ghosts[g]);
-    single_motion_[count + g] =
-        single(image.position(particles.position[source]), image.vector(particles.velocity[source]),
-               single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
-    if (!stresses) return;
-    const float* s = single_stress_[source].specific_stress;
-    single_stress_[count + g] =
-        single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
+  };
+  for_each_chunk(team, packed_ghosts_.size(), [&](std::size_t first, std::size_t end) {
+    // Those of an image follow each other.
+    for (std::size_t next = first; first < end; first = next) {
+      const std::uint32_t in = ghosts[packed_ghosts_[first]].image;
+      while (next < end && ghosts[packed_ghosts_[next]].image == in) ++next;
+      const std::span alike = std::span(packed_ghosts_).subspan(first, next - first);
+      if (signs[in].suffice) {
+        pack_alike(signs[in], alike);
+        continue;
+      }
+      const Image& image = neighbourhood_.images()[in];
+      for (const std::uint32_t g : alike) {
+        const std::size_t source = ghosts[g].source;
+        single_motion_[count + g] =
+            single(image.position(particles.position[source]), image.vector(particles.velocity[source]),
+                   single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
+        if (!stresses) continue;
+        const float* s = single_stress_[source].specific_stress;
+        single_stress_[count + g] =
+            single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
+      }
+    }
   });
   // Its square is in the range of a float; one over its cube is zero, and not one of the numbers just above it, which
   // cost a processor a hundred cycles each.

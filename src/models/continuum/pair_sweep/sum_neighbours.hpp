@@ -29,6 +29,14 @@ TALUS_INLINE const SingleRecords& records_of(const Records& records, float) {
   return records.single;
 }
 
+/// The same place, which the compiler takes for another: what is read there in a loop stays an operand of it, instead
+/// of being spread over registers that there are not enough of.
+template <class T>
+TALUS_INLINE const T* anew(const T* place) {
+  asm volatile("" : "+r"(place));
+  return place;
+}
+
 /// Accelerations by each neighbour, one component after the other, in the order of the list.
 template <class Real>
 struct PairAccelerations {
@@ -61,6 +69,14 @@ TALUS_INLINE void store_forces(const Neighbours& neighbours, const PairAccelerat
                                const SimdVector3<Real>& all, const SimdVector<Real>& kernel_density, PairSums& sums) {
   using Number = SimdVector<Real>;
   const Number zero = 0.0;
+  if (neighbours.walls == 0) {
+    constexpr int least = sizeof(Real) == sizeof(double) ? 8 : 4;  // of store_sums
+    Number block[least];
+    block[0] = all.x, block[1] = all.y, block[2] = all.z, block[3] = kernel_density;
+    TALUS_UNROLL for (int n = 4; n < least; ++n) block[n] = zero;
+    store_sums(block, sums.acceleration);
+    return;
+  }
   Number value[24];
   value[0] = all.x, value[1] = all.y, value[2] = all.z, value[3] = kernel_density;
   TALUS_UNROLL for (int n = 4; n < 8; ++n) value[n] = zero;
@@ -151,8 +167,8 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
                     const PairConstants& constants, PairSums& sums) {
   using Number = SimdVector<Real>;
   const auto records = records_of(all_records, Real{});
-  const auto own = records.motion[self];  // copies: what is stored below could change what is referred to
-  const auto loaded = records.stress[self];
+  const auto* motion = records.motion + self;
+  const auto* stresses = records.stress + self;
   const sph::ArtificialViscosity viscous{constants.viscosity_alpha, constants.viscosity_beta};
   const Number zero = 0.0;
   sph::GradientSums<Number> gradient{{zero, zero, zero, zero, zero, zero},
@@ -165,9 +181,15 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   Number around[8] = {zero, zero, zero, zero, zero, zero, zero, zero};
   constexpr bool slopes = stress_gradient == StressGradient::asked && sizeof(Real) == sizeof(double);
   [[maybe_unused]] StressGradientSums<slopes> stress_slopes;
-  for (std::uint32_t first = 0; first < end; first += Number::lanes) {
+  const auto geometry = [&](std::uint32_t first) __attribute__((always_inline)) {
+    motion = anew(motion);
+    return PairGeometry<Real>(records, *motion, neighbours.record + first);
+  };
+  const auto add = [&](std::uint32_t first, const PairGeometry<Real>& pair) __attribute__((always_inline)) {
     const std::uint32_t* const record = neighbours.record + first;
-    const auto [d, du, volume, h, square, q, inverse_h, slope] = PairGeometry<Real>(records, own, record);
+    stresses = anew(stresses);
+    const auto& loaded = *stresses;
+    const auto& [d, du, volume, h, square, q, inverse_h, slope] = pair;
     Number stress[8];
     if constexpr (forces || slopes || stabilisers != Stabilisers::none)
       load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.stress + record[lane]); }, stress);
@@ -220,6 +242,21 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       acceleration = {acceleration.x + a.x, acceleration.y + a.y, acceleration.z + a.z};
     }
     if constexpr (slopes) stress_slopes.add(d, -1.0 * volume * slope, stress, loaded.specific_stress);
+  };
+  if constexpr (gradients && !forces && stabilisers == Stabilisers::none) {
+    // The next register's geometry, a long chain of operations, has begun while this one's is summed.
+    if (end > 0) {
+      PairGeometry<Real> next = geometry(0);
+      std::uint32_t first = 0;
+      for (; first + Number::lanes < end; first += Number::lanes) {
+        const PairGeometry<Real> now = next;
+        next = geometry(first + Number::lanes);
+        add(first, now);
+      }
+      add(first, next);
+    }
+  } else {
+    for (std::uint32_t first = 0; first < end; first += Number::lanes) add(first, geometry(first));
   }
   if constexpr (forces && stress_around == StressAround::asked) store_sums(around, sums.stress);
   if constexpr (forces) store_forces(neighbours, pairs, acceleration, kernel_density, sums);
