@@ -72,11 +72,10 @@ T accumulate(ThreadTeam& team, std::size_t count, T initial, Add&& add, Combine&
     T value;
   };
   std::vector<Slot> partial(chunks, Slot{initial});
-  team.run(chunks, [&](std::size_t chunk) {
-    const std::size_t end = (chunk + 1) * chunk_size < count ? (chunk + 1) * chunk_size : count;
+  for_each_chunk(team, count, [&](std::size_t first, std::size_t end) {
     T gathered = initial;
-    for (std::size_t i = chunk * chunk_size; i < end; ++i) add(i, gathered);
-    partial[chunk].value = gathered;
+    for (std::size_t i = first; i < end; ++i) add(i, gathered);
+    partial[first / chunk_size].value = gathered;
   });
   T total = initial;
   for (const Slot& part : partial) total = combine(total, part.value);

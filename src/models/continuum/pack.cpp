@@ -164,7 +164,7 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
     single_stress_[i] = single(s, static_cast<float>(0.5 * density));
   });
   const std::vector<Signs> signs = signs_of(neighbourhood_.images());
-  const auto pack_alike = [&](const Signs& of_image, std::span<const std::uint32_t> alike) {
+  const auto mirror = [&](const Signs& of_image, std::span<const std::uint32_t> alike) {
     const Signs image = of_image;  // a copy: what is stored below could change what is referred to
     SingleMotionRecord* const motion = single_motion_.data();
     SingleStressRecord* const stress = single_stress_.data();
@@ -181,27 +181,28 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
       if (stresses) multiply<8>(numbers<float>(stress[source]), image.single_stress, numbers<float>(stress[count + g]));
     }
   };
+  const auto turn = [&](const Image& image, std::span<const std::uint32_t> alike) {
+    for (const std::uint32_t g : alike) {
+      const std::size_t source = ghosts[g].source;
+      single_motion_[count + g] =
+          single(image.position(particles.position[source]), image.vector(particles.velocity[source]),
+                 single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
+      if (!stresses) continue;
+      const float* s = single_stress_[source].specific_stress;
+      single_stress_[count + g] =
+          single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
+    }
+  };
   for_each_chunk(team, packed_ghosts_.size(), [&](std::size_t first, std::size_t end) {
     // Those of an image follow each other.
     for (std::size_t next = first; first < end; first = next) {
       const std::uint32_t in = ghosts[packed_ghosts_[first]].image;
       while (next < end && ghosts[packed_ghosts_[next]].image == in) ++next;
       const std::span alike = std::span(packed_ghosts_).subspan(first, next - first);
-      if (signs[in].suffice) {
-        pack_alike(signs[in], alike);
-        continue;
-      }
-      const Image& image = neighbourhood_.images()[in];
-      for (const std::uint32_t g : alike) {
-        const std::size_t source = ghosts[g].source;
-        single_motion_[count + g] =
-            single(image.position(particles.position[source]), image.vector(particles.velocity[source]),
-                   single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
-        if (!stresses) continue;
-        const float* s = single_stress_[source].specific_stress;
-        single_stress_[count + g] =
-            single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
-      }
+      if (signs[in].suffice)
+        mirror(signs[in], alike);
+      else
+        turn(neighbourhood_.images()[in], alike);
     }
   });
   // Its square is in the range of a float; one over its cube is zero, and not one of the numbers just above it, which

@@ -15,18 +15,6 @@
 
 namespace talus::continuum {
 
-namespace {
-
-/// Copies numbers of the particles whose sums go on together; of as many as that mostly are, without a call.
-void copy_block(const double* from, std::size_t size, double* to) {
-  if (size == PairSums::together)
-    std::copy_n(from, PairSums::together, to);
-  else
-    std::copy_n(from, size, to);
-}
-
-}  // namespace
-
 void Rates::resize(std::size_t count) {
   acceleration.resize(count);
   density_rate.resize(count);
@@ -260,7 +248,7 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       alignas(64) double gradient[9][together];
       velocity_gradients_(sums, gradient);
       for (std::size_t c = 0; c < 9; ++c)
-        copy_block(gradient[c], size, rates.velocity_gradient.component[c].data() + first);
+        std::copy_n(gradient[c], size, rates.velocity_gradient.component[c].data() + first);
       for (std::size_t n = 0; n < size; ++n)
         rates.density_rate[first + n] =
             corrected_continuity_ ? -particles.density[first + n] * (gradient[0][n] + gradient[4][n] + gradient[8][n])
@@ -272,8 +260,8 @@ void Sweep::operator()(ThreadTeam& team, const ParticleView& particles, SweepTer
       rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
       if (asks_stress_around_) set_tensor(rates.stress_around, i, stress_around(particles, i, sums[n]));
       rates.kernel_density[i] = sums[n].kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
-      for (std::uint32_t from = first_wall_[i], w = from; w < first_wall_[i + 1]; ++w)
-        rates.by_walls.value[w] = sums[n].wall_acceleration[w - from];
+      std::copy_n(sums[n].wall_acceleration, first_wall_[i + 1] - first_wall_[i],
+                  rates.by_walls.value.data() + first_wall_[i]);
     }
   };
   const std::size_t blocks = (count + together - 1) / together;

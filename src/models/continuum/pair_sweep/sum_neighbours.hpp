@@ -29,12 +29,12 @@ TALUS_INLINE const SingleRecords& records_of(const Records& records, float) {
   return records.single;
 }
 
-/// The same place, which the compiler takes for another: what is read there in a loop stays an operand of it, instead
-/// of being spread over registers that there are not enough of.
+/// The same pointer, of which the compiler cannot tell where it points to: what is read through it in a loop stays an
+/// operand in memory. Otherwise each number is spread over a register before the loop, and most of these are spilled.
 template <class T>
-TALUS_INLINE const T* anew(const T* place) {
-  asm volatile("" : "+r"(place));
-  return place;
+TALUS_INLINE const T* opaque(const T* pointer) {
+  asm volatile("" : "+r"(pointer));
+  return pointer;
 }
 
 /// Accelerations by each neighbour, one component after the other, in the order of the list.
@@ -69,14 +69,6 @@ TALUS_INLINE void store_forces(const Neighbours& neighbours, const PairAccelerat
                                const SimdVector3<Real>& all, const SimdVector<Real>& kernel_density, PairSums& sums) {
   using Number = SimdVector<Real>;
   const Number zero = 0.0;
-  if (neighbours.walls == 0) {
-    constexpr int least = sizeof(Real) == sizeof(double) ? 8 : 4;  // of store_sums
-    Number block[least];
-    block[0] = all.x, block[1] = all.y, block[2] = all.z, block[3] = kernel_density;
-    TALUS_UNROLL for (int n = 4; n < least; ++n) block[n] = zero;
-    store_sums(block, sums.acceleration);
-    return;
-  }
   Number value[24];
   value[0] = all.x, value[1] = all.y, value[2] = all.z, value[3] = kernel_density;
   TALUS_UNROLL for (int n = 4; n < 8; ++n) value[n] = zero;
@@ -182,12 +174,12 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   constexpr bool slopes = stress_gradient == StressGradient::asked && sizeof(Real) == sizeof(double);
   [[maybe_unused]] StressGradientSums<slopes> stress_slopes;
   const auto geometry = [&](std::uint32_t first) __attribute__((always_inline)) {
-    motion = anew(motion);
+    motion = opaque(motion);
     return PairGeometry<Real>(records, *motion, neighbours.record + first);
   };
   const auto add = [&](std::uint32_t first, const PairGeometry<Real>& pair) __attribute__((always_inline)) {
     const std::uint32_t* const record = neighbours.record + first;
-    stresses = anew(stresses);
+    stresses = opaque(stresses);
     const auto& loaded = *stresses;
     const auto& [d, du, volume, h, square, q, inverse_h, slope] = pair;
     Number stress[8];
