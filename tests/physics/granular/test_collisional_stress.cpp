@@ -30,7 +30,7 @@ TEST(CollisionalStress, IsotropicReadingIsTheSameInAnyAxes) {
   expect_near(collisional_stress(isotropic_reading, time, 500.0, turned(gradient, rotation)),
               transformed(collisional_stress(isotropic_reading, time, 500.0, gradient), rotation), 1e-9);
   // Simple shear and uniform compression as printed.
-  const CollisionParameters printed;
+  const CollisionParameters printed{.form = Collisions::printed};
   EXPECT_NEAR(collisional_stress(isotropic_reading, time, 500.0, shear(30)).zx,
               collisional_stress(printed, time, 500.0, shear(30)).zx, 1e-12);
   EXPECT_NEAR(collisional_stress(isotropic_reading, time, 500.0, squeeze(30)).zz,
@@ -70,8 +70,8 @@ TEST(CollisionalStress, BeyondItsRangeStaysWhatItIsAtTheEnd) {
       }
   }
   // 5 % of the mean stress is what Yuu et al. call small: B1 0.05 = 0.084 and B2 0.2 = 0.0035 is the most there is.
-  const SymmetricTensor3<> most =
-      collisional_stress({.range = CollisionRange::printed}, time, 1.0, 1e6 * Tensor3<>{-1, 1, 1, 1, -1, 1, 1, 1, -1});
+  const SymmetricTensor3<> most = collisional_stress({.form = Collisions::printed, .range = CollisionRange::printed},
+                                                     time, 1.0, 1e6 * Tensor3<>{-1, 1, 1, 1, -1, 1, 1, 1, -1});
   EXPECT_NEAR(most.zz, 1.67 * 0.05, 1e-12);
   EXPECT_NEAR(most.zx, -0.0175 * 0.2, 1e-12);
 }
@@ -88,7 +88,7 @@ TEST(CollisionalStress, WithinItsRangeFeelsNoSpinAndNoAxes) {
     expect_near(collisional_stress(isotropic_reading, time, 500.0, turned(times * gradient, rotation)),
                 transformed(collisional_stress(isotropic_reading, time, 500.0, times * gradient), rotation), 1e-9);
   // The component formulas do depend on the axes; what must hold is that they treat the three alike.
-  const CollisionParameters components{.range = CollisionRange::printed};
+  const CollisionParameters components{.form = Collisions::printed, .range = CollisionRange::printed};
   const Tensor3<> quarter = rotation_about_z(M_PI / 2) * rotation_about_y(M_PI / 2);
   expect_near(collisional_stress(components, time, 500.0, turned(gradient, quarter)),
               transformed(collisional_stress(components, time, 500.0, gradient), quarter), 1e-9);
