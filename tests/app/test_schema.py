@@ -58,7 +58,7 @@ class Schema(ProgramTest):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["case.toml"])
 
     def test_check_tells_keys_without_a_value(self):
-        self.assertRegex(self.talus("check", "case.toml").stdout, r"particles\.length +- ")
+        self.assertRegex(self.talus("check", "case.toml", "--all").stdout, r"particles\.length +- ")
 
     def test_reference_pages_are_those_of_this_program(self):
         for model in ("cloud", "continuum", "air"):
