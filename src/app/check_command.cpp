@@ -56,12 +56,13 @@ void print_items(const std::string& name, std::size_t column, const std::vector<
   const std::size_t indent = column + 4;
   std::string line = fmt::format("  {:{}}  ", name, column);
   for (std::size_t n = 0; n < items.size(); ++n) {
-    const std::string item = items[n] + (n + 1 < items.size() ? ", " : "");
-    if (line.size() > indent && line.size() + item.size() > terminal_width() + 1) {
-      print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-      line = std::string(indent, ' ');
+    const std::string item = items[n] + (n + 1 < items.size() ? "," : "");
+    if (n > 0 && line.size() + 1 + item.size() <= terminal_width()) {
+      line += " " + item;
+      continue;
     }
-    line += item;
+    if (n > 0) print("{}\n", std::exchange(line, std::string(indent, ' ')));
+    line += wrapped(item, terminal_width(), indent, indent);
   }
   print("{}\n", line);
 }
@@ -82,10 +83,11 @@ void print_given(const Subject& s) {
   std::vector<std::pair<std::string, std::vector<std::string>>> tables;
   std::size_t column = 0;
   for (const CaseEntry& entry : s.file.entries()) {
-    if (std::holds_alternative<CaseTable>(entry.value.value) || entry.key == "model" || entry.key == "title") continue;
-    const std::string table(table_of(entry.key));
+    if (std::holds_alternative<CaseTable>(entry.value.value)) continue;
+    const bool at_top = table_of(entry.key).empty();
+    const std::string table(at_top ? "case" : table_of(entry.key));
     auto at = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == table; });
-    if (at == tables.end()) at = tables.insert(table.empty() ? tables.begin() : tables.end(), {table, {}});
+    if (at == tables.end()) at = tables.insert(at_top ? tables.begin() : tables.end(), {table, {}});
     at->second.push_back(fmt::format("{} {}", last_part(entry.key), plain(entry.value)));
     column = std::max(column, table.size());
   }
@@ -134,8 +136,8 @@ void print_groups(const Subject& s) {
 
 void print_following(const Subject& s) {
   print("\nFollows:\n");
-  print_filled_in(s);
   print_groups(s);
+  print_filled_in(s);
 }
 
 void print_scales(const Subject& s) {
@@ -185,8 +187,8 @@ std::optional<std::pair<std::vector<std::string>, PreparedCase>> with_first_of(
 /// What would shorten the run, each with its forecast, alone.
 void print_shortenings(const Subject& s, double seconds) {
   print("! This run would take {}. Options:\n", run::format_seconds(seconds));
-  const auto option = [&](const std::string& change, double time, const std::string& text) {
-    if (time < 0.95 * seconds) print("    {}\n      {}: {}\n", change, run::format_seconds(time), text);
+  const auto option = [](const std::string& change, double time, const std::string& text) {
+    print("    {}\n      {}: {}\n", change, run::format_seconds(time), text);
   };
   std::vector<Shortening> all = s.prepared.shortenings ? s.prepared.shortenings() : std::vector<Shortening>();
   all.push_back({.alternatives = {{fmt::format("run.end={:.4g} s", 0.5 * s.prepared.run.end)}},

@@ -116,12 +116,18 @@ std::string opening(const Answers& a, bool inclined) {
          (inclined ? "speed = \"2 mm/s\"\nduration = \"10 ms\"\n\n" : "\n");
 }
 
-/// The outlet against the vessel above it.
+/// The outlet against the vessel above it, and the bed against the particles, a part of the outlet.
 std::vector<Problem> check_outlet(const Answers& a) {
-  if (a["outlet"] < a["width"]) return {};
-  return {{.key = "outlet",
-           .what = "is not narrower than the vessel",
-           .allowed = fmt::format("less than --width, {}", written(a["width"], "mm"))}};
+  std::vector<Problem> problems;
+  if (!(a["outlet"] < a["width"]))
+    problems.push_back({.key = "outlet",
+                        .what = "is not narrower than the vessel",
+                        .allowed = fmt::format("less than --width, {:.5g} mm", 1e3 * a["width"])});
+  if (const double least = a["outlet"] / 3; a["fill"] < least)
+    problems.push_back({.key = "fill",
+                        .what = "is a bed of fewer than four layers of particles",
+                        .allowed = fmt::format("at least a third of --outlet, {:.5g} mm", 1e3 * least)});
+  return problems;
 }
 
 std::string ending(double end, double frames, double rows) {

@@ -74,6 +74,10 @@ std::vector<Problem> by_option(const Kind& kind, const std::map<std::string, std
     const auto asked = std::find_if(kind.questions.begin(), kind.questions.end(),
                                     [&](const Question& q) { return q.name == question; });
     problem.line = problem.column = 0;
+    for (const KeyOfAnswer& k : kind.keys)
+      for (std::string* text : {&problem.what, &problem.allowed})
+        if (const auto at = text->find(k.key); at != std::string::npos && k.key.find('.') != std::string_view::npos)
+          text->replace(at, k.key.size(), "--" + std::string(k.question));
     if (asked == kind.questions.end()) {
       problem.where = fmt::format("talus new {}", kind.name);
       continue;
