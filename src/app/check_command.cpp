@@ -197,7 +197,7 @@ void print_shortenings(const Subject& s, double seconds) {
     if (const auto found = with_first_of(shortening.alternatives, s)) {
       std::string change;
       for (const std::string& setting : found->first)
-        change += fmt::format("{}--set {}", change.empty() ? "" : " ",
+        change += fmt::format("{}--set {}", change.empty() ? "" : " \\\n    ",
                               setting.find(' ') == std::string::npos ? setting : fmt::format("\"{}\"", setting));
       option(change, measured_seconds(found->second, s.threads), shortening.text);
     }

@@ -191,13 +191,15 @@ class BadCase(InputTest):
         self.assertTrue(took, said)
         options = said[took.end():]
         for change, text in ((r'--set "box\.sector=\d+ deg"', "sector"),
-                             (r'--set "law\.critical-state\.bulk_modulus=\d.*', "soft"),
+                             (r'--set "law\.critical-state\.bulk_modulus=1\.\d+ MPa" \\\n    --set "law\.critical-state\.shear_modulus=.*',
+                              "soft"),
                              (r"--set integration\.pair_precision=single", "pairs"),
                              (r'--set "bed\.spacing=2\.5 mm"', "particles across the outlet"),
                              (r'--set "run\.end=500 s"', "half")):
             self.assertRegex(options, change + rf"\n      \d+ \S+.*: .*{text}")
         self.assertLessEqual(max(map(len, said.splitlines())), 100)
         # Each makes a case, with no warning that this one has not.
+        options = options.replace("\\\n", "")
         for settings in re.findall(r"^    (--set .*)$", options, re.M):
             self.talus("check", "silo.toml", "--threads", 1, *shlex.split(settings))
         short = self.talus("check", "silo.toml", "--threads", 1, "--set", "run.end=1 ms").stdout
