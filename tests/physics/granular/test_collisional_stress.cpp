@@ -15,12 +15,13 @@ const Tensor3<> gradient{3, 40, -7, 10, -2, 5, 13, 1, -4};
 
 TEST(CollisionalStress, IsEquations13And14) {
   const double time = std::sqrt(2e-4 / 9.8), tau = 500;
-  const SymmetricTensor3<> stress = collisional_stress({}, time, tau, gradient);
+  const SymmetricTensor3<> stress = collisional_stress({.form = Collisions::printed}, time, tau, gradient);
   EXPECT_NEAR(stress.zz, 1.67 * time * 4 * tau, 1e-9);  // du_z/dz < 0 compresses: pressure
   EXPECT_NEAR(stress.xx, -1.67 * time * 3 * tau, 1e-9);
   EXPECT_NEAR(stress.xy, -0.0175 * time * 50 * tau, 1e-9);
   EXPECT_NEAR(stress.zx, -0.0175 * time * 6 * tau, 1e-9);
-  EXPECT_NEAR(collisional_stress({.diagonal = 2}, time, tau, gradient).zz, 2 * stress.zz, 1e-9);
+  EXPECT_NEAR(collisional_stress({.form = Collisions::printed, .diagonal = 2}, time, tau, gradient).zz, 2 * stress.zz,
+              1e-9);
 }
 
 TEST(CollisionalStress, IsotropicReadingIsTheSameInAnyAxes) {
