@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input: every problem at once, exit status 2, and nothing written."""
+import os
 import re
 import shlex
 import subprocess
@@ -198,6 +199,8 @@ class BadCase(InputTest):
                              (r'--set "run\.end=500 s"', "half")):
             self.assertRegex(options, change + rf"\n      \d+ \S+.*: .*{text}")
         self.assertLessEqual(max(map(len, said.splitlines())), 100)
+        if len(os.sched_getaffinity(0)) > 1:
+            self.assertRegex(options, r"\n    --threads \d+\n      \d")
         # Each makes a case, with no warning that this one has not.
         options = options.replace("\\\n", "")
         for settings in re.findall(r"^    (--set .*)$", options, re.M):

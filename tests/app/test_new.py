@@ -186,12 +186,12 @@ class Asked(ProgramTest):
         for wanted, answer in ((r"outlet \(diameter\).*diameter of the silo \[65 mm\]: ", "4 kg"),
                                (r"is not a length.*diameter of the silo \[65 mm\]: ", "80 mm"),
                                (r"diameter of the outlet \[30 mm\]: ", ""), (r"half angle of the cone, .* \[30 deg\]: ", ""),
+                               (r"sector .* \[none\]: ", ""), (r"taken away .* \[yes\]: ", ""),
                                (r"what the grains are: .* \[glass-beads\]: ", "gravel"),
                                (r"is not known.*what the grains are: .* \[glass-beads\]: ", "sand"),
                                (r"diameter of the grains; .* \[none\]: ", ""), (r"density of a grain; .* \[none\]: ", ""),
                                (r"angle of repose, .* \[none\]: ", ""), (r"walls are made of: .* \[steel\]: ", ""),
-                               (r"wall friction; .* \[none\]: ", ""), (r"sector .* \[none\]: ", ""),
-                               (r"outlet opens: .* \[when-settled\]: ", ""), (r"taken away .* \[yes\]: ", "")):
+                               (r"wall friction; .* \[none\]: ", ""), (r"outlet opens: .* \[when-settled\]: ", "")):
             while not re.search(wanted + r"\Z", said, re.S):
                 self.assertTrue(select.select([main], [], [], 30)[0], said)
                 said += os.read(main, 4096).decode()

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "app/new/kind.hpp"
@@ -58,6 +60,26 @@ constexpr Question gate{.name = "gate",
                         .from_least = true,
                         .words = openings};
 constexpr std::string_view yes_or_no[] = {"yes", "no"};
+constexpr Question of_materials[] = {material, own_diameter, own_density, own_friction, wall, wall_friction, gate};
+constexpr KeyOfAnswer keys_of_materials[] = {{"grains.diameter", "diameter"},
+                                             {"grains.density", "density"},
+                                             {"grains.material", "material"},
+                                             {"walls.material", "wall"},
+                                             {"walls.coefficient", "wall-friction"},
+                                             {"critical-state.friction", "friction"},
+                                             {"critical-state.fast_friction", "friction"},
+                                             {"gate.time", "gate"},
+                                             {"settle.damping_time", "gate"},
+                                             {"removal.below", "removal"},
+                                             {"run.end", "fill"}};
+
+template <class T, std::size_t n, std::size_t m>
+constexpr std::array<T, n + m> joined(const T (&first)[n], const T (&second)[m]) {
+  std::array<T, n + m> all{};
+  std::copy(std::begin(first), std::end(first), all.begin());
+  std::copy(std::begin(second), std::end(second), all.begin() + n);
+  return all;
+}
 
 /// So many particles along a length, unless the bed would have too many.
 double spacing_of(double length, double count, double area) {
@@ -157,20 +179,13 @@ constexpr std::string_view hopper_sketch = R"(
  A slice of a long hopper, one particle deep.
 )";
 
-constexpr Question hopper_questions[] = {
+constexpr Question of_hopper[] = {
     {"width", "width of the hopper, between its upright walls", "100 mm", dimension::length, 0, 100},
     {"fill", "height of the bed, from the outlet to its top", "83.333 mm", dimension::length, 0, 100},
     {"outlet", "width of the outlet, a slit", "40 mm", dimension::length, 0, 100},
     {"drop", "height of the outlet above the floor of the bin", "100 mm", dimension::length, 0, 100},
     {"half-angle", "angle between an inclined wall and the vertical; a flat bottom if not given", "", dimension::angle,
      0, 1.5533},
-    material,
-    own_diameter,
-    own_density,
-    own_friction,
-    wall,
-    wall_friction,
-    gate,
     {.name = "removal",
      .text = "whether grains are taken away below the outlet (yes), or fill the bin (no)",
      .standard = "no",
@@ -178,30 +193,14 @@ constexpr Question hopper_questions[] = {
      .only_words = true},
     {"air", "with air between and around the grains", "", {}, 0, 1, false, true},
 };
+constexpr auto hopper_questions = joined(of_hopper, of_materials);
 
-constexpr KeyOfAnswer hopper_keys[] = {{"box.width", "width"},
-                                       {"bed.height", "fill"},
-                                       {"wedge.outlet", "outlet"},
-                                       {"plate.slit_left", "outlet"},
-                                       {"plate.slit_right", "outlet"},
-                                       {"bed.spacing", "outlet"},
-                                       {"box.depth", "outlet"},
-                                       {"wedge.height", "drop"},
-                                       {"plate.height", "drop"},
-                                       {"box.height", "fill"},
-                                       {"wedge.half_angle", "half-angle"},
-                                       {"grains.diameter", "diameter"},
-                                       {"grains.density", "density"},
-                                       {"grains.material", "material"},
-                                       {"walls.material", "wall"},
-                                       {"walls.coefficient", "wall-friction"},
-                                       {"critical-state.friction", "friction"},
-                                       {"critical-state.fast_friction", "friction"},
-                                       {"gate.time", "gate"},
-                                       {"settle.damping_time", "gate"},
-                                       {"air.cell", "outlet"},
-                                       {"removal.below", "removal"},
-                                       {"run.end", "fill"}};
+constexpr KeyOfAnswer keys_of_hopper[] = {
+    {"box.width", "width"},     {"box.height", "fill"},        {"bed.height", "fill"},
+    {"wedge.outlet", "outlet"}, {"plate.slit_left", "outlet"}, {"plate.slit_right", "outlet"},
+    {"bed.spacing", "outlet"},  {"box.depth", "outlet"},       {"air.cell", "outlet"},
+    {"wedge.height", "drop"},   {"plate.height", "drop"},      {"wedge.half_angle", "half-angle"}};
+constexpr auto hopper_keys = joined(keys_of_hopper, keys_of_materials);
 
 std::string write_hopper(const Answers& a) {
   const double width = a["width"], outlet = a["outlet"], fill = a["fill"], drop = a["drop"];
@@ -257,52 +256,26 @@ constexpr std::string_view silo_sketch = R"(
          outlet (diameter)
 )";
 
-constexpr Question silo_questions[] = {
+constexpr Question of_silo[] = {
     {"width", "diameter of the silo", "65 mm", dimension::length, 0, 100},
     {"fill", "height of the bed, from the outlet to its top", "80 mm", dimension::length, 0, 200},
     {"outlet", "diameter of the outlet", "30 mm", dimension::length, 0, 100},
     {"half-angle", "half angle of the cone, between its wall and the vertical", "30 deg", dimension::angle, 0, 1.5533},
-    material,
-    own_diameter,
-    own_density,
-    own_friction,
-    wall,
-    wall_friction,
     {"sector", "angle of a sector computed in place of the whole, such as 20 deg; the whole if not given", "",
      dimension::angle, 0, 2 * std::numbers::pi},
-    gate,
     {.name = "removal",
      .text = "whether grains are taken away below the outlet (yes), or pile up on a floor (no)",
      .standard = "yes",
      .words = yes_or_no,
      .only_words = true},
 };
+constexpr auto silo_questions = joined(of_silo, of_materials);
 
-constexpr KeyOfAnswer silo_keys[] = {
-    {"box.width", "width"},
-    {"box.depth", "width"},
-    {"upper_radius", "width"},
-    {"vessel.1.radius", "width"},
-    {"lower_radius", "outlet"},
-    {"radius", "outlet"},
-    {"box.height", "fill"},
-    {"bed.height", "fill"},
-    {"bed.spacing", "outlet"},
-    {"bottom", "half-angle"},
-    {"top", "half-angle"},
-    {"box.sector", "sector"},
-    {"grains.diameter", "diameter"},
-    {"grains.density", "density"},
-    {"grains.material", "material"},
-    {"walls.material", "wall"},
-    {"walls.coefficient", "wall-friction"},
-    {"critical-state.friction", "friction"},
-    {"critical-state.fast_friction", "friction"},
-    {"gate.time", "gate"},
-    {"settle.damping_time", "gate"},
-    {"removal.below", "removal"},
-    {"run.end", "fill"},
-};
+constexpr KeyOfAnswer keys_of_silo[] = {
+    {"box.width", "width"},    {"box.depth", "width"},       {"box.height", "fill"},     {"bed.height", "fill"},
+    {"upper_radius", "width"}, {"vessel.1.radius", "width"}, {"lower_radius", "outlet"}, {"radius", "outlet"},
+    {"bed.spacing", "outlet"}, {"bottom", "half-angle"},     {"top", "half-angle"},      {"box.sector", "sector"}};
+constexpr auto silo_keys = joined(keys_of_silo, keys_of_materials);
 
 std::string write_silo(const Answers& a) {
   const double radius = 0.5 * a["width"], outlet = a["outlet"], fill = a["fill"], drop = 2 * outlet;
