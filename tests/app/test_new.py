@@ -117,6 +117,11 @@ class Cases(ProgramTest):
                                ("law.name", "critical-state"), ("collisions.form", "none"), ("sph.viscosity_alpha", "0.1")):
                 self.assertRegex(said, rf"\n  {key} +{value} ")
 
+    def test_a_silo_has_no_warning(self):
+        for options in ((), ("--sector", "20 deg"), ("--sector", "45 deg", "--outlet", "40 mm")):
+            self.new("silo", *options)
+            self.assertNotIn("Warnings", self.talus("check", "new.toml", "--threads", 1).stdout)
+
     def test_help_says_which_length_is_which(self):
         for kind, words in (("silo", ("width (diameter)", "fill: ", "half-angle, between", "outlet (diameter)")),
                             ("hopper", ("width", "fill: ", "half-angle, between", "drop: ", "a slit"))):

@@ -20,6 +20,7 @@ constexpr double gravity = 9.81;          // m/s2
 constexpr double packing = 0.6;           // at the start, as in the papers' cases
 constexpr double most_particles = 40000;  // a run of some minutes to an hour on two cores
 constexpr double across_an_outlet = 16;   // particles; below 12 the discharge shows them
+constexpr double outlet_over_ring = 2.9;  // of a sector; below 2.8 the discharge shows it (validation/sector)
 
 constexpr Question diameter{"diameter", "diameter of the grains", "200 um", dimension::length, 0, 0.1};
 constexpr Question density{"density", "density of a grain", "2500 kg/m3", dimension::density, 0, 30000};
@@ -282,7 +283,10 @@ std::string write_silo(const Answers& a) {
   const bool removal = a.word("removal") == "yes";
   const double volume = std::numbers::pi * radius * radius * fill;
   const double share = a.has("sector") ? a["sector"] / (2 * std::numbers::pi) : 1;
-  const double spacing = std::max(outlet / 12, std::cbrt(share * volume / most_particles));
+  // The ring in which a particle and its copies stand about the axis, as narrow as the outlet asks for.
+  const double on_ring = 0.5 * outlet / (outlet_over_ring * std::sqrt(1 / (share * std::numbers::pi)));
+  const double across = a.has("sector") ? std::min(outlet / 12, on_ring) : outlet / 12;
+  const double spacing = std::max(across, std::cbrt(share * volume / most_particles));
   const double cone_top = drop + (radius - 0.5 * outlet) / std::tan(a["half-angle"]);
   const double top = std::max(cone_top, drop + fill) + 4 * spacing, room = 2 * radius + 8 * spacing;
   // Beverloo's rule with the grains as points, half as long again.
