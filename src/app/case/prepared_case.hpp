@@ -44,9 +44,9 @@ struct PreparedCase {
   std::string model;
   std::int64_t seed = 0;
   run::RunParameters run;
-  ParameterList parameters;                      ///< of the model and of the run, with the values they have
+  ParameterList parameters;  ///< of the model and of the run, with the values they have
   std::map<std::string, std::string, std::less<>> filled_in;  ///< keys whose values follow from others, and from what
-  std::string instruction_set;                   ///< that the choice resolves to on this machine
+  std::string instruction_set;                                ///< that the choice resolves to on this machine
   std::string inputs;  ///< digest of what the files hold that the case names; empty if it names none
   std::any read;       ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
 
