@@ -192,7 +192,8 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(
       Parameter{
           "sph.viscosity_alpha", dimension::none, at_least(0),
-          "Monaghan's viscosity, linear coefficient; less than 0.1 lets grains fly off where a stream strikes a wall"},
+          "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a few spacings "
+          "above the head that they came with"},
       p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
