@@ -94,8 +94,10 @@ ExitStatus check(const CaseOptions& options, int threads) {
   print("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
     print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
-  if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
-    print("\nWarnings: the case leaves what its laws and the method assume:\n");
+  for (const std::string& remark : prepared.remarks) print("  {}\n", wrapped(remark, terminal_width(), 2, 2));
+  const auto warnings = warnings_before_run(prepared, default_results(options.path));
+  if (!warnings.empty()) {
+    print("\nWarnings: outside the validated range, or of what this machine has:\n");
     for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
   }
   print_forecast(prepared, threads, key);

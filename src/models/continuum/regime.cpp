@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 
 namespace talus::continuum {
@@ -106,6 +107,17 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
                      "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
   }
   return lines;
+}
+
+RegimeLine courant_line(Method method, double courant) {
+  return {"Courant number", fmt::format("{:.3g}", courant),
+          "time step times the sound speed over the smallest smoothing length; stable below about 0.5 (Runge-Kutta), "
+          "1.5 (leapfrog)",
+          courant > (method == Method::runge_kutta ? 0.5 : 1.5)};
+}
+
+RegimeLine courant_of_case(const Parameters& p) {
+  return courant_line(p.integration.method, courant_number(p));
 }
 
 }  // namespace talus::continuum
