@@ -108,14 +108,14 @@ constexpr auto synonyms = std::to_array<std::pair<std::string_view, std::string_
 
 /// Words that people write for units.
 constexpr auto words = std::to_array<std::pair<std::string_view, std::string_view>>(
-    {{"meter", "m"},       {"metre", "m"},        {"micron", "um"},  {"micrometer", "um"}, {"micrometre", "um"},
-     {"millimeter", "mm"}, {"millimetre", "mm"},  {"gram", "g"},     {"kilogram", "kg"},   {"sec", "s"},
-     {"second", "s"},      {"millisecond", "ms"}, {"msec", "ms"},    {"minute", "min"},    {"hour", "h"},
-     {"hr", "h"},          {"degree", "deg"},     {"radian", "rad"}, {"newton", "N"},      {"pascal", "Pa"},
-     {"hertz", "Hz"},      {"mps", "m/s"},        {"tonne", "t"},    {"ton", "t"},         {"tph", "t/h"},
-     {"inch", "in"},       {"inches", "in"},      {"foot", "ft"},    {"feet", "ft"},       {"pound", "lb"},
-     {"lbm", "lb"},        {"liter", "L"},        {"litre", "L"},    {"day", "d"},         {"poise", "P"},
-     {"centipoise", "cP"}, {"revolution", "rev"}});
+    {{"meter", "m"},       {"metre", "m"},        {"micron", "um"},     {"micrometer", "um"}, {"micrometre", "um"},
+     {"millimeter", "mm"}, {"millimetre", "mm"},  {"gram", "g"},        {"kilogram", "kg"},   {"sec", "s"},
+     {"second", "s"},      {"millisecond", "ms"}, {"msec", "ms"},       {"minute", "min"},    {"hour", "h"},
+     {"hr", "h"},          {"degree", "deg"},     {"radian", "rad"},    {"newton", "N"},      {"pascal", "Pa"},
+     {"hertz", "Hz"},      {"mps", "m/s"},        {"tonne", "t"},       {"ton", "t"},         {"tph", "t/h"},
+     {"inch", "in"},       {"inches", "in"},      {"foot", "ft"},       {"feet", "ft"},       {"pound", "lb"},
+     {"lb", "lb"},         {"lbm", "lb"},         {"liter", "L"},       {"litre", "L"},       {"day", "d"},
+     {"poise", "P"},       {"centipoise", "cP"},  {"revolution", "rev"}});
 
 std::string replace_synonyms(std::string_view text) {
   std::string result;
