@@ -197,7 +197,9 @@ Scene scene_of_cloud(const CaseFile& resolved) {
 std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                           ReadRuns& runs) {
   const CloudFrame frame = study_of(resolved).frame;
-  return analyze_cloud(folder, frame, runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, frame); }));
+  return analyze_cloud(folder, frame, runs.of<AvalancheRun>(folder, [&] {
+    return read_avalanche(folder, frame, runs.snapshot_memory());
+  }));
 }
 
 std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,

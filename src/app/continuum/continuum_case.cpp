@@ -202,7 +202,8 @@ PreparedCase prepare_continuum(const CaseFile& file) {
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
   return runs.of<HopperRun>(folder, [&] {
     const auto* const read = runs.find_case<ContinuumCase>(folder);
-    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model));
+    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model),
+                       runs.snapshot_memory());
   });
 }
 
