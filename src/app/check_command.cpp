@@ -97,7 +97,7 @@ ExitStatus check(const CaseOptions& options, int threads) {
   for (const std::string& remark : prepared.remarks) print("  {}\n", wrapped(remark, terminal_width(), 2, 2));
   const auto warnings = warnings_before_run(prepared, default_results(options.path));
   if (!warnings.empty()) {
-    print("\nWarnings: outside the validated range, or of what this machine has:\n");
+    print("\nWarnings: outside the validated range\n");
     for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
   }
   print_forecast(prepared, threads, key);

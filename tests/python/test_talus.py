@@ -186,7 +186,7 @@ class Reading(OnARun):
         np.testing.assert_allclose(walls(wedge), [[(0, 0.9), (0.4, 0.5)], [(1, 0.9), (0.6, 0.5)]])
 
     def test_what_is_no_run(self):
-        with self.assertRaisesRegex(talus.RunError, "is no folder"):
+        with self.assertRaisesRegex(talus.RunError, "no such folder"):
             talus.Run(self.folder / "none")
         with self.assertRaisesRegex(talus.RunError, "no manifest.json"):
             talus.Run(self.folder)

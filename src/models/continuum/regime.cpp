@@ -102,7 +102,9 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
         few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
     lines.push_back(
         {"particles across the outlet", fmt::format("{:.3g}", width / p.bed.spacing),
-         "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)" + advice, few});
+         "the flow is underestimated as if the outlet were 3 spacings narrower; use at least 12 (validation/slots)" +
+             advice,
+         few});
     lines.push_back({"grains across the outlet", fmt::format("{:.3g}", width / p.grains.diameter),
                      "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
   }
