@@ -41,12 +41,13 @@ struct LoopOptions {
 struct LoopResult {
   bool interrupted = false;
   std::string reason;       ///< why, if interrupted
+  std::string ended;        ///< why the run was over before its end; empty: it was not
   double wall_seconds = 0;  ///< of all sessions of this run together, without the start
   double cpu_seconds = 0;   ///< the same, of all threads
   std::uint64_t steps = 0;  ///< since the start of the run
 };
 
-/// Runs a model to the end, or until it is interrupted. Each snapshot is taken at the end of the first step that
+/// Runs a model to the end, until nothing is left to compute, or until it is interrupted. Each snapshot is taken at the end of the first step that
 /// reaches its time (no step is cut to an output time, so outputs do not change the bits); the last step's state is the
 /// last snapshot. A checkpoint is written at the start, now and then, on interruption and at the end. With `resume` it
 /// continues from the newest intact checkpoint, or starts from the beginning if there is none; rows and snapshots

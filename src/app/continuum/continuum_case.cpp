@@ -10,6 +10,7 @@
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/answers.hpp"
+#include "app/continuum/bed_file.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
@@ -48,7 +49,8 @@ std::vector<NamedValue> groups(const Parameters& p) {
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(continuum::copies_of(p))});
   // Where the bed is as wide as the box from its bottom to its top.
-  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty() && p.vessel.empty())
+  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&
+      !continuum::has_no_bed(p) && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
@@ -87,8 +89,10 @@ double measure_particle(const Parameters& p, ThreadTeam& team) {
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
 /// walls of its vessel by larger particles in it.
-double measure_step(const Parameters& p, ThreadTeam& team) {
+double measure_step(const Parameters& p, double end, ThreadTeam& team) {
   constexpr double most = 8000;
+  if (continuum::has_no_bed(p))  // half of what comes in
+    return 0.5 * continuum::forecast(p, end).particles * measure_particle(continuum::sample(p, most), team);
   const double count = continuum::bed_count(p);
   if (count <= most) return count * measure_particle(p, team);
   const double inside = measure_particle(continuum::sample(p, most), team);
@@ -124,9 +128,26 @@ void read_surfaces(const CaseFile& file, Parameters& p) {
   }
 }
 
-/// Of the surfaces that the files of the case hold.
+/// The same of the particles of bed.file. \returns the faults of the file
+std::vector<Problem> read_given_bed(const CaseFile& file, Parameters& p) {
+  const CaseEntry* entry = file.find("bed.file");
+  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+  if (!name || name->empty()) return {};
+  try {
+    p.bed.given = std::make_shared<continuum::GivenBed>(read_bed(path_of(file, *name)));
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+/// Of the surfaces and particles that the files of the case hold.
 std::string digest_of_files(const Parameters& p) {
   std::string bytes;
+  const auto append = [&](const auto& column) {
+    bytes.append(reinterpret_cast<const char*>(column.data()), column.size() * sizeof column[0]);
+  };
+  if (p.bed.given) append(p.bed.given->position), append(p.bed.given->velocity), append(p.bed.given->density);
   for (const continuum::VesselPart& part : p.vessel)
     for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
       bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
@@ -137,9 +158,8 @@ struct ContinuumCase : ModelCase<Parameters> {
   FilledIn filled;  ///< by the material
 };
 
-/// \throws InputError with every problem
-ContinuumCase read_continuum(const CaseFile& file) {
-  Parameters defaults;
+/// \throws InputError with every problem, but for those of bed.file
+ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
@@ -149,6 +169,8 @@ ContinuumCase read_continuum(const CaseFile& file) {
   reader.check(filled.problems);
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
   read.model = continuum::with_level(read.model);
+  if (!read.model.bed.file.empty())
+    read.model.bed.file = std::filesystem::absolute(path_of(file, read.model.bed.file)).lexically_normal();
   set_from_bed(file, read.model, read.filled);
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
@@ -156,6 +178,19 @@ ContinuumCase read_continuum(const CaseFile& file) {
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.throw_problems();
   return read;
+}
+
+/// \throws InputError with every problem
+ContinuumCase read_continuum(const CaseFile& file) {
+  Parameters defaults;
+  std::vector<Problem> problems = read_given_bed(file, defaults);
+  if (problems.empty()) return read_continuum(file, std::move(defaults));
+  try {
+    read_continuum(file, std::move(defaults));
+  } catch (const InputError& others) {
+    problems.insert(problems.begin(), others.problems().begin(), others.problems().end());
+  }
+  throw InputError(std::move(problems));
 }
 
 /// That of a run, read once by those who share what they read.
@@ -186,7 +221,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);
-  prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
+  prepared.measure_evaluation = [p, end = read.run.end](ThreadTeam& team) { return measure_step(p, end, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = p.plate.height || continuum::outlet_of(p)
                           ? run::Headline{.column = "discharge_rate", .name = "discharge"}

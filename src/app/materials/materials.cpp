@@ -153,7 +153,7 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 
 void set_from_bed(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
   if (!p.grains.material || !p.law.is<granular::CriticalState>()) return;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p);
   auto& law = p.law.of<granular::CriticalState>();
   const auto set = [&](const char* key, double& number, double value) {
     if (file.contains(key) || !(value > 0)) return;

@@ -4,50 +4,92 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/parameter.hpp"
+#include "base/vector.hpp"
 
 namespace talus::continuum {
+
+/// The particles of bed.file. SI; columns that the file does not have are empty.
+struct GivenBed {
+  std::vector<Vector3> position, velocity;
+  std::vector<double> density;      ///< bulk density, kg/m^3
+  std::vector<int> lines;           ///< of a text file, by particle, from 1; empty: of another
+  std::vector<std::string> unread;  ///< columns without a meaning here
+  Vector3 low, high;                ///< corners of the box around the positions, m
+};
 
 struct BedParameters {
   double packing = 0.6;
   double spacing = 0;
+  std::string file;
   std::optional<double> mass;
-  double height = 0;  ///< m; with a mass that which holds it (with_level, filling.hpp)
+  double height = 0;  ///< m; 0: no bed. With a mass that which holds it, with a file that of its particles (with_level)
   std::optional<double> bottom;
-  std::optional<double> left, right;
+  std::optional<double> left, right, front, rear;
+  std::optional<std::array<double, 3>> inside;
   std::optional<std::array<double, 3>> velocity;
   double disorder = 0;
+
+  /// What the file holds. Not a key: who reads the case fills it in.
+  std::shared_ptr<const GivenBed> given = nullptr;
 };
 
+/// \param fed whether grains come in through an inlet, so that there may be no bed
 template <class Visit, class B, class Seed>
-void for_each_parameter_of_bed(Visit&& visit, B& bed, Seed& seed) {
+void for_each_parameter_of_bed(Visit&& visit, B& bed, Seed& seed, bool fed) {
   visit(Parameter{"bed.packing", dimension::none, between(1e-4, 0.74), "packing fraction at the start"}, bed.packing);
   visit(
       Parameter{"bed.spacing", dimension::length, above(0),
                 "distance of the particles at the start; adjusted to whole numbers of particles along each side", true},
       bed.spacing);
-  visit(
+  visit(Parameter{"bed.file",
+                  {},
+                  {},
+                  "CSV or VTKHDF file of the particles at the start, in place of the other keys that say where the bed "
+                  "lies: positions, and velocities and bulk densities if it has them; each has the mass of a cube of "
+                  "bed.spacing at bed.packing; a path without / in front starts at the case's folder; left out: the "
+                  "bed fills its region"},
+        bed.file);
+  auto laid = only_if({"bed.file", "is given", "left out", bed.file.empty()}, visit);
+  laid(
       Parameter{
           "bed.mass",
           {0, 1, 0, 0},
           above(0),
           "mass of the bed, to the nearest particle, in place of bed.height: the bed fills its region from below"},
       bed.mass);
-  auto filled = only_if({"bed.mass", "is given", "left out", !bed.mass}, visit);
-  filled(Parameter{"bed.height", dimension::length, above(0),
-                   "height of the bed at the start, where there is no bed.mass; the bed fills the region that is "
-                   "connected with the middle of its top, with no plate or wall between",
-                   true},
+  auto filled = only_if({"bed.mass", "is given", "left out", !bed.mass}, laid);
+  filled(Parameter{"bed.height", dimension::length, fed ? at_least(0) : above(0),
+                   "height of the bed at the start, where there is no bed.mass; left out with an [[inlet]]: no bed",
+                   !fed},
          bed.height);
-  visit(Parameter{"bed.bottom", dimension::length, at_least(0),
-                  "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
-        bed.bottom);
-  visit(Parameter{"bed.left", dimension::length, at_least(0), "start of the bed along x; left out: the left face"},
-        bed.left);
-  visit(Parameter{"bed.right", dimension::length, above(0), "end of the bed along x; left out: the right face"},
-        bed.right);
+  laid(Parameter{"bed.bottom", dimension::length, at_least(0),
+                 "bottom of the bed; left out: that of the vessel, the plate, the wedge's outlet, or the floor"},
+       bed.bottom);
+  laid(Parameter{"bed.left", dimension::length, at_least(0),
+                 "start of the bed along x; left out: the left face, or the least x of a [[vessel]] that stands apart "
+                 "from the left and the right face"},
+       bed.left);
+  laid(Parameter{"bed.right", dimension::length, above(0),
+                 "end of the bed along x; left out: the right face, or the largest x of such a vessel"},
+       bed.right);
+  laid(Parameter{"bed.front", dimension::length, at_least(0),
+                 "start of the bed along y; left out: the front face, or the least y of a [[vessel]] that stands apart "
+                 "from the front and the rear face"},
+       bed.front);
+  laid(Parameter{"bed.rear", dimension::length, above(0),
+                 "end of the bed along y; left out: the rear face, or the largest y of such a vessel"},
+       bed.rear);
+  laid(Parameter{"bed.inside", dimension::length, {},
+                 "a place within the bed's region, x, y and z: the bed fills what is connected with it, no plate or "
+                 "wall between; left out: the places above the level gates of a [[vessel]], else above its outlet, "
+                 "else the middle of the bed's top"},
+       bed.inside);
   visit(Parameter{"bed.velocity", dimension::velocity, {}, "initial velocity of the bed; left out: at rest"},
         bed.velocity);
   visit(Parameter{"bed.disorder", dimension::none, between(0, 0.1),

@@ -38,6 +38,11 @@ double count_of_mass(const Parameters& p) {
 }
 
 Parameters with_level(const Parameters& p) {
+  if (p.bed.given) {
+    Parameters filled = p;
+    filled.bed.height = p.bed.given->high.z - p.bed.given->low.z + p.bed.spacing;
+    return filled;
+  }
   if (!p.bed.mass) return p;
   const std::int64_t most = most_layers(p);
   if (most == 0) return p;

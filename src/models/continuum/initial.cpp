@@ -30,18 +30,27 @@ State initial_state(const Parameters& parameters, const Material& material) {
   const std::array<double, 3> velocity = parameters.bed.velocity.value_or(std::array<double, 3>{});
   state.velocity.assign(count, Vector3{velocity[0], velocity[1], velocity[2]});
   state.density.assign(count, parameters.bed.packing * parameters.grains.density);
+  if (const auto& given = parameters.bed.given) {
+    if (!given->velocity.empty()) state.velocity = given->velocity;
+    if (!given->density.empty()) state.density = given->density;
+  }
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
   for (auto& column : state.material.stress) column.assign(count, 0.0);
-  if (draws_by_lasting_rate(parameters))
+  state.has = {.collisional = parameters.collisions.form != granular::Collisions::none,
+               .reset_position = material.by_displacements(),
+               .sector_turns = sector_of(parameters).has_value(),
+               .lasting_rate = draws_by_lasting_rate(parameters),
+               .deformation_rate = parameters.sph.hourglass_damping > 0};
+  if (state.has.lasting_rate)
     for (auto& column : state.lasting_rate) column.assign(count, 0.0);
-  if (parameters.sph.hourglass_damping > 0)
+  if (state.has.deformation_rate)
     for (auto& column : state.deformation_rate) column.assign(count, 0.0);
-  if (parameters.collisions.form != granular::Collisions::none)
+  if (state.has.collisional)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
   state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count());
-  if (material.by_displacements()) state.reset_position = state.position;
-  if (sector_of(parameters)) state.sector_turns.assign(count, 0);
+  if (state.has.reset_position) state.reset_position = state.position;
+  if (state.has.sector_turns) state.sector_turns.assign(count, 0);
   state.population = initial_population(parameters, count);
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));

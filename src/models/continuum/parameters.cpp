@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "models/continuum/atmosphere.hpp"
 #include "models/continuum/filling.hpp"
+#include "models/continuum/given_bed.hpp"
 #include "models/continuum/sector.hpp"
+#include "models/continuum/vessel_places.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -62,7 +65,8 @@ bool check_size(const Parameters& p, std::vector<Problem>& problems) {
   const Lattice lattice = lattice_of(p);
   const double count = places_of(lattice);
   if (count <= most_particles) return true;
-  const char* const keys[3] = {p.bed.right ? "bed.right" : "box.width", "box.depth", "bed.height"};
+  const char* const keys[3] = {p.bed.right ? "bed.right" : "box.width", p.bed.rear ? "bed.rear" : "box.depth",
+                               "bed.height"};
   const auto longest =
       static_cast<std::size_t>(std::max_element(lattice.count.begin(), lattice.count.end()) - lattice.count.begin());
   const double extent = lattice.spacing[static_cast<int>(longest)] * static_cast<double>(lattice.count[longest]);
@@ -87,18 +91,75 @@ bool check_size(const Parameters& p, std::vector<Problem>& problems) {
   return false;
 }
 
+using Add = std::function<void(const char* key, std::string what, std::string allowed)>;
+
+/// Where the bed begins and ends along an axis, and what says so: a key, or what is taken where it is left out.
+/// \returns whether there is room for a bed
+bool check_extent(const Parameters& p, int axis, const Add& add) {
+  const bool along_x = axis == 0;
+  const Extent extent = along_x ? bed_along_x(p) : bed_along_y(p);
+  const double width = along_x ? p.box.width : p.box.depth;
+  if (extent.low < extent.high && extent.high <= width) return true;
+  const bool first = (along_x ? p.bed.left : p.bed.front).has_value();
+  const bool last = (along_x ? p.bed.right : p.bed.rear).has_value();
+  const char* const first_key = along_x ? "bed.left" : "bed.front";
+  const char* const last_key = along_x ? "bed.right" : "bed.rear";
+  const char* const width_key = along_x ? "box.width" : "box.depth";
+  const auto origin = [&](bool given, const char* key, const char* face, double value, double of_face, bool low) {
+    if (given) return std::string(key);
+    if (value == of_face) return fmt::format("{} by default, the {} face", key, face);
+    return fmt::format("{} by default, the {} {} of the vessel", key, low ? "least" : "largest", "xy"[axis]);
+  };
+  add(last ? last_key : first_key,
+      fmt::format("leaves no bed within the box: from {:.4g} mm ({}) to {:.4g} mm ({})", extent.low / millimetre,
+                  origin(first, first_key, along_x ? "left" : "front", extent.low, 0, true), extent.high / millimetre,
+                  origin(last, last_key, along_x ? "right" : "rear", extent.high, width, false)),
+      fmt::format("{} < {} <= {}{}", first_key, last_key, width_key,
+                  first && last ? "" : fmt::format("; give {} as well", first ? last_key : first_key)));
+  return false;
+}
+
+/// Whether the bed begins somewhere.
+void check_inside(const Parameters& p, const Add& add) {
+  if (p.bed.inside) {
+    const auto& x = *p.bed.inside;
+    const bool inside = x[0] >= 0 && x[0] <= p.box.width && x[1] >= 0 && x[1] <= p.box.depth && x[2] >= 0 &&
+                        x[2] <= p.box.height;
+    if (!inside) return add("bed.inside", "is not within the box", "a place within it");
+    const Extent along_x = bed_along_x(p), along_y = bed_along_y(p);
+    const bool within = x[0] >= along_x.low && x[0] <= along_x.high && x[1] >= along_y.low && x[1] <= along_y.high &&
+                        x[2] >= bed_bottom(p);
+    if (!within)
+      return add("bed.inside", "is not where the bed may lie",
+                 fmt::format("x from {:.4g} to {:.4g} mm, y from {:.4g} to {:.4g} mm, z from {:.4g} mm on: as "
+                             "bed.left, bed.right, bed.front, bed.rear and bed.bottom say",
+                             along_x.low / millimetre, along_x.high / millimetre, along_y.low / millimetre,
+                             along_y.high / millimetre, bed_bottom(p) / millimetre));
+  }
+  const bool begins = p.vessel.empty() ? bed_count(p) > 0 : !VesselPlaces(p).seeds().empty();
+  if (!begins)
+    add(p.bed.inside ? "bed.inside" : "bed.height",
+        p.bed.inside ? "sees no place for a particle: walls are too near"
+                     : "leaves no particle: the middle of the bed's top lies in a wall",
+        p.bed.inside ? "a place farther from walls, or a smaller bed.spacing" : "bed.inside, a place within the bed");
+}
+
 void check_bed(const Parameters& p, std::vector<Problem>& problems) {
-  const auto add = [&](const char* key, std::string what, std::string allowed) {
+  const Add add = [&](const char* key, std::string what, std::string allowed) {
     problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
   };
-  const Extent x = bed_along_x(p);
-  if (!(x.low < x.high && x.high <= p.box.width))
-    add(p.bed.right ? "bed.right" : "bed.left", "leaves no bed within the box", "bed.left < bed.right <= box.width");
+  if (p.bed.given) {
+    for (Problem& problem : check_given_bed(p)) problems.push_back(std::move(problem));
+    return;
+  }
+  const bool along_x = check_extent(p, 0, add), along_y = check_extent(p, 1, add);
+  if (!along_x || !along_y || has_no_bed(p)) return;
   const double top = bed_bottom(p) + p.bed.height;
   if (top > p.box.height)
     add("bed.height", fmt::format("the bed would reach {:.4g} mm, past the top", top / millimetre),
         fmt::format("at most {:.4g} mm above its bottom", (p.box.height - bed_bottom(p)) / millimetre));
-  const double shortest = std::min({x.high - x.low, p.box.depth, p.bed.height});
+  const Extent x = bed_along_x(p), y = bed_along_y(p);
+  const double shortest = std::min({x.high - x.low, y.high - y.low, p.bed.height});
   if (shortest < 0.5 * p.bed.spacing)
     add("bed.spacing", fmt::format("{:.4g} mm is more than twice the bed's least extent", p.bed.spacing / millimetre),
         fmt::format("at most {:.4g} mm", 2 * shortest / millimetre));
@@ -207,6 +268,10 @@ std::vector<Problem> check(const Parameters& given) {
   if (!problems.empty()) return problems;
   for (const Problem& problem : check_mass(p)) problems.push_back(problem);
   for (const Problem& problem : check_inlets(p)) problems.push_back(problem);
+  if (!p.bed.given && !has_no_bed(p) && problems.empty())
+    check_inside(p, [&](const char* key, std::string what, std::string allowed) {
+      problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
+    });
   return problems;
 }
 

@@ -152,7 +152,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
 
-  for_each_parameter_of_bed(visit, p.bed, p.seed);
+  for_each_parameter_of_bed(visit, p.bed, p.seed, !p.inlets.empty());
 
   granular::for_each_parameter(visit, p.law);
   granular::for_each_parameter(visit, p.collisions);

@@ -51,7 +51,8 @@ bool draws_by_lasting_rate(const Parameters& p) {
 }
 
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!is_loose_where_free(p)) return;
+  const bool are_given = p.bed.given && !p.bed.given->density.empty();
+  if (are_given || !is_loose_where_free(p)) return;
   evaluate(team, p, s, w);
   const double bed = p.bed.packing * p.grains.density;
   for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });

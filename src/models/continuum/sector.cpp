@@ -63,6 +63,9 @@ std::vector<Problem> check_sector(const Parameters& p) {
   refuse(!p.inlets.empty(), "inlet", "grains do not come into a sector yet", "none with box.sector");
   refuse(p.bed.left.has_value(), "bed.left", "cuts the bed of a sector", "left out with box.sector");
   refuse(p.bed.right.has_value(), "bed.right", "cuts the bed of a sector", "left out with box.sector");
+  refuse(p.bed.front.has_value(), "bed.front", "cuts the bed of a sector", "left out with box.sector");
+  refuse(p.bed.rear.has_value(), "bed.rear", "cuts the bed of a sector", "left out with box.sector");
+  refuse(p.bed.given != nullptr, "bed.file", "particles of a file in a sector", "left out with box.sector");
   refuse(p.bed.velocity && ((*p.bed.velocity)[0] != 0 || (*p.bed.velocity)[1] != 0), "bed.velocity",
          "is not along the axis of the sector", "0 along x and y with box.sector");
   return problems;
@@ -109,11 +112,11 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
 
 PointSet whole_of(const State& s, const Sector& sector) {
   Snapshot part = snapshot_of(s);
-  std::erase_if(part.columns, [](const ColumnView& column) {  // not yet derived
-    return std::visit([](const auto& values) { return values.empty(); }, column.values);
-  });
   const int copies = sector.copies();
   const std::size_t own = s.position.size();
+  std::erase_if(part.columns, [&](const ColumnView& column) {  // not yet derived
+    return std::visit([&](const auto& values) { return values.size() != own; }, column.values);
+  });
   PointSet whole{.time = part.time, .step = part.step, .columns = {}};
   /// Writes value(i, k) of particle i in copy k.
   const auto add = [&](const ColumnView& column, const auto& value) {

@@ -96,9 +96,11 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 
 namespace {
 
-/// The step that the Courant number of the grains allows, s, or the fixed one.
+/// The step that the Courant number of the grains allows, s, or the fixed one; without particles that of the bed's.
 double step_of_grains(ThreadTeam& team, const Parameters& p, const Workspace& w) {
   if (p.integration.step) return *p.integration.step;
+  if (w.smoothing_length.empty())
+    return p.integration.courant * w.sweep.smoothing_length(p.bed.packing * p.grains.density) / w.sound_speed;
   const double least = reduce(
       team, w.smoothing_length.size(), std::numeric_limits<double>::infinity(),
       [&](std::size_t i) { return w.smoothing_length[i]; }, [](double a, double b) { return std::min(a, b); });
@@ -255,12 +257,16 @@ void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 }
 
 NumericalError::Report step_limit(const Parameters& p, const State& s, const Workspace& w) {
+  NumericalError::Report report{};
   const auto least = std::min_element(w.smoothing_length.begin(), w.smoothing_length.end());
+  if (least == w.smoothing_length.end()) {
+    report.term = "step without particles", report.place = "an empty vessel", report.advice = "integration.courant";
+    return report;
+  }
   const double of_grains = p.integration.step.value_or(p.integration.courant * *least / w.sound_speed);
   if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
   const auto i = static_cast<std::size_t>(least - w.smoothing_length.begin());
   const Vector3& x = s.position[i];
-  NumericalError::Report report{};
   report.term =
       p.integration.step
           ? "integration.step"
