@@ -12,6 +12,7 @@
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
+#include "app/picture/options.hpp"
 #include "app/runs/check_folder.hpp"
 #include "base/memory.hpp"
 #include "base/terminal.hpp"
@@ -82,11 +83,24 @@ void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) 
   if (seconds > month) print("! Such a run takes more than a month: fewer particles, or an earlier run.end.\n");
 }
 
-ExitStatus check(const CaseOptions& options, int threads) {
+void print_start(const PreparedCase& prepared, std::size_t key) {
+  if (!prepared.start) return;
+  print("\nAt the start:\n");
+  for (const auto& [name, text] : prepared.start())
+    print("  {:{}}  {}\n", name, key, wrapped(text, terminal_width(), key + 4, key + 4));
+}
+
+/// \param picture of walls and bed at the start, none if empty
+ExitStatus check(const CaseOptions& options, int threads, const std::string& picture) {
   if (std::filesystem::is_directory(options.path)) return check_folder(options.path);
   const CaseFile file = options.read();
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
+  const std::filesystem::path drawn = picture.empty() ? std::filesystem::path() : read_out(picture, {".png"});
+  if (!picture.empty() && !prepared.draw_start)
+    throw InputError({{.where = "--picture " + picture,
+                       .what = fmt::format("the model {} has no bed", prepared.model),
+                       .allowed = "a case of the model continuum"}});
 
   print("{}: valid. In SI, with every default:\n\n", options.path);
   std::size_t key = 0;
@@ -94,11 +108,16 @@ ExitStatus check(const CaseOptions& options, int threads) {
   print("\nScales and groups:\n");
   for (const NamedValue& group : prepared.groups)
     print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
+  print_start(prepared, key);
   if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
     print("\nWarnings: the case leaves what its laws and the method assume:\n");
     for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
   }
   print_forecast(prepared, threads, key);
+  if (!picture.empty()) {
+    prepared.draw_start(drawn);
+    print("Picture: {}\n", picture);
+  }
   return ExitStatus::done;
 }
 
@@ -108,17 +127,20 @@ void add_check_command(CLI::App& app, Action& action) {
   struct Options {
     CaseOptions case_options;
     int threads = 1;
+    std::string picture;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "check", "check a case: all problems at once, or the resolved case and a forecast; or the files of a run");
   options->case_options.add_to(*command);
   add_threads_option(*command, options->threads);
+  command->add_option("--picture", options->picture, "PNG file for sections of walls and bed at the start")
+      ->type_name("FILE.png");
   command->footer(
       "In place of CASE the folder of a run, or one that holds runs: compares their series and snapshots with the\n"
       "checksums that were written with them; exit status 4 if one has changed.");
   command->callback(
-      [options, &action] { action = [options] { return check(options->case_options, options->threads); }; });
+      [options, &action] { action = [options] { return check(options->case_options, options->threads, options->picture); }; });
 }
 
 }  // namespace talus::app

@@ -11,6 +11,7 @@
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/answers.hpp"
 #include "app/continuum/bed_file.hpp"
+#include "app/continuum/bed_start.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
@@ -218,6 +219,8 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
+  prepared.start = [p] { return bed_lines(p); };
+  prepared.draw_start = [p, title = read.run.title](const std::filesystem::path& path) { draw_bed(p, title, path); };
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);

@@ -67,9 +67,19 @@ struct Surroundings {
   }
 };
 
-/// Where the region passes out, if it does: the narrowest place of the widest way from the seeds to a place outside, of
-/// several the shortest; where nothing is narrow the place outside.
-std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& around) {
+/// Whether walls of the vessel are on both sides of a place, along x or along y.
+bool is_between_walls(const Surface& surface, const Vector3& x) {
+  for (int axis = 0; axis < 2; ++axis) {
+    Vector3 low = x, high = x;
+    low[axis] = std::min(surface.low()[axis], x[axis]) - 1, high[axis] = std::max(surface.high()[axis], x[axis]) + 1;
+    if (surface.blocks(x, low) && surface.blocks(x, high)) return true;
+  }
+  return false;
+}
+
+/// Where the region passes out, if it does: the narrowest place of the widest way to a place outside from the one within
+/// walls that is farthest from them, of several the shortest; where nothing is narrow the place outside.
+std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& around, const std::vector<VesselPlaces::Index>& bed) {
   using Index = VesselPlaces::Index;
   const double most = wide_open * places.parameters.bed.spacing;
   const auto clearance = [&](const Vector3& x) {
@@ -86,7 +96,13 @@ std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& a
   };
   std::vector<char> done(places.taken.size());
   std::priority_queue<Step> next;
-  for (const Index& seed : places.seeds()) next.push({clearance(places.at(seed)), 0, seed, seed});
+  const std::size_t stride = 1 + bed.size() / most_looked_from;
+  std::optional<Step> start;
+  for (std::size_t n = 0; n < bed.size(); n += stride)
+    if (const Vector3 x = places.at(bed[n]); is_between_walls(places.surface, x))
+      if (const Step from{clearance(x), 0, bed[n], bed[n]}; !start || *start < from) start = from;
+  if (!start) return std::nullopt;
+  next.push(*start);
   while (!next.empty()) {
     const Step step = next.top();
     next.pop();
@@ -103,16 +119,6 @@ std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& a
     });
   }
   return std::nullopt;
-}
-
-/// Whether walls of the vessel are on both sides of a place, along x or along y.
-bool is_between_walls(const Surface& surface, const Vector3& x) {
-  for (int axis = 0; axis < 2; ++axis) {
-    Vector3 low = x, high = x;
-    low[axis] = std::min(surface.low()[axis], x[axis]) - 1, high[axis] = std::max(surface.high()[axis], x[axis]) + 1;
-    if (surface.blocks(x, low) && surface.blocks(x, high)) return true;
-  }
-  return false;
 }
 
 /// Whether a place lies above an opening, with nothing between.
@@ -189,7 +195,6 @@ std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
   const Parameters coarse = coarse_enough(p);
   const Surroundings around(p.bed.given ? p : coarse);
   std::vector<Vector3> bed;
-  std::optional<Vector3> out;
   const Surface surface = surface_of(around.parameters);
   if (p.bed.given) {
     bed = p.bed.given->position;
@@ -197,6 +202,7 @@ std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
     VesselPlaces places(around.parameters);
     places.fill();
     bool passes_out = false;
+    std::vector<VesselPlaces::Index> within;
     for (VesselPlaces::Index n{0, 0}; n.layer < places.layers; ++n.layer)
       for (n.place = 0; n.place < places.layer.places.size(); ++n.place) {
         if (!places.taken[places.number(n)]) continue;
@@ -204,24 +210,20 @@ std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
         if (around.are_outside(places, x))
           passes_out = true;
         else
-          bed.push_back(x);
+          bed.push_back(x), within.push_back(n);
       }
-    if (passes_out) out = way_out(places, around);
+    const auto out = passes_out ? way_out(places, around, within) : std::nullopt;
+    if (passes_out && !out && !bed.empty())
+      lines.push_back({"bed outside the vessel", place_text(bed.front()),
+                       "no grain lies between walls of the vessel, whose extent alone bounds the bed; bed.inside is a "
+                       "place within the walls",
+                       true});
+    else if (out)
+      lines.push_back({"way out of the vessel", place_text(*out),
+                       "the region of the bed goes on there beyond the vessel's extent, and grains will flow out: a "
+                       "hole or a gap between walls, a rim below the bed's top, or an outlet without a gate",
+                       true});
   }
-  const std::size_t stride = 1 + bed.size() / most_looked_from;
-  bool enclosed = bed.empty();
-  for (std::size_t n = 0; n < bed.size() && !enclosed && out; n += stride)
-    enclosed = is_between_walls(surface, bed[n]);
-  if (out && !enclosed)
-    lines.push_back({"bed outside the vessel", place_text(bed.front()),
-                     "no grain lies between walls of the vessel, whose extent alone bounds the bed; bed.inside is a "
-                     "place within the walls",
-                     true});
-  else if (out)
-    lines.push_back({"way out of the vessel", place_text(*out),
-                     "the region of the bed goes on there beyond the vessel's extent, and grains will flow out: a hole "
-                     "or a gap between walls, a rim below the bed's top, or an outlet without a gate",
-                     true});
   const std::vector<LevelOpening> openings = level_openings(p);
   const bool gated = !openings.empty() && openings.front().is_gate;
   const bool above = std::any_of(openings.begin(), openings.end(), [&](const LevelOpening& opening) {
