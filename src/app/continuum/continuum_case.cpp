@@ -84,8 +84,9 @@ double measure_particle(const Parameters& p, ThreadTeam& team) {
       std::fill(s.material.stress[c].begin(), s.material.stress[c].end(),
                 p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height);
   model.begin(team);
+  const auto count = static_cast<double>(s.position.size());  // some may be taken away
   const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
-  return seconds_of(duration, [&] { model.advance(team); }) / static_cast<double>(s.position.size());
+  return seconds_of(duration, [&] { model.advance(team); }) / count;
 }
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the

@@ -54,10 +54,13 @@ struct Surroundings {
     auto& bed = parameters.bed;
     widen(0, p.box.width, bed_along_x(p), bed.left, bed.right);
     widen(1, p.box.depth, bed_along_y(p), bed.front, bed.rear);
+    if (p.gate.opens == GateOpens::from_the_start) return;  // what is open is to flow
+    // Down to below the vessel, wherever in it the bed begins.
     const double bottom = bed_bottom(p), spacing = lattice.spacing.z;
-    if (p.bed.bottom || p.gate.opens == GateOpens::from_the_start) return;
-    const double below = spacing * std::clamp(std::floor(bottom / spacing), 0.0, margin);
-    if (below > 0) low.z = bottom, bed.bottom = bottom - below, bed.height += below;
+    const double down = std::ceil(std::max(0.0, bottom - vessel.low.z) / spacing - 1e-9) + margin;
+    const double below = spacing * std::min(down, std::floor(bottom / spacing));
+    if (!(bottom - below < vessel.low.z)) return;
+    low.z = std::min(bottom, vessel.low.z), bed.bottom = bottom - below, bed.height += below;
   }
 
   bool are_outside(const VesselPlaces& places, const Vector3& x) const {
@@ -129,11 +132,15 @@ bool is_above(const Surface& surface, const LevelOpening& opening, double spacin
   return !surface.blocks(x, opening.middle + Vector3{0, 0, 0.01 * spacing});
 }
 
-Parameters coarse_enough(const Parameters& p) {
+/// With particles so large that the region has no more than most_places.
+Surroundings around_bed(const Parameters& p) {
   Parameters q = p;
   q.bed.mass = std::nullopt;
-  while (places_of(lattice_of(q)) > most_places) q.bed.spacing *= std::cbrt(2.0);
-  return q;
+  while (true) {
+    Surroundings around(q);
+    if (places_of(lattice_of(around.parameters)) <= most_places) return around;
+    q.bed.spacing *= std::cbrt(2.0);
+  }
 }
 
 }  // namespace
@@ -192,8 +199,7 @@ BedReport report_of_bed(const Parameters& p) {
 std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
   std::vector<RegimeLine> lines;
   if (p.vessel.empty() || has_no_bed(p)) return lines;
-  const Parameters coarse = coarse_enough(p);
-  const Surroundings around(p.bed.given ? p : coarse);
+  const Surroundings around = around_bed(p);
   std::vector<Vector3> bed;
   const Surface surface = surface_of(around.parameters);
   if (p.bed.given) {
@@ -228,7 +234,7 @@ std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
   const bool gated = !openings.empty() && openings.front().is_gate;
   const bool above = std::any_of(openings.begin(), openings.end(), [&](const LevelOpening& opening) {
     return std::any_of(bed.begin(), bed.end(),
-                       [&](const Vector3& x) { return is_above(surface, opening, coarse.bed.spacing, x); });
+                       [&](const Vector3& x) { return is_above(surface, opening, around.parameters.bed.spacing, x); });
   });
   if (gated && !above)
     lines.push_back({"gate without grains", openings.front().name,
