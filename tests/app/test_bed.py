@@ -179,6 +179,25 @@ class File(BedTest):
                    "gate.opens=from-the-start", "--out", "second", "--resume")
 
 
+class Beds(BedTest):
+    def test_layers_have_tags(self):
+        self.write(BIN.replace('[removal]', '[[beds]]\nbottom = "52 mm"\nheight = "8 mm"\n[removal]'))
+        start = self.start_of()
+        self.assertRegex(start["beds.1, tag 1"], r"^\d+ particles")
+        self.talus("run", "case.toml", "--set", "run.end=1 ms", "--set", "gate.time=1 ms", "--out", "run")
+        with h5py.File(self.folder / "run/snapshots/particles_0000.vtkhdf") as file:
+            tags, z = file["VTKHDF/PointData/tag"][()], file["VTKHDF/Points"][()][:, 2]
+            self.assertTrue(((tags == 1) == (z > 0.052)).all())
+            self.assertEqual(set(tags), {0, 1})
+        self.talus("picture", "run", "--color", "tag", "-o", "tags.png")
+
+    def test_faults_name_the_bed(self):
+        self.write(BIN.replace('[removal]', '[[beds]]\nbottom = "44 mm"\nheight = "8 mm"\nheigth = "3 mm"\n[removal]'))
+        self.assertRegex(self.problems("check", "case.toml")[0], r"beds\.1\.heigth: unknown key.*beds\.1\.height")
+        self.write(BIN.replace('[removal]', '[[beds]]\nbottom = "44 mm"\nheight = "8 mm"\n[removal]'))
+        self.assertRegex(self.problems("check", "case.toml")[0], r"beds\.1\.bottom: \[\[beds\]\] 1 overlaps \[bed\] at")
+
+
 class NoParticles(BedTest):
     def test_a_drained_vessel_ends_the_run(self):
         said = self.talus("run", "case.toml", "--set", "run.end=2 s", "--out", "run").stdout

@@ -90,16 +90,20 @@ figure::ParticlePicture picture_of(const Section& cut, const figure::View& view,
 
 std::vector<std::pair<std::string, std::string>> bed_lines(const Parameters& p) {
   if (continuum::has_no_bed(p)) return {{"bed", "none: grains come in through inlets only"}};
-  const continuum::BedReport report = continuum::report_of_bed(p);
   std::vector<std::pair<std::string, std::string>> lines;
-  lines.emplace_back("bed", fmt::format("{:.0f} particles, {:.4g} kg", report.particles, report.mass));
-  for (int axis = 0; axis < 3; ++axis)
-    lines.emplace_back(std::string(1, "xyz"[axis]), fmt::format("{:.4g} to {:.4g} mm", report.low[axis] / millimetre,
-                                                                report.high[axis] / millimetre));
-  lines.emplace_back("lies against",
-                     report.beside.empty() ? "no wall or face" : fmt::format("{}", fmt::join(report.beside, ", ")));
+  for (const std::size_t n : continuum::beds_of(p)) {
+    const continuum::BedReport report = continuum::report_of_bed(continuum::with_bed_alone(p, n));
+    const std::string name = n == 0 ? "bed" : fmt::format("beds.{}, tag {}", n, p.beds[n - 1].tag);
+    lines.emplace_back(name, fmt::format("{:.0f} particles, {:.4g} kg", report.particles, report.mass));
+    for (int axis = 0; axis < 3; ++axis)
+      lines.emplace_back(std::string(1, "xyz"[axis]), fmt::format("{:.4g} to {:.4g} mm", report.low[axis] / millimetre,
+                                                                  report.high[axis] / millimetre));
+    lines.emplace_back("lies against",
+                       report.beside.empty() ? "no wall or face" : fmt::format("{}", fmt::join(report.beside, ", ")));
+  }
   if (p.bed.given && !p.bed.given->unread.empty())
-    lines.emplace_back("not read", fmt::format("{}: stress and history begin anew", fmt::join(p.bed.given->unread, ", ")));
+    lines.emplace_back("not read",
+                       fmt::format("{}: stress and history begin anew", fmt::join(p.bed.given->unread, ", ")));
   return lines;
 }
 
@@ -112,8 +116,10 @@ void draw_bed(const Parameters& p, const std::string& title, const std::filesyst
   }
   Vector3 middle = 0.5 * Vector3{p.box.width, p.box.depth, p.box.height};
   if (!positions.empty()) {
-    const continuum::BedReport report = continuum::report_of_bed(p);
-    middle = 0.5 * (report.low + report.high);
+    Vector3 low = positions.front(), high = low;
+    for (const Vector3& x : positions)
+      for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
+    middle = 0.5 * (low + high);
   }
   std::vector<Section> cuts = {section(p, positions, 1, middle.y)};
   const bool is_deep = p.box.depth > 4 * p.bed.spacing;

@@ -36,7 +36,7 @@ namespace {
 using continuum::Continuum;
 using continuum::Parameters;
 
-constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16;
+constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16, most_beds = 64;
 
 std::vector<NamedValue> groups(const Parameters& p) {
   const double density = p.bed.packing * p.grains.density;
@@ -51,7 +51,7 @@ std::vector<NamedValue> groups(const Parameters& p) {
   if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(continuum::copies_of(p))});
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&
-      !continuum::has_no_bed(p) && p.plates.empty() && p.vessel.empty())
+      p.beds.empty() && !continuum::has_no_bed(p) && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
@@ -82,7 +82,7 @@ double measure_particle(const Parameters& p, ThreadTeam& team) {
   if (!p.vessel.empty())
     for (std::size_t c = 0; c < 3; ++c)
       std::fill(s.material.stress[c].begin(), s.material.stress[c].end(),
-                p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height);
+                p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p));
   model.begin(team);
   const auto count = static_cast<double>(s.position.size());  // some may be taken away
   const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
@@ -165,6 +165,8 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
+  defaults.beds.resize(std::min(file.tables("beds"), most_beds));
+  for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
   read_surfaces(file, defaults);
   FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
@@ -207,6 +209,7 @@ ParameterList continuum_parameters() {
   defaults.model.plates.resize(1);  // whose keys stand for those of all
   defaults.model.vessel.resize(1);
   defaults.model.inlets.resize(1);
+  defaults.model.beds.resize(1);
   return defaults.list();
 }
 

@@ -196,9 +196,10 @@ BedReport report_of_bed(const Parameters& p) {
   return report;
 }
 
-std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
-  std::vector<RegimeLine> lines;
-  if (p.vessel.empty() || has_no_bed(p)) return lines;
+namespace {
+
+/// Of a bed alone. \returns whether it lies above a gate
+bool look_at_bed(const Parameters& p, std::vector<RegimeLine>& lines) {
   const Surroundings around = around_bed(p);
   std::vector<Vector3> bed;
   const Surface surface = surface_of(around.parameters);
@@ -231,12 +232,21 @@ std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
                        true});
   }
   const std::vector<LevelOpening> openings = level_openings(p);
-  const bool gated = !openings.empty() && openings.front().is_gate;
-  const bool above = std::any_of(openings.begin(), openings.end(), [&](const LevelOpening& opening) {
+  return std::any_of(openings.begin(), openings.end(), [&](const LevelOpening& opening) {
     return std::any_of(bed.begin(), bed.end(),
                        [&](const Vector3& x) { return is_above(surface, opening, around.parameters.bed.spacing, x); });
   });
-  if (gated && !above)
+}
+
+}  // namespace
+
+std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
+  std::vector<RegimeLine> lines;
+  if (p.vessel.empty() || has_no_bed(p)) return lines;
+  bool above = false;
+  for (const std::size_t n : beds_of(p)) above = look_at_bed(with_bed_alone(p, n), lines) || above;
+  const std::vector<LevelOpening> openings = level_openings(p);
+  if (!above && !openings.empty() && openings.front().is_gate)
     lines.push_back({"gate without grains", openings.front().name,
                      fmt::format("no grain lies above the gate at {}: bed.inside is a place within the bed",
                                  place_text(openings.front().middle)),

@@ -155,7 +155,7 @@ Parameters sample(const Parameters& p, double particles) {
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
-  q.inlets.clear(), q.removal = {}, q.bed.mass = std::nullopt;
+  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.bed.mass = std::nullopt;
   q.bed.bottom = q.bed.left = q.bed.right = q.bed.front = q.bed.rear = std::nullopt;
   q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.file.clear();
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;

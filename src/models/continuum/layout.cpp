@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -95,14 +96,42 @@ double bed_bottom(const Parameters& p) {
   return p.bed.bottom.value_or(p.wedge.half_angle ? p.wedge.height : p.plate.height.value_or(0));
 }
 
+std::string beds_key(std::size_t n, std::string_view name) {
+  return fmt::format("beds.{}.{}", n + 1, name);
+}
+
+Parameters with_bed_alone(const Parameters& p, std::size_t bed) {
+  Parameters q = p;
+  q.beds.clear();
+  if (bed == 0) return q;
+  static_cast<BedRegion&>(q.bed) = p.beds[bed - 1];
+  q.bed.file.clear(), q.bed.given = nullptr;
+  return q;
+}
+
+std::vector<std::size_t> beds_of(const Parameters& p) {
+  std::vector<std::size_t> beds;
+  if (p.bed.mass || p.bed.given || p.bed.height > 0) beds.push_back(0);
+  for (std::size_t n = 1; n <= p.beds.size(); ++n) beds.push_back(n);
+  return beds;
+}
+
 bool has_no_bed(const Parameters& p) {
-  return !p.bed.mass && !p.bed.given && !(p.bed.height > 0);
+  return beds_of(p).empty();
 }
 
 double depth_of_grains(const Parameters& p) {
-  if (!has_no_bed(p)) return p.bed.height;
-  const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
-  return std::max(p.bed.spacing, top - bed_bottom(p));
+  if (p.beds.empty() && !has_no_bed(p)) return p.bed.height;
+  if (has_no_bed(p)) {
+    const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
+    return std::max(p.bed.spacing, top - bed_bottom(p));
+  }
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::size_t n : beds_of(p)) {
+    const Parameters one = with_bed_alone(p, n);
+    low = std::min(low, bed_bottom(one)), high = std::max(high, bed_bottom(one) + one.bed.height);
+  }
+  return high - low;
 }
 
 std::optional<Outlet> outlet_of(const Parameters& p) {
@@ -143,6 +172,7 @@ double least_distance_of_layers(const Parameters& p) {
 }
 
 Lattice lattice_of(const Parameters& p) {
+  if (!p.beds.empty()) return lattice_of(with_bed_alone(p, beds_of(p).front()));
   const Extent x = bed_along_x(p), y = bed_along_y(p);
   const Vector3 extent{x.high - x.low, y.high - y.low, p.bed.height};
   Lattice lattice{.corner = {x.low, y.low, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
@@ -194,6 +224,12 @@ struct Bed {
 }  // namespace
 
 std::vector<Vector3> bed_positions(const Parameters& p) {
+  if (!p.beds.empty()) {
+    std::vector<Vector3> positions;
+    for (const std::size_t n : beds_of(p))
+      for (const Vector3& x : bed_positions(with_bed_alone(p, n))) positions.push_back(x);
+    return positions;
+  }
   if (p.bed.given) return p.bed.given->position;
   if (has_no_bed(p)) return {};
   if (p.bed.mass) {  // the lowest of them
@@ -220,6 +256,11 @@ double places_of(const Lattice& lattice) {
 }
 
 double bed_count(const Parameters& p) {
+  if (!p.beds.empty()) {
+    double count = 0;
+    for (const std::size_t n : beds_of(p)) count += bed_count(with_bed_alone(p, n));
+    return count;
+  }
   if (p.bed.given) return static_cast<double>(p.bed.given->position.size());
   if (has_no_bed(p)) return 0;
   if (p.bed.mass) return count_of_mass(p);

@@ -29,9 +29,14 @@ Extent bed_along_x(const Parameters& parameters);
 Extent bed_along_y(const Parameters& parameters);
 double bed_bottom(const Parameters& parameters);
 
+/// The case with one bed only: 0 that of [bed], from 1 on those of [[beds]].
+Parameters with_bed_alone(const Parameters& parameters, std::size_t bed);
+/// The numbers of beds that hold particles.
+std::vector<std::size_t> beds_of(const Parameters& parameters);
 /// Whether no particle is there at the start: grains come in through an inlet only.
 bool has_no_bed(const Parameters& parameters);
-/// How deep grains can lie: the height of the bed; without one that of vessel or box above the bed's bottom, m.
+/// How deep grains can lie: the height from the bottom of all beds to their top; without a bed that of vessel or box
+/// above the bed's bottom, m.
 double depth_of_grains(const Parameters& parameters);
 
 /// The sector that the case computes, about the upright axis through the middle of the box; none: the whole box.
@@ -45,7 +50,7 @@ Domain domain_of(const Parameters& parameters);
 /// How far a wall from face to face is from others at least, to be a layer of the domain, m.
 double least_distance_of_layers(const Parameters& parameters);
 
-/// The lattice on which the particles stand at the start.
+/// The lattice on which the particles stand at the start, those of the first bed where there are several.
 struct Lattice {
   Vector3 corner;                     ///< of the bed, m
   Vector3 spacing;                    ///< m, close to bed.spacing
@@ -56,7 +61,7 @@ struct Lattice {
 };
 Lattice lattice_of(const Parameters& parameters);
 
-/// Where the particles stand at the start: those of bed.file, or the places of the lattice that bed.inside or the middle
+/// Where the particles stand at the start, bed by bed: those of bed.file, or the places of the lattice that bed.inside or the middle
 /// of the bed's top sees, no plate between, and farther than a quarter of the spacing from plates at any angle. Of a
 /// sector those that are within it.
 std::vector<Vector3> bed_positions(const Parameters& parameters);

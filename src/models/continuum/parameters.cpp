@@ -14,6 +14,7 @@
 #include "models/continuum/given_bed.hpp"
 #include "models/continuum/sector.hpp"
 #include "models/continuum/vessel_places.hpp"
+#include "numerics/cell_grid.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -242,6 +243,58 @@ std::string plate_key(std::size_t n, int key) {
   return fmt::format("plates.{}.{}", n + 1, names[key]);
 }
 
+namespace {
+
+/// Of a bed of [[beds]], whose keys stand for those of [bed].
+std::vector<Problem> renamed(std::vector<Problem> problems, std::size_t bed) {
+  if (bed == 0) return problems;
+  constexpr std::string_view names[] = {"mass", "height", "bottom", "left", "right", "front", "rear", "inside"};
+  const auto rename = [&](std::string& text) {
+    for (const std::string_view name : names) {
+      const std::string old = fmt::format("bed.{}", name), now = beds_key(bed - 1, name);
+      for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + now.size()))
+        text.replace(at, old.size(), now);
+    }
+  };
+  for (Problem& problem : problems) rename(problem.key), rename(problem.what), rename(problem.allowed);
+  return problems;
+}
+
+/// Beds of particles of another mass, or in each other. \pre each is sound
+void check_beds_together(const Parameters& p, std::vector<Problem>& problems) {
+  constexpr double most_difference = 0.02, least_apart = 0.5;  // of the mass; in spacings
+  const std::vector<std::size_t> beds = beds_of(p);
+  std::vector<Vector3> positions;
+  std::vector<std::size_t> bed_of;
+  const auto name = [](std::size_t n) { return n == 0 ? std::string("[bed]") : fmt::format("[[beds]] {}", n); };
+  const double mass = lattice_of(p).mass;
+  for (const std::size_t n : beds) {
+    const Parameters one = with_bed_alone(p, n);
+    if (const double own = lattice_of(one).mass; !(std::abs(own / mass - 1) <= most_difference))
+      problems.push_back({.key = beds_key(n - 1, "height"),
+                          .what = fmt::format("particles of {} would have {:.3g} times the mass of those of {}", name(n),
+                                              own / mass, name(beds.front())),
+                          .allowed = "extents of the beds that are whole numbers of bed.spacing"});
+    for (const Vector3& x : bed_positions(one)) positions.push_back(x), bed_of.push_back(n);
+  }
+  if (positions.empty()) return;
+  const CellGrid grid(positions, least_apart * p.bed.spacing);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    grid.for_each_candidate(positions[i], [&](std::uint32_t j) {
+      if (bed_of[j] <= bed_of[i] || norm(positions[i] - positions[j]) >= least_apart * p.bed.spacing) return;
+      const std::string key = beds_key(bed_of[j] - 1, "bottom");
+      const bool told = std::any_of(problems.begin(), problems.end(), [&](const Problem& q) { return q.key == key; });
+      if (told) return;
+      const Vector3& x = positions[j];
+      problems.push_back({.key = key,
+                          .what = fmt::format("{} overlaps {} at ({:.4g}, {:.4g}, {:.4g}) mm", name(bed_of[j]),
+                                              name(bed_of[i]), x.x / millimetre, x.y / millimetre, x.z / millimetre),
+                          .allowed = "beds apart from each other: bottom, left, right, front and rear bound each"});
+    });
+}
+
+}  // namespace
+
 std::vector<Problem> check(const Parameters& given) {
   std::vector<Problem> problems;
   check_faces(given, problems);
@@ -253,7 +306,16 @@ std::vector<Problem> check(const Parameters& given) {
   if (problems.empty()) problems = check_symmetry(given);
   // How far a mass fills a vessel can be said of a sound vessel only.
   const Parameters p = problems.empty() ? with_level(given) : given;
-  if (!p.bed.mass || p.bed.height > 0) check_bed(p, problems);
+  const std::vector<std::size_t> beds = p.beds.empty() ? std::vector<std::size_t>{0} : beds_of(p);
+  const auto check_each = [&](auto&& check_one) {
+    for (const std::size_t n : beds)
+      for (Problem& problem : renamed(check_one(with_bed_alone(p, n)), n)) problems.push_back(std::move(problem));
+  };
+  check_each([](const Parameters& one) {
+    std::vector<Problem> of_bed;
+    if (!one.bed.mass || one.bed.height > 0) check_bed(one, of_bed);
+    return of_bed;
+  });
   check_materials(p, problems);
   if (p.settle.loading_time && *p.settle.loading_time >= p.settle.longest)
     problems.push_back({.key = "settle.loading_time",
@@ -266,12 +328,18 @@ std::vector<Problem> check(const Parameters& given) {
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
                         .allowed = "none without gravity"});
   if (!problems.empty()) return problems;
-  for (const Problem& problem : check_mass(p)) problems.push_back(problem);
+  check_each(check_mass);
   for (const Problem& problem : check_inlets(p)) problems.push_back(problem);
-  if (!p.bed.given && !has_no_bed(p) && problems.empty())
-    check_inside(p, [&](const char* key, std::string what, std::string allowed) {
-      problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
+  if (!problems.empty()) return problems;
+  check_each([](const Parameters& one) {
+    std::vector<Problem> of_bed;
+    if (one.bed.given || has_no_bed(one)) return of_bed;
+    check_inside(one, [&](const char* key, std::string what, std::string allowed) {
+      of_bed.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
     });
+    return of_bed;
+  });
+  if (problems.empty() && !p.beds.empty()) check_beds_together(p, problems);
   return problems;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double room_between = 0.8;  // particles that come in and those that are there, in spacings
 constexpr double beyond_faces = 2;    // in spacings
+constexpr std::int64_t tag_of_inlets = -1;
 
 /// Gives every column of particles one entry for each of `order`, those of these particles.
 void select(State& state, const std::vector<std::uint32_t>& order) {
@@ -72,6 +73,7 @@ void add(State& s, const InletLayer& layer, const Vector3& velocity, const Vecto
     s.velocity[i] = velocity;
     s.density[i] = layer.density[n];
     s.identity[i] = static_cast<std::int64_t>(s.population.next_identity++);
+    if (s.has.tag) s.tag[i] = tag_of_inlets;
     if (s.has.reset_position) s.reset_position[i] = s.position[i];
   }
   s.population.fed += layer.places.size();

@@ -65,11 +65,12 @@ struct State {
   std::vector<Vector3> velocity;       ///< m/s; with the leapfrog of half a step before
   std::vector<double> density;         ///< bulk density, kg/m^3
   std::vector<std::int64_t> identity;  ///< number of the particle at the start: columns are re-sorted now and then
+  std::vector<std::int64_t> tag;       ///< of the bed that it belongs to, -1 of an inlet's; only with several beds
   MaterialColumns material;
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
   /// Which of the columns below there are. From the case, not fields: without particles every column is empty.
   struct Columns {
-    bool collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
+    bool tag = false, collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
          deformation_rate = false;
   } has;
   double mass = 0;                           ///< of a particle, kg
@@ -212,6 +213,7 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"velocity", "m/s"}, s.velocity);
   visit(FieldInfo{"density", "kg/m3"}, s.density);
   visit(FieldInfo{"identity", "1"}, s.identity);
+  if (s.has.tag) visit(FieldInfo{"tag", "1"}, s.tag);
   for (std::size_t c = 0; c < 6; ++c) visit(FieldInfo{detail::stress_names[c], "Pa"}, s.material.stress[c]);
   for (std::size_t c = 0; c < 6 && s.has.collisional; ++c)
     visit(FieldInfo{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);

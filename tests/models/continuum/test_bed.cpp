@@ -446,5 +446,100 @@ TEST(NoParticles, ADrainedSectorHasItsColumns) {
   EXPECT_EQ(model.snapshot().columns.size(), columns);
 }
 
+/// Three layers, the uppermost half as wide, of the same grains.
+Parameters layers() {
+  Parameters p = column(8, 4, 3, 9);
+  TaggedBed second, third;
+  second.bottom = 3 * spacing, second.height = 2 * spacing, second.tag = 7;
+  third.bottom = 5 * spacing, third.height = 4 * spacing, third.right = 4 * spacing, third.tag = 2;
+  third.velocity = {0, 0, -0.1};
+  p.beds = {second, third};
+  return p;
+}
+
+TEST(Beds, HaveTheirTagsAndVelocities) {
+  const Parameters p = layers();
+  ASSERT_THAT(check(p), IsEmpty());
+  EXPECT_EQ(bed_count(p), 8 * 4 * 5 + 4 * 4 * 4);
+  EXPECT_NEAR(depth_of_grains(p), 9 * spacing, 1e-12);
+  const State s = initial_state(p, Material(p));
+  ASSERT_EQ(s.position.size(), 8u * 4 * 5 + 4 * 4 * 4);
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const double z = s.position[i].z / spacing;
+    EXPECT_EQ(s.tag[i], z < 3 ? 0 : z < 5 ? 7 : 2);
+    EXPECT_EQ(s.velocity[i].z, z < 5 ? 0 : -0.1);
+  }
+  EXPECT_NEAR(s.mass, 0.6 * p.grains.density * spacing * spacing * spacing, 1e-15);
+}
+
+TEST(Beds, TagsStayWithTheirGrainsAndThoseOfInletsHaveNone) {
+  Parameters p = layers();
+  make_granular(p);
+  p.removal.below = 0.8 * spacing;
+  Inlet inlet;
+  inlet.centre = {6 * spacing, 2 * spacing, 10 * spacing};
+  inlet.width = inlet.depth = 2 * spacing;
+  inlet.velocity = {0, 0, -1};
+  inlet.rate = 4 * lattice_of(p).mass / 0.01;
+  p.inlets = {inlet};
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  std::map<std::int64_t, std::int64_t> tags;
+  for (std::size_t i = 0; i < s.position.size(); ++i) tags[s.identity[i]] = s.tag[i];
+  while (s.time < 0.03) model.advance(team);
+  EXPECT_GT(s.population.fed, 0u);
+  EXPECT_GT(s.population.removed, 0u);
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const auto then = tags.find(s.identity[i]);
+    EXPECT_EQ(s.tag[i], then == tags.end() ? -1 : then->second);
+  }
+  const Snapshot snapshot = model.snapshot();
+  EXPECT_TRUE(snapshot.has("tag"));
+  EXPECT_FALSE(Continuum(column(2, 2, 2)).state().has.tag) << "one bed needs none";
+}
+
+TEST(Beds, FaultsNameTheBed) {
+  const auto told = [](const Parameters& p) {
+    std::vector<std::string> all;
+    for (const Problem& problem : check(p)) all.push_back(problem.key + ": " + problem.what);
+    return all;
+  };
+  Parameters p = layers();
+  p.beds[1].bottom = 4 * spacing;
+  EXPECT_THAT(told(p), testing::ElementsAre(testing::StartsWith("beds.2.bottom: [[beds]] 2 overlaps [[beds]] 1 at (")));
+  p = layers();
+  p.beds[0].height = 1.9 * spacing;
+  EXPECT_THAT(told(p), testing::ElementsAre("beds.1.height: particles of [[beds]] 1 would have 0.95 times the mass of "
+                                            "those of [bed]"));
+  p = layers();
+  p.beds[1].left = 5 * spacing;
+  EXPECT_THAT(told(p), testing::ElementsAre(testing::AllOf(testing::StartsWith("beds.2.right: leaves no bed"),
+                                                           HasSubstr("50 mm (beds.2.left) to 40 mm (beds.2.right)"))));
+  p = layers();
+  p.beds[1].mass = 1;
+  EXPECT_THAT(told(with_level(p)), testing::ElementsAre(testing::StartsWith("beds.2.mass: 1 kg is more")));
+}
+
+/// Two silos, a bed in each, of which one is given by its mass.
+TEST(Beds, LieInVesselsOfTheirOwn) {
+  Parameters p = beside_a_silo();
+  p.vessel[2] = tube("other", 40, 10, 4, 20, 45);
+  p.vessel.push_back(gate_at(40, 10, 4, 20));
+  p.vessel.back().name = "gate_2";
+  TaggedBed second;
+  p.bed.inside = {10 * spacing, 10 * spacing, 25 * spacing};
+  second.bottom = 20 * spacing;
+  second.inside = {40 * spacing, 10 * spacing, 25 * spacing};
+  second.mass = 300 * lattice_of(p).mass;
+  p.beds = {second};
+  p = with_level(p);
+  ASSERT_THAT(check(p), IsEmpty());
+  const State s = initial_state(p, Material(p));
+  EXPECT_EQ(std::count(s.tag.begin(), s.tag.end(), 1), 300);
+  EXPECT_EQ(count_within(s.position, 40, 10, 4), 300u);
+  EXPECT_THAT(warnings(p), IsEmpty());
+}
+
 }  // namespace
 }  // namespace talus::continuum
