@@ -193,7 +193,8 @@ class Beds(BedTest):
 
     def test_faults_name_the_bed(self):
         self.write(BIN.replace('[removal]', '[[beds]]\nbottom = "44 mm"\nheight = "8 mm"\nheigth = "3 mm"\n[removal]'))
-        self.assertRegex(self.problems("check", "case.toml")[0], r"beds\.1\.heigth: unknown key.*beds\.1\.height")
+        said = "\n".join(self.problems("check", "case.toml"))
+        self.assertRegex(said, r"beds\.1\.heigth: unknown key.*beds\.1\.height")
         self.write(BIN.replace('[removal]', '[[beds]]\nbottom = "44 mm"\nheight = "8 mm"\n[removal]'))
         self.assertRegex(self.problems("check", "case.toml")[0], r"beds\.1\.bottom: \[\[beds\]\] 1 overlaps \[bed\] at")
 

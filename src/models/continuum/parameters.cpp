@@ -156,7 +156,8 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
   const bool along_x = check_extent(p, 0, add), along_y = check_extent(p, 1, add);
   if (!along_x || !along_y || has_no_bed(p)) return;
   const double top = bed_bottom(p) + p.bed.height;
-  if (top > p.box.height)
+  constexpr double rounding = 1 + 1e-12;
+  if (top > rounding * p.box.height)
     add("bed.height", fmt::format("the bed would reach {:.4g} mm, past the top", top / millimetre),
         fmt::format("at most {:.4g} mm above its bottom", (p.box.height - bed_bottom(p)) / millimetre));
   const Extent x = bed_along_x(p), y = bed_along_y(p);
