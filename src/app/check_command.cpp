@@ -139,8 +139,9 @@ void add_check_command(CLI::App& app, Action& action) {
   command->footer(
       "In place of CASE the folder of a run, or one that holds runs: compares their series and snapshots with the\n"
       "checksums that were written with them; exit status 4 if one has changed.");
-  command->callback(
-      [options, &action] { action = [options] { return check(options->case_options, options->threads, options->picture); }; });
+  command->callback([options, &action] {
+    action = [options] { return check(options->case_options, options->threads, options->picture); };
+  });
 }
 
 }  // namespace talus::app

@@ -40,8 +40,8 @@ continuum::GivenBed read_csv(const std::filesystem::path& path) {
                                           {"velocity_z", dimension::velocity},
                                           {"density", dimension::density}};
   static constexpr std::string_view required[] = {"x", "y", "z"};
-  const CsvTable table =
-      read_csv_table(path, {.known = known, .required = required, .known_only = true, .header = "x [mm], y [mm], z [mm]"});
+  const CsvTable table = read_csv_table(
+      path, {.known = known, .required = required, .known_only = true, .header = "x [mm], y [mm], z [mm]"});
   continuum::GivenBed bed;
   bed.lines = table.lines;
   bed.position = vectors(*table.find("x"), *table.find("y"), *table.find("z"));
@@ -51,7 +51,8 @@ continuum::GivenBed read_csv(const std::filesystem::path& path) {
   if (there == 3) {
     bed.velocity = vectors(*velocity[0], *velocity[1], *velocity[2]);
   } else if (there > 0) {
-    const auto missing = static_cast<std::size_t>(std::find(velocity.begin(), velocity.end(), nullptr) - velocity.begin());
+    const auto missing =
+        static_cast<std::size_t>(std::find(velocity.begin(), velocity.end(), nullptr) - velocity.begin());
     throw InputError({{.where = path.string(),
                        .what = fmt::format("has no column {}", velocity_names[missing]),
                        .allowed = "velocity_x, velocity_y and velocity_z, or none of them"}});
@@ -73,8 +74,8 @@ continuum::GivenBed read_vtkhdf(const std::filesystem::path& path) {
       problems.push_back({.where = path.string(),
                           .what = fmt::format("column {}: {}", column.name,
                                               own ? fmt::format("its unit is {}", column.unit) : "is of another kind"),
-                          .allowed = fmt::format("{} in {}", std::is_same_v<Values, std::vector<Vector3>> ? "vectors" : "numbers",
-                                                 unit)});
+                          .allowed = fmt::format(
+                              "{} in {}", std::is_same_v<Values, std::vector<Vector3>> ? "vectors" : "numbers", unit)});
   };
   for (PointSet::Column& column : points.columns) {
     if (column.name == "position")

@@ -68,7 +68,8 @@ Section section(const Parameters& p, const std::vector<Vector3>& positions, int 
 }
 
 figure::ParticlePicture picture_of(const Section& cut, const figure::View& view, std::string title) {
-  figure::ParticlePicture picture{.title = std::move(title), .positions = cut.positions, .radii = cut.radii, .view = view};
+  figure::ParticlePicture picture{
+      .title = std::move(title), .positions = cut.positions, .radii = cut.radii, .view = view};
   picture.segments = cut.segments;
   figure::Window w{INFINITY, -INFINITY, INFINITY, -INFINITY};
   const auto add = [&](const Vector3& x, double room) {
@@ -81,7 +82,8 @@ figure::ParticlePicture picture_of(const Section& cut, const figure::View& view,
   if (!(w.left < w.right && w.bottom < w.top)) return picture;  // nothing to show
   const double room = 0.02 * std::max(w.right - w.left, w.top - w.bottom);
   picture.window = {w.left - room, w.right + room, w.bottom - room, w.top + room};
-  picture.length = std::max(w.right - w.left, w.top - w.bottom) < 2 ? figure::Unit{millimetre, "mm"} : figure::Unit{1, "m"};
+  picture.length =
+      std::max(w.right - w.left, w.top - w.bottom) < 2 ? figure::Unit{millimetre, "mm"} : figure::Unit{1, "m"};
   picture.aspect = std::clamp((w.top - w.bottom) / (w.right - w.left), 0.2, 2.5);
   return picture;
 }
@@ -118,14 +120,16 @@ void draw_bed(const Parameters& p, const std::string& title, const std::filesyst
   if (!positions.empty()) {
     Vector3 low = positions.front(), high = low;
     for (const Vector3& x : positions)
-      for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
     middle = 0.5 * (low + high);
   }
   std::vector<Section> cuts = {section(p, positions, 1, middle.y)};
   const bool is_deep = p.box.depth > 4 * p.bed.spacing;
   if (is_deep) cuts.push_back(section(p, positions, 0, middle.x));
   figure::Figure figure{.title = title, .columns = static_cast<int>(cuts.size()), .letters = false};
-  figure.panels.emplace_back(picture_of(cuts[0], figure::view_xz, fmt::format("*y* = {:.4g} mm", middle.y / millimetre)));
+  figure.panels.emplace_back(
+      picture_of(cuts[0], figure::view_xz, fmt::format("*y* = {:.4g} mm", middle.y / millimetre)));
   if (is_deep)
     figure.panels.emplace_back(picture_of(cuts[1], view_yz, fmt::format("*x* = {:.4g} mm", middle.x / millimetre)));
   figure::write_png(figure, path);

@@ -85,7 +85,7 @@ double measure_particle(const Parameters& p, ThreadTeam& team) {
                 p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p));
   model.begin(team);
   const auto count = static_cast<double>(s.position.size());  // some may be taken away
-  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
+  const double duration = p.air.enabled ? 0.6 : 0.2;          // the air's steps are longer, and few
   return seconds_of(duration, [&] { model.advance(team); }) / count;
 }
 

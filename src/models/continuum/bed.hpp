@@ -65,7 +65,8 @@ void for_each_parameter_of_region(Visit&& visit, Key&& key, Region& bed, bool op
   auto filled = only_if({key("mass"), "is given", "left out", !bed.mass}, visit);
   constexpr std::string_view whole = "height of the bed at the start, where its mass is not given";
   constexpr std::string_view or_none =
-      "height of the bed at the start, where neither its mass nor a file is given; left out with an [[inlet]] or [[beds]]: "
+      "height of the bed at the start, where neither its mass nor a file is given; left out with an [[inlet]] or "
+      "[[beds]]: "
       "no bed, else required";
   filled(Parameter{key("height"), dimension::length, optional ? at_least(0) : above(0), optional ? or_none : whole,
                    !optional},
@@ -80,14 +81,17 @@ void for_each_parameter_of_region(Visit&& visit, Key&& key, Region& bed, bool op
   visit(Parameter{key("right"), dimension::length, above(0),
                   "end of the bed along x; left out: the right face, or the largest x of such a vessel"},
         bed.right);
-  visit(Parameter{key("front"), dimension::length, at_least(0),
-                  "start of the bed along y; left out: the front face, or the least y of a [[vessel]] that stands apart "
-                  "from the front and the rear face"},
-        bed.front);
+  visit(
+      Parameter{key("front"), dimension::length, at_least(0),
+                "start of the bed along y; left out: the front face, or the least y of a [[vessel]] that stands apart "
+                "from the front and the rear face"},
+      bed.front);
   visit(Parameter{key("rear"), dimension::length, above(0),
                   "end of the bed along y; left out: the rear face, or the largest y of such a vessel"},
         bed.rear);
-  visit(Parameter{key("inside"), dimension::length, {},
+  visit(Parameter{key("inside"),
+                  dimension::length,
+                  {},
                   "a place within the bed's region, x, y and z: the bed fills what is connected with it, no plate or "
                   "wall between; left out: the places above the level gates of a [[vessel]], else above its outlet, "
                   "else the middle of the bed's top"},
@@ -113,7 +117,8 @@ void for_each_parameter_of_bed(Visit&& visit, B& bed, Seed& seed, bool optional)
                   "bed fills its region"},
         bed.file);
   auto laid = only_if({"bed.file", "is given", "left out", bed.file.empty()}, visit);
-  for_each_parameter_of_region(laid, [](std::string_view name) { return "bed." + std::string(name); }, bed, optional);
+  for_each_parameter_of_region(
+      laid, [](std::string_view name) { return "bed." + std::string(name); }, bed, optional);
   visit(Parameter{"bed.velocity", dimension::velocity, {}, text_of_bed_velocity}, bed.velocity);
   visit(Parameter{"bed.disorder", dimension::none, between(0, 0.1),
                   "how far the particles stand from their places at the start, at most, along each axis, in units of "
@@ -127,10 +132,11 @@ template <class Visit, class B>
 void for_each_parameter_of_beds(Visit&& visit, B& beds) {
   for (std::size_t n = 0; n < beds.size(); ++n) {
     const auto key = [n](std::string_view name) { return beds_key(n, name); };
-    visit(Parameter{key("tag"), dimension::none, between(0, 1e9),
-                    "number of its grains in the column `tag` of snapshots, in which those of [bed] have 0 and those of "
-                    "inlets -1; left out: the number of the bed among [[beds]]"},
-          beds[n].tag);
+    visit(
+        Parameter{key("tag"), dimension::none, between(0, 1e9),
+                  "number of its grains in the column `tag` of snapshots, in which those of [bed] have 0 and those of "
+                  "inlets -1; left out: the number of the bed among [[beds]]"},
+        beds[n].tag);
     for_each_parameter_of_region(visit, key, beds[n], false);
     visit(Parameter{key("velocity"), dimension::velocity, {}, text_of_bed_velocity}, beds[n].velocity);
   }

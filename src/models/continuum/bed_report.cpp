@@ -18,12 +18,12 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double most_reported = 1e6;              // particles
-constexpr double most_places = 3e5;                // of a region that is looked at
-constexpr double beside = 0.8;                     // of a wall, in spacings
-constexpr double margin = 2;                       // of the region around the vessel, in spacings
-constexpr double wide_open = 6;                    // in spacings
-constexpr std::size_t most_looked_from = 200;      // places
+constexpr double most_reported = 1e6;          // particles
+constexpr double most_places = 3e5;            // of a region that is looked at
+constexpr double beside = 0.8;                 // of a wall, in spacings
+constexpr double margin = 2;                   // of the region around the vessel, in spacings
+constexpr double wide_open = 6;                // in spacings
+constexpr std::size_t most_looked_from = 200;  // places
 
 std::string place_text(const Vector3& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", x.x / millimetre, x.y / millimetre, x.z / millimetre);
@@ -80,9 +80,10 @@ bool is_between_walls(const Surface& surface, const Vector3& x) {
   return false;
 }
 
-/// Where the region passes out, if it does: the narrowest place of the widest way to a place outside from the one within
-/// walls that is farthest from them, of several the shortest; where nothing is narrow the place outside.
-std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& around, const std::vector<VesselPlaces::Index>& bed) {
+/// Where the region passes out, if it does: the narrowest place of the widest way to a place outside from the one
+/// within walls that is farthest from them, of several the shortest; where nothing is narrow the place outside.
+std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& around,
+                               const std::vector<VesselPlaces::Index>& bed) {
   using Index = VesselPlaces::Index;
   const double most = wide_open * places.parameters.bed.spacing;
   const auto clearance = [&](const Vector3& x) {

@@ -6,8 +6,9 @@
 
 namespace talus::continuum {
 
-/// The same with the height of each bed as its mass needs it: a whole number of spacings, or as the particles of bed.file have it.
-/// Unchanged without both, and where lengths are missing or the vessel does not hold that mass (check() says so).
+/// The same with the height of each bed as its mass needs it: a whole number of spacings, or as the particles of
+/// bed.file have it. Unchanged without both, and where lengths are missing or the vessel does not hold that mass
+/// (check() says so).
 Parameters with_level(const Parameters& parameters);
 
 /// Particles of bed.mass, to the nearest. \pre bed.mass is given, no [[beds]]

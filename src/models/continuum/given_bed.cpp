@@ -65,8 +65,7 @@ std::vector<Problem> check_given_bed(const Parameters& p) {
       grid.for_each_candidate(bed.position[n], [&](std::uint32_t m) {
         const double distance = norm(bed.position[n] - bed.position[m]);
         if (m > n && distance < apart)
-          add(n,
-              fmt::format("is {:.3g} mm from {}", distance / millimetre, number_of(bed, m)),
+          add(n, fmt::format("is {:.3g} mm from {}", distance / millimetre, number_of(bed, m)),
               fmt::format("at least {:.3g} mm, {:g} of bed.spacing", apart / millimetre, least_apart));
       });
   }

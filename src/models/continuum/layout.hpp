@@ -61,9 +61,9 @@ struct Lattice {
 };
 Lattice lattice_of(const Parameters& parameters);
 
-/// Where the particles stand at the start, bed by bed: those of bed.file, or the places of the lattice that bed.inside or the middle
-/// of the bed's top sees, no plate between, and farther than a quarter of the spacing from plates at any angle. Of a
-/// sector those that are within it.
+/// Where the particles stand at the start, bed by bed: those of bed.file, or the places of the lattice that bed.inside
+/// or the middle of the bed's top sees, no plate between, and farther than a quarter of the spacing from plates at any
+/// angle. Of a sector those that are within it.
 std::vector<Vector3> bed_positions(const Parameters& parameters);
 
 /// Places of a lattice, whether or not a plate hides them.

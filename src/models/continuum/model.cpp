@@ -267,10 +267,11 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double c = workspace_->sound_speed;
   const auto& lengths = workspace_->smoothing_length;
   // Of an empty vessel that of the bed's particles.
-  const double h = lengths.empty() ? workspace_->sweep.smoothing_length(parameters_.bed.packing * parameters_.grains.density)
-                                   : *std::min_element(lengths.begin(), lengths.end());
-  const double step = lengths.empty() ? parameters_.integration.step.value_or(parameters_.integration.courant * h / c)
-                                      : s.last_step;
+  const double h = lengths.empty()
+                       ? workspace_->sweep.smoothing_length(parameters_.bed.packing * parameters_.grains.density)
+                       : *std::min_element(lengths.begin(), lengths.end());
+  const double step =
+      lengths.empty() ? parameters_.integration.step.value_or(parameters_.integration.courant * h / c) : s.last_step;
   const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max");
   const double slow = record.value("inertial_share");

@@ -124,8 +124,8 @@ bool check_extent(const Parameters& p, int axis, const Add& add) {
 void check_inside(const Parameters& p, const Add& add) {
   if (p.bed.inside) {
     const auto& x = *p.bed.inside;
-    const bool inside = x[0] >= 0 && x[0] <= p.box.width && x[1] >= 0 && x[1] <= p.box.depth && x[2] >= 0 &&
-                        x[2] <= p.box.height;
+    const bool inside =
+        x[0] >= 0 && x[0] <= p.box.width && x[1] >= 0 && x[1] <= p.box.depth && x[2] >= 0 && x[2] <= p.box.height;
     if (!inside) return add("bed.inside", "is not within the box", "a place within it");
     const Extent along_x = bed_along_x(p), along_y = bed_along_y(p);
     const bool within = x[0] >= along_x.low && x[0] <= along_x.high && x[1] >= along_y.low && x[1] <= along_y.high &&
@@ -273,8 +273,8 @@ void check_beds_together(const Parameters& p, std::vector<Problem>& problems) {
     const Parameters one = with_bed_alone(p, n);
     if (const double own = lattice_of(one).mass; !(std::abs(own / mass - 1) <= most_difference))
       problems.push_back({.key = beds_key(n - 1, "height"),
-                          .what = fmt::format("particles of {} would have {:.3g} times the mass of those of {}", name(n),
-                                              own / mass, name(beds.front())),
+                          .what = fmt::format("particles of {} would have {:.3g} times the mass of those of {}",
+                                              name(n), own / mass, name(beds.front())),
                           .allowed = "extents of the beds that are whole numbers of bed.spacing"});
     for (const Vector3& x : bed_positions(one)) positions.push_back(x), bed_of.push_back(n);
   }

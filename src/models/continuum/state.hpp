@@ -73,7 +73,7 @@ struct State {
     bool tag = false, collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
          deformation_rate = false;
   } has;
-  double mass = 0;                           ///< of a particle, kg
+  double mass = 0;  ///< of a particle, kg
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;
   /// Of each particle in a sector, how many angles it has been turned back, from 0 to one circle; empty without one.

@@ -6,14 +6,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/sph/wall_contact.hpp"
+
 namespace talus::continuum {
 
 namespace {
 
 constexpr double golden = std::numbers::phi - 1;
-constexpr double on_the_wall = 0.02, least_distance = 0.4;  // from walls, in spacings
-constexpr double around_seed = 1.5, above_gate = 0.01;      // in spacings
-constexpr double least_level = 0.7;                         // of a level gate: the mean of its normals' |z|
+constexpr double on_the_wall = 0.02;                    // in spacings
+constexpr double around_seed = 1.5, above_gate = 0.01;  // in spacings
+constexpr double least_level = 0.7;                     // of a level gate: the mean of its normals' |z|
 
 /// Of a whole.
 double share(double x) {
@@ -152,7 +154,7 @@ bool VesselPlaces::is_clear(const Vector3& x) const {
 }
 
 Vector3 VesselPlaces::moved_off(const Vector3& x) const {
-  const double room = least_distance * parameters.bed.spacing;
+  const double room = sph::contact_distance * parameters.bed.spacing;
   const auto foot = surface.nearest(x, room);
   return foot ? foot->place + (room / foot->distance) * (x - foot->place) : x;
 }
@@ -167,8 +169,7 @@ std::optional<Index> VesselPlaces::seen_from(const Vector3& x) const {
   std::vector<std::pair<double, std::uint32_t>> near;  // as they are seen from above
   for (std::uint32_t n = 0; n < layer.places.size(); ++n) {
     const Vector3 d = layer.places[n] - x;
-    const double apart =
-        sector ? std::abs(sector->radius(layer.places[n]) - sector->radius(x)) : std::hypot(d.x, d.y);
+    const double apart = sector ? std::abs(sector->radius(layer.places[n]) - sector->radius(x)) : std::hypot(d.x, d.y);
     if (apart < reach) near.emplace_back(apart, n);
   }
   std::sort(near.begin(), near.end());

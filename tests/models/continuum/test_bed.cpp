@@ -41,7 +41,8 @@ VesselPart gate_at(double x, double y, double radius, double height) {
 Parameters beside_a_silo() {
   Parameters p = room(65, 20, 50);
   p.gate.opens = GateOpens::when_settled;
-  p.vessel = {tube("silo", 10, 10, 6, 20, 45), gate_at(10, 10, 6, 20), plate("belt", {2, 3, 12}, {60, 0, 0}, {0, 14, 0})};
+  p.vessel = {tube("silo", 10, 10, 6, 20, 45), gate_at(10, 10, 6, 20),
+              plate("belt", {2, 3, 12}, {60, 0, 0}, {0, 14, 0})};
   p.bed.bottom = 20 * spacing;
   p.bed.height = 10 * spacing;
   return p;
@@ -138,7 +139,8 @@ TEST(Bed, APlaceInsideThatIsNoneIsAFault) {
 /// The middle of its top is outside: a U of three closed boxes would be, a ring of square section is.
 TEST(Bed, FillsTheInsideOfAClosedSurface) {
   // A ring: a large box and a smaller one in it, both closed; between them is the inside.
-  std::vector<Triangle> ring = box_of({5 * spacing, 5 * spacing, 5 * spacing}, {25 * spacing, 25 * spacing, 15 * spacing});
+  std::vector<Triangle> ring =
+      box_of({5 * spacing, 5 * spacing, 5 * spacing}, {25 * spacing, 25 * spacing, 15 * spacing});
   for (Triangle t : box_of({10 * spacing, 10 * spacing, 5 * spacing}, {20 * spacing, 20 * spacing, 15 * spacing})) {
     std::swap(t.corner[1], t.corner[2]);
     ring.push_back(t);
