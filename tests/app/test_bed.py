@@ -96,10 +96,10 @@ class Check(BedTest):
     def test_it_says_where_the_bed_lies(self):
         start = self.start_of()
         self.assertRegex(start["bed"], r"^\d+ particles, 0\.0\d+ kg$")
-        low, high = (float(part.split()[0]) for part in start["x"].split(" to "))
-        self.assertAlmostEqual(low, 14, delta=2.5)
-        self.assertAlmostEqual(high, 46, delta=2.5)
-        self.assertEqual(start["z"], "40 to 52 mm")
+        low, high, z = re.match(r"x (\S+) to (\S+) mm, y \S+ to \S+ mm, z (\S+ to \S+) mm$", start["lies at"]).groups()
+        self.assertAlmostEqual(float(low), 14, delta=2.5)
+        self.assertAlmostEqual(float(high), 46, delta=2.5)
+        self.assertEqual(z, "40 to 52")
         self.assertEqual(start["lies against"], "bin, gate")
 
     def test_it_draws_walls_and_bed(self):

@@ -97,9 +97,11 @@ std::vector<std::pair<std::string, std::string>> bed_lines(const Parameters& p) 
     const continuum::BedReport report = continuum::report_of_bed(continuum::with_bed_alone(p, n));
     const std::string name = n == 0 ? "bed" : fmt::format("beds.{}, tag {}", n, p.beds[n - 1].tag);
     lines.emplace_back(name, fmt::format("{:.0f} particles, {:.4g} kg", report.particles, report.mass));
+    std::vector<std::string> extents;
     for (int axis = 0; axis < 3; ++axis)
-      lines.emplace_back(std::string(1, "xyz"[axis]), fmt::format("{:.4g} to {:.4g} mm", report.low[axis] / millimetre,
-                                                                  report.high[axis] / millimetre));
+      extents.push_back(fmt::format("{} {:.4g} to {:.4g} mm", "xyz"[axis], report.low[axis] / millimetre,
+                                    report.high[axis] / millimetre));
+    lines.emplace_back("lies at", fmt::format("{}", fmt::join(extents, ", ")));
     lines.emplace_back("lies against",
                        report.beside.empty() ? "no wall or face" : fmt::format("{}", fmt::join(report.beside, ", ")));
   }
