@@ -98,6 +98,10 @@ ExitStatus check(const CaseOptions& options, int threads) {
     print("\nWarnings: the case leaves what its laws and the method assume:\n");
     for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
   }
+  if (!prepared.remarks.empty()) {
+    print("\nMended in the files of the case:\n");
+    for (const std::string& remark : prepared.remarks) print("    {}\n", wrapped(remark, terminal_width(), 4, 4));
+  }
   print_forecast(prepared, threads, key);
   return ExitStatus::done;
 }

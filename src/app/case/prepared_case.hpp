@@ -52,6 +52,7 @@ struct PreparedCase {
   std::vector<NamedValue> groups;
   /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.
   std::vector<RegimeLine> regime;
+  std::vector<std::string> remarks;  ///< what was mended in the files that the case names, for `check` and the log
   Forecast forecast;
   /// Seconds that an evaluation takes, measured now on a small sample.
   std::function<double(ThreadTeam& team)> measure_evaluation;

@@ -164,7 +164,7 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
     setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(p);
     setting.bands = bands_of(p);
     if (const auto outlet = continuum::outlet_of_vessel(p); outlet && !outlet->round)
-      setting.outlet_length = std::max(outlet->width, outlet->depth);
+      setting.outlet_length = outlet->length;
   }
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};

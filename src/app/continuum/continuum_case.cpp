@@ -54,7 +54,13 @@ std::vector<NamedValue> groups(const Parameters& p) {
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
-    groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
+    groups.push_back({"slit_over_spacing", "1", outlet->across / p.bed.spacing});
+  if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
+    for (const continuum::VesselOutlet& outlet : outlets) {
+      groups.push_back({"discharge_by_hand_" + outlet.name, "kg/s", discharge_by_hand(p, outlet)});
+      groups.push_back({"slit_over_spacing_" + outlet.name, "1", outlet.narrow / p.bed.spacing});
+      groups.push_back({"slit_over_grain_" + outlet.name, "1", outlet.narrow / p.grains.diameter});
+    }
   return groups;
 }
 
@@ -128,7 +134,7 @@ void read_surfaces(const CaseFile& file, Parameters& p) {
 std::string digest_of_files(const Parameters& p) {
   std::string bytes;
   for (const continuum::VesselPart& part : p.vessel)
-    for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
+    for (const Triangle& t : part.drawn ? part.drawn->triangles() : std::span<const Triangle>{})
       bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
   return bytes.empty() ? std::string() : digest(bytes);
 }
@@ -183,6 +189,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
+  prepared.remarks = continuum::remarks_of_vessel(p);
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);

@@ -45,7 +45,7 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
-    const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
+    const Vector3 slit{0.5 * (outlet->left + outlet->right), outlet->middle_y, outlet->height};
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
     // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
     auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);

@@ -10,6 +10,7 @@
 
 #include "models/continuum/filling.hpp"
 #include "models/continuum/parameters.hpp"
+#include "models/continuum/vessel_outlets.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -87,11 +88,15 @@ double bed_bottom(const Parameters& p) {
 
 std::optional<Outlet> outlet_of(const Parameters& p) {
   if (const auto outlet = outlet_of_vessel(p))
-    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width};
+    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width,
+                  outlet->narrow, outlet->middle.y};
+  const auto slit = [&](double height, double left, double right) {
+    return Outlet{height, left, right, right - left, 0.5 * p.box.depth};
+  };
   if (p.wedge.half_angle)
-    return Outlet{p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet)};
+    return slit(p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet));
   if (p.plate.height && p.plate.slit_left && p.plate.slit_right)
-    return Outlet{*p.plate.height, *p.plate.slit_left, *p.plate.slit_right};
+    return slit(*p.plate.height, *p.plate.slit_left, *p.plate.slit_right);
   return std::nullopt;
 }
 

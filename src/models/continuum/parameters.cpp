@@ -187,12 +187,16 @@ std::vector<Problem> check(const Parameters& given) {
   check_plate(given, problems);
   check_wedge(given, problems);
   check_inclined_plates(given, problems);
-  for (const Problem& problem : check_vessel(given)) problems.push_back(problem);
+  std::vector<Problem> of_vessel = check_vessel(given);
+  const std::vector<Problem> outside = of_vessel.empty() ? check_extents(given) : std::vector<Problem>{};
+  of_vessel.insert(of_vessel.end(), outside.begin(), outside.end());
+  problems.insert(problems.end(), of_vessel.begin(), of_vessel.end());
   for (const Problem& problem : check_sector(given)) problems.push_back(problem);
   if (problems.empty()) problems = check_symmetry(given);
   // How far a mass fills a vessel can be said of a sound vessel only.
   const Parameters p = problems.empty() ? with_level(given) : given;
-  if (!p.bed.mass || p.bed.height > 0) check_bed(p, problems);
+  // A bed in walls that are elsewhere has faults of its own.
+  if (outside.empty() && (!p.bed.mass || p.bed.height > 0)) check_bed(p, problems);
   check_materials(p, problems);
   if (p.settle.loading_time && *p.settle.loading_time >= p.settle.longest)
     problems.push_back({.key = "settle.loading_time",

@@ -36,6 +36,21 @@ bool is_being_filled(const Parameters& p, double time) {
   });
 }
 
+/// How many have left the vessel, or the box, and those that were taken away.
+std::size_t left_vessel(const Parameters& p, const State& s) {
+  VesselBounds room{{0, 0, 0}, {p.box.width, p.box.depth, p.box.height}};
+  if (!p.vessel.empty()) {
+    const VesselBounds vessel = bounds_of_vessel(p);
+    for (int axis = 0; axis < 3; ++axis)
+      room.low[axis] = std::max(room.low[axis], vessel.low[axis] - p.bed.spacing),
+      room.high[axis] = std::min(room.high[axis], vessel.high[axis] + p.bed.spacing);
+  }
+  const auto outside = std::count_if(s.position.begin(), s.position.end(), [&](const Vector3& x) {
+    return x.x < room.low.x || x.x > room.high.x || x.y < room.low.y || x.y > room.high.y || x.z < room.low.z;
+  });
+  return static_cast<std::size_t>(outside) + s.population.removed;
+}
+
 }  // namespace
 
 bool is_loose_where_free(const Parameters& p) {
@@ -75,14 +90,19 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
     begin_flow(s.time, s.wall_loads);
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
+    const std::size_t left = left_vessel(p, s);
+    const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";
+    const std::string leak = left > 0 ? "first a wall, lid or gate where the vessel is open (talus check names rims of "
+                                        "STL files below the top of the bed); then "
+                                      : "";
     throw NumericalError(
         {.what = "the bed has not settled",
-         .term = fmt::format("{} of {} particles are faster than settle.speed", moving, s.velocity.size()),
+         .term = fmt::format("{} of {} particles are faster than settle.speed{}", moving, s.velocity.size(), gone),
          .place = "the bed",
          .step = s.step,
          .time = s.time,
-         .advice = "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
-                   "inclined walls, walls.friction_from = \"start\""});
+         .advice = leak + "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
+                          "inclined walls, walls.friction_from = \"start\""});
   }
 }
 
