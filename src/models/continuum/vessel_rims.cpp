@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -22,7 +23,7 @@ constexpr double most_places = 2e5;  // of a lattice; a coarser one tells holes 
 /// A place on a rim.
 struct Sample {
   Vector3 place, normal;  ///< the normal is that of the triangle
-  double length;          ///< that it stands for, m
+  Vector3 half;           ///< along the rim, of what it stands for, m
 };
 
 struct Candidate {
@@ -65,7 +66,7 @@ Candidate candidate_of(const Parameters& p, const Surface& surface, std::size_t 
     for (double k = 0.5; k < pieces; ++k) {
       const Vector3 x = a + (k / pieces) * edge;
       if (x.z < top - deep * p.bed.spacing && is_way_around(p, surface, x, normal, outwards))
-        candidate.open.push_back({x, normal, length / pieces});
+        candidate.open.push_back({x, normal, (0.5 / pieces) * edge});
     }
   }
   return candidate;
@@ -124,21 +125,21 @@ std::vector<OpenRim> rims_below_bed(const Parameters& given) {
   };
   std::vector<OpenRim> rims;
   for (const Candidate& candidate : candidates) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vector3 low{infinity, infinity, infinity}, high = -1.0 * low;
     double length = 0;
     for (const Sample& sample : candidate.open) {
       const Vector3 side = beside * p.bed.spacing * sample.normal;
-      if (has_grains(sample.place + side) != has_grains(sample.place - side)) length += sample.length;
+      if (has_grains(sample.place + side) == has_grains(sample.place - side)) continue;
+      length += 2 * norm(sample.half);
+      for (const Vector3& end : {sample.place - sample.half, sample.place + sample.half})
+        for (int axis = 0; axis < 3; ++axis)
+          low[axis] = std::min(low[axis], end[axis]), high[axis] = std::max(high[axis], end[axis]);
     }
     if (length < std::min(least_length * p.bed.spacing, 0.5 * candidate.length)) continue;
-    Vector3 low = candidate.rim.corners.front(), high = low, middle;
-    for (std::size_t n = 0; n < candidate.rim.corners.size(); ++n) {
-      const Vector3 &a = candidate.rim.corners[n], &b = candidate.rim.corners[(n + 1) % candidate.rim.corners.size()];
-      middle += (0.5 * norm(b - a) / candidate.length) * (a + b);
-      for (int axis = 0; axis < 3; ++axis) low[axis] = std::min(low[axis], a[axis]), high[axis] = std::max(high[axis], a[axis]);
-    }
     std::array<double, 3> extent = {high.x - low.x, high.y - low.y, high.z - low.z};
     std::sort(extent.begin(), extent.end());
-    rims.push_back({candidate.part, middle, extent[2], extent[1]});
+    rims.push_back({candidate.part, 0.5 * (low + high), extent[2], extent[1]});
   }
   return rims;
 }

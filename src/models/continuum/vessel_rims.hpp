@@ -11,9 +11,10 @@ namespace talus::continuum {
 
 struct Parameters;
 
+/// What of a rim is open.
 struct OpenRim {
   std::size_t part;      ///< of the vessel
-  Vector3 middle;        ///< of its length, m
+  Vector3 middle;        ///< m
   double length, width;  ///< the two largest extents along x, y and z, m
 };
 
