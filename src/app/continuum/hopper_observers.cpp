@@ -21,7 +21,8 @@ double spread_along_z(double distance, double h) {
   return (outer * outer * outer - 4 * inner * inner * inner) / (6 * h);
 }
 
-/// What passes each of several outlets of a vessel, near which it is, spread along z as that of all; empty of one alone.
+/// What passes each of several outlets of a vessel, near which it is, spread along z as that of all; empty of one
+/// alone.
 std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuum::Parameters& p, double mass) {
   const std::vector<continuum::VesselOutlet> outlets = continuum::outlets_of_vessel(p);
   std::vector<NamedValue> rates;
@@ -90,14 +91,14 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     probe_strain = field.value(probe, pick(snapshot.scalars("strain")));
   }
   std::vector<NamedValue> values = {{"discharged_mass", "kg", passed},
-          {"discharge_rate", "kg/s", rate},
-          {"lowest_z", "m", lowest},
-          {"mass_near_floor", "kg", near_floor},
-          {"slit_velocity", "m/s", slit_velocity},
-          {"probe_density", "kg/m3", probe_density},
-          {"probe_velocity", "m/s", probe_velocity},
-          {"probe_stress", "Pa", probe_stress},
-          {"probe_strain", "1", probe_strain}};
+                                    {"discharge_rate", "kg/s", rate},
+                                    {"lowest_z", "m", lowest},
+                                    {"mass_near_floor", "kg", near_floor},
+                                    {"slit_velocity", "m/s", slit_velocity},
+                                    {"probe_density", "kg/m3", probe_density},
+                                    {"probe_velocity", "m/s", probe_velocity},
+                                    {"probe_stress", "Pa", probe_stress},
+                                    {"probe_strain", "1", probe_strain}};
   values.insert(values.end(), by_outlet.begin(), by_outlet.end());
   return values;
 }

@@ -91,7 +91,8 @@ std::optional<Outlet> outlet_of(const Parameters& p) {
     return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width,
                   outlet->narrow, outlet->middle.y};
   const auto slit = [&](double height, double left, double right) {
-    return Outlet{height, left, right, right - left, 0.5 * p.box.depth};
+    const double across = std::min(right - left, distance_of_walls(p.box.front, p.box.rear, p.box.depth));
+    return Outlet{height, left, right, across, 0.5 * p.box.depth};
   };
   if (p.wedge.half_angle)
     return slit(p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet));

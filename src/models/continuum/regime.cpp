@@ -92,9 +92,9 @@ void add_outlet(const Parameters& p, double width, const std::string& name, std:
   const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;
   const std::string advice =
       few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
-  lines.push_back({"particles across the outlet" + name, fmt::format("{:.3g}", width / p.bed.spacing),
-                   "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)" + advice,
-                   few});
+  lines.push_back(
+      {"particles across the outlet" + name, fmt::format("{:.3g}", width / p.bed.spacing),
+       "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)" + advice, few});
   lines.push_back({"grains across the outlet" + name, fmt::format("{:.3g}", width / p.grains.diameter),
                    "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
 }

@@ -114,7 +114,8 @@ std::string cure_of(const Parameters& p, const VesselPart& v) {
     if (has_size_of(box, b) && is_larger(unit, of_size)) of_size = unit;
   }
   if (fitting)
-    return fmt::format("unit = \"{}\", with which it spans {}", choice_name(*fitting), span_text(with_unit(v, *fitting)));
+    return fmt::format("unit = \"{}\", with which it spans {}", choice_name(*fitting),
+                       span_text(with_unit(v, *fitting)));
   if (of_size) {
     const VesselBounds b = with_unit(v, *of_size);
     return fmt::format("unit = \"{}\" and {}", choice_name(*of_size), move_text(v, shift_into(box, b), b));

@@ -53,7 +53,8 @@ std::vector<VesselOutlet> holes(const Parameters& p) {
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
     if (v.along != Along::z) continue;
-    if (v.shape == VesselShape::cone && v.lower_radius > 0) all.push_back(round_outlet(p, n, v.bottom, 2 * v.lower_radius));
+    if (v.shape == VesselShape::cone && v.lower_radius > 0)
+      all.push_back(round_outlet(p, n, v.bottom, 2 * v.lower_radius));
     if (v.shape == VesselShape::disc && v.hole > 0) all.push_back(round_outlet(p, n, v.height, 2 * v.hole));
     if (v.shape == VesselShape::pyramid && v.lower_width > 0 && v.lower_depth > 0) {
       const Vector3 axis = on_axis(p, v);
@@ -76,6 +77,11 @@ const VesselOutlet* covered_by(const std::vector<VesselOutlet>& all, const Vesse
 }
 
 }  // namespace
+
+double distance_of_walls(FaceKind a, FaceKind b, double extent) {
+  const int walls = (a == FaceKind::wall ? 1 : 0) + (b == FaceKind::wall ? 1 : 0);
+  return walls == 2 ? extent : walls == 1 ? 2 * extent : std::numeric_limits<double>::infinity();
+}
 
 bool VesselOutlet::is_beside(const Vector3& x, double margin) const {
   const double along_x = std::abs(x.x - middle.x), along_y = std::abs(x.y - middle.y);
@@ -114,14 +120,14 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
     const auto reaches = [](double middle, double extent, double face) {
       return middle - 0.5 * extent <= rounding * face && middle + 0.5 * extent >= (1 - rounding) * face;
     };
-    outlet.endless_along_x = goes_on(p.box.left) && goes_on(p.box.right) &&
-                             reaches(outlet.middle.x, outlet.width, p.box.width);
+    outlet.endless_along_x =
+        goes_on(p.box.left) && goes_on(p.box.right) && reaches(outlet.middle.x, outlet.width, p.box.width);
     outlet.endless_along_y = !outlet.endless_along_x && goes_on(p.box.front) && goes_on(p.box.rear) &&
                              reaches(outlet.middle.y, outlet.depth, p.box.depth);
-    const auto rubs = [](FaceKind a, FaceKind b) { return a == FaceKind::wall || b == FaceKind::wall; };
-    // Between mirrors a slot is as wide as it is; between walls the distance of the walls counts too.
-    if (outlet.endless_along_x && !rubs(p.box.left, p.box.right)) outlet.narrow = outlet.depth;
-    if (outlet.endless_along_y && !rubs(p.box.front, p.box.rear)) outlet.narrow = outlet.width;
+    if (outlet.endless_along_x)
+      outlet.narrow = std::min(outlet.depth, distance_of_walls(p.box.left, p.box.right, p.box.width));
+    if (outlet.endless_along_y)
+      outlet.narrow = std::min(outlet.width, distance_of_walls(p.box.front, p.box.rear, p.box.depth));
   }
   return outlets;
 }

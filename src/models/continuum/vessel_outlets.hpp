@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "numerics/geometry/box.hpp"
 
 namespace talus::continuum {
 
@@ -31,6 +32,10 @@ struct VesselOutlet {
 std::vector<VesselOutlet> outlets_of_vessel(const Parameters& parameters);
 /// The first.
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
+
+/// How far the walls are apart between which a slot ends at two faces of the box: with a mirror at one of them it is
+/// twice their distance, with mirrors at both there are none. m
+double distance_of_walls(FaceKind a, FaceKind b, double extent);
 
 /// Share of an outlet below which a wall of the vessel or the floor is nearer than the outlet is across, 0 to 1: grains
 /// do not fall freely there. Gates are taken to be open.
