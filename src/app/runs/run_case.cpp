@@ -245,6 +245,7 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   RunLog log(folder.log(), request.existing == Existing::resume);
   log.write("{} with {} threads, instruction set {}", request.existing == Existing::resume ? "resumed" : "begun",
             request.threads, prepared.instruction_set);
+  for (const std::string& warning : texts_of(prepared.regime)) log.write("warning {}", warning);
   for (const std::string& remark : prepared.remarks) log.write("mended: {}", remark);
   try {
     return run_in_folder(prepared, request, folder, manifest, log);

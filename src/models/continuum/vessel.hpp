@@ -15,6 +15,7 @@
 #include "base/parameter.hpp"
 #include "models/continuum/material_names.hpp"
 #include "numerics/surface/mended_surface.hpp"
+#include "numerics/surface/rims.hpp"
 #include "numerics/surface/surface.hpp"
 
 namespace talus::continuum {
@@ -47,6 +48,7 @@ class DrawnSurface {
   std::span<const Triangle> triangles() const { return mended_.triangles; }
   const MendedSurface& mended() const { return mended_; }
   std::span<const SurfaceFault> faults() const { return faults_; }  ///< of the file as it is, rims among them
+  std::span<const Rim> rims() const { return rims_; }  ///< of the mended triangles
   std::size_t size_of_file() const { return size_of_file_; }
   /// Around the triangles once they are turned, in the unit of the file. Remembered: it is asked for at every row.
   VesselBounds bounds(const Turn& turn) const;
@@ -55,6 +57,7 @@ class DrawnSurface {
   std::size_t size_of_file_;
   std::vector<SurfaceFault> faults_;
   MendedSurface mended_;
+  std::vector<Rim> rims_;
   mutable std::mutex mutex_;
   mutable std::optional<Turn> turn_;  // of the bounds
   mutable VesselBounds bounds_;
@@ -288,6 +291,8 @@ Turn turn_of(const VesselPart& part);
 /// The triangles of the file of a part, turned, scaled and moved into the box, m.
 std::vector<Triangle> placed_triangles(const VesselPart& part);
 VesselBounds placed_bounds(const VesselPart& part);
+/// Rims of its surface, with the numbers of the triangles there.
+std::vector<Rim> placed_rims(const VesselPart& part);
 
 /// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top, as far
 /// as the vessel takes it in, by steps from place to place that no wall crosses; those nearer to a wall than 0.4

@@ -128,6 +128,10 @@ std::string cure_of(const Parameters& p, const VesselPart& v) {
 double share_in_box(const Parameters& p, std::size_t part) {
   const Vector3 box = size_of_box(p);
   const double slack = 1e-9 * largest(box);  // walls on a face are within
+  const VesselBounds own = bounds_of(p, part);
+  bool whole = true;
+  for (int axis = 0; axis < 3; ++axis) whole = whole && own.low[axis] >= -slack && own.high[axis] <= box[axis] + slack;
+  if (whole) return 1;
   double all = 0, inside = 0;
   for (const Triangle& t : triangles_of(p, part)) {
     std::vector<Vector3> polygon(t.corner.begin(), t.corner.end());

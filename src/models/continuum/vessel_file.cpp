@@ -71,7 +71,10 @@ std::string some_of(std::size_t count, std::size_t all) {
 }  // namespace
 
 DrawnSurface::DrawnSurface(std::vector<Triangle> of_file)
-    : size_of_file_(of_file.size()), faults_(faults_of(of_file, true)), mended_(talus::mended(of_file, faults_)) {}
+    : size_of_file_(of_file.size()),
+      faults_(faults_of(of_file, true)),
+      mended_(talus::mended(of_file, faults_)),
+      rims_(rims_of(mended_.triangles)) {}
 
 VesselBounds DrawnSurface::bounds(const Turn& turn) const {
   const std::scoped_lock lock(mutex_);
@@ -96,6 +99,16 @@ std::vector<Triangle> placed_triangles(const VesselPart& v) {
   for (Triangle& t : triangles)
     for (Vector3& corner : t.corner) corner = scaled_and_moved(v, turn * corner);
   return triangles;
+}
+
+std::vector<Rim> placed_rims(const VesselPart& v) {
+  std::vector<Rim> rims;
+  if (!v.drawn) return rims;
+  rims.assign(v.drawn->rims().begin(), v.drawn->rims().end());
+  const Tensor3<> turn = tensor_of(turn_of(v));
+  for (Rim& rim : rims)
+    for (Vector3& corner : rim.corners) corner = scaled_and_moved(v, turn * corner);
+  return rims;
 }
 
 VesselBounds placed_bounds(const VesselPart& v) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "models/continuum/parameters.hpp"
 
@@ -12,6 +13,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double rounding = 1e-9;  // of lengths
+constexpr double like_a_circle = 0.1;
 
 bool goes_on(FaceKind face) {
   return face != FaceKind::open;
@@ -64,6 +66,33 @@ std::vector<VesselOutlet> holes(const Parameters& p) {
   return all;
 }
 
+/// Level rims of files: round ones fill their box as a circle does.
+std::vector<VesselOutlet> holes_of_files(const Parameters& p) {
+  std::vector<VesselOutlet> all;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    if (p.vessel[n].shape != VesselShape::stl) continue;
+    for (const Rim& rim : placed_rims(p.vessel[n])) {
+      Vector3 low = rim.corners.front(), high = low, area;
+      for (std::size_t k = 0; k < rim.corners.size(); ++k) {
+        const Vector3& x = rim.corners[k];
+        for (int axis = 0; axis < 3; ++axis)
+          low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
+        area += 0.5 * cross(x - rim.corners[0], rim.corners[(k + 1) % rim.corners.size()] - rim.corners[0]);
+      }
+      const double width = high.x - low.x, depth = high.y - low.y, filled = std::abs(area.z) / (width * depth);
+      if (high.z - low.z > p.bed.spacing || !(width > 0 && depth > 0)) continue;
+      VesselOutlet hole =
+          rectangle(name_of(p, n), {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z}, width, depth);
+      if (std::abs(width / depth - 1) < like_a_circle && std::abs(4 / std::numbers::pi * filled - 1) < like_a_circle) {
+        hole.round = true;  // of the same area
+        hole.width = hole.depth = hole.narrow = hole.length = std::sqrt(4 / std::numbers::pi * std::abs(area.z));
+      }
+      all.push_back(hole);
+    }
+  }
+  return all;
+}
+
 /// The hole that a gate shuts, if it is one of them.
 const VesselOutlet* covered_by(const std::vector<VesselOutlet>& all, const VesselOutlet& gate, double spacing) {
   for (const VesselOutlet& hole : all) {
@@ -90,7 +119,7 @@ bool VesselOutlet::is_beside(const Vector3& x, double margin) const {
 }
 
 std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
-  const std::vector<VesselOutlet> all = holes(p);
+  const std::vector<VesselOutlet> all = holes(p), of_files = holes_of_files(p);
   std::vector<VesselOutlet> outlets;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
@@ -99,7 +128,9 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
     if (v.shape == VesselShape::disc) gate = round_outlet(p, n, v.height, 2 * v.radius);
     if (v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0) gate = of_plate(p, n);
     if (!gate) continue;
-    if (const VesselOutlet* hole = covered_by(all, *gate, p.bed.spacing)) {
+    const VesselOutlet* hole = covered_by(all, *gate, p.bed.spacing);
+    if (!hole) hole = covered_by(of_files, *gate, p.bed.spacing);
+    if (hole) {
       VesselOutlet open = *hole;  // grains that lie on the gate have not left
       open.name = gate->name, open.middle.z = std::min(gate->middle.z, hole->middle.z);
       gate = open;

@@ -27,8 +27,8 @@ struct VesselOutlet {
 };
 
 /// All of them, the lowest first. A gate that is level, a disc or a plate, or the hole that it covers: the lower end of
-/// a cone or a pyramid, or the hole of a disc, at its height and no larger than it. Without such a gate the lowest of
-/// these holes, and others at its height. None if all are the work of STL files.
+/// a cone or a pyramid, the hole of a disc, or a level rim of an STL file, at its height and no larger than it. Without
+/// such a gate the lowest of these holes but for those of files, and others at its height.
 std::vector<VesselOutlet> outlets_of_vessel(const Parameters& parameters);
 /// The first.
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);

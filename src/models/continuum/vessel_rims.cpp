@@ -11,7 +11,6 @@
 #include "models/continuum/layout.hpp"
 #include "models/continuum/parameters.hpp"
 #include "numerics/cell_grid.hpp"
-#include "numerics/surface/rims.hpp"
 
 namespace talus::continuum {
 
@@ -42,16 +41,17 @@ bool is_closed(const Parameters& p, const Vector3& x) {
 }
 
 /// Whether a grain comes from one side of the triangle around its edge to the other.
-bool is_way_around(const Parameters& p, const Surface& surface, const Vector3& x, const Vector3& normal,
-                   const Vector3& outwards) {
+bool is_way_around(const Parameters& p, const Surface& surface, const Domain& domain, const Vector3& x,
+                   const Vector3& normal, const Vector3& outwards) {
   const Vector3 n = 0.5 * around * p.bed.spacing * normal, out = around * p.bed.spacing * outwards;
   const std::array<Vector3, 4> way = {x - out + n, x + out + n, x + out - n, x - out - n};
   for (std::size_t k = 0; k < way.size(); ++k)
-    if (is_closed(p, way[k]) || (k > 0 && surface.blocks(way[k - 1], way[k]))) return false;
+    if (is_closed(p, way[k]) || (k > 0 && (surface.blocks(way[k - 1], way[k]) || domain.blocks(way[k - 1], way[k]))))
+      return false;
   return true;
 }
 
-Candidate candidate_of(const Parameters& p, const Surface& surface, std::size_t part,
+Candidate candidate_of(const Parameters& p, const Surface& surface, const Domain& domain, std::size_t part,
                        std::span<const Triangle> triangles, Rim rim, double top) {
   Candidate candidate{part, std::move(rim), {}};
   const std::vector<Vector3>& corners = candidate.rim.corners;
@@ -65,7 +65,7 @@ Candidate candidate_of(const Parameters& p, const Surface& surface, std::size_t 
     if (dot(outwards, t.middle() - a) > 0) outwards = -1.0 * outwards;
     for (double k = 0.5; k < pieces; ++k) {
       const Vector3 x = a + (k / pieces) * edge;
-      if (x.z < top - deep * p.bed.spacing && is_way_around(p, surface, x, normal, outwards))
+      if (x.z < top - deep * p.bed.spacing && is_way_around(p, surface, domain, x, normal, outwards))
         candidate.open.push_back({x, normal, (0.5 / pieces) * edge});
     }
   }
@@ -105,12 +105,13 @@ std::vector<OpenRim> rims_below_bed(const Parameters& given) {
   while (places_of(lattice_of(p)) > most_places) p.bed.spacing *= 2, p.surface = std::make_shared<VesselSurface>();
   const double top = bed_bottom(p) + p.bed.height;
   const Surface surface = surface_of(p);
+  const Domain domain = domain_of(p);
   std::vector<Candidate> candidates;
   for (std::size_t part = 0; part < p.vessel.size(); ++part) {
     if (p.vessel[part].shape != VesselShape::stl || p.vessel[part].gate) continue;
     const std::vector<Triangle> triangles = placed_triangles(p.vessel[part]);
-    for (Rim& rim : rims_of(triangles))
-      if (Candidate c = candidate_of(p, surface, part, triangles, std::move(rim), top); !c.open.empty())
+    for (Rim& rim : placed_rims(p.vessel[part]))
+      if (Candidate c = candidate_of(p, surface, domain, part, triangles, std::move(rim), top); !c.open.empty())
         candidates.push_back(std::move(c));
   }
   if (candidates.empty()) return {};

@@ -82,6 +82,26 @@ TEST(VesselOutlets, AGateThatIsLargerThanTheHoleItCoversIsNotTheOutlet) {
   EXPECT_FALSE(outlet_of_vessel(p)->round) << "not that of a cone five spacings above";
 }
 
+TEST(VesselOutlets, TheRimOfAFileThatAGateCoversIsTheOutlet) {
+  Parameters p = slot(30, 30);
+  VesselPart cone = named("cone", VesselShape::cone);
+  cone.lower_radius = 4 * spacing, cone.upper_radius = 9 * spacing, cone.bottom = 0.3, cone.top = 0.4;
+  Parameters alone = p;
+  alone.vessel = {cone};
+  p.vessel.push_back(drawn("funnel", triangles_of(alone, 0)));
+  EXPECT_TRUE(outlet_of_vessel(p)->round);
+  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 8 * spacing, 1e-9) << "the polygon's area is the circle's";
+  VesselPart pyramid = named("pyramid", VesselShape::pyramid);
+  pyramid.lower_width = 0.1, pyramid.lower_depth = 0.06, pyramid.upper_width = pyramid.upper_depth = 0.2;
+  pyramid.bottom = 0.3, pyramid.top = 0.4;
+  alone.vessel = {pyramid};
+  p.vessel[1] = drawn("funnel", triangles_of(alone, 0));
+  EXPECT_FALSE(outlet_of_vessel(p)->round);
+  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 0.06, 1e-12);
+  p.vessel[1].move[2] = 0.1;
+  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 0.3, 1e-12) << "above the gate";
+}
+
 TEST(VesselOutlets, SeveralHaveARowEach) {
   Parameters p = slot(14, 14);
   p.vessel[0] = gate(plate("west", {10, 20, 30}, {14, 0, 0}, {0, 14, 0}));
