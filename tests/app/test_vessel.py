@@ -165,7 +165,7 @@ gate = true
 [gate]""", 1)
         (self.folder / "case.toml").write_text(case)
         said = " ".join(self.talus("check", "case.toml").stdout.split())
-        for text in ("particles across the outlet second = 1.2", "particles across the outlet lid = 8",
+        for text in ("particles across the outlet second = 1.2", "particles across the outlet lid = 7.95",
                      "discharge_by_hand_second", "slit_over_spacing_second 1.2"):
             self.assertIn(text, said)
         self.talus("run", "case.toml", "--out", "run")

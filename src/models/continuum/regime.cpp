@@ -109,7 +109,7 @@ void add_outlets(const Parameters& p, std::vector<RegimeLine>& lines) {
     if (const double blocked = share_blocked_below(p, outlet); blocked > 0)
       lines.push_back({"share of the outlet" + name + " with a wall below", fmt::format("{:.2g}", blocked),
                        fmt::format("nearer than it is across, {:.4g} mm: grains that do not fall freely there leave "
-                                   "more slowly than hand formulas say",
+                                   "more slowly than the analytical estimate says",
                                    outlet.narrow / millimetre),
                        blocked > notable_share});
   }

@@ -21,6 +21,7 @@ constexpr double largest_over_box = 1000;  // extents
 constexpr double least_of_file = 0.01;     // of its area within the box: all but none
 constexpr double over_edge = 0.1;          // of the box, by which walls that fit may stick out of it
 constexpr double least_over_box = 0.05;    // extents: smaller ones are no likely vessel
+constexpr double least_spacings = 4;       // nor those of another unit
 
 Vector3 size_of_box(const Parameters& p) {
   return {p.box.width, p.box.depth, p.box.height};
@@ -67,17 +68,17 @@ VesselBounds with_unit(const VesselPart& v, FileUnit unit) {
   return placed_bounds(other);
 }
 
-bool has_size_of(const Vector3& box, const VesselBounds& b) {
+bool has_size_of(const Vector3& box, const VesselBounds& b, double least) {
   const Vector3 extent = b.high - b.low;
   for (int axis = 0; axis < 3; ++axis)
     if (!(extent[axis] <= (1 + over_edge) * box[axis])) return false;
-  return largest(extent) >= least_over_box * largest(box);
+  return largest(extent) >= least;
 }
 
 bool is_within(const Vector3& box, const VesselBounds& b) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(b.low[axis] >= -over_edge * box[axis] && b.high[axis] <= (1 + over_edge) * box[axis])) return false;
-  return has_size_of(box, b);
+  return has_size_of(box, b, least_over_box * largest(box));
 }
 
 /// Into the middle of the box, on its floor, where it lies beyond it.
@@ -103,7 +104,7 @@ std::string move_text(const VesselPart& v, const Vector3& shift, const VesselBou
 std::string cure_of(const Parameters& p, const VesselPart& v) {
   const Vector3 box = size_of_box(p);
   const VesselBounds own = placed_bounds(v);
-  if (has_size_of(box, own)) return move_text(v, shift_into(box, own), own);
+  if (has_size_of(box, own, least_spacings * p.bed.spacing)) return move_text(v, shift_into(box, own), own);
   std::optional<FileUnit> fitting, of_size;
   const auto is_larger = [&](FileUnit unit, const std::optional<FileUnit>& than) {
     return !than || metres(unit) > metres(*than);
@@ -111,7 +112,7 @@ std::string cure_of(const Parameters& p, const VesselPart& v) {
   for (const FileUnit unit : {FileUnit::mm, FileUnit::cm, FileUnit::inch, FileUnit::m}) {
     const VesselBounds b = with_unit(v, unit);
     if (is_within(box, b) && is_larger(unit, fitting)) fitting = unit;
-    if (has_size_of(box, b) && is_larger(unit, of_size)) of_size = unit;
+    if (has_size_of(box, b, least_over_box * largest(box)) && is_larger(unit, of_size)) of_size = unit;
   }
   if (fitting)
     return fmt::format("unit = \"{}\", with which it spans {}", choice_name(*fitting),
@@ -120,7 +121,17 @@ std::string cure_of(const Parameters& p, const VesselPart& v) {
     const VesselBounds b = with_unit(v, *of_size);
     return fmt::format("unit = \"{}\" and {}", choice_name(*of_size), move_text(v, shift_into(box, b), b));
   }
-  return "unit, scale and move with which it lies within, or a box that holds it";
+  FileUnit nearest = v.unit;
+  const auto ratio = [&](FileUnit unit) {
+    const VesselBounds b = with_unit(v, unit);
+    return std::abs(std::log(largest(b.high - b.low) / largest(box)));
+  };
+  for (const FileUnit unit : {FileUnit::mm, FileUnit::cm, FileUnit::inch, FileUnit::m})
+    if (ratio(unit) < ratio(nearest)) nearest = unit;
+  const std::string box_or_scale = "a scale and a move with which it lies within, or a box that holds it";
+  if (nearest == v.unit) return box_or_scale;
+  return fmt::format("unit = \"{}\", with which it spans {}, and {}", choice_name(nearest),
+                     span_text(with_unit(v, nearest)), box_or_scale);
 }
 
 }  // namespace
@@ -167,7 +178,8 @@ std::vector<Problem> check_extents(const Parameters& p) {
     else if (!(share > 0))
       fault = "no part of it lies within";
     else if (of_file && share < least_of_file)
-      fault = fmt::format("{:.2g} % of it lies within", 100 * share);
+      fault =
+          share < 1e-4 ? "next to no part of it lies within" : fmt::format("{:.2g} % of it lies within", 100 * share);
     if (fault.empty()) continue;
     problems.push_back({.key = vessel_key(n, of_file ? "file" : "shape"),
                         .what = extents_text(p, n) + ": " + fault,
