@@ -118,7 +118,7 @@ VesselBounds placed_bounds(const VesselPart& v) {
 
 void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& problems) {
   if (!v.drawn) return;
-  const auto add = [&](std::string what, std::string allowed = {}) {
+  const auto add = [&](const std::string& what, std::string allowed = {}) {
     problems.push_back({.key = vessel_key(n, "file"), .what = v.file + ": " + what, .allowed = std::move(allowed)});
   };
   std::size_t told = 0, all = 0;
