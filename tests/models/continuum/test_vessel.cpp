@@ -10,6 +10,7 @@
 
 #include "block_on_incline.hpp"
 #include "cases.hpp"
+#include "drawn_parts.hpp"
 #include "models/continuum/vessel.hpp"
 #include "models/continuum/vessel_loads.hpp"
 #include "vessel_parts.hpp"
