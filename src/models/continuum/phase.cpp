@@ -36,19 +36,24 @@ bool is_being_filled(const Parameters& p, double time) {
   });
 }
 
-/// How many have left the vessel, or the box, and those that were taken away.
-std::size_t left_vessel(const Parameters& p, const State& s) {
+/// How many are beside or below the box around the vessel.
+std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& position) {
   VesselBounds room{{0, 0, 0}, {p.box.width, p.box.depth, p.box.height}};
   if (!p.vessel.empty()) {
     const VesselBounds vessel = bounds_of_vessel(p);
     for (int axis = 0; axis < 3; ++axis)
-      room.low[axis] = std::max(room.low[axis], vessel.low[axis] - p.bed.spacing),
-      room.high[axis] = std::min(room.high[axis], vessel.high[axis] + p.bed.spacing);
+      room.low[axis] = std::max(room.low[axis], vessel.low[axis]),
+      room.high[axis] = std::min(room.high[axis], vessel.high[axis]);
   }
-  const auto outside = std::count_if(s.position.begin(), s.position.end(), [&](const Vector3& x) {
+  return static_cast<std::size_t>(std::count_if(position.begin(), position.end(), [&](const Vector3& x) {
     return x.x < room.low.x || x.x > room.high.x || x.y < room.low.y || x.y > room.high.y || x.z < room.low.z;
-  });
-  return static_cast<std::size_t>(outside) + s.population.removed;
+  }));
+}
+
+/// How many have left it since the start, those that were taken away among them.
+std::size_t left_vessel(const Parameters& p, const State& s) {
+  const std::size_t before = outside_vessel(p, bed_positions(p)), now = outside_vessel(p, s.position);
+  return (now > before ? now - before : 0) + s.population.removed;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "drawn_parts.hpp"
 #include "models/continuum/layout.hpp"
 #include "models/continuum/regime.hpp"
 #include "numerics/warning.hpp"
@@ -107,7 +108,8 @@ TEST(VesselFile, OneThatIsElsewhereIsToldWithItsCure) {
   p.vessel[0].move = {};
   EXPECT_THAT(check(p)[0].allowed, HasSubstr("unit = \"mm\" and move = [\"40 mm\", \"40 mm\", \"10 mm\"]"));
   p.box.width = p.box.depth = 0.03;
-  EXPECT_THAT(check(p)[0].allowed, HasSubstr("unit = \"mm\", with which it spans -30..30 x -30..30 x -10..-10 mm, and a"))
+  EXPECT_THAT(check(p)[0].allowed,
+              HasSubstr("unit = \"mm\", with which it spans -30..30 x -30..30 x -10..-10 mm, and a"))
       << "of two causes one is the unit";
   p.box.width = p.box.depth = 0.08;
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drawn_parts.hpp"
 #include "models/continuum/layout.hpp"
 #include "models/continuum/regime.hpp"
 #include "vessel_parts.hpp"

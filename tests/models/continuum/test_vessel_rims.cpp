@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "drawn_parts.hpp"
 #include "vessel_parts.hpp"
 
 namespace talus::continuum {

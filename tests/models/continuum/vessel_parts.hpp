@@ -3,10 +3,8 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "cases.hpp"
 #include "models/continuum/vessel.hpp"
@@ -40,14 +38,6 @@ inline VesselPart plate(std::string name, std::array<double, 3> corner, std::arr
 inline VesselPart disc(std::string name, double radius, double height) {
   VesselPart part = named(std::move(name), VesselShape::disc);
   part.radius = radius * spacing, part.height = height * spacing;
-  return part;
-}
-
-/// Triangles of a file, in m.
-inline VesselPart drawn(std::string name, std::vector<Triangle> triangles) {
-  VesselPart part = named(std::move(name), VesselShape::stl);
-  part.unit = FileUnit::m;
-  part.drawn = std::make_shared<DrawnSurface>(std::move(triangles));
   return part;
 }
 
