@@ -57,8 +57,8 @@ std::vector<NamedValue> groups(const Parameters& p) {
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
-    groups.insert(groups.end(), {{"outlet_width", "m", outlet->across},
-                                 {"slit_over_spacing", "1", outlet->across / p.bed.spacing}});
+    groups.insert(groups.end(),
+                  {{"outlet_width", "m", outlet->across}, {"slit_over_spacing", "1", outlet->across / p.bed.spacing}});
   if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
     for (const continuum::VesselOutlet& outlet : outlets) {
       groups.push_back({"discharge_by_hand_" + outlet.name, "kg/s", discharge_by_hand(p, outlet)});
