@@ -48,7 +48,7 @@ class DrawnSurface {
   std::span<const Triangle> triangles() const { return mended_.triangles; }
   const MendedSurface& mended() const { return mended_; }
   std::span<const SurfaceFault> faults() const { return faults_; }  ///< of the file as it is, rims among them
-  std::span<const Rim> rims() const { return rims_; }  ///< of the mended triangles
+  std::span<const Rim> rims() const { return rims_; }               ///< of the mended triangles
   std::size_t size_of_file() const { return size_of_file_; }
   /// Around the triangles once they are turned, in the unit of the file. Remembered: it is asked for at every row.
   VesselBounds bounds(const Turn& turn) const;
