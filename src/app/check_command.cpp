@@ -132,6 +132,7 @@ void print_filled_in(const Subject& s) {
 void print_groups(const Subject& s) {
   for (const NamedValue& group : s.prepared.groups)
     print("  {:{}}  {:.6g}{}\n", group.name, s.key, group.value, group.unit == "1" ? "" : " " + group.unit);
+  for (const std::string& remark : s.prepared.remarks) print("  {}\n", wrapped(remark, terminal_width(), 2, 2));
 }
 
 void print_following(const Subject& s) {
@@ -146,16 +147,10 @@ void print_scales(const Subject& s) {
 }
 
 void print_warnings(const Subject& s) {
-  const std::vector<Warning> warnings = warnings_of(s.prepared.regime);
+  const std::vector<Warning> warnings = warnings_before_run(s.prepared, default_results(s.options.path));
   if (warnings.empty()) return;
-  print("\nWarnings: the case leaves what its laws and the method assume:\n");
+  print("\nWarnings: outside the validated range\n");
   for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
-}
-
-void print_mended(const Subject& s) {
-  if (s.prepared.remarks.empty()) return;
-  print("\nMended in the files of the case:\n");
-  for (const std::string& remark : s.prepared.remarks) print("    {}\n", wrapped(remark, terminal_width(), 4, 4));
 }
 
 /// Seconds of a run, at least, with an evaluation of so many.
@@ -245,8 +240,8 @@ void print_forecast(const Subject& s) {
 }
 
 using Section = void (*)(const Subject&);
-constexpr Section in_short[] = {print_given, print_following, print_warnings, print_mended, print_forecast};
-constexpr Section in_full[] = {print_every_key, print_scales, print_warnings, print_mended, print_forecast};
+constexpr Section in_short[] = {print_given, print_following, print_warnings, print_forecast};
+constexpr Section in_full[] = {print_every_key, print_scales, print_warnings, print_forecast};
 
 ExitStatus check(const CaseOptions& options, int threads, bool all) {
   if (std::filesystem::is_directory(options.path)) return check_folder(options.path);

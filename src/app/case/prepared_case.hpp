@@ -47,8 +47,9 @@ struct PreparedCase {
   ParameterList parameters;  ///< of the model and of the run, with the values they have
   std::map<std::string, std::string, std::less<>> filled_in;  ///< keys whose values follow from others, and from what
   std::string instruction_set;                                ///< that the choice resolves to on this machine
-  std::string inputs;  ///< digest of what the files hold that the case names; empty if it names none
-  std::any read;       ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
+  std::vector<std::string> remarks;  ///< what was made of the files that the case names, a line each
+  std::string inputs;                ///< digest of what the files hold that the case names; empty if it names none
+  std::any read;  ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
 
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
@@ -58,7 +59,6 @@ struct PreparedCase {
   std::vector<NamedValue> groups;
   /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.
   std::vector<RegimeLine> regime;
-  std::vector<std::string> remarks;  ///< what was mended in the files that the case names, for `check` and the log
   Forecast forecast;
   /// Seconds that an evaluation takes, measured now on a small sample.
   std::function<double(ThreadTeam& team)> measure_evaluation;

@@ -101,7 +101,7 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
                                         "STL files below the top of the bed); then "
                                       : "";
     throw NumericalError(
-        {.what = "the bed has not settled",
+        {.what = fmt::format("the bed is still moving after {:.3g} s", s.time),
          .term = fmt::format("{} of {} particles are faster than settle.speed{}", moving, s.velocity.size(), gone),
          .place = "the bed",
          .step = s.step,
