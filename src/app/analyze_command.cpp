@@ -21,6 +21,7 @@
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 #include "io/vtkhdf.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::app {
 
@@ -89,7 +90,9 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
   const ModelEntry& model = model_of(resolved);
   ReadRuns runs;
+  const run::Waiting waiting("analysing the run, drawing pictures, writing the report");
   const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path(), runs);
+  if (model.answers) summary.answers = model.answers(resolved, folder.path(), quantities, runs);
   if (model.draw) model.draw(resolved, folder.path(), runs);
   std::erase_if(summary.quantities, [&](const NamedValue& old) {
     return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == old.name; });

@@ -15,6 +15,7 @@
 #include "app/runs/run_case.hpp"
 #include "base/terminal.hpp"
 #include "io/run_folder.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::app {
 
@@ -51,7 +52,10 @@ ExitStatus run(const RunOptions& options) {
                        : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
   if (options.resume) keep_snapshot_interval(file, request.folder);
-  const PreparedCase prepared = prepare_case(file);
+  const PreparedCase prepared = [&] {
+    const run::Waiting waiting("reading and checking the case");
+    return prepare_case(file);
+  }();
   check_memory(prepared, file);
   if (!options.refine) return run_case(prepared, request);
   const CaseFile finer = refined_case(file);

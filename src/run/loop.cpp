@@ -17,6 +17,7 @@
 #include "run/progress.hpp"
 #include "run/snapshot_writer.hpp"
 #include "run/step_guard.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::run {
 
@@ -155,14 +156,20 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
 
   // The position of a run: at its start, or at the newest intact checkpoint.
   std::optional<CheckpointReader> checkpoint;
-  if (options.resume) checkpoint = checkpoints.load();
+  if (options.resume) {
+    const Waiting waiting("reading the checkpoint");
+    checkpoint = checkpoints.load();
+  }
   std::optional<SeriesWriter> series;
   if (checkpoint) {
     if (checkpoint->fingerprint() != options.fingerprint)
       throw InputError({{.where = checkpoint->path().string(),
                          .what = "this run was made with another case",
                          .allowed = "the same case to resume (only run.end may be later), or --overwrite"}});
-    model.resume(team, *checkpoint);
+    {
+      const Waiting waiting("finding neighbours");
+      model.resume(team, *checkpoint);
+    }
     std::uint64_t rows = 0;
     double wall = 0, cpu = 0;
     checkpoint->get("run/rows", rows);
@@ -175,7 +182,11 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     series = SeriesWriter::resume(folder / "series.csv", columns_of(row), rows);
     snapshots.resume(*checkpoint);
   } else {
-    model.begin(team);
+    {
+      const Waiting waiting("finding neighbours");
+      model.begin(team);
+    }
+    const Waiting waiting("writing the first files");
     series.emplace(folder / "series.csv", columns_of(row_of(model, observers)));
     add_row(*series);
     snapshots.take(model);
@@ -221,6 +232,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     line.update(row);
   }
   line.finish();
+  const Waiting waiting("writing the last files");
   if (!result.interrupted) snapshots.take_last(model);
   save();
   result.wall_seconds = clock.wall();

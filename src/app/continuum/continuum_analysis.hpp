@@ -23,7 +23,7 @@ HopperSetting hopper_setting(const continuum::Parameters& parameters);
 HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting);
 
 /// Writes analysis/snapshots.csv (a column per measure), analysis/surfaces.csv (both free surfaces at the end)
-/// and, with a plate, analysis/discharge.csv (20 ms means, one every 5 ms); with the outlet of a vessel
+/// and, with a plate, analysis/discharge.csv (means over T, one every T/4); with the outlet of a vessel
 /// analysis/residence.csv (when ten layers of the bed leave it); returns the summary's quantities.
 /// \throws FileError
 std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperRun& run);

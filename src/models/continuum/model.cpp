@@ -10,7 +10,9 @@
 #include "models/continuum/air_totals.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "numerics/snapshot_of.hpp"
+#include "numerics/whole.hpp"
 
 namespace talus::continuum {
 
@@ -132,10 +134,12 @@ void Continuum::make_workspace() {
   workspace_ = std::make_unique<Workspace>(parameters_, state_);
   if (domain().sector()) around_whole_.emplace(domain().whole());
   whole_.reset();
+  part_.reset();
 }
 
 void Continuum::advance(ThreadTeam& team) {
   whole_.reset();
+  part_.reset();
   continuum::advance(team, parameters_, state_, *workspace_);
 }
 
@@ -146,7 +150,13 @@ double Continuum::time_origin() const {
 double Continuum::latest_origin() const {
   if (state_.gate_time >= 0) return state_.gate_time;
   if (parameters_.gate.opens == GateOpens::from_the_start) return 0;
-  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time : parameters_.settle.longest;
+  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time : time_scales_of(parameters_).settling_limit;
+}
+
+double Continuum::has_moved_from() const {
+  const double g = parameters_.gravity.acceleration;
+  const double fall = g > 0 ? std::sqrt(2 * parameters_.bed.spacing / g) : 0;
+  return std::max(state_.gate_time, fall);
 }
 
 NumericalError::Report Continuum::step_limit() const {
@@ -159,10 +169,16 @@ Snapshot Continuum::snapshot() const {
     snapshot.domain = &domain();
     return snapshot;
   }
-  if (!whole_) whole_ = whole_of(state_, *domain().sector());
+  if (!whole_) whole_ = whole_of(stored());
   Snapshot snapshot = whole_->view();
   snapshot.domain = &*around_whole_;
   return snapshot;
+}
+
+Snapshot Continuum::stored() const {
+  if (!domain().sector()) return snapshot();
+  if (!part_) part_ = part_of(state_, *domain().sector());
+  return part_->view();
 }
 
 std::vector<NamedValue> Continuum::totals() const {
@@ -259,7 +275,7 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double c = workspace_->sound_speed;
   const double h = *std::min_element(workspace_->smoothing_length.begin(), workspace_->smoothing_length.end());
   const double courant = s.last_step * c / h;
-  const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max");
+  const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
   const double slow = record.value("inertial_share");
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
   const std::vector<RegimeLine> of_run = {
@@ -270,7 +286,8 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
       {"speed of pressure waves", fmt::format("{:.4g} m/s", c), "bound over the law's own table"},
       {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over that of pressure waves", mach > 0.3},
       {"largest packing", fmt::format("{:.3f}", packing),
-       "of a particle in the run, as the kernel deposits it; at most 0.74 in grains", packing > 0.74},
+       "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains",
+       packing > 0.74},
       {"share of slow flow", fmt::format("{:.3f}", slow),
        "inertial_share: particles with an inertial number below 0.01, where the stress does not depend on the rate",
        slow < 0.5},

@@ -23,6 +23,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
     : domain(domain_of(parameters)),
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
+      scales(time_scales_of(parameters)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
       lasting_time(passages_that_last * parameters.bed.spacing / sound_speed),
       vessel(surface_of(parameters)),
