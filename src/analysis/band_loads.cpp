@@ -33,7 +33,8 @@ struct Specific {
 
 }  // namespace
 
-BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time, double from, double to, double averaging_time) {
+BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time, double from, double to,
+                 double averaging_time) {
   const Specific impulse(series, band, gate_time);
   BandLoad load{.pressure_at_rest = mean_rate(impulse.normal, -averaging_time, 0),
                 .shear_at_rest = mean_rate(impulse.shear, -averaging_time, 0),
@@ -42,7 +43,8 @@ BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time,
                 .pressure_largest = none,
                 .time_of_largest = none};
   if (impulse.normal.time.empty()) return load;
-  const Curve means = mean_rates(impulse.normal, peak * averaging_time, peaks_every * averaging_time, 0, impulse.normal.time.back());
+  const Curve means =
+      mean_rates(impulse.normal, peak * averaging_time, peaks_every * averaging_time, 0, impulse.normal.time.back());
   if (means.value.empty()) return load;
   const Extremes found = extremes(means);
   load.pressure_largest = found.largest, load.time_of_largest = found.largest_time;

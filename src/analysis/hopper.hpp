@@ -40,13 +40,13 @@ struct HopperSetting {
   std::vector<BandOfWall> bands = {};  ///< of the vessel's walls
   double hand_discharge = 0;           ///< by a hand formula, kg/s; 0: none for this outlet
   double mass_flow_half_angle = std::numeric_limits<double>::quiet_NaN();  ///< by a hand formula, rad; nan: none
-  double averaging_time = 20e-3;   ///< T, of rates, loads and speeds; peaks are averages over half of it, s
-  double time_scale = 64e-3;       ///< (D/g)^½ of the outlet's width D, without one of the bed's height, s
-  double outlet_width = 0;         ///< D, its narrower side or diameter; 0: no outlet, m
-  double outlet_depth = 0;         ///< along y, m
+  double averaging_time = 20e-3;  ///< T, of rates, loads and speeds; peaks are averages over half of it, s
+  double time_scale = 64e-3;      ///< (D/g)^½ of the outlet's width D, without one of the bed's height, s
+  double outlet_width = 0;        ///< D, its narrower side or diameter; 0: no outlet, m
+  double outlet_depth = 0;        ///< along y, m
   bool outlet_is_round = false;
-  double bed_packing = 0.6;        ///< at the start
-  double stress_share = 1;  ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
+  double bed_packing = 0.6;  ///< at the start
+  double stress_share = 1;   ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }
 };

@@ -51,7 +51,8 @@ Curve swinging_part(const HopperRun& run, std::string_view column, const Window&
   const Curve whole = run.curve(column);
   const Curve curve = while_there_are_grains(whole, window.from);
   if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return {};
-  return at_equal_times(curve, 1 / (interval_of_data * run.setting.averaging_time), window.from, std::min(window.to, curve.time.back()));
+  return at_equal_times(curve, 1 / (interval_of_data * run.setting.averaging_time), window.from,
+                        std::min(window.to, curve.time.back()));
 }
 
 double first_time_at_or_above(const Curve& curve, double level) {
@@ -120,8 +121,8 @@ Plateau steady_discharge(const HopperRun& run) {
   const bool is_fed = mass_at_end(run) > run.setting.mass();
   const double low = is_fed ? none : first_time_at_or_above(share, steady_to);
   const Curve passed = passed_mass(run);
-  const Plateau found = find_plateau(passed, run.setting.averaging_time, plateau_spread, from,
-                                     std::isfinite(low) ? low : run.end());
+  const Plateau found =
+      find_plateau(passed, run.setting.averaging_time, plateau_spread, from, std::isfinite(low) ? low : run.end());
   if (!std::isfinite(found.value)) return found;
   return found.value * (found.to - found.from) >= steady_least * mass_at_end(run) ? found : Plateau{};
 }
@@ -232,7 +233,8 @@ double settled_stress_ratio(const HopperRun& run, const Place& place, const Wind
   std::size_t settled = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) settled = n;
-  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio, place) : none;
+  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio, place)
+                                                              : none;
 }
 
 double balance_error(const HopperRun& run, const Place&, const Window& window) {

@@ -41,8 +41,8 @@ enum class FlowState {
 };
 struct FlowEnd {
   FlowState state = FlowState::has_not_started;
-  double discharged = 0;              ///< of M and what has come in since, 1
-  double left = 0;                    ///< above the outlet at the end, kg
+  double discharged = 0;               ///< of M and what has come in since, 1
+  double left = 0;                     ///< above the outlet at the end, kg
   double stop_time = HopperRun::none;  ///< of the last outflow, where it has stopped or emptied, s
 };
 /// The flow has stopped if over three (D/g)^½ before the end, in each (D/g)^½ of them, less passed than a hundredth of

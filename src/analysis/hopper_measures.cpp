@@ -163,7 +163,8 @@ const std::vector<Row> of_grains = {
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
         mean_of(surface_swelling), {}, {"beside", "width"}),
     Row("surface_angle_largest_fall", "deg",
-        "largest by which surface_angle_hopper lies below an earlier value, means over T/2, once it has passed 1 degree",
+        "largest by which surface_angle_hopper lies below an earlier value, means over T/2, once it has passed 1 "
+        "degree",
         {largest_fall_of<surface_angle_in<Where::hopper>>}),
     Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
         {above_repose<surface_angle_in<Where::hopper>>}),
@@ -194,29 +195,35 @@ const std::vector<Row> of_grains = {
         "period of u_z an eighth of its width above the middle of the outlet, from its spectrum as in period_discharge",
         period_of("probe_velocity")),
     Row("period_stress", "s",
-        "period of τ_zz an eighth of its width above the middle of the outlet, from its spectrum as in period_discharge",
+        "period of τ_zz an eighth of its width above the middle of the outlet, from its spectrum as in "
+        "period_discharge",
         period_of("probe_stress")),
     Row("period_strain", "s",
-        "period of the strain that the law remembers an eighth of its width above the middle of the outlet, from its spectrum as in "
+        "period of the strain that the law remembers an eighth of its width above the middle of the outlet, from its "
+        "spectrum as in "
         "period_discharge",
         period_of("probe_strain")),
     Row("crossing_period_discharge", "s",
         "Q less its centred mean over T, a hundred values in T: mean time between its passages upwards through 0",
         crossing_period_of("discharge_rate"), {{outlet, while_it_flows}}),
     Row("crossing_period_density", "s",
-        "ρ_b an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its passages upwards "
+        "ρ_b an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its "
+        "passages upwards "
         "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_density")),
     Row("crossing_period_velocity", "s",
-        "u_z an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its passages upwards "
+        "u_z an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its "
+        "passages upwards "
         "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_velocity")),
     Row("crossing_period_stress", "s",
-        "τ_zz an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its passages upwards "
+        "τ_zz an eighth of its width above the middle of the outlet less its centred mean over T: mean time between "
+        "its passages upwards "
         "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_stress")),
     Row("crossing_period_strain", "s",
-        "the strain that the law remembers an eighth of its width above the middle of the outlet less its centred mean over T: mean time "
+        "the strain that the law remembers an eighth of its width above the middle of the outlet less its centred mean "
+        "over T: mean time "
         "between its passages upwards through 0, as in crossing_period_discharge",
         crossing_period_of("probe_strain")),
     Row("inertial_share_of_bearing", "1",

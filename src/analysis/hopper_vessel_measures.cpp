@@ -152,7 +152,9 @@ std::vector<Row> hopper_vessel_measures() {
       Row("discharge_steady_to", "s", "where it ends",
           {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).to; }}, {{outlet}}),
       Row("discharge_steady_per_length", "kg/(s m)", "discharge_steady over the length of the slit",
-          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).value / r.setting.outlet_length; }},
+          {[](const Run& r, const Place&, const Window&) {
+            return steady_discharge(r).value / r.setting.outlet_length;
+          }},
           {{vessel_with_slit}}),
       Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
           {[](const Run& r, const Place&, const Window&) {
@@ -174,7 +176,8 @@ std::vector<Row> hopper_vessel_measures() {
       Row("residual_mass", "kg", "mass above the outlet at the end",
           {[](const Run& r, const Place&, const Window&) { return flow_end(r).left; }}, {{outlet}}),
       Row("flow_stop_time", "s",
-          "time of the last outflow from the opening of the gate on, where over three (D/g)^½ before the end of the run "
+          "time of the last outflow from the opening of the gate on, where over three (D/g)^½ before the end of the "
+          "run "
           "less than a hundredth of the discharge passed; none where it flows at the end, or nothing has passed",
           {[](const Run& r, const Place&, const Window&) { return flow_end(r).stop_time; }}, {{outlet}}),
       Row("outlet_packing", "1",

@@ -24,14 +24,14 @@ struct Plateau {
 /// The error is error_of_blocks(). \param cumulative the integral of the rate \param length of a mean
 Plateau find_plateau(const Curve& cumulative, double length, double spread, double from, double to);
 
-/// Half width of the 95 % interval of the mean rate over from..to, from the means of five to ten blocks of equal length:
-/// Student's t times their standard error. A block is at least as long as `length`, and as three correlation times of
-/// the means over a quarter of it, so that blocks are independent; nan where there is no room for five.
+/// Half width of the 95 % interval of the mean rate over from..to, from the means of five to ten blocks of equal
+/// length: Student's t times their standard error. A block is at least as long as `length`, and as three correlation
+/// times of the means over a quarter of it, so that blocks are independent; nan where there is no room for five.
 /// Source: Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461 (blocks); Sokal, Monte Carlo Methods (1997) (length)
 double error_of_blocks(const Curve& cumulative, double length, double from, double to);
 
-/// Integrated correlation time of equally spaced values, in their spacing: 1 + 2 sum of the correlations up to the first
-/// that is not positive; 1 for independent ones.
+/// Integrated correlation time of equally spaced values, in their spacing: 1 + 2 sum of the correlations up to the
+/// first that is not positive; 1 for independent ones.
 double correlation_time(std::span<const double> values);
 
 }  // namespace talus

@@ -164,9 +164,9 @@ class PointsReader {
     const std::vector<Vector3> axis = file_.has(name + "axis") ? file_.vectors(name + "axis") : std::vector<Vector3>();
     if (count < Sector::fewest_copies || count > Sector::most_copies || identities < 0 || identities > most ||
         axis.size() != 1)
-      return problem("field data 'sector_copies', 'sector_axis', 'sector_identities' describe no sector",
-                     fmt::format("{} to {} copies, one axis, a number of identities", Sector::fewest_copies,
-                                 Sector::most_copies));
+      return problem(
+          "field data 'sector_copies', 'sector_axis', 'sector_identities' describe no sector",
+          fmt::format("{} to {} copies, one axis, a number of identities", Sector::fewest_copies, Sector::most_copies));
     points_.copies = SectorCopies{.axis = axis[0], .count = static_cast<int>(count), .identities = identities};
   }
 

@@ -11,8 +11,8 @@
 
 namespace talus::run {
 
-Waiting::Waiting(std::string phase, std::FILE* stream)
-    : phase_(std::move(phase)), stream_(stream), thread_([this] { watch(); }) {}
+Waiting::Waiting(std::string phase, std::FILE* stream, double first)
+    : phase_(std::move(phase)), stream_(stream), thread_([this, first] { watch(first); }) {}
 
 Waiting::~Waiting() {
   {
@@ -23,13 +23,13 @@ Waiting::~Waiting() {
   thread_.join();
 }
 
-void Waiting::watch() {
+void Waiting::watch(double first) {
   using Seconds = std::chrono::duration<double>;
-  constexpr Seconds first{2}, between_live_lines{1};
+  constexpr Seconds between_live_lines{1};
   const bool terminal = isatty(fileno(stream_)) != 0;
   const auto began = std::chrono::steady_clock::now();
   bool shown = false;
-  Seconds next = first;
+  Seconds next{first};
   std::unique_lock lock(mutex_);
   while (!over_.wait_until(lock, began + std::chrono::duration_cast<std::chrono::nanoseconds>(next),
                            [this] { return is_over_; })) {

@@ -14,14 +14,14 @@ namespace talus::run {
 /// Lives as long as the phase. Its thread only looks at the clock and prints: no number of a run depends on it.
 class Waiting {
  public:
-  /// \param phase such as "drawing pictures" \param stream usually stderr
-  explicit Waiting(std::string phase, std::FILE* stream = stderr);
+  /// \param phase such as "drawing pictures" \param stream usually stderr \param first when it is first named, s
+  explicit Waiting(std::string phase, std::FILE* stream = stderr, double first = 2);
   ~Waiting();
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 
  private:
-  void watch();
+  void watch(double first);
 
   std::string phase_;
   std::FILE* stream_;

@@ -57,9 +57,10 @@ class FlowAnswers {
     if (!p_.vessel.empty()) answers.push_back(regime());
     answers.push_back(steady_discharge());
     if (const double peak = of("discharge_rate_max"); peak > 0)
-      answers.push_back({fmt::format("Peak discharge ({} average)", time_text(time_scales_of(p_).averaging_time)),
-                         fmt::format("{} after {}", rate_text(peak, HopperRun::none), time_text(of("discharge_rate_max_time"))),
-                         {}});
+      answers.push_back(
+          {fmt::format("Peak discharge ({} average)", time_text(time_scales_of(p_).averaging_time)),
+           fmt::format("{} after {}", rate_text(peak, HopperRun::none), time_text(of("discharge_rate_max_time"))),
+           {}});
     answers.push_back({"Emptying time (99 %)",
                        std::isfinite(of("emptying_time")) ? time_text(of("emptying_time")) : "not reached",
                        {}});
@@ -83,10 +84,9 @@ class FlowAnswers {
     if (std::isfinite(emptied))
       answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
     else if (std::isfinite(stopped))
-      answer.answer = fmt::format("has stopped after {} with {}: {}", time_text(stopped), rest,
-                                  of("outlet_packing") >= arch * p_.bed.packing
-                                      ? "arch over the outlet"
-                                      : "stagnant at its angle of repose");
+      answer.answer = fmt::format(
+          "has stopped after {} with {}: {}", time_text(stopped), rest,
+          of("outlet_packing") >= arch * p_.bed.packing ? "arch over the outlet" : "stagnant at its angle of repose");
     else if (!(discharged() > 1e-9))
       answer.answer = fmt::format("has not started: {}", rest);
     else
@@ -102,7 +102,8 @@ class FlowAnswers {
       answer.answer = discharged() < hopper::share_of_regime ? too_little() : "not known: no snapshots while it flowed";
     const double own = half_angle_of_cone(p_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
     if (std::isfinite(own) && std::isfinite(most))
-      answer.by_hand = fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike)", regime_of(own <= most), own, most);
+      answer.by_hand =
+          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike)", regime_of(own <= most), own, most);
     return answer;
   }
 
@@ -111,8 +112,8 @@ class FlowAnswers {
                  estimate = of("discharge_rate_beverloo");
     Answer answer{.question = "Steady discharge", .answer = {}};
     if (std::isfinite(rate))
-      answer.answer = rate_text(rate, error) +
-                      (std::isfinite(error) ? " (95 % interval)" : " (too short for an uncertainty)");
+      answer.answer =
+          rate_text(rate, error) + (std::isfinite(error) ? " (95 % interval)" : " (too short for an uncertainty)");
     else
       answer.answer =
           discharged() < hopper::steady_from ? too_little() : "none: it did not stay within 10 % for long enough";
@@ -204,16 +205,19 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
-  const auto add = [&](const char* table, const char* column, std::size_t walls, const auto& name, const auto& formula) {
+  const auto add = [&](const char* table, const char* column, std::size_t walls, const auto& name,
+                       const auto& formula) {
     const std::filesystem::path path = run_folder / "analysis" / table;
     if (!std::filesystem::exists(path)) return;
     for (Answer& answer : answers_of_walls(p, read_series(path), column, walls, name, formula, flows))
       answers.push_back(std::move(answer));
   };
-  add("wall_loads.csv", "patch", p.vessel.size(), [&](std::size_t w) { return continuum::name_of(p, w); },
+  add(
+      "wall_loads.csv", "patch", p.vessel.size(), [&](std::size_t w) { return continuum::name_of(p, w); },
       [&](std::size_t w) { return p.vessel[w].shape == VesselShape::cone ? "Walker" : "Janssen"; });
-  add("box_walls.csv", "wall", continuum::wall_names.size(), [](std::size_t w) { return std::string(continuum::wall_names[w]); },
-      [](std::size_t) { return "Janssen"; });
+  add(
+      "box_walls.csv", "wall", continuum::wall_names.size(),
+      [](std::size_t w) { return std::string(continuum::wall_names[w]); }, [](std::size_t) { return "Janssen"; });
   return answers;
 }
 

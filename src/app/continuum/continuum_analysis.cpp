@@ -204,8 +204,9 @@ std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folde
   make_folder(folder);
   write_snapshots(folder / "snapshots.csv", run, hopper_measures(), "s");
   if (setting.shape.plate)
-    write_table(folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
-                mean_rates(passed_mass(run), hopper::averages(run).largest, hopper::averages(run).curve_every, 0, run.end()));
+    write_table(
+        folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
+        mean_rates(passed_mass(run), hopper::averages(run).largest, hopper::averages(run).curve_every, 0, run.end()));
   if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
     if (setting.shape.plate && !setting.section.empty()) write_residence(folder / "residence.csv", run, paths);
     const PointSet last = read_points(paths.back());

@@ -235,7 +235,8 @@ std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::fi
 std::optional<double> telling_time_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder,
                                                 ReadRuns& runs) {
   const HopperRun& run = hopper_run_of(resolved, folder, runs);
-  if (!run.setting.shape.plate || hopper::flow_end(run).state == hopper::FlowState::has_not_started) return std::nullopt;
+  if (!run.setting.shape.plate || hopper::flow_end(run).state == hopper::FlowState::has_not_started)
+    return std::nullopt;
   return hopper::while_it_flows(run).at;
 }
 

@@ -128,8 +128,11 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
   if (line.x.empty()) return false;
   Chart chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}};
   if (by_hand > 0)
-    chart.series.emplace_back(Line{
-        .x = {0, line.x.back()}, .y = {by_hand, by_hand}, .label = "analytical estimate", .colour = muted, .dash = Dash::dashed});
+    chart.series.emplace_back(Line{.x = {0, line.x.back()},
+                                   .y = {by_hand, by_hand},
+                                   .label = "analytical estimate",
+                                   .colour = muted,
+                                   .dash = Dash::dashed});
   write_png({.panels = {chart}}, path);
   return true;
 }
@@ -193,9 +196,9 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   std::vector<double> over_mean = picked(std::span<const double>(speed), seen);
   for (double& v : over_mean) v /= mean;
   const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
-  ParticlePicture picture =
-      particle_picture(setting, places, radii,
-                       {.values = over_mean, .label = "speed / mean speed (below 0.1: stagnant)", .low = 0, .high = 0.2});
+  ParticlePicture picture = particle_picture(
+      setting, places, radii,
+      {.values = over_mean, .label = "speed / mean speed (below 0.1: stagnant)", .low = 0, .high = 0.2});
   picture.title = title_of(frames.time[n]);
   write_png({.title = title, .panels = {picture}}, path);
   return true;

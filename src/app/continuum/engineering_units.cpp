@@ -63,7 +63,9 @@ std::string rate_text(double rate, double error) {
     double factor;
     const char* name;
   };
-  const Unit unit = std::abs(rate) >= 10 ? Unit{3.6, "t/h"} : std::abs(rate) >= 0.1 ? Unit{1, "kg/s"} : Unit{1e3, "g/s"};
+  const Unit unit = std::abs(rate) >= 10    ? Unit{3.6, "t/h"}
+                    : std::abs(rate) >= 0.1 ? Unit{1, "kg/s"}
+                                            : Unit{1e3, "g/s"};
   const int places = std::max(0, places_of(unit.factor * rate));
   const std::string number = digits(unit.factor * rate, places);
   if (!std::isfinite(error)) return fmt::format("{} {}", number, unit.name);

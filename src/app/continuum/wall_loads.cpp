@@ -85,8 +85,9 @@ void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& r
     double area, low, high;
   };
   const double low = bottom, high = bottom + p.bed.height;
-  const Wall walls[] = {{"left", 'x', side, low, high}, {"right", 'x', side, low, high}, {"front", 'y', face, low, high},
-                        {"rear", 'y', face, low, high}, {"floor", 'z', ground, 0, 0},    {"plate", 'z', ground, low, low}};
+  const Wall walls[] = {{"left", 'x', side, low, high},  {"right", 'x', side, low, high},
+                        {"front", 'y', face, low, high}, {"rear", 'y', face, low, high},
+                        {"floor", 'z', ground, 0, 0},    {"plate", 'z', ground, low, low}};
   const Window flow = hopper::while_it_flows(run);
   std::vector<std::vector<double>> rows;
   for (const Wall& wall : walls) {
@@ -97,8 +98,9 @@ void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& r
     const Curve impulse = scaled(given, (is_low ? -1 : 1) / wall.area);
     const Curve means = mean_rates(impulse, 0.5 * t, 0.05 * t, 0, end);
     const Extremes peak = means.time.empty() ? Extremes{0, HopperRun::none, HopperRun::none} : extremes(means);
-    const auto number = std::find(continuum::wall_names.begin(), continuum::wall_names.end(), std::string_view(wall.name)) -
-                        continuum::wall_names.begin();
+    const auto number =
+        std::find(continuum::wall_names.begin(), continuum::wall_names.end(), std::string_view(wall.name)) -
+        continuum::wall_names.begin();
     rows.push_back({static_cast<double>(number + 1), wall.low, wall.high, wall.area, mean_rate(impulse, -t, 0),
                     mean_rate(impulse, flow.from, flow.to), peak.largest, peak.largest_time});
   }

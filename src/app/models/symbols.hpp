@@ -5,7 +5,9 @@
 namespace talus::app {
 
 inline constexpr const char* symbols_of_hopper_measures =
-    "t is the time from the opening of the gate, h the spacing of the particles at the start, M the mass\nof all "
+    "T is `analysis.averaging_time`: 0.3 (D/g)^½ unless the case gives it, D in that the narrower side of the\noutlet, "
+    "without one the height of the bed. t is the time from the opening of the gate, h the spacing of the particles at "
+    "the start, M the mass\nof all "
     "particles, D and ρ_p diameter and density of the grains; x across, z up from the floor. The\n*hopper* is what "
     "is above the outlet (a slit in a plate, the gap of a wedge), the *bin* what is\nbelow it; without an outlet the "
     "box is a bin. Q is the mass that passes the outlet's plane per\ntime, of particles smoothed along z by the "

@@ -108,7 +108,7 @@ Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& 
   run["key_results"] = Json::array();
   for (const Answer& answer : summary.answers)
     run["key_results"].push_back({{"title", answer.question}, {"value", answer.answer}, {"estimate", answer.by_hand}});
-  if (model.telling_time)
+  if (model.telling_time && series.rows() > 0)
     if (const auto time = model.telling_time(resolved, entry.folder, runs); time && std::isfinite(*time))
       run["telling_time"] = *time;
   run["quantities"] = quantities_of(entry, summary);

@@ -53,7 +53,8 @@ SettlingTime settling_time(const Parameters& p) {
   const double frequency = 0.5 * pi * wave_speed(p) / p.bed.height, loading = loading_time(p, wave_speed(p));
   const double periods = loading * frequency / (2 * pi);
   const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
-  const double excess = std::log(std::max(1.0, speed / scales.settled_speed)), least = loading + scales.settled_duration;
+  const double excess = std::log(std::max(1.0, speed / scales.settled_speed)),
+               least = loading + scales.settled_duration;
   const double most = scales.settling_limit;
   if (!(excess > 0)) return known(std::min(most, least));
   if (!p.settle.damping_time) return {std::min(most, least), most};
@@ -117,11 +118,12 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
     return problems;
   }
   const double settling = settling_time(p).least;
-  const char* const key = p.integration.step                                      ? "integration.step"
-                          : settling <= end                                       ? "run.end"
-                          : p.gate.time > 0                                       ? "gate.time"
-                          : p.settle.loading_time.value_or(0) > time_scales_of(p).settled_duration ? "settle.loading_time"
-                                                                                  : "settle.duration";
+  const char* const key = p.integration.step ? "integration.step"
+                          : settling <= end  ? "run.end"
+                          : p.gate.time > 0  ? "gate.time"
+                          : p.settle.loading_time.value_or(0) > time_scales_of(p).settled_duration
+                              ? "settle.loading_time"
+                              : "settle.duration";
   if (!((end + settling) / step <= most_steps))
     problems.push_back(
         {.key = key,

@@ -150,7 +150,8 @@ double Continuum::time_origin() const {
 double Continuum::latest_origin() const {
   if (state_.gate_time >= 0) return state_.gate_time;
   if (parameters_.gate.opens == GateOpens::from_the_start) return 0;
-  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time : time_scales_of(parameters_).settling_limit;
+  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time
+                                                      : time_scales_of(parameters_).settling_limit;
 }
 
 double Continuum::has_moved_from() const {

@@ -68,8 +68,8 @@ class Continuum {
 
   Parameters parameters_;
   State state_;
-  std::unique_ptr<Workspace> workspace_;   // made by begin or resume
-  std::optional<Domain> around_whole_;     // of a sector, with its workspace
+  std::unique_ptr<Workspace> workspace_;          // made by begin or resume
+  std::optional<Domain> around_whole_;            // of a sector, with its workspace
   mutable std::optional<PointSet> part_, whole_;  // of the present state, if they were asked for
 };
 

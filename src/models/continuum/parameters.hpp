@@ -253,8 +253,7 @@ void for_each_parameter(Visit&& visit, P& p) {
                      "the bed has settled when 99 of 100 particles are slower than this; left out: 0.0008 times (g "
                      "D)^½, D the narrower side of the outlet, without one the height of the bed"},
            p.settle.speed);
-  settling(Parameter{"settle.duration", dimension::time, at_least(0),
-                     "for this long; left out: 0.3 times (D/g)^½"},
+  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for this long; left out: 0.3 times (D/g)^½"},
            p.settle.duration);
   settling(Parameter{"settle.longest", dimension::time, above(0),
                      "a bed that is still moving then is a failure; left out: 15 times (L/g)^½, L the larger of D and "

@@ -44,8 +44,8 @@ TimeScales time_scales_of(const Parameters& p) {
           .time = time,
           .settled_speed = p.settle.speed.value_or(share_of_speed * std::sqrt(length * g)),
           .settled_duration = p.settle.duration.value_or(share_of_time * time),
-          .settling_limit = p.settle.longest.value_or(end_of_filling(p) +
-                                                      share_of_limit * std::sqrt(std::max(length, bed) / g)),
+          .settling_limit =
+              p.settle.longest.value_or(end_of_filling(p) + share_of_limit * std::sqrt(std::max(length, bed) / g)),
           .averaging_time = p.analysis.averaging_time.value_or(share_of_time * time)};
 }
 

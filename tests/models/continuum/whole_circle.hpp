@@ -9,6 +9,7 @@
 #include "models/continuum/sector.hpp"
 #include "models/continuum/sweep.hpp"
 #include "models/continuum/vessel.hpp"
+#include "numerics/whole.hpp"
 
 namespace talus::continuum {
 
