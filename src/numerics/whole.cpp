@@ -25,15 +25,15 @@ std::map<std::string, std::array<std::span<const double>, 6>> tensors_of(const S
     if (!column.name.ends_with(components[0])) continue;
     const std::string base(column.name.substr(0, column.name.size() - components[0].size()));
     std::array<std::span<const double>, 6> of;
-    const bool is_whole = std::all_of(components.begin(), components.end(), [&](std::string_view component) {
-      const std::string name = base + std::string(component);
-      return std::any_of(part.columns.begin(), part.columns.end(), [&](const ColumnView& c) {
-        const auto* values = std::get_if<std::span<const double>>(&c.values);
-        if (c.name != name || !values) return false;
-        of[static_cast<std::size_t>(&component - components.data())] = *values;
-        return true;
-      });
-    });
+    bool is_whole = true;
+    for (std::size_t n = 0; n < components.size(); ++n) {
+      const std::string name = base + std::string(components[n]);
+      const auto found =
+          std::find_if(part.columns.begin(), part.columns.end(), [&](const ColumnView& c) { return c.name == name; });
+      const auto* values = found != part.columns.end() ? std::get_if<std::span<const double>>(&found->values) : nullptr;
+      if (values) of[n] = *values;
+      is_whole = is_whole && values;
+    }
     if (is_whole) tensors.emplace(base, of);
   }
   return tensors;

@@ -157,7 +157,7 @@ class InABrowser(ProgramTest):
         canvas = "document.getElementById('canvas').toDataURL()"
         seen = [page.evaluate(canvas)]
         results = page.evaluate("document.getElementById('key-results-body').textContent")
-        self.assertRegex(results, "Flow.*Steady discharge.*Peak pressure")
+        self.assertRegex(results, "Flow.*Steady discharge.*Pressure at rest, plate")
         self.assertLess(page.box("#key-results")[1], page.box("#view")[1], "they stand first")
         clock = "document.getElementById('clock').textContent"
         before = page.evaluate(clock)

@@ -78,7 +78,9 @@ class FlowAnswers {
   }
 
   Answer end() const {
-    const std::string rest = fmt::format("{} ({}) left", mass_text(of("residual_mass")), share_text(std::abs(left_)));
+    const std::string rest = of("residual_mass") > 0 ? fmt::format("{} ({}) left", mass_text(of("residual_mass")),
+                                                                   share_text(std::abs(left_)))
+                                                     : "nothing left";
     const double stopped = of("flow_stop_time"), emptied = of("emptying_time");
     Answer answer{.question = "Flow", .answer = {}};
     if (std::isfinite(emptied))

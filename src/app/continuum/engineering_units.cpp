@@ -45,6 +45,7 @@ std::string mass_text(double kilograms) {
 }
 
 std::string time_text(double seconds) {
+  if (std::abs(seconds) < 0.1) return three_digits(1e3 * seconds) + " ms";
   if (std::abs(seconds) < 120) return three_digits(seconds) + " s";
   const long whole = std::lround(seconds);
   if (whole < 7200) return fmt::format("{} min {} s", whole / 60, whole % 60);

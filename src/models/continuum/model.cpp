@@ -277,6 +277,10 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double h = *std::min_element(workspace_->smoothing_length.begin(), workspace_->smoothing_length.end());
   const double courant = s.last_step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
+  constexpr double most_packing = 0.74, slack = 1.02;
+  const double at_start = record.series.has("packing_max") && record.series.rows() > 0
+                              ? record.series.column("packing_max").front()
+                              : std::nan("");
   const double slow = record.value("inertial_share");
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
   const std::vector<RegimeLine> of_run = {
@@ -287,8 +291,11 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
       {"speed of pressure waves", fmt::format("{:.4g} m/s", c), "bound over the law's own table"},
       {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over that of pressure waves", mach > 0.3},
       {"largest packing", fmt::format("{:.3f}", packing),
-       "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains",
-       packing > 0.74},
+       fmt::format(
+           "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains; "
+           "the lattice of the start, beside walls and about a sector's axis, has up to {:.3f}",
+           at_start),
+       packing > std::max(most_packing, slack * at_start)},
       {"share of slow flow", fmt::format("{:.3f}", slow),
        "inertial_share: particles with an inertial number below 0.01, where the stress does not depend on the rate",
        slow < 0.5},

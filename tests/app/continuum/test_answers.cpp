@@ -121,7 +121,7 @@ TEST_F(Answers, NameTheBandOfEachWallThatBearsMost) {
     return a.question.starts_with("Peak pressure (") && a.question.ends_with("average), cone");
   });
   ASSERT_NE(peak, answers.end());
-  EXPECT_EQ(peak->answer, "1.2 kPa at z = 65 mm, 0.02 s after the gate opened");
+  EXPECT_EQ(peak->answer, "1.2 kPa at z = 65 mm, 20 ms after the gate opened");
   for (const Answer& answer : answers) EXPECT_FALSE(answer.question.ends_with("lid")) << "it carries almost no load";
   // Before a tenth has left there is no flow to speak of.
   set("residual_fraction", 0.998);
@@ -158,6 +158,7 @@ TEST(EngineeringUnits, AreThoseOfTheSize) {
   EXPECT_EQ(mass_text(15234), "15.2 t");
   EXPECT_EQ(length_text(1.25), "1.25 m");
   EXPECT_EQ(time_text(7500), "2 h 5 min");
+  EXPECT_EQ(time_text(0.0192), "19.2 ms");
   EXPECT_EQ(share_text(0.002), "0.2 %");
   EXPECT_EQ(share_text(0.998), "99.8 %");
   EXPECT_EQ(share_text(1), "100 %");

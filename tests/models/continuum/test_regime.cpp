@@ -188,6 +188,8 @@ TEST(RegimeOfRun, TheLatticeOfTheStartIsNoLargestPacking) {
   EXPECT_FALSE(line_of(model, record, "largest packing")->warning);
   record.series.columns[1] = {0.6, 0.6, 0.6, 0.76};
   EXPECT_TRUE(line_of(model, record, "largest packing")->warning);
+  record.series.columns[1] = {0.77, 0.77, 0.776, 0.77};
+  EXPECT_FALSE(line_of(model, record, "largest packing")->warning) << "as it was laid";
   // With a bed that settles, from the opening of the gate on.
   model.mutable_state().gate_time = 0.08;
   record.series.columns[1] = {0.8, 0.8, 0.8, 0.6};
