@@ -58,6 +58,21 @@ std::string critical_state(double slow_friction) {
       slow_friction, std::min(2.0, 1.52 * slow_friction));
 }
 
+/// How the bed settles, by the time (D/g)^½ of a length D: the outlet's width, or the height of a bed without one.
+/// \param creeps whether a lattice of particles may go on creeping: along inclined walls, or beside one that goes
+std::string settling(double length, bool creeps) {
+  const double time = std::sqrt(length / gravity), speed = std::sqrt(length * gravity);
+  const auto two_digits = [](double value) {
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return unit * std::round(value / unit);
+  };
+  std::string text = fmt::format("[settle]\ndamping_time = {}\n", written(two_digits(0.08 * time), "ms"));
+  if (creeps)
+    text += fmt::format("speed = {}\nduration = {}\n", written(two_digits(3.2e-3 * speed), "mm/s"),
+                        written(two_digits(0.15 * time), "ms"));
+  return text + "\n";
+}
+
 std::string ending(double end, double frames, double rows) {
   return fmt::format(
       "[integration]\nmethod = \"leapfrog\"\ncourant = 1.2\n\n"
@@ -111,8 +126,9 @@ std::string write_hopper(const Answers& a) {
   text += critical_state(a["friction"]);
   text += wedge
               ? "# Along smooth inclined walls a lattice of particles would go on creeping.\n[walls]\nfriction_from = "
-                "\"start\"\n\n[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n"
-              : "[settle]\ndamping_time = \"5 ms\"\n\n";
+                "\"start\"\n\n"
+              : "";
+  text += settling(outlet, wedge);
   return text + ending(end, 50, 5000);
 }
 
@@ -162,8 +178,8 @@ std::string write_silo(const Answers& a) {
       "# a mass may stand.\n[bed]\nspacing = {}\nheight = {}\n\n",
       outlet / spacing, written(spacing, "mm"), written(fill, "mm"));
   text +=
-      "[collisions]\nform = \"none\"\n\n# As little viscosity as the scheme bears.\n[sph]\nviscosity_alpha = 0.01\n\n"
-      "[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n";
+      "[collisions]\nform = \"none\"\n\n# As little viscosity as the scheme bears.\n[sph]\nviscosity_alpha = 0.01\n\n" +
+      settling(outlet, true);
   return text + ending(rounded_up(1.5 * volume / rate), 25, 1000);
 }
 
@@ -194,10 +210,7 @@ std::string write_column(const Answers& a) {
   text += fmt::format("[bed]\npacking = {}\nspacing = {}\nright = {}\nheight = {}\n\n", packing, written(spacing, "mm"),
                       written(width, "mm"), written(height, "mm"));
   text += critical_state(a["friction"]);
-  text += fmt::format(
-      "[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n[walls]\ncoefficient = "
-      "{:.5g}\n\n",
-      a["floor-friction"]);
+  text += settling(height, true) + fmt::format("[walls]\ncoefficient = {:.5g}\n\n", a["floor-friction"]);
   return text + ending(rounded_up(7 * std::sqrt(height / gravity)), 25, 1000);
 }
 
