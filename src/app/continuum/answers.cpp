@@ -189,7 +189,7 @@ std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const Serie
       if (!row) continue;
       Answer answer{.question = fmt::format("{}, {}", kind.title, name(w)), .answer = loads.text(kind.pressure, *row)};
       if (!kind.estimate)
-        answer.answer += fmt::format(", {} after the gate opened", time_text(loads.at("time_of_largest", *row)));
+        answer.answer += fmt::format(", after {}", time_text(loads.at("time_of_largest", *row)));
       else if (const double estimate = loads.at(kind.estimate, *row); std::isfinite(estimate))
         answer.by_hand = fmt::format("{} ({})", pressure_text(estimate), formula(w));
       answers.push_back(std::move(answer));
