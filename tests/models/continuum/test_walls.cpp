@@ -96,7 +96,7 @@ TEST(Walls, ABlockSlidesWithCoulombsFrictionAndSticksBelowIt) {
 /// floor carries L/H (1 - exp(-H/L)) of a bed of height H, L = W/(2 mu K), K the force on a wall over what the vertical
 /// stress would exert on it.
 TEST(Walls, HoldTheGrainsOfASiloAsJanssenSaid) {
-  Parameters p;
+  Parameters p = as_printed();
   p.box = {.width = 30e-3, .depth = 5e-3, .height = 180e-3};
   p.bed.spacing = 5e-3;
   p.bed.height = 150e-3;
