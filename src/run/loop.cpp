@@ -213,6 +213,8 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   LiveLine line(model, options);
   double last_checkpoint = clock.wall();
   LoopResult result;
+  constexpr double slow_step = 1;          // s: the next one is named while it lasts
+  double seconds_of_step = 2 * slow_step;  // of the last; the first builds what it needs
   while (!(model.time() >= model.time_origin() + options.end)) {
     if (const auto reason = interrupt.reason()) {
       result.interrupted = true;
@@ -221,7 +223,13 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     }
     const double time_before = model.time();
     const bool begun = !std::isinf(model.time_origin());
-    model.advance(team);
+    {
+      std::optional<Waiting> waiting;
+      if (seconds_of_step > slow_step) waiting.emplace(fmt::format("step {}", model.step() + 1));
+      const auto began = std::chrono::steady_clock::now();
+      model.advance(team);
+      seconds_of_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    }
     check_step(guard, model, time_before, begun);
     if (model.time() >= next_row_time) add_row(*series);
     if (snapshots.is_due(model.time())) snapshots.take(model);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -25,7 +26,7 @@ Waiting::~Waiting() {
 
 void Waiting::watch(double first) {
   using Seconds = std::chrono::duration<double>;
-  constexpr Seconds between_live_lines{1};
+  constexpr Seconds between_live_lines{1}, between_lines{60};
   const bool terminal = isatty(fileno(stream_)) != 0;
   const auto began = std::chrono::steady_clock::now();
   bool shown = false;
@@ -37,7 +38,7 @@ void Waiting::watch(double first) {
     std::fprintf(stream_, terminal ? "\r\033[K%s" : "%s\n", line.c_str());
     std::fflush(stream_);
     shown = true;
-    next += terminal ? between_live_lines : next;
+    next += terminal ? between_live_lines : std::min(next, between_lines);
   }
   if (shown && terminal) {
     std::fprintf(stream_, "\r\033[K");

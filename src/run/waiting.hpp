@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Says what a run does while it does not step: a phase that lasts longer than two seconds is named on stderr, on a
-/// terminal with its seconds in a line that is rewritten, elsewhere after 2, 4, 8, ... seconds.
+/// terminal with its seconds in a line that is rewritten, elsewhere after 2, 4, 8, ... seconds, and each minute.
 #pragma once
 
 #include <condition_variable>
