@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -193,6 +194,13 @@ class PointsReader {
 
 PointSet read_points(const std::filesystem::path& path) {
   return PointsReader(path).read();
+}
+
+int read_copies(const std::filesystem::path& path) {
+  const hdf5::Reader file(path);
+  const std::string name = root + "/FieldData/sector_copies";
+  const std::vector<std::int64_t> copies = file.has(name) ? file.integers(name) : std::vector<std::int64_t>();
+  return copies.size() == 1 ? static_cast<int>(std::clamp<std::int64_t>(copies[0], 1, Sector::most_copies)) : 1;
 }
 
 double read_points_time(const std::filesystem::path& path) {

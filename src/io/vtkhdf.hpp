@@ -32,6 +32,10 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot);
 /// \throws InputError if it is no such file: all that is wrong with it
 PointSet read_points(const std::filesystem::path& path);
 
+/// How many times as many particles read_points() returns as the file of particles holds: the copies of a sector,
+/// else 1. \throws FileError
+int read_copies(const std::filesystem::path& path);
+
 /// The time of one of our files, of points or of a grid, s. \throws FileError
 double read_points_time(const std::filesystem::path& path);
 

@@ -65,6 +65,9 @@ TEST(VtkHdf, OfASectorHoldsItOnceAndReadsTheWhole) {
   EXPECT_LT(norm(whole.positions()[1] - Vector3{1, 2, 5}), 1e-15);
   EXPECT_LT(norm(whole.vectors("velocity")[3] - Vector3{0, -1, 0}), 1e-15);
   EXPECT_THAT(whole.integers("identity"), ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(read_copies(folder / "p.vtkhdf"), 4);
+  write_points(folder / "whole.vtkhdf", sample().view());
+  EXPECT_EQ(read_copies(folder / "whole.vtkhdf"), 1);
   part.copies->count = 3;
   write_points(folder / "q.vtkhdf", part.view());
   EXPECT_THAT(message_of<InputError>([&] { read_points(folder / "q.vtkhdf"); }), HasSubstr("describe no sector"));
