@@ -22,7 +22,7 @@ namespace talus::continuum {
 struct Workspace {
   Domain domain;
   Material material;
-  double sound_speed;       ///< bound for the time step, m/s
+  double sound_speed;  ///< bound for the time step, m/s
   TimeScales scales;
   double loading_time;      ///< over which gravity is raised, s
   double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
