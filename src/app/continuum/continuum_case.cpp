@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/hopper_estimators.hpp"
 #include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
@@ -80,7 +81,7 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
         {"settling", f.settling_steps, f.settling_steps, f.most_settling_steps / f.settling_steps});
   forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
   const double rows = run.series > 0 ? run.end / run.series : f.most_settling_steps + f.flow_steps;
-  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.written + 45 * f.cells + 20e3) +
+  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
                         2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
   return forecast;
 }
@@ -298,6 +299,7 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
   const Parameters& p = case_of(resolved, folder, runs).model;
   const HopperRun& run = hopper_run_of(resolved, folder, runs);
   std::vector<NamedValue> quantities = analyze_continuum(folder, run);
+  write_box_walls(folder, run, p);
   if (!p.vessel.empty()) {
     const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
     const auto within = [&](const Vector3& x) {
@@ -312,6 +314,14 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                          const std::vector<NamedValue>& quantities, ReadRuns& runs) {
   return answers_of(case_of(resolved, folder, runs).model, quantities, folder);
+}
+
+std::optional<double> telling_time_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                ReadRuns& runs) {
+  const HopperRun& run = hopper_run_of(resolved, folder, runs);
+  if (!run.setting.shape.plate || hopper::flow_end(run).state == hopper::FlowState::has_not_started)
+    return std::nullopt;
+  return hopper::while_it_flows(run).at;
 }
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
