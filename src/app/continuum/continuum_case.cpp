@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/answers.hpp"
@@ -119,32 +120,31 @@ Problem too_large(const Parameters& p, double available) {
       .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
 }
 
-std::filesystem::path path_of(const CaseFile& file, const std::string& given) {
-  const std::filesystem::path path = given;
-  return path.is_absolute() ? path : std::filesystem::path(file.name()).parent_path() / path;
-}
-
 /// Reads the files of the vessel before the case is checked, so that their faults are told with the rest.
-void read_surfaces(const CaseFile& file, Parameters& p) {
+/// \returns those that cannot be read
+std::vector<Problem> read_surfaces(const CaseFile& file, Parameters& p) {
+  std::vector<Problem> problems;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    const CaseEntry* entry = file.find(continuum::vessel_key(n, "file"));
+    const std::string key = continuum::vessel_key(n, "file");
+    const CaseEntry* entry = file.find(key);
     const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
     if (name && !name->empty())
-      p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(path_of(file, *name)));
+      read_input(key, problems, [&] {
+        p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(input_path(file, *name)));
+      });
   }
+  return problems;
 }
 
-/// The same of the particles of bed.file. \returns the faults of the file
+/// The same of the particles of bed.file. \throws InputError with the faults of the file
 std::vector<Problem> read_given_bed(const CaseFile& file, Parameters& p) {
+  std::vector<Problem> problems;
   const CaseEntry* entry = file.find("bed.file");
   const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-  if (!name || name->empty()) return {};
-  try {
-    p.bed.given = std::make_shared<continuum::GivenBed>(read_bed(path_of(file, *name)));
-  } catch (const InputError& error) {
-    return error.problems();
-  }
-  return {};
+  if (name && !name->empty())
+    read_input("bed.file", problems,
+               [&] { p.bed.given = std::make_shared<continuum::GivenBed>(read_bed(input_path(file, *name))); });
+  return problems;
 }
 
 /// Of the surfaces and particles that the files of the case hold.
@@ -164,21 +164,22 @@ struct ContinuumCase : ModelCase<Parameters> {
   FilledIn filled;  ///< what follows from other keys
 };
 
-/// \throws InputError with every problem, but for those of bed.file
-ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
+/// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
+ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
   defaults.beds.resize(std::min(file.tables("beds"), most_beds));
   for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
-  read_surfaces(file, defaults);
+  for (Problem& problem : read_surfaces(file, defaults)) unreadable.push_back(std::move(problem));
   FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
   reader.check(filled.problems);
+  reader.check(std::move(unreadable));
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
   read.model = continuum::with_level(read.model);
   if (!read.model.bed.file.empty())
-    read.model.bed.file = std::filesystem::absolute(path_of(file, read.model.bed.file)).lexically_normal();
+    read.model.bed.file = std::filesystem::absolute(input_path(file, read.model.bed.file)).lexically_normal();
   set_from_bed(file, read.model, read.filled);
   if (!file.contains("integration.courant")) {
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
@@ -186,7 +187,7 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
   }
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
-      part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
+      part.file = std::filesystem::absolute(input_path(file, part.file)).lexically_normal();
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.throw_problems();
   return read;
@@ -195,14 +196,19 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
 /// \throws InputError with every problem
 ContinuumCase read_continuum(const CaseFile& file) {
   Parameters defaults;
-  std::vector<Problem> problems = read_given_bed(file, defaults);
-  if (problems.empty()) return read_continuum(file, std::move(defaults));
+  std::vector<Problem> unreadable, of_file;
   try {
-    read_continuum(file, std::move(defaults));
-  } catch (const InputError& others) {
-    problems.insert(problems.begin(), others.problems().begin(), others.problems().end());
+    unreadable = read_given_bed(file, defaults);
+  } catch (const InputError& error) {
+    of_file = error.problems();
   }
-  throw InputError(std::move(problems));
+  if (of_file.empty()) return read_continuum(file, std::move(defaults), std::move(unreadable));
+  try {
+    read_continuum(file, std::move(defaults), {});
+  } catch (const InputError& others) {
+    of_file.insert(of_file.begin(), others.problems().begin(), others.problems().end());
+  }
+  throw InputError(std::move(of_file));
 }
 
 /// Lists parameters, those that follow from others without a value of their own.
@@ -250,6 +256,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
+  prepared.regime.push_back(continuum::courant_of_case(p));
   prepared.start = [p] { return bed_lines(p); };
   prepared.draw_start = [p, title = read.run.title](const std::filesystem::path& path) { draw_bed(p, title, path); };
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
@@ -268,7 +275,8 @@ PreparedCase prepare_continuum(const CaseFile& file) {
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
   return runs.of<HopperRun>(folder, [&] {
     const auto* const read = runs.find_case<ContinuumCase>(folder);
-    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model));
+    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model),
+                       runs.snapshot_memory());
   });
 }
 
