@@ -151,7 +151,8 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 }
 
 double bulk_modulus_for(const continuum::Parameters& p) {
-  return moduli_over_weight * (p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p));
+  return moduli_over_weight *
+         (p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p));
 }
 
 void set_from_bed(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
