@@ -61,8 +61,14 @@ std::vector<NamedValue> groups(const Parameters& p) {
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
-    groups.insert(groups.end(), {{"outlet_width", "m", outlet->right - outlet->left},
-                                 {"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing}});
+    groups.insert(groups.end(),
+                  {{"outlet_width", "m", outlet->across}, {"slit_over_spacing", "1", outlet->across / p.bed.spacing}});
+  if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
+    for (const continuum::VesselOutlet& outlet : outlets) {
+      groups.push_back({"discharge_by_hand_" + outlet.name, "kg/s", discharge_by_hand(p, outlet)});
+      groups.push_back({"slit_over_spacing_" + outlet.name, "1", outlet.narrow / p.bed.spacing});
+      groups.push_back({"slit_over_grain_" + outlet.name, "1", outlet.narrow / p.grains.diameter});
+    }
   return groups;
 }
 
@@ -136,14 +142,18 @@ std::vector<Problem> read_surfaces(const CaseFile& file, Parameters& p) {
   return problems;
 }
 
-/// The same of the particles of bed.file. \throws InputError with the faults of the file
+/// The same of the particles of bed.file. \returns the faults of the file
 std::vector<Problem> read_given_bed(const CaseFile& file, Parameters& p) {
   std::vector<Problem> problems;
   const CaseEntry* entry = file.find("bed.file");
   const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-  if (name && !name->empty())
+  if (!name || name->empty()) return problems;
+  try {
     read_input("bed.file", problems,
                [&] { p.bed.given = std::make_shared<continuum::GivenBed>(read_bed(input_path(file, *name))); });
+  } catch (const InputError& error) {
+    problems = error.problems();
+  }
   return problems;
 }
 
@@ -155,7 +165,7 @@ std::string digest_of_files(const Parameters& p) {
   };
   if (p.bed.given) append(p.bed.given->position), append(p.bed.given->velocity), append(p.bed.given->density);
   for (const continuum::VesselPart& part : p.vessel)
-    for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
+    for (const Triangle& t : part.drawn ? part.drawn->triangles() : std::span<const Triangle>{})
       bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
   return bytes.empty() ? std::string() : digest(bytes);
 }
@@ -164,14 +174,14 @@ struct ContinuumCase : ModelCase<Parameters> {
   FilledIn filled;  ///< what follows from other keys
 };
 
-/// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
-ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
+/// \throws InputError with every problem, but for those of bed.file
+ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
+  std::vector<Problem> unreadable = read_surfaces(file, defaults);
   defaults.beds.resize(std::min(file.tables("beds"), most_beds));
   for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
-  for (Problem& problem : read_surfaces(file, defaults)) unreadable.push_back(std::move(problem));
   FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
   reader.check(filled.problems);
@@ -180,7 +190,7 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vec
   read.model = continuum::with_level(read.model);
   if (!read.model.bed.file.empty())
     read.model.bed.file = std::filesystem::absolute(input_path(file, read.model.bed.file)).lexically_normal();
-  set_from_bed(file, read.model, read.filled);
+  set_from_bed(file, read.model, read.run.end, read.filled);
   if (!file.contains("integration.courant")) {
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
     read.filled.keys.emplace("integration.courant", "method");
@@ -196,19 +206,14 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vec
 /// \throws InputError with every problem
 ContinuumCase read_continuum(const CaseFile& file) {
   Parameters defaults;
-  std::vector<Problem> unreadable, of_file;
+  std::vector<Problem> problems = read_given_bed(file, defaults);
+  if (problems.empty()) return read_continuum(file, std::move(defaults));
   try {
-    unreadable = read_given_bed(file, defaults);
-  } catch (const InputError& error) {
-    of_file = error.problems();
-  }
-  if (of_file.empty()) return read_continuum(file, std::move(defaults), std::move(unreadable));
-  try {
-    read_continuum(file, std::move(defaults), {});
+    read_continuum(file, std::move(defaults));
   } catch (const InputError& others) {
-    of_file.insert(of_file.begin(), others.problems().begin(), others.problems().end());
+    problems.insert(problems.begin(), others.problems().begin(), others.problems().end());
   }
-  throw InputError(std::move(of_file));
+  throw InputError(std::move(problems));
 }
 
 /// Lists parameters, those that follow from others without a value of their own.
@@ -256,6 +261,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
+  prepared.remarks = continuum::remarks_of_vessel(p);
   prepared.regime.push_back(continuum::courant_of_case(p));
   prepared.start = [p] { return bed_lines(p); };
   prepared.draw_start = [p, title = read.run.title](const std::filesystem::path& path) { draw_bed(p, title, path); };
@@ -263,7 +269,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p, end = read.run.end](ThreadTeam& team) { return measure_step(p, end, team); };
-  prepared.shortenings = [p] { return shorter_runs(p); };
+  prepared.shortenings = [p, end = read.run.end] { return shorter_runs(p, end); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = p.plate.height || continuum::outlet_of(p)
                           ? run::Headline{.column = "discharge_rate", .name = "discharge"}

@@ -4,13 +4,16 @@
 
 #include "analysis/hopper.hpp"
 #include "models/continuum/parameters.hpp"
+#include "models/continuum/vessel_outlets.hpp"
 
 namespace talus::app {
 
-/// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with a round or rectangular outlet; of a
+/// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with round or rectangular outlets; of a
 /// level plate with a slit, which goes on beyond the faces that it ends at. Of an outlet that is cut by planes of
 /// symmetry, what leaves on this side of them. \returns 0 where there is no formula, as for a wedge
 double discharge_by_hand(const continuum::Parameters& parameters);
+/// Of one of the outlets of a vessel; discharge_by_hand() adds them up.
+double discharge_by_hand(const continuum::Parameters& parameters, const continuum::VesselOutlet& outlet);
 
 /// The largest half angle of mass flow in a cone (physics/granular/silo_pressure.hpp), rad; nan if the vessel empties
 /// through no cone. The friction inside is the law's, 30 degrees where it has none.

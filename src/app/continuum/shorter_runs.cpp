@@ -39,7 +39,7 @@ Shortening softer_grains(double modulus) {
 
 Shortening larger_particles(const continuum::Parameters& p) {
   const auto outlet = continuum::outlet_of(p);
-  const double width = outlet ? outlet->right - outlet->left : 0;
+  const double width = outlet ? outlet->across : 0;
   std::vector<double> spacings;
   if (width > 0) spacings.push_back(width / enough_across);
   for (const double factor : larger)
@@ -56,11 +56,11 @@ Shortening larger_particles(const continuum::Parameters& p) {
 
 }  // namespace
 
-std::vector<Shortening> shorter_runs(const continuum::Parameters& p) {
+std::vector<Shortening> shorter_runs(const continuum::Parameters& p, double end) {
   std::vector<Shortening> all;
   if (!p.box.sector && !p.vessel.empty()) all.push_back(sector());
   if (p.law.is<granular::CriticalState>()) {
-    const double modulus = bulk_modulus_for(p);
+    const double modulus = bulk_modulus_for(p, end);
     if (modulus > 0 && p.law.of<granular::CriticalState>().bulk_modulus > 1.05 * modulus)
       all.push_back(softer_grains(modulus));
   }
