@@ -123,6 +123,9 @@ bool check_extent(const Parameters& p, int axis, const Add& add) {
 
 /// Whether the bed begins somewhere.
 void check_inside(const Parameters& p, const Add& add) {
+  // Of a file that cannot be read nothing follows.
+  for (const VesselPart& part : p.vessel)
+    if (part.shape == VesselShape::stl && !part.drawn) return;
   if (p.bed.inside) {
     const auto& x = *p.bed.inside;
     const bool inside =
