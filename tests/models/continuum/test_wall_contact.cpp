@@ -370,7 +370,7 @@ TEST(WallContact, AWallEndsAtItsRim) {
     Parameters p = incline.make(pi / 2, foot);  // upright, its rim 15 spacings above
     p.gravity.acceleration = 0;
     p.bed.left = 0, p.bed.right = 4 * spacing;
-    for (const double above : {2.1, 1.05 * sph::contact_distance}) {
+    for (const double above : {2.5, 1.05 * sph::contact_distance}) {
       ThreadTeam team(1);
       Continuum model(p);
       const Vector3 velocity{1, 0, 0}, start = foot + spacing * Vector3{-8, 0, 15 + above};
