@@ -98,7 +98,8 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
     const double own = half_angle_of_cone(p) * 180 / std::numbers::pi, most = value("mass_flow_half_angle_jenike");
     if (std::isfinite(own) && std::isfinite(most))
       answers.back().by_hand =
-          fmt::format("{}, {:.3g} degrees of at most {:.0f} (Jenike)", kind_of(own <= most), own, most);
+          fmt::format("{}, {:.3g} degrees of at most {:.0f} (Jenike, grains of {:.3g} degrees in plane strain)",
+                      kind_of(own <= most), own, most, internal_friction_by_hand(p) * 180 / std::numbers::pi);
   }
   if (const double error = value("weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"walls bear at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});

@@ -50,6 +50,27 @@ TEST(Materials, EveryValueHasASourceAndLiesInItsRange) {
   }
 }
 
+TEST(Materials, EveryFrictionIsThatOfTheTestThatItsFileNames) {
+  for (std::size_t n = 0; n < count; ++n)
+    for (const MaterialLine& line : lines_of(static_cast<GrainMaterial>(n))) {
+      if (line.key != "law.critical-state.friction" && line.key != "law.critical-state.fast_friction") continue;
+      std::size_t test = 0;
+      while (test < choices<granular::FrictionTest>.size() && choices<granular::FrictionTest>[test] != line.test) ++test;
+      ASSERT_LT(test, choices<granular::FrictionTest>.size()) << line.key << ": no test \"" << line.test << '"';
+      EXPECT_TRUE(!line.angle.empty() || line.key.ends_with("fast_friction"));
+      if (line.angle.empty()) continue;
+      const double angle = parse_quantity(line.angle)->value;
+      EXPECT_NEAR(parse_quantity(line.value)->value,
+                  granular::friction_of_angle(static_cast<granular::FrictionTest>(test), angle), 2e-3)
+          << choices<GrainMaterial>[n];
+    }
+}
+
+TEST(Materials, AFrictionIsThreeAngles) {
+  EXPECT_EQ(angles_of_friction(0.577),
+            "30.0 degrees on the plane of a shear tester, 35.2 in plane strain, 25.4 in triaxial compression");
+}
+
 TEST(Materials, EveryEntryOfAFileIsTaken) {
   for (std::size_t n = 0; n < count; ++n) {
     const auto material = static_cast<GrainMaterial>(n);
