@@ -76,7 +76,7 @@ TEST_F(Answers, OfASiloThatDoesNotEmptySaySo) {
   EXPECT_EQ(find(answers_of(small_silo(), stuck, folder), "kind of flow")->answer,
             "funnel flow, 60 % of the bed moves");
   EXPECT_EQ(find(answers_of(small_silo(), stuck, folder), "kind of flow")->by_hand,
-            "funnel flow, 30 degrees of at most 25 (Jenike)");
+            "funnel flow, 30 degrees of at most 25 (Jenike, grains of 30 degrees in plane strain)");
 }
 
 TEST_F(Answers, NameTheBandOfEachWallThatBearsMost) {
