@@ -83,7 +83,8 @@ def round_deposit(x, spacing, column):
     """Foot, height and whether each particle belongs to it. \\param x places, from the axis, m \\param column radius, m"""
     on = deposit(x, spacing)
     radius, direction = np.hypot(x[on, 0], x[on, 1]), np.arctan2(x[on, 1], x[on, 0])
-    return foot_of(radius, direction, spacing, 36), x[on, 2][radius < 0.15 * column].max() + 0.5 * spacing, on
+    axis = radius < max(0.15 * column, 1.5 * spacing)
+    return foot_of(radius, direction, spacing, 36), x[on, 2][axis].max() + 0.5 * spacing, on
 
 
 def slope_of_heap(x, spacing):
