@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-/// talus check: what a case says, resolved to SI with every default, and what its run will take.
+/// talus check: what a case says, what follows from it, and what its run will take; with --all every key in SI.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
@@ -15,6 +23,7 @@
 #include "app/runs/check_folder.hpp"
 #include "base/memory.hpp"
 #include "base/terminal.hpp"
+#include "io/convert_value.hpp"
 #include "io/parameter_writer.hpp"
 #include "numerics/warning.hpp"
 #include "run/progress.hpp"
@@ -23,8 +32,17 @@ namespace talus::app {
 
 namespace {
 
-constexpr double month = 30 * 86400.0;
+constexpr double hour = 3600;
 constexpr std::size_t widest_value = 16;  // longer ones exceed their column
+
+/// What the sections of the output are about.
+struct Subject {
+  const CaseOptions& options;
+  const CaseFile& file;
+  const PreparedCase& prepared;
+  int threads;
+  std::size_t key;  ///< columns of the longest key, or name
+};
 
 /// To two digits: "3800".
 std::string count_text(double count) {
@@ -33,72 +51,211 @@ std::string count_text(double count) {
   return fmt::format("{:.0f}", std::round(count / unit) * unit);
 }
 
-void print_case(const PreparedCase& prepared, const CaseFile& file, std::size_t& key) {
-  std::vector<ResolvedLine> table = resolved_table(prepared.parameters, file);
-  for (ResolvedLine& line : table)
-    if (line.origin == "default" && prepared.filled_in.contains(line.key)) line.origin = "material";
-  std::size_t value = 0;
-  for (const ResolvedLine& line : table) {
-    key = std::max(key, line.key.size());
-    value = std::max(value, line.value.size() + 1 + line.unit.size());
+/// Items after a name, separated by commas, in as many lines as they take; none is broken.
+void print_items(const std::string& name, std::size_t column, const std::vector<std::string>& items) {
+  const std::size_t indent = column + 4;
+  std::string line = fmt::format("  {:{}}  ", name, column);
+  for (std::size_t n = 0; n < items.size(); ++n) {
+    const std::string item = items[n] + (n + 1 < items.size() ? "," : "");
+    if (n > 0 && line.size() + 1 + item.size() <= terminal_width()) {
+      line += " " + item;
+      continue;
+    }
+    if (n > 0) print("{}\n", std::exchange(line, std::string(indent, ' ')));
+    line += wrapped(item, terminal_width(), indent, indent);
   }
+  print("{}\n", line);
+}
+
+/// "32.5 mm" for a value that is written "32.5 mm" in quotes.
+std::string plain(const CaseValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value.value)) return *text;
+  if (const auto* list = std::get_if<std::vector<CaseValue>>(&value.value)) {
+    std::vector<std::string> texts;
+    std::transform(list->begin(), list->end(), std::back_inserter(texts), plain);
+    return fmt::format("[{}]", fmt::join(texts, ", "));
+  }
+  return as_written(value);
+}
+
+/// A line for each table, with the values as they were written.
+void print_given(const Subject& s) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> tables;
+  std::size_t column = 0;
+  for (const CaseEntry& entry : s.file.entries()) {
+    if (std::holds_alternative<CaseTable>(entry.value.value)) continue;
+    const bool at_top = table_of(entry.key).empty();
+    const std::string table(at_top ? "case" : table_of(entry.key));
+    auto at = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.first == table; });
+    if (at == tables.end()) at = tables.insert(at_top ? tables.begin() : tables.end(), {table, {}});
+    at->second.push_back(fmt::format("{} {}", last_part(entry.key), plain(entry.value)));
+    column = std::max(column, table.size());
+  }
+  print("\nGiven:\n");
+  for (const auto& [table, items] : tables) print_items(table, column, items);
+}
+
+std::vector<ResolvedLine> lines_of(const Subject& s) {
+  std::vector<ResolvedLine> table = resolved_table(s.prepared.parameters, s.file);
+  for (ResolvedLine& line : table) {
+    const auto followed = s.prepared.filled_in.find(line.key);
+    if (line.origin == "default" && followed != s.prepared.filled_in.end()) line.origin = followed->second;
+  }
+  return table;
+}
+
+void print_every_key(const Subject& s) {
+  print("\nIn SI, with every default:\n");
+  const std::vector<ResolvedLine> table = lines_of(s);
+  std::size_t value = 0;
+  for (const ResolvedLine& line : table) value = std::max(value, line.value.size() + 1 + line.unit.size());
   value = std::min(value, widest_value);
   for (const ResolvedLine& line : table) {
     const std::string head =
-        fmt::format("  {:{}}  {:{}}  {:8} ", line.key, key, line.value + " " + line.unit, value, line.origin);
-    const std::size_t indent = 4 + key + value + 2 + 9;
+        fmt::format("  {:{}}  {:{}}  {:8} ", line.key, s.key, line.value + " " + line.unit, value, line.origin);
+    const std::size_t indent = 4 + s.key + value + 2 + 9;
     const std::size_t width = std::max(terminal_width(), indent + 24);
     print("{}{}\n", head, wrapped(line.text, width, indent, head.size()));
   }
 }
 
-void print_forecast(const PreparedCase& prepared, int threads, std::size_t key) {
-  const Forecast& f = prepared.forecast;
+/// Keys whose values follow from others, by what they follow from.
+void print_filled_in(const Subject& s) {
+  std::map<std::string, std::vector<std::string>> by_origin;
+  for (const ResolvedLine& line : lines_of(s))
+    if (line.origin != "default" && line.origin != "given" && line.origin != "option")
+      by_origin[line.origin].push_back(
+          fmt::format("{} {}{}{}", line.key, line.value, line.unit.empty() ? "" : " ", line.unit));
+  for (const auto& [origin, items] : by_origin) print_items("from the " + origin, s.key, items);
+}
+
+void print_groups(const Subject& s) {
+  for (const NamedValue& group : s.prepared.groups)
+    print("  {:{}}  {:.6g}{}\n", group.name, s.key, group.value, group.unit == "1" ? "" : " " + group.unit);
+}
+
+void print_following(const Subject& s) {
+  print("\nFollows:\n");
+  print_groups(s);
+  print_filled_in(s);
+}
+
+void print_scales(const Subject& s) {
+  print("\nScales and groups:\n");
+  print_groups(s);
+}
+
+void print_warnings(const Subject& s) {
+  const std::vector<Warning> warnings = warnings_of(s.prepared.regime);
+  if (warnings.empty()) return;
+  print("\nWarnings: the case leaves what its laws and the method assume:\n");
+  for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
+}
+
+/// Seconds of a run, at least, with an evaluation of so many.
+double seconds_of(const Forecast& forecast, double evaluation) {
+  double seconds = 0;
+  for (const Forecast::Phase& phase : forecast.phases) seconds += phase.evaluations * evaluation;
+  return seconds;
+}
+
+double measured_seconds(const PreparedCase& prepared, int threads) {
   ThreadTeam team(threads);
-  const double each = prepared.measure_evaluation(team);
-  print("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", threads,
-        threads == 1 ? "" : "s");
-  double seconds = 0, most_seconds = 0;
+  return seconds_of(prepared.forecast, prepared.measure_evaluation(team));
+}
+
+/// The case with the first of the alternatives that makes it valid, and has no warning that it has not without.
+std::optional<std::pair<std::vector<std::string>, PreparedCase>> with_first_of(
+    const std::vector<std::vector<std::string>>& alternatives, const Subject& s) {
+  const std::vector<Warning> known = warnings_of(s.prepared.regime);
+  const auto is_new = [&](const Warning& warning) {
+    return std::none_of(known.begin(), known.end(), [&](const Warning& other) { return other.id == warning.id; });
+  };
+  for (const std::vector<std::string>& settings : alternatives) {
+    CaseFile file = s.file;
+    for (const std::string& setting : settings) file.set(setting);
+    try {
+      PreparedCase prepared = prepare_case(file);
+      const std::vector<Warning> warnings = warnings_of(prepared.regime);
+      if (std::none_of(warnings.begin(), warnings.end(), is_new)) return std::pair{settings, std::move(prepared)};
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a change that the case does not bear is none
+    }
+  }
+  return std::nullopt;
+}
+
+/// What would shorten the run, each with its forecast, alone.
+void print_shortenings(const Subject& s, double seconds) {
+  print("! This run would take {}. Options:\n", run::format_seconds(seconds));
+  const auto option = [](const std::string& change, double time, const std::string& text) {
+    print("    {}\n      {}: {}\n", change, run::format_seconds(time), text);
+  };
+  std::vector<Shortening> all = s.prepared.shortenings ? s.prepared.shortenings() : std::vector<Shortening>();
+  all.push_back({.alternatives = {{fmt::format("run.end={:.4g} s", 0.5 * s.prepared.run.end)}},
+                 .text = "half of the simulated time"});
+  for (const Shortening& shortening : all)
+    if (const auto found = with_first_of(shortening.alternatives, s)) {
+      std::string change;
+      for (const std::string& setting : found->first)
+        change += fmt::format("{}--set {}", change.empty() ? "" : " \\\n    ",
+                              setting.find(' ') == std::string::npos ? setting : fmt::format("\"{}\"", setting));
+      option(change, measured_seconds(found->second, s.threads), shortening.text);
+    }
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  if (processors > s.threads)
+    option(fmt::format("--threads {}", processors), measured_seconds(s.prepared, processors),
+           "all processors of this machine");
+}
+
+void print_forecast(const Subject& s) {
+  const Forecast& f = s.prepared.forecast;
+  ThreadTeam team(s.threads);
+  const double each = s.prepared.measure_evaluation(team);
+  print("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", s.threads,
+        s.threads == 1 ? "" : "s");
+  double most_seconds = 0;
   for (const Forecast::Phase& phase : f.phases) {
     const double least = phase.evaluations * each, most = least * phase.most;
-    seconds += least, most_seconds += most;
+    most_seconds += most;
     if (phase.most > 1) {
-      print("  {:{}}  {} to {} steps of {:.3g} ms: {} to {}\n", phase.name, key, count_text(phase.steps),
+      print("  {:{}}  {} to {} steps of {:.3g} ms: {} to {}\n", phase.name, s.key, count_text(phase.steps),
             count_text(phase.most * phase.steps), 1e3 * each, run::format_seconds(least), run::format_seconds(most));
-      print("  {:{}}  (without settle.damping_time, when a bed comes to rest is not known)\n", "", key);
+      print("  {:{}}  (without settle.damping_time, when a bed comes to rest is not known)\n", "", s.key);
       continue;
     }
     const std::string evaluations =
         phase.evaluations == phase.steps ? "" : fmt::format(", {} evaluations", count_text(phase.evaluations));
-    print("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, key, count_text(phase.steps), evaluations,
+    print("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, s.key, count_text(phase.steps), evaluations,
           1e3 * each, run::format_seconds(least));
   }
-  print("  {:{}}  {}{}\n", "time", key, run::format_seconds(seconds),
+  const double seconds = seconds_of(f, each);
+  print("  {:{}}  {}{}\n", "time", s.key, run::format_seconds(seconds),
         most_seconds > seconds ? " to " + run::format_seconds(most_seconds) : "");
   const std::optional<double> available = available_memory();
-  print("  {:{}}  {:.0f} MB{}\n", "memory", key, f.memory_bytes / 1e6,
+  print("  {:{}}  {:.0f} MB{}\n", "memory", s.key, f.memory_bytes / 1e6,
         available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
-  print("  {:{}}  {:.1f} MB\n", "disk", key, f.disk_bytes / 1e6);
-  if (seconds > month) print("! Such a run takes more than a month: fewer particles, or an earlier run.end.\n");
+  print("  {:{}}  {:.1f} MB\n", "disk", s.key, f.disk_bytes / 1e6);
+  if (seconds > hour) print_shortenings(s, seconds);
 }
 
-ExitStatus check(const CaseOptions& options, int threads) {
+using Section = void (*)(const Subject&);
+constexpr Section in_short[] = {print_given, print_following, print_warnings, print_forecast};
+constexpr Section in_full[] = {print_every_key, print_scales, print_warnings, print_forecast};
+
+ExitStatus check(const CaseOptions& options, int threads, bool all) {
   if (std::filesystem::is_directory(options.path)) return check_folder(options.path);
   const CaseFile file = options.read();
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
 
-  print("{}: valid. In SI, with every default:\n\n", options.path);
-  std::size_t key = 0;
-  print_case(prepared, file, key);
-  print("\nScales and groups:\n");
-  for (const NamedValue& group : prepared.groups)
-    print("  {:{}}  {:.6g}{}\n", group.name, key, group.value, group.unit == "1" ? "" : " " + group.unit);
-  if (const std::vector<Warning> warnings = warnings_of(prepared.regime); !warnings.empty()) {
-    print("\nWarnings: the case leaves what its laws and the method assume:\n");
-    for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
-  }
-  print_forecast(prepared, threads, key);
+  Subject subject{options, file, prepared, threads, std::string_view("from the material").size()};
+  for (const NamedValue& group : prepared.groups) subject.key = std::max(subject.key, group.name.size());
+  if (all)
+    for (const DescribedParameter& item : prepared.parameters.that_hold())
+      subject.key = std::max(subject.key, item.parameter.key.size());
+  print("{}: valid{}\n", options.path, all ? "." : ". Every key in SI, with the defaults: --all");
+  for (const Section section : all ? std::span<const Section>(in_full) : std::span<const Section>(in_short))
+    section(subject);
   return ExitStatus::done;
 }
 
@@ -108,17 +265,22 @@ void add_check_command(CLI::App& app, Action& action) {
   struct Options {
     CaseOptions case_options;
     int threads = 1;
+    bool all = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "check", "check a case: all problems at once, or the resolved case and a forecast; or the files of a run");
+      "check", "check a case: all problems at once, or what follows from it and a forecast; or the files of a run");
   options->case_options.add_to(*command);
   add_threads_option(*command, options->threads);
+  command->add_flag("--all", options->all, "every key in SI, with its default, where it is from and what it means");
   command->footer(
+      "What was given, what follows from it (bed, particles, step, outlet), warnings, and a forecast; of more than an\n"
+      "hour with what would shorten it.\n"
       "In place of CASE the folder of a run, or one that holds runs: compares their series and snapshots with the\n"
       "checksums that were written with them; exit status 4 if one has changed.");
-  command->callback(
-      [options, &action] { action = [options] { return check(options->case_options, options->threads); }; });
+  command->callback([options, &action] {
+    action = [options] { return check(options->case_options, options->threads, options->all); };
+  });
 }
 
 }  // namespace talus::app

@@ -31,7 +31,7 @@ struct Options {
 void ask(const Question& question, Answers& answers) {
   for (;;) {
     print("{} [{}]: ", question.text,
-          question.is_flag            ? "no"
+          question.is_flag            ? std::string_view("no")
           : question.standard.empty() ? std::string_view("none")
                                       : question.standard);
     std::fflush(stdout);
@@ -48,6 +48,7 @@ void ask(const Question& question, Answers& answers) {
     if (line.empty()) return;
     const Answer answer = read_answer(question, line);
     if (answer.value) return answers.set(question.name, *answer.value);
+    if (answer.word) return answers.set(question.name, *answer.word);
     print("'{}' {}; allowed: {}\n", line, answer.what, answer.allowed);
   }
 }
@@ -55,6 +56,7 @@ void ask(const Question& question, Answers& answers) {
 /// From the options; on a terminal what was not given is asked. \throws InputError with every problem
 Answers answers_of(const Options& options) {
   const bool asks = isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1;
+  if (asks && !options.kind->sketch.empty()) print("{}\n", options.kind->sketch);
   Answers answers;
   std::vector<Problem> problems;
   for (const Question& question : options.kind->questions) {
@@ -74,9 +76,16 @@ Answers answers_of(const Options& options) {
     const Answer answer = read_answer(question, text);
     if (answer.value)
       answers.set(question.name, *answer.value);
+    else if (answer.word)
+      answers.set(question.name, *answer.word);
     else
-      problems.push_back({.where = fmt::format("--{} {}", name, text), .what = answer.what, .allowed = answer.allowed});
+      problems.push_back({.where = fmt::format("--{} {}", name, text),
+                          .what = answer.what,
+                          .allowed = answer.allowed,
+                          .nearest = answer.nearest});
   }
+  if (problems.empty() && options.kind->check)
+    problems = by_option(*options.kind, options.texts, options.kind->check(answers));
   if (!problems.empty()) throw InputError(problems);
   return answers;
 }
@@ -86,7 +95,11 @@ ExitStatus write_case(const Options& options) {
   if (std::filesystem::exists(path) && !options.overwrite)
     throw InputError({{.where = path.string(), .what = "is there already", .allowed = "another -o, or --overwrite"}});
   const std::string text = options.kind->write(answers_of(options));
-  prepare_case(CaseFile::from_text(text, path.string()));  // before anything is written: what talus check would say
+  try {
+    prepare_case(CaseFile::from_text(text, path.string()));  // before anything is written: what talus check would say
+  } catch (const InputError& error) {
+    throw InputError(by_option(*options.kind, options.texts, error.problems()));
+  }
   write_atomically(path, text);
   print("Case: {}\nNext: talus check {}\n      talus run {}\n", path.string(), path.string(), path.string());
   return ExitStatus::done;
@@ -117,6 +130,7 @@ void add_new_command(CLI::App& app, Action& action) {
     }
     of_kind->add_option("-o,--out", options->out, fmt::format("the file to write; {}.toml if not given", kind.name));
     of_kind->add_flag("--overwrite", options->overwrite, "replace the file");
+    if (!kind.sketch.empty()) of_kind->footer(std::string(kind.sketch));
     of_kind->callback([options, &action] { action = [options] { return write_case(*options); }; });
   }
 }

@@ -38,7 +38,11 @@ std::string format_seconds(double seconds) {
   const auto s = static_cast<std::int64_t>(std::llround(seconds));
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
-  return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+  constexpr std::int64_t day = 86400;
+  if (s < 2 * day) return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+  if (s < 60 * day) return fmt::format("{} days", std::llround(seconds / day));
+  if (s < 730 * day) return fmt::format("{} months", std::llround(seconds / (30.44 * day)));
+  return fmt::format("{} years", std::llround(seconds / (365.25 * day)));
 }
 
 std::string cut(std::string_view text, std::size_t width) {

@@ -69,7 +69,7 @@ class Progress {
   bool told_ = false;
 };
 
-/// 75 -> "1 min 15 s".
+/// 75 -> "1 min 15 s", 2.6e7 -> "10 months".
 std::string format_seconds(double seconds);
 
 /// The first `width` characters (code points) of a text in UTF-8.

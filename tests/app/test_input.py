@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input: every problem at once, exit status 2, and nothing written."""
+import os
+import re
+import shlex
 import subprocess
 import unittest
 
@@ -153,16 +156,57 @@ class BadCase(InputTest):
     def test_check_of_many_particles_places_none(self):
         million = self.talus("check", "case.toml", "--set", "particles.count=1000000", "--set", "particles.size=7.5 m",
                              "--set", "run.end=1 s", "--set", "fluid.sum=direct")
-        self.assertRegex(million.stdout, r"\n! Such a run takes more than a month")
+        self.assertRegex(million.stdout, r"\n! This run would take [0-9]+ (months|years)\. Options:\n    --set \"?run\.end=0\.5 s")
         said = self.talus("check", PROJECT / "cases/wedge-hopper.toml", "--set", "bed.spacing=0.1 mm", "--set",
                           "box.depth=0.1 mm").stdout
         self.assertRegex(said, r"\n  particles +7\d{5}\n")
 
     def test_check_keeps_to_the_width_of_a_page(self):
         for case in (PROJECT / "cases/slot.toml", PROJECT / "cases/niiya2020-circle.toml"):
-            lines = self.talus("check", case).stdout.splitlines()
-            self.assertLessEqual(max(map(len, lines)), 100)
-            self.assertRegex("\n".join(lines), r"\n  settling +about|\n  run +about")
+            for options in ((), ("--all",)):
+                lines = self.talus("check", case, "--threads", 1, *options).stdout.splitlines()
+                self.assertLessEqual(max(map(len, lines)), 100)
+                self.assertRegex("\n".join(lines), r"\n  settling +about|\n  run +about")
+
+    def test_check_is_short_and_all_is_all(self):
+        case = PROJECT / "cases/silo-square.toml"
+        short = self.talus("check", case, "--threads", 1, "--set", "bed.spacing=3 mm").stdout
+        self.assertLess(len(short.splitlines()), 50)
+        for part in (r"\nGiven:\n", r"\n  vessel\.1 +name silo, shape stl, file silo-square\.stl, unit mm\n",
+                     r"\n  bed +mass 150 g, spacing 3 mm\n", r"\nFollows:\n", r"\n  from the material +.*grains\.density 2500 kg/m3",
+                     r"\n  from the bed +law\.critical-state\.bulk_modulus \d+", r"\n  from the method +integration\.courant 1\.2\n",
+                     r"\n  particles +\d+\n", r"\n  time_step +\S+ s\n", r"\n  sound_speed +\S+ m/s\n", r"\n  outlet_width +0\.03 m\n",
+                     r"\nForecast"):
+            self.assertRegex(short, part)
+        self.assertNotIn("smoothing_ratio", short)
+        every = self.talus("check", case, "--threads", 1, "--all").stdout
+        self.assertRegex(every, r"\n  sph\.smoothing_ratio +1 +default ")
+        self.assertRegex(every, r"\n  integration\.courant +1\.2 +method ")
+        self.assertGreater(len(every.splitlines()), 100)
+
+    def test_a_long_run_says_what_would_shorten_it(self):
+        self.talus("new", "silo", "--gate", "from-the-start", "-o", "silo.toml")
+        said = self.talus("check", "silo.toml", "--threads", 1, "--set", "bed.spacing=1 mm", "--set", "run.end=1000 s",
+                          "--set", "law.critical-state.bulk_modulus=20 MPa").stdout
+        took = re.search(r"\n! This run would take (\d+) (days|months|years)\. Options:\n", said)
+        self.assertTrue(took, said)
+        options = said[took.end():]
+        for change, text in ((r'--set "box\.sector=\d+ deg"', "sector"),
+                             (r'--set "law\.critical-state\.bulk_modulus=1\.\d+ MPa" \\\n    --set "law\.critical-state\.shear_modulus=.*',
+                              "soft"),
+                             (r"--set integration\.pair_precision=single", "pairs"),
+                             (r'--set "bed\.spacing=2\.5 mm"', "particles across the outlet"),
+                             (r'--set "run\.end=500 s"', "half")):
+            self.assertRegex(options, change + rf"\n      \d+ \S+.*: .*{text}")
+        self.assertLessEqual(max(map(len, said.splitlines())), 100)
+        if len(os.sched_getaffinity(0)) > 1:
+            self.assertRegex(options, r"\n    --threads \d+\n      \d")
+        # Each makes a case, with no warning that this one has not.
+        options = options.replace("\\\n", "")
+        for settings in re.findall(r"^    (--set .*)$", options, re.M):
+            self.talus("check", "silo.toml", "--threads", 1, *shlex.split(settings))
+        short = self.talus("check", "silo.toml", "--threads", 1, "--set", "run.end=1 ms").stdout
+        self.assertNotIn("Options", short)
 
     def test_when_an_undamped_bed_rests_is_not_known(self):
         (self.folder / "case.toml").write_text(HOPPER)  # without settle.damping_time, under its whole weight at once

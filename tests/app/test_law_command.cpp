@@ -72,6 +72,8 @@ name = "linear-elastic"
 [law.linear-elastic]
 lambda = "2 MPa"
 shear_modulus = "1 MPa"
+[collisions]
+form = "printed"
 )";
 
 TEST_F(LawCommand, TableHoldsHookesAnswer) {
@@ -129,10 +131,10 @@ TEST_F(LawCommand, TakesTheLawOutOfAWholeCaseAndNothingElse) {
 }
 
 TEST_F(LawCommand, NamesEveryProblemOfTheCase) {
-  const std::string text = "[bed]\nheight = 3\n[law]\nname = \"yuu\"\n[law.yuu-umekage]\nreset = \"strain\"\n";
-  EXPECT_THAT(problems({file("case.toml", text), "--path", "none.csv", "--set", "law.yuu-umekage.scale=-1"}),
+  const std::string text = "[bed]\nheight = 3\n[law]\nname = \"yuu\"\n[law.critical-state]\nfriction = -1\n";
+  EXPECT_THAT(problems({file("case.toml", text), "--path", "none.csv", "--set", "law.critical-state.dilatancy=-1"}),
               ElementsAre(HasSubstr("case.toml:1: bed: unknown table"), HasSubstr("case.toml:4: law.name: "),
-                          HasSubstr("case.toml:6: law.yuu-umekage.reset: "), HasSubstr("--set")));
+                          HasSubstr("case.toml:6: law.critical-state.friction: "), HasSubstr("--set")));
 }
 
 TEST_F(LawCommand, NamesEveryBadLineOfThePath) {

@@ -33,7 +33,7 @@ report = false
 
 def line_of(said, key):
     """Value and origin of a key in the table of talus check."""
-    found = re.search(rf"^  {re.escape(key)} +(\S+)(?: (\S+))? +(given|material|default|option) ", said, re.M)
+    found = re.search(rf"^  {re.escape(key)} +(\S+)(?: (\S+))? +(given|material|bed|method|default|option) ", said, re.M)
     return found.group(1), found.group(3)
 
 
@@ -43,7 +43,7 @@ class Materials(ProgramTest):
         (self.folder / "case.toml").write_text(CASE)
 
     def check(self, *options):
-        return self.talus("check", "case.toml", "--threads", 1, *options).stdout
+        return self.talus("check", "case.toml", "--all", "--threads", 1, *options).stdout
 
     def test_values_follow_and_what_the_case_gives_holds(self):
         said = self.check()
@@ -52,7 +52,7 @@ class Materials(ProgramTest):
         self.assertEqual(line_of(said, "law.name")[1], "material")
         self.assertEqual(line_of(said, "law.critical-state.friction"), ("0.675", "material"))
         modulus, origin = line_of(said, "law.critical-state.bulk_modulus")
-        self.assertEqual(origin, "material")
+        self.assertEqual(origin, "bed")
         self.assertAlmostEqual(float(modulus) / (1000 * 0.55 * 2650 * 9.81 * 0.02), 1, 6)
         said = self.check("--set", "grains.density=2600 kg/m3", "--set", "walls.coefficient=0.1")
         self.assertEqual(line_of(said, "grains.density"), ("2600", "option"))

@@ -33,7 +33,7 @@ class Usage(ProgramTest):
         self.assertEqual(self.complete("talus", "picture", "r", "--view", ""), ["xz", "xy", "yz", "oblique"])
         self.assertEqual(self.complete("talus", "ensemble", "c.toml", "--launch", "s"), ["slurm"])
         self.assertEqual(self.complete("talus", "new", "h"), ["hopper"])
-        self.assertEqual(self.complete("talus", "new", "silo", "--wall"), ["--wall-friction"])
+        self.assertEqual(self.complete("talus", "new", "silo", "--wall"), ["--wall", "--wall-friction"])
         self.assertEqual(self.complete("talus", "completion", ""), ["bash", "zsh", "fish"])
         self.assertEqual(self.complete("talus", "report", "")[0], "asks for: -o dirnames")
         self.assertEqual(self.complete("talus", "run", "")[0], "asks for: -o default")

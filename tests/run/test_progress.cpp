@@ -25,6 +25,9 @@ TEST(Progress, SaysTimesAsOneWould) {
   EXPECT_EQ(format_seconds(59.4), "59 s");
   EXPECT_EQ(format_seconds(75), "1 min 15 s");
   EXPECT_EQ(format_seconds(3 * 3600 + 125), "3 h 2 min");
+  EXPECT_EQ(format_seconds(5.6 * 86400), "6 days");
+  EXPECT_EQ(format_seconds(7221 * 3600 + 180), "10 months");
+  EXPECT_EQ(format_seconds(3e8), "10 years");
 }
 
 /// Lines of a phase that goes at these speeds, a pair (duration, way) each; what is told does not depend on the

@@ -5,8 +5,8 @@
 #include <any>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +19,12 @@
 #include "run/run_parameters.hpp"
 
 namespace talus::app {
+
+/// A change of the case that may shorten its run: the first of the alternatives that makes a valid case.
+struct Shortening {
+  std::vector<std::vector<std::string>> alternatives;  ///< settings, as --set takes them
+  std::string text;                                    ///< what it costs
+};
 
 /// What a run will take, from counts alone.
 struct Forecast {
@@ -38,9 +44,9 @@ struct PreparedCase {
   std::string model;
   std::int64_t seed = 0;
   run::RunParameters run;
-  ParameterList parameters;                      ///< of the model and of the run, with the values they have
-  std::set<std::string, std::less<>> filled_in;  ///< keys whose values follow from the case's material
-  std::string instruction_set;                   ///< that the choice resolves to on this machine
+  ParameterList parameters;  ///< of the model and of the run, with the values they have
+  std::map<std::string, std::string, std::less<>> filled_in;  ///< keys whose values follow from others, and from what
+  std::string instruction_set;                                ///< that the choice resolves to on this machine
   std::string inputs;  ///< digest of what the files hold that the case names; empty if it names none
   std::any read;       ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
 
@@ -55,6 +61,8 @@ struct PreparedCase {
   Forecast forecast;
   /// Seconds that an evaluation takes, measured now on a small sample.
   std::function<double(ThreadTeam& team)> measure_evaluation;
+  /// What would shorten the run. Null: nothing but what every run has.
+  std::function<std::vector<Shortening>()> shortenings;
   /// What to change where memory_bytes is more than there is. \param available bytes
   std::function<Problem(double available)> too_large;
 };

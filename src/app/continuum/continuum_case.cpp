@@ -14,6 +14,7 @@
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "app/continuum/hopper_observers.hpp"
+#include "app/continuum/shorter_runs.hpp"
 #include "app/continuum/vessel_fields.hpp"
 #include "app/continuum/wall_loads.hpp"
 #include "app/materials/materials.hpp"
@@ -43,7 +44,9 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
   std::vector<NamedValue> groups = {{"particles", "1", count},
                                     {"mass", "kg", continuum::lattice_of(p).mass * count * continuum::copies_of(p)},
+                                    {"bed_height", "m", p.bed.height},
                                     {"sound_speed", "m/s", sound},
+                                    {"time_step", "s", continuum::time_step_of(p)},
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(continuum::copies_of(p))});
@@ -54,7 +57,8 @@ std::vector<NamedValue> groups(const Parameters& p) {
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
-    groups.push_back({"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing});
+    groups.insert(groups.end(), {{"outlet_width", "m", outlet->right - outlet->left},
+                                 {"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing}});
   return groups;
 }
 
@@ -134,7 +138,7 @@ std::string digest_of_files(const Parameters& p) {
 }
 
 struct ContinuumCase : ModelCase<Parameters> {
-  FilledIn filled;  ///< by the material
+  FilledIn filled;  ///< what follows from other keys
 };
 
 /// \throws InputError with every problem
@@ -150,6 +154,10 @@ ContinuumCase read_continuum(const CaseFile& file) {
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
   read.model = continuum::with_level(read.model);
   set_from_bed(file, read.model, read.filled);
+  if (!file.contains("integration.courant")) {
+    read.model.integration.courant = continuum::default_courant(read.model.integration.method);
+    read.filled.keys.emplace("integration.courant", "method");
+  }
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
       part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
@@ -157,6 +165,22 @@ ContinuumCase read_continuum(const CaseFile& file) {
   reader.throw_problems();
   return read;
 }
+
+/// Lists parameters, those that follow from others without a value of their own.
+struct WithoutWhatFollows {
+  ParameterList parameters;
+
+  template <class T>
+  void operator()(const Parameter& parameter, const T& member) {
+    static constexpr std::string_view following[] = {"integration.courant", "law.critical-state.bulk_modulus",
+                                                     "law.critical-state.shear_modulus",
+                                                     "law.critical-state.reference_packing"};
+    if constexpr (std::is_same_v<T, double>)
+      if (std::find(std::begin(following), std::end(following), parameter.key) != std::end(following))
+        return parameters(parameter, std::optional<T>{});
+    parameters(parameter, member);
+  }
+};
 
 /// That of a run, read once by those who share what they read.
 const ContinuumCase& case_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
@@ -170,7 +194,10 @@ ParameterList continuum_parameters() {
   defaults.model.plates.resize(1);  // whose keys stand for those of all
   defaults.model.vessel.resize(1);
   defaults.model.inlets.resize(1);
-  return defaults.list();
+  WithoutWhatFollows list;
+  for_each_parameter(list, defaults.run);
+  for_each_parameter(list, defaults.model);
+  return list.parameters;
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
@@ -187,6 +214,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
+  prepared.shortenings = [p] { return shorter_runs(p); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = p.plate.height || continuum::outlet_of(p)
                           ? run::Headline{.column = "discharge_rate", .name = "discharge"}

@@ -24,6 +24,9 @@ LawCase read_law_case(const CaseFile& file) {
   reader(Parameter{.key = "title", .text = "one line"}, title);
   for_each_parameter(reader, parameters);
   reader.check(granular::check(parameters.law));
+  auto& critical = parameters.law.of<granular::CriticalState>();
+  if (part.contains("law.critical-state.bulk_modulus") && !part.contains("law.critical-state.shear_modulus"))
+    critical.shear_modulus = shear_over_bulk * critical.bulk_modulus;
   reader.finish();
   return parameters;
 }

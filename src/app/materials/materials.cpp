@@ -26,7 +26,6 @@ constexpr std::pair<std::string_view, std::string_view> files[] = {
 };
 
 constexpr double moduli_over_weight = 1000;
-constexpr double shear_over_bulk = 0.6;  // as in the paper's law at zero strain
 
 template <class T>
 std::optional<T> read(const CaseFile& material, const std::string& key, const Parameter& parameter) {
@@ -141,14 +140,14 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   const auto grains = material_of(file);
   if (!grains) return filled;
   const CaseFile& material = file_of(*grains);
-  filled.keys = fill_in_values(file, defaults);
+  for (const std::string& key : fill_in_values(file, defaults)) filled.keys.emplace(key, "material");
   defaults.grains.range = range_of(material);
   const auto rub = [&](const std::string& key, const std::string& friction_key, auto& friction) {
     const auto wall = named<WallMaterial>(file, key);
     if (!wall || file.contains(friction_key)) return;
     if (const auto coefficient = friction_on(material, *wall)) {
       friction = *coefficient;
-      filled.keys.insert(friction_key);
+      filled.keys.emplace(friction_key, "material");
     } else {
       filled.problems.push_back(
           {.key = key,
@@ -162,17 +161,21 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   return filled;
 }
 
+double bulk_modulus_for(const continuum::Parameters& p) {
+  return moduli_over_weight * (p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height);
+}
+
 void set_from_bed(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
-  if (!p.grains.material || !p.law.is<granular::CriticalState>()) return;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  if (!p.law.is<granular::CriticalState>()) return;
   auto& law = p.law.of<granular::CriticalState>();
   const auto set = [&](const char* key, double& number, double value) {
     if (file.contains(key) || !(value > 0)) return;
     number = value;
-    filled.keys.insert(key);
+    filled.keys.insert_or_assign(key, "bed");
   };
-  set("law.critical-state.bulk_modulus", law.bulk_modulus, moduli_over_weight * weight);
-  set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
+  set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(p));
+  if (p.bed.packing >= law.loosest_packing)
+    set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
   set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -44,9 +45,9 @@ std::vector<MaterialLine> lines_of(continuum::GrainMaterial material);
 /// "30.0 degrees on the plane of a shear tester, 35.2 in plane strain, 25.4 in triaxial compression".
 std::string angles_of_friction(double friction);
 
-/// What a material has filled in.
+/// Values that follow from other keys.
 struct FilledIn {
-  std::set<std::string, std::less<>> keys;
+  std::map<std::string, std::string, std::less<>> keys;  ///< and what each follows from: "material", "bed", "method"
   std::vector<Problem> problems;  ///< walls of which the material does not know how its grains rub on them
 };
 
@@ -57,10 +58,16 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 template <class P>
 std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
 
-/// What grains of a material take from the bed, where the case gives none. The moduli: a thousand times the weight of
-/// the bed over its area, the stress that they are to bear; discharge, surfaces and heaps are then those of stiff
-/// grains (docs/decisions/0023-softer-grains.md). The packing at which they just touch: the bed's, so that it bears no
-/// pressure before its weight. \param parameters as read
+/// Pa; discharge, surfaces and heaps are then those of stiff grains (docs/decisions/0023-softer-grains.md): a thousand
+/// times the weight of the bed over its area, the stress that they are to bear.
+double bulk_modulus_for(const continuum::Parameters& parameters);
+
+/// The shear modulus over the bulk modulus, as in the paper's law at zero strain.
+inline constexpr double shear_over_bulk = 0.6;
+
+/// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The
+/// packing at which the grains just touch: the bed's, so that it bears no pressure before its weight, unless so loose
+/// that they do not touch. \param parameters as read
 void set_from_bed(const CaseFile& file, continuum::Parameters& parameters, FilledIn& filled);
 
 // ------------------------------------------------------------------------------------------------------------------

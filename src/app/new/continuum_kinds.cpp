@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "app/new/kind.hpp"
+#include "models/continuum/material_names.hpp"
 
 namespace talus::app {
 
@@ -17,12 +20,67 @@ constexpr double gravity = 9.81;          // m/s2
 constexpr double packing = 0.6;           // at the start, as in the papers' cases
 constexpr double most_particles = 40000;  // a run of some minutes to an hour on two cores
 constexpr double across_an_outlet = 16;   // particles; below 12 the discharge shows them
+constexpr double outlet_over_ring = 2.9;  // of a sector; below 2.8 the discharge shows it (validation/sector)
 
 constexpr Question diameter{"diameter", "diameter of the grains", "200 um", dimension::length, 0, 0.1};
 constexpr Question density{"density", "density of a grain", "2500 kg/m3", dimension::density, 0, 30000};
-constexpr Question friction{
-    "friction", "friction of the grains in slow flow: the tangent of their angle of repose, less 0.08", "0.5", {}, 0,
-    1.3};
+constexpr std::string_view friction_text =
+    "friction of the grains in slow flow: the tangent of their angle of repose, less 0.08";
+constexpr Question friction{"friction", friction_text, "0.5", {}, 0, 1.3};
+
+// Of grains with a material, whose values hold where none is given.
+constexpr Question material{.name = "material",
+                            .text = "what the grains are: glass-beads, sand, wheat or maize (talus materials)",
+                            .standard = "glass-beads",
+                            .words = choices<continuum::GrainMaterial>,
+                            .only_words = true};
+constexpr Question own_density{"density", "density of a grain; the material's if not given", "", dimension::density, 0,
+                               30000};
+constexpr Question own_diameter{
+    "diameter", "diameter of the grains; the material's if not given", "", dimension::length, 0, 0.1};
+constexpr Question own_friction{
+    "friction", "tangent of the grains' angle of repose, less 0.08; the material's if not given", "", {}, 0, 1.3};
+constexpr Question wall{.name = "wall",
+                        .text = "what the walls are made of: steel, acrylic, glass or concrete",
+                        .standard = "steel",
+                        .words = choices<continuum::WallMaterial>,
+                        .only_words = true};
+constexpr Question wall_friction{.name = "wall-friction",
+                                 .text = "coefficient of wall friction; of the material on the wall if not given",
+                                 .standard = "",
+                                 .least = 0,
+                                 .most = 2,
+                                 .from_least = true};
+constexpr std::string_view openings[] = {"when-settled", "from-the-start"};
+constexpr Question gate{.name = "gate",
+                        .text = "when the outlet opens: when-settled, from-the-start, or a time such as 0.5 s",
+                        .standard = "when-settled",
+                        .dimension = dimension::time,
+                        .least = 0,
+                        .most = 1e4,
+                        .from_least = true,
+                        .words = openings};
+constexpr std::string_view yes_or_no[] = {"yes", "no"};
+constexpr Question of_materials[] = {material, own_diameter, own_density, own_friction, wall, wall_friction, gate};
+constexpr KeyOfAnswer keys_of_materials[] = {{"grains.diameter", "diameter"},
+                                             {"grains.density", "density"},
+                                             {"grains.material", "material"},
+                                             {"walls.material", "wall"},
+                                             {"walls.coefficient", "wall-friction"},
+                                             {"critical-state.friction", "friction"},
+                                             {"critical-state.fast_friction", "friction"},
+                                             {"gate.time", "gate"},
+                                             {"settle.damping_time", "gate"},
+                                             {"removal.below", "removal"},
+                                             {"run.end", "fill"}};
+
+template <class T, std::size_t n, std::size_t m>
+constexpr std::array<T, n + m> joined(const T (&first)[n], const T (&second)[m]) {
+  std::array<T, n + m> all{};
+  std::copy(std::begin(first), std::end(first), all.begin());
+  std::copy(std::begin(second), std::end(second), all.begin() + n);
+  return all;
+}
 
 /// So many particles along a length, unless the bed would have too many.
 double spacing_of(double length, double count, double area) {
@@ -46,21 +104,57 @@ std::string grains(const Answers& a) {
                      written(a["diameter"], "um"));
 }
 
-/// The law of the papers' cases, with another friction.
-std::string critical_state(double slow_friction) {
+/// A friction of slow flow; fast flow has half as much again.
+std::string frictions(double slow_friction) {
   return fmt::format(
-      "# Grains whose packing tends to a critical one under shear. Fast flow has half as much friction again as slow\n"
-      "# flow (docs/critical-state.md).\n"
-      "[law]\nname = \"critical-state\"\n\n"
-      "[law.critical-state]\nfriction = {:.5g}\nfast_friction = {:.5g}\n\n"
-      "[collisions]\nform = \"none\"\n\n"
-      "# As little viscosity as the scheme bears.\n[sph]\nviscosity_alpha = 0.01\n\n",
+      "# Fast flow has half as much friction again as slow flow (docs/critical-state.md).\n"
+      "[law.critical-state]\nfriction = {:.5g}\nfast_friction = {:.5g}\n\n",
       slow_friction, std::min(2.0, 1.52 * slow_friction));
+}
+
+/// Grains and walls of a material, with what is given of their own.
+std::string grains_of_material(const Answers& a, bool rubs_from_start) {
+  std::string text = fmt::format(
+      "# Values of grains and walls with their sources: talus materials {0}. What stands here holds in place of them.\n"
+      "[grains]\nmaterial = \"{0}\"\n",
+      a.word("material"));
+  if (a.has("density")) text += fmt::format("density = {}\n", written(a["density"], "kg/m3"));
+  if (a.has("diameter")) text += fmt::format("diameter = {}\n", written(a["diameter"], "mm"));
+  text += fmt::format("\n[walls]\nmaterial = \"{}\"\n", a.word("wall"));
+  if (a.has("wall-friction")) text += fmt::format("coefficient = {:.5g}\n", a["wall-friction"]);
+  if (rubs_from_start) text += "friction_from = \"start\"\n";
+  text += "\n";
+  return a.has("friction") ? text + frictions(a["friction"]) : text;
+}
+
+/// The gate, and how the bed settles before it opens. \param inclined walls, along which particles go on creeping
+std::string opening(const Answers& a, bool inclined) {
+  if (a.has("gate"))
+    return fmt::format("[gate]\nopens = \"at-time\"\ntime = {}\n\n[settle]\ndamping_time = \"5 ms\"\n\n",
+                       written(a["gate"], "s"));
+  const std::string& opens = a.word("gate");
+  std::string text = fmt::format("[gate]\nopens = \"{}\"\n\n", opens);
+  if (opens != "when-settled") return text;
+  return text + "[settle]\ndamping_time = \"5 ms\"\n" +
+         (inclined ? "speed = \"2 mm/s\"\nduration = \"10 ms\"\n\n" : "\n");
+}
+
+/// The outlet against the vessel above it, and the bed against the particles, a part of the outlet.
+std::vector<Problem> check_outlet(const Answers& a) {
+  std::vector<Problem> problems;
+  if (!(a["outlet"] < a["width"]))
+    problems.push_back({.key = "outlet",
+                        .what = "is not narrower than the vessel",
+                        .allowed = fmt::format("less than --width, {:.5g} mm", 1e3 * a["width"])});
+  if (const double least = a["outlet"] / 3; a["fill"] < least)
+    problems.push_back({.key = "fill",
+                        .what = "is a bed of fewer than four layers of particles",
+                        .allowed = fmt::format("at least a third of --outlet, {:.5g} mm", 1e3 * least)});
+  return problems;
 }
 
 std::string ending(double end, double frames, double rows) {
   return fmt::format(
-      "[integration]\nmethod = \"leapfrog\"\ncourant = 1.2\n\n"
       "# Counted from the opening of the gate.\n[run]\nend = {}\n\n"
       "[output]\nsnapshots = {}\nseries = {}\n",
       written(end, "s"), written(end / frames, "ms"), written(end / rows, "ms"));
@@ -68,77 +162,144 @@ std::string ending(double end, double frames, double rows) {
 
 // ---------------------------------------------------------------------------------------------- hopper
 
-constexpr Question hopper_questions[] = {
-    {"width", "width of the hopper", "100 mm", dimension::length, 0, 100},
-    {"fill", "height of the bed above the outlet", "83.333 mm", dimension::length, 0, 100},
-    {"outlet", "width of the outlet", "40 mm", dimension::length, 0, 100},
-    {"drop", "height of the outlet above the floor", "100 mm", dimension::length, 0, 100},
-    {"half-angle", "half angle of a wedge, to the vertical; a flat bottom if not given", "", dimension::angle, 0,
-     1.5533},
-    diameter,
-    density,
-    friction,
+constexpr std::string_view hopper_sketch = R"(
+   |<------ width ------>|
+   |                     |
+   |. . . . . . . . . . .|  ---
+   | . . . . . . . . . . |   ^
+    \ . . . . . . . . . /    |
+     \ . . . . . . . . /:    |  fill: from the outlet to the top of the bed
+      \ . . . . . . . / :    |
+       \ . . . . . . / <--- half-angle, between the wall and the vertical; without it a flat bottom
+        \ . . . . . /   :    v
+         '---------'  ------+--
+           outlet            |
+         (a slit, through    |  drop: from the outlet to the floor of the bin
+          the slice)         |
+   _____________________  ------
+ A slice of a long hopper, one particle deep.
+)";
+
+constexpr Question of_hopper[] = {
+    {"width", "width of the hopper, between its upright walls", "100 mm", dimension::length, 0, 100},
+    {"fill", "height of the bed, from the outlet to its top", "83.333 mm", dimension::length, 0, 100},
+    {"outlet", "width of the outlet, a slit", "40 mm", dimension::length, 0, 100},
+    {"drop", "height of the outlet above the floor of the bin", "100 mm", dimension::length, 0, 100},
+    {"half-angle", "angle between an inclined wall and the vertical; a flat bottom if not given", "", dimension::angle,
+     0, 1.5533},
+    {.name = "removal",
+     .text = "whether grains are taken away below the outlet (yes), or fill the bin (no)",
+     .standard = "no",
+     .words = yes_or_no,
+     .only_words = true},
     {"air", "with air between and around the grains", "", {}, 0, 1, false, true},
 };
+constexpr auto hopper_questions = joined(of_hopper, of_materials);
+
+constexpr KeyOfAnswer keys_of_hopper[] = {
+    {"box.width", "width"},     {"box.height", "fill"},        {"bed.height", "fill"},
+    {"wedge.outlet", "outlet"}, {"plate.slit_left", "outlet"}, {"plate.slit_right", "outlet"},
+    {"bed.spacing", "outlet"},  {"box.depth", "outlet"},       {"air.cell", "outlet"},
+    {"wedge.height", "drop"},   {"plate.height", "drop"},      {"wedge.half_angle", "half-angle"}};
+constexpr auto hopper_keys = joined(keys_of_hopper, keys_of_materials);
 
 std::string write_hopper(const Answers& a) {
   const double width = a["width"], outlet = a["outlet"], fill = a["fill"], drop = a["drop"];
-  const bool wedge = a.has("half-angle"), air = a["air"] > 0;
+  const bool wedge = a.has("half-angle"), air = a["air"] > 0, removal = a.word("removal") == "yes";
   const double spacing = spacing_of(outlet, across_an_outlet, width * fill);
   // The mass flow of a slit, near 1.04 rho_b g^(1/2) W^(3/2) a depth in the paper's hopper in a vacuum, two thirds of
   // it in air; then some fall and rest.
   const double flow = 1.04 * std::sqrt(gravity) * std::pow(outlet, 1.5) * (air ? 0.67 : 1);
   const double end = rounded_up(2 * width * fill / flow + 2 * std::sqrt(2 * drop / gravity));
-  std::string text = head(fmt::format("{}{}", wedge ? "Wedge hopper" : "Flat-bottomed hopper", air ? " in air" : ""),
-                          "Grains settle in a hopper; the gate opens; they flow through the outlet into the bin.");
-  text += fmt::format("# A section one particle deep.\n[box]\nwidth = {}\ndepth = {}\nheight = {}\n\n",
-                      written(width, "mm"), written(spacing, "mm"), written(drop + 1.5 * fill, "mm"));
+  std::string text =
+      head(fmt::format("{}{}", wedge ? "Wedge hopper" : "Flat-bottomed hopper", air ? " in air" : ""),
+           removal ? "Grains settle in a hopper; the gate opens; they flow out and are taken away."
+                   : "Grains settle in a hopper; the gate opens; they flow through the outlet into the bin.");
+  text += fmt::format("# A section one particle deep.\n[box]\nwidth = {}\ndepth = {}\nheight = {}\n{}\n",
+                      written(width, "mm"), written(spacing, "mm"), written(drop + 1.5 * fill, "mm"),
+                      removal ? "floor = \"open\"\n" : "");
   if (wedge)
     text += fmt::format("[wedge]\nhalf_angle = {}\noutlet = {}\nheight = {}\n\n", written(a["half-angle"], "deg"),
                         written(outlet, "mm"), written(drop, "mm"));
   else
     text += fmt::format("[plate]\nheight = {}\nslit_left = {}\nslit_right = {}\n\n", written(drop, "mm"),
                         written(0.5 * (width - outlet), "mm"), written(0.5 * (width + outlet), "mm"));
-  text += "[gate]\nopens = \"when-settled\"\n\n" + grains(a);
+  if (removal) text += fmt::format("[removal]\nbelow = {}\n\n", written(0.25 * drop, "mm"));
+  text += opening(a, wedge);
+  // Along smooth inclined walls a lattice of particles would go on creeping.
+  text += grains_of_material(a, wedge);
   text += fmt::format(
       "# {:.3g} particles across the outlet; fewer than 12 show in the discharge (talus check).\n"
-      "[bed]\npacking = {}\nspacing = {}\nheight = {}\n\n",
-      outlet / spacing, packing, written(spacing, "mm"), written(fill, "mm"));
+      "[bed]\nspacing = {}\nheight = {}\n\n",
+      outlet / spacing, written(spacing, "mm"), written(fill, "mm"));
   if (air)
-    text +=
-        "# The bin is closed, the hopper open above. Boundaries of the air: docs/guidance.md.\n[air]\nenabled = true\n"
-        "continuity = \"air-alone\"\nformulation = \"model-b\"\n\n";
-  text += critical_state(a["friction"]);
-  text += wedge
-              ? "# Along smooth inclined walls a lattice of particles would go on creeping.\n[walls]\nfriction_from = "
-                "\"start\"\n\n[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n"
-              : "[settle]\ndamping_time = \"5 ms\"\n\n";
+    text += fmt::format(
+        "# The {}hopper is open above. Boundaries of the air: docs/guidance.md.\n[air]\nenabled = true\n"
+        "continuity = \"air-alone\"\nformulation = \"model-b\"\n\n",
+        removal ? "" : "bin is closed, the ");
   return text + ending(end, 50, 5000);
 }
 
 // ------------------------------------------------------------------------------------------------ silo
 
-constexpr Question silo_questions[] = {
+constexpr std::string_view silo_sketch = R"(
+   |<-- width (diameter) ->|
+   |                       |
+   |. . . . . . . . . . . .|  ---
+   | . . . . . . . . . . . |   ^
+   |. . . . . . . . . . . .|   |
+    \ . . . . . . . . . . /    |
+     \ . . . . . . . . . /:    |  fill: from the outlet to the top of the bed
+      \ . . . . . . . . / :    |
+       \ . . . . . . . / <--- half-angle, between the wall of the cone and the vertical
+        \ . . . . . . /   :    v
+         '-----------'       ---
+         outlet (diameter)
+)";
+
+constexpr Question of_silo[] = {
     {"width", "diameter of the silo", "65 mm", dimension::length, 0, 100},
-    {"fill", "height of the bed above the outlet", "80 mm", dimension::length, 0, 200},
+    {"fill", "height of the bed, from the outlet to its top", "80 mm", dimension::length, 0, 200},
     {"outlet", "diameter of the outlet", "30 mm", dimension::length, 0, 100},
-    {"half-angle", "half angle of the cone, to the vertical", "30 deg", dimension::angle, 0, 1.5533},
-    {"diameter", "diameter of the grains", "0.5 mm", dimension::length, 0, 0.1},
-    {"wall-friction", "coefficient of wall friction; that of glass beads on steel if not given", "", {}, 0, 2, true},
+    {"half-angle", "half angle of the cone, between its wall and the vertical", "30 deg", dimension::angle, 0, 1.5533},
+    {"sector", "angle of a sector computed in place of the whole, such as 20 deg; the whole if not given", "",
+     dimension::angle, 0, 2 * std::numbers::pi},
+    {.name = "removal",
+     .text = "whether grains are taken away below the outlet (yes), or pile up on a floor (no)",
+     .standard = "yes",
+     .words = yes_or_no,
+     .only_words = true},
 };
+constexpr auto silo_questions = joined(of_silo, of_materials);
+
+constexpr KeyOfAnswer keys_of_silo[] = {
+    {"box.width", "width"},    {"box.depth", "width"},       {"box.height", "fill"},     {"bed.height", "fill"},
+    {"upper_radius", "width"}, {"vessel.1.radius", "width"}, {"lower_radius", "outlet"}, {"radius", "outlet"},
+    {"bed.spacing", "outlet"}, {"bottom", "half-angle"},     {"top", "half-angle"},      {"box.sector", "sector"}};
+constexpr auto silo_keys = joined(keys_of_silo, keys_of_materials);
 
 std::string write_silo(const Answers& a) {
   const double radius = 0.5 * a["width"], outlet = a["outlet"], fill = a["fill"], drop = 2 * outlet;
+  const bool removal = a.word("removal") == "yes";
   const double volume = std::numbers::pi * radius * radius * fill;
-  const double spacing = std::max(outlet / 12, std::cbrt(volume / most_particles));
+  const double share = a.has("sector") ? a["sector"] / (2 * std::numbers::pi) : 1;
+  // The ring in which a particle and its copies stand about the axis, as narrow as the outlet asks for.
+  const double on_ring = 0.5 * outlet / (outlet_over_ring * std::sqrt(1 / (share * std::numbers::pi)));
+  const double across = a.has("sector") ? std::min(outlet / 12, on_ring) : outlet / 12;
+  const double spacing = std::max(across, std::cbrt(share * volume / most_particles));
   const double cone_top = drop + (radius - 0.5 * outlet) / std::tan(a["half-angle"]);
   const double top = std::max(cone_top, drop + fill) + 4 * spacing, room = 2 * radius + 8 * spacing;
   // Beverloo's rule with the grains as points, half as long again.
   const double rate = 0.58 * std::sqrt(gravity) * std::pow(outlet, 2.5);
   std::string text =
-      head("Silo", "Grains flow out of a silo, a cone under a cylinder, and are taken away and counted.");
-  text += fmt::format("[box]\nwidth = {0}\ndepth = {0}\nheight = {1}\nfloor = \"open\"\n\n", written(room, "mm"),
+      head("Silo", removal ? "Grains flow out of a silo, a cone under a cylinder, and are taken away and counted."
+                           : "Grains flow out of a silo, a cone under a cylinder, and pile up on the floor.");
+  if (a.has("sector"))
+    text += "# A sector of the silo is computed in place of the whole; all results are those of the whole.\n";
+  text += fmt::format("[box]\nwidth = {0}\ndepth = {0}\nheight = {1}\n", written(room, "mm"),
                       written(top + 2 * spacing, "mm"));
+  if (a.has("sector")) text += fmt::format("sector = {}\n", written(a["sector"], "deg"));
+  text += removal ? "floor = \"open\"\n\n" : "\n";
   if (top > cone_top)
     text += fmt::format("[[vessel]]\nname = \"cylinder\"\nshape = \"cylinder\"\nradius = {}\nbottom = {}\ntop = {}\n\n",
                         written(radius, "mm"), written(cone_top, "mm"), written(top, "mm"));
@@ -146,24 +307,16 @@ std::string write_silo(const Answers& a) {
       "[[vessel]]\nname = \"cone\"\nshape = \"cone\"\nlower_radius = {}\nupper_radius = {}\nbottom = {}\ntop = {}\n\n",
       written(0.5 * outlet, "mm"), written(radius, "mm"), written(drop, "mm"), written(cone_top, "mm"));
   text += fmt::format(
-      "# It goes when the bed has settled.\n[[vessel]]\nname = \"gate\"\nshape = \"disc\"\nradius = {}\nheight = "
-      "{}\ngate = true\n\n[gate]\nopens = \"when-settled\"\n\n[removal]\nbelow = {}\n\n",
-      written(0.5 * outlet, "mm"), written(drop, "mm"), written(0.25 * drop, "mm"));
+      "# Shuts the outlet until the gate opens.\n[[vessel]]\nname = \"gate\"\nshape = \"disc\"\nradius = {}\nheight = "
+      "{}\ngate = true\n\n",
+      written(0.5 * outlet, "mm"), written(drop, "mm"));
+  text += opening(a, true);
+  if (removal) text += fmt::format("[removal]\nbelow = {}\n\n", written(0.25 * drop, "mm"));
+  text += grains_of_material(a, true);
   text += fmt::format(
-      "# Density, packing, law and wall friction with their sources: talus materials glass-beads. What stands here\n"
-      "# instead holds; the stiffness follows from the weight of the bed.\n"
-      "[grains]\nmaterial = \"glass-beads\"\ndiameter = {}\n\n[walls]\nmaterial = \"steel\"\n{}friction_from = "
-      "\"start\"\n\n",
-      written(a["diameter"], "mm"),
-      a.has("wall-friction") ? fmt::format("coefficient = {:.5g}\n", a["wall-friction"]) : std::string());
-  text += fmt::format(
-      "# {:.3g} particles across the outlet; fewer than 12 show in the discharge (talus check). In place of the "
-      "height\n"
-      "# a mass may stand.\n[bed]\nspacing = {}\nheight = {}\n\n",
+      "# {:.3g} particles across the outlet; fewer than 12 show in the discharge (talus check). A mass may be given\n"
+      "# instead of the height.\n[bed]\nspacing = {}\nheight = {}\n\n",
       outlet / spacing, written(spacing, "mm"), written(fill, "mm"));
-  text +=
-      "[collisions]\nform = \"none\"\n\n# As little viscosity as the scheme bears.\n[sph]\nviscosity_alpha = 0.01\n\n"
-      "[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n";
   return text + ending(rounded_up(1.5 * volume / rate), 25, 1000);
 }
 
@@ -193,7 +346,7 @@ std::string write_column(const Answers& a) {
   text += grains(a);
   text += fmt::format("[bed]\npacking = {}\nspacing = {}\nright = {}\nheight = {}\n\n", packing, written(spacing, "mm"),
                       written(width, "mm"), written(height, "mm"));
-  text += critical_state(a["friction"]);
+  text += frictions(a["friction"]);
   text += fmt::format(
       "[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n[walls]\ncoefficient = "
       "{:.5g}\n\n",
@@ -203,8 +356,20 @@ std::string write_column(const Answers& a) {
 
 }  // namespace
 
-const Kind hopper_kind{"hopper", "grains flow out of a hopper, in air or not", hopper_questions, write_hopper};
-const Kind silo_kind{"silo", "grains flow out of a silo, a cone under a cylinder", silo_questions, write_silo};
+const Kind hopper_kind{.name = "hopper",
+                       .text = "grains flow out of a hopper, in air or not",
+                       .questions = hopper_questions,
+                       .write = write_hopper,
+                       .keys = hopper_keys,
+                       .sketch = hopper_sketch,
+                       .check = check_outlet};
+const Kind silo_kind{.name = "silo",
+                     .text = "grains flow out of a silo, a cone under a cylinder",
+                     .questions = silo_questions,
+                     .write = write_silo,
+                     .keys = silo_keys,
+                     .sketch = silo_sketch,
+                     .check = check_outlet};
 const Kind column_kind{"column", "a column of grains collapses over a floor", column_questions, write_column};
 
 }  // namespace talus::app

@@ -16,11 +16,13 @@ namespace {
 /// A particle of no or of hardly any density reaches past plates and faces; one that jumps over its neighbours in a
 /// step was thrown by stresses that cannot be.
 struct Limits {
+  const Box& box;
   double least_density;  // kg/m^3
   double most_speed;     // m/s
 
   Limits(const Parameters& p, const Domain& domain, const State& s, double dt)
-      : least_density(p.sph.smoothing == Smoothing::fixed
+      : box(domain.box()),
+        least_density(p.sph.smoothing == Smoothing::fixed
                           ? 0
                           : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing) /
                                                   p.sph.smoothing_ratio,
@@ -28,14 +30,17 @@ struct Limits {
         most_speed(p.bed.spacing / dt) {}
 
   bool allow_density(double value) const { return value > least_density && std::isfinite(value); }
-  bool allow_velocity(const Vector3& v) const { return norm(v) <= most_speed; }
+  /// What has left the box falls on, and meets nobody.
+  bool allow_velocity(const Vector3& v, const Vector3& x) const {
+    return norm(v) <= (box.contains(x) ? most_speed : std::numeric_limits<double>::max());
+  }
 };
 
-[[noreturn]] void give_up(const Parameters& p, const Box& box, const State& s, const Limits& limits, std::size_t i) {
+[[noreturn]] void give_up(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !limits.allow_density(s.density[i]);
   const double speed = norm(s.velocity[i]);
-  const bool left = !box.contains(x);
+  const bool left = !limits.box.contains(x);
   const bool can_be_removed = left && !p.removal.outside && !p.air.enabled;
   throw NumericalError(
       {.what = density                ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
@@ -59,10 +64,10 @@ void check_state(ThreadTeam& team, const Parameters& p, const Domain& domain, co
   const std::size_t worst = reduce(
       team, s.position.size(), none,
       [&](std::size_t i) {
-        return limits.allow_velocity(s.velocity[i]) && limits.allow_density(s.density[i]) ? none : i;
+        return limits.allow_velocity(s.velocity[i], s.position[i]) && limits.allow_density(s.density[i]) ? none : i;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (worst != none) give_up(p, domain.box(), s, limits, worst);
+  if (worst != none) give_up(p, s, limits, worst);
 }
 
 }  // namespace talus::continuum

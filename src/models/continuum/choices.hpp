@@ -18,6 +18,12 @@ enum class Friction { coulomb, printed, none };
 enum class FrictionFrom { gate, start };
 enum class Method { runge_kutta, leapfrog };
 
+/// Two thirds of what the leapfrog bears, and what the midpoint rule does
+/// (docs/decisions/0027-the-step-of-the-leapfrog.md).
+constexpr double default_courant(Method method) {
+  return method == Method::leapfrog ? 1.2 : 0.3;
+}
+
 }  // namespace talus::continuum
 
 namespace talus {

@@ -30,10 +30,6 @@ double smoothing_length(const Parameters& p) {
   return p.sph.smoothing_ratio * sph::smoothing_length(lattice_of(p).mass, p.bed.packing * p.grains.density);
 }
 
-double step_of(const Parameters& p) {
-  return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
-}
-
 struct SettlingTime {
   double least = 0, most = 0;  ///< s; of an undamped bed far apart
 };
@@ -79,10 +75,14 @@ double points_on_square() {
 
 }  // namespace
 
+double time_step_of(const Parameters& p) {
+  return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
+}
+
 Forecast forecast(const Parameters& p, double end) {
   const Triangles triangles = triangles_of_vessel(p);
   const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(p);
-  const double step = step_of(p);
+  const double step = time_step_of(p);
   const SettlingTime settling = settling_time(p);
   const double particles = bed + mass_to_come(p, end, settling.most) / lattice_of(p).mass;
   return {.particles = particles,
@@ -97,7 +97,7 @@ Forecast forecast(const Parameters& p, double end) {
 
 std::vector<Problem> check_steps(const Parameters& p, double end) {
   std::vector<Problem> problems;
-  const double length = smoothing_length(p), speed = wave_speed(p), step = step_of(p);
+  const double length = smoothing_length(p), speed = wave_speed(p), step = time_step_of(p);
   if (p.integration.step && step > hopeless_courant * length / speed)
     problems.push_back(
         {.key = "integration.step",

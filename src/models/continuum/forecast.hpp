@@ -9,6 +9,9 @@
 
 namespace talus::continuum {
 
+/// Of the bed at the start, s.
+double time_step_of(const Parameters& parameters);
+
 struct Forecast {
   double particles = 0;       ///< that are computed
   double written = 0;         ///< of a snapshot: in a sector those of the whole vessel

@@ -10,13 +10,13 @@
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/phase.hpp"
 #include "numerics/sph/cubic_spline.hpp"
+#include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double room_at_walls = 0.4;      // in spacings, as of the bed
 constexpr double most_along_a_side = 1e4;  // places
 
 /// Of the lattice, without regard to walls.
@@ -49,7 +49,7 @@ InletLayer layer_of(const Parameters& p, const Inlet& inlet, double mass) {
   const Surface surface = surface_of(p);
   const Domain domain = domain_of(p);
   InletLayer layer;
-  const double room = room_at_walls * p.bed.spacing;
+  const double room = sph::contact_distance * p.bed.spacing;
   for (const Vector3& x : lattice_in(p, inlet))
     if (!surface.nearest(x, room) && !domain.is_near_wall(x, room)) layer.places.push_back(x);
   layer.interval = static_cast<double>(layer.places.size()) * mass / inlet.rate;

@@ -95,7 +95,7 @@ struct InletLayer {
   std::vector<double> density;  ///< bulk, of each, as the kernel sees it within the stream, kg/m^3
   double interval = 0;          ///< between layers, s
 };
-/// Places on a lattice of bed.spacing, farther than 0.4 of it from walls. \param mass of a particle, kg
+/// Places on a lattice of bed.spacing, no nearer to a wall than the contact distance. \param mass of a particle, kg
 InletLayer layer_of(const Parameters& parameters, const Inlet& inlet, double mass);
 
 }  // namespace talus::continuum

@@ -61,7 +61,7 @@ struct Parameters {
     double smoothing_ratio = 1;
     Continuity continuity = Continuity::printed;
     sph::StressForm stress_form = sph::StressForm::balanced;
-    double viscosity_alpha = 0.05;
+    double viscosity_alpha = 0.1;
     double viscosity_beta = 0;
     ViscositySpeed viscosity_speed = ViscositySpeed::largest;
     double density_relaxation = 1;
@@ -91,8 +91,8 @@ struct Parameters {
     std::optional<double> damping_time;
   } settle;
   struct Integration {
-    Method method = Method::runge_kutta;
-    double courant = 0.3;
+    Method method = Method::leapfrog;
+    double courant = default_courant(Method::leapfrog);
     std::optional<double> step;
     double skin = 0.4;
     double skin_at_rest = 0.25;
@@ -189,8 +189,11 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   "factor of the stress in Eq. 17: balanced (the floor carries the weight) or as printed"},
         p.sph.stress_form);
-  visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0), "Monaghan's viscosity, linear coefficient"},
-        p.sph.viscosity_alpha);
+  visit(
+      Parameter{
+          "sph.viscosity_alpha", dimension::none, at_least(0),
+          "Monaghan's viscosity, linear coefficient; less than 0.1 lets grains fly off where a stream strikes a wall"},
+      p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
   visit(Parameter{"sph.viscosity_speed",
@@ -265,13 +268,20 @@ void for_each_parameter(Visit&& visit, P& p) {
                 "time constant of an artificial damping of the velocities until the gate opens; left out: no damping"},
       p.settle.damping_time);
 
-  visit(Parameter{"integration.method", {}, {}, "second-order Runge-Kutta, or leapfrog"}, p.integration.method);
+  visit(Parameter{"integration.method",
+                  {},
+                  {},
+                  "leapfrog, or second-order Runge-Kutta, of twice the work in a step and shorter steps"},
+        p.integration.method);
   visit(Parameter{"integration.step", dimension::time, above(0),
                   "fixed time step, instead of that of the Courant number"},
         p.integration.step);
-  visit(Parameter{"integration.courant", dimension::none, above(0),
-                  "time step times the speed of pressure waves over the smallest smoothing length"},
-        p.integration.courant);
+  visit(
+      Parameter{
+          "integration.courant", dimension::none, above(0),
+          "time step times the speed of pressure waves over the smallest smoothing length; left out: 1.2 with the "
+          "leapfrog, 0.3 with Runge-Kutta"},
+      p.integration.courant);
   visit(Parameter{"integration.skin", dimension::none, between(0, 2),
                   "largest skin of the neighbour lists, of particles that move half of it in 20 steps, in spacings"},
         p.integration.skin);

@@ -13,7 +13,7 @@
 #include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
 #include "models/continuum/stress_regularisation.hpp"
-#include "models/continuum/vessel_friction.hpp"
+#include "models/continuum/vessel_contact.hpp"
 #include "models/continuum/walls.hpp"
 #include "physics/sph/pair_terms.hpp"
 
@@ -74,8 +74,8 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     step.density();
     step.stress();
   }
-  reflect_at_walls(team, w.material, w.domain, w.position, s);
-  reflect_at_vessel(team, w.vessel, w.sweep.neighbourhood(), w.load_fields, w.position, s);
+  reflect_at_walls(team, p, w.material, w.domain, w.position, s);
+  reflect_at_vessel(team, p, w.vessel, w.sweep.neighbourhood(), w.load_fields, w.position, s);
   step.damping();
   step.clock();
   check_state(team, p, w.domain, s, dt);
@@ -96,22 +96,42 @@ void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 
 namespace {
 
-/// The step that the Courant number of the grains allows, s, or the fixed one.
-double step_of_grains(ThreadTeam& team, const Parameters& p, const Workspace& w) {
+/// In a step no particle within the box moves farther than this, in spacings: faster ones would reach what the lists
+/// of neighbours do not hold, and pass through each other.
+constexpr double max_advance = 0.25;
+
+/// What limits the step of the grains.
+struct GrainLimits {
+  double min_smoothing_length;  ///< m
+  double max_speed;             ///< of the particles within the box, m/s
+};
+
+GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& w) {
+  return reduce(
+      team, w.smoothing_length.size(), GrainLimits{std::numeric_limits<double>::infinity(), 0},
+      [&](std::size_t i) {
+        return GrainLimits{w.smoothing_length[i], w.domain.box().contains(s.position[i]) ? norm(s.velocity[i]) : 0};
+      },
+      [](const GrainLimits& a, const GrainLimits& b) {
+        return GrainLimits{std::min(a.min_smoothing_length, b.min_smoothing_length),
+                           std::max(a.max_speed, b.max_speed)};
+      });
+}
+
+/// The step that pressure waves and the speed of the grains allow, s, or the fixed one.
+double step_of_grains(const Parameters& p, const GrainLimits& limits, const Workspace& w) {
   if (p.integration.step) return *p.integration.step;
-  const double least = reduce(
-      team, w.smoothing_length.size(), std::numeric_limits<double>::infinity(),
-      [&](std::size_t i) { return w.smoothing_length[i]; }, [](double a, double b) { return std::min(a, b); });
-  return p.integration.courant * least / w.sound_speed;
+  return std::min(p.integration.courant * limits.min_smoothing_length / w.sound_speed,
+                  max_advance * p.bed.spacing / limits.max_speed);
 }
 
 /// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
 /// the air; until the end of that step unchanged.
 double step_length(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!w.air) return step_of_grains(team, p, w);
+  if (!w.air) return step_of_grains(p, limits_of_grains(team, s, w), w);
   if (!w.air->is_due(s)) return s.last_step;
   w.air->take_grains(team, w.smoothing_length, s);
-  return std::min(step_of_grains(team, p, w), w.air->longest_step());
+  return std::min(step_of_grains(p, limits_of_grains(team, s, w), w), w.air->longest_step());
 }
 
 Vector3 gravity(const Parameters& p, const Workspace& w, double time) {
@@ -142,6 +162,9 @@ void Step::half() const {
     w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
     w.half_length[i] = w.sweep.smoothing_length(w.density[i]);
   });
+  const ContactStep step{dt, dt, w.contact_distance};
+  hold_off_walls(team, w.domain, w.rates, s.position, step, w.velocity);
+  hold_off_vessel(team, w.rates, s.position, step, w.sweep, w.velocity);
   measure_strain_at(team, s, w, w.position);
   w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, w.density, 0.5 * dt, w.columns,
                     false);
@@ -203,10 +226,11 @@ void Step::stress() const {
   });
 }
 
-/// Friction, and the loads of the walls. \param position of the particles that the rates are of
+/// Contact with walls, friction, and their loads. \param position of the particles that the rates are of
 void Step::walls(double duration, std::span<const Vector3> position) const {
-  apply_wall_friction(team, p, w.domain, w.rates, position, duration, s);
-  apply_vessel_friction(team, p, w.load_fields, w.rates, duration, s);
+  const ContactStep step{duration, dt, w.contact_distance};
+  apply_wall_contact(team, p, w.domain, w.rates, position, step, s);
+  apply_vessel_contact(team, p, w.load_fields, w.rates, step, w.sweep, s);
 }
 
 void Step::damping() const {
@@ -255,16 +279,29 @@ void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 }
 
 NumericalError::Report step_limit(const Parameters& p, const State& s, const Workspace& w) {
-  const auto least = std::min_element(w.smoothing_length.begin(), w.smoothing_length.end());
-  const double of_grains = p.integration.step.value_or(p.integration.courant * *least / w.sound_speed);
+  // That of the densest particle, or of the fastest within the box.
+  std::size_t densest = 0, fastest = 0;
+  const auto speed = [&](std::size_t i) { return w.domain.box().contains(s.position[i]) ? norm(s.velocity[i]) : 0; };
+  for (std::size_t i = 1; i < s.position.size(); ++i) {
+    if (w.smoothing_length[i] < w.smoothing_length[densest]) densest = i;
+    if (speed(i) > speed(fastest)) fastest = i;
+  }
+  if (s.position.empty()) return {};
+  const GrainLimits limits{w.smoothing_length[densest], speed(fastest)};
+  const double of_grains = step_of_grains(p, limits, w);
   if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
-  const auto i = static_cast<std::size_t>(least - w.smoothing_length.begin());
+  const bool by_speed = !(of_grains < max_advance * p.bed.spacing / limits.max_speed);
+  const std::size_t i = by_speed ? fastest : densest;
   const Vector3& x = s.position[i];
   NumericalError::Report report{};
-  report.term =
-      p.integration.step
-          ? "integration.step"
-          : fmt::format("Courant number of the grains, where they are densest, at {:.4g} kg/m3", s.density[i]);
+  if (p.integration.step) {
+    report.term = "integration.step";
+  } else if (by_speed) {
+    report.term = fmt::format("a particle moves {:g} of bed.spacing in a step at most: the fastest has {:.4g} m/s",
+                              max_advance, limits.max_speed);
+  } else {
+    report.term = fmt::format("Courant number of the grains, where they are densest, at {:.4g} kg/m3", s.density[i]);
+  }
   report.place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z);
   report.advice = "a stiffer law of the grains, a larger sph.viscosity_alpha";
   return report;

@@ -86,6 +86,7 @@ class Sweep {
   }
   double skin() const { return skin_; }  ///< m
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
+  VesselWalls& vessel_walls() { return vessel_; }
 
   /// Packs the records, then computes the requested rates.
   void operator()(ThreadTeam& team, const ParticleView& particles, SweepTerms terms, Rates& rates);

@@ -10,13 +10,14 @@
 #include "models/continuum/layout.hpp"
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/vessel.hpp"
+#include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
 constexpr double golden = std::numbers::phi - 1;
-constexpr double on_the_wall = 0.02, least_distance = 0.4;  // from walls, in spacings
+constexpr double on_the_wall = 0.02;  // in spacings
 
 /// Of a whole.
 double share(double x) {
@@ -137,7 +138,7 @@ struct Places {
   }
   /// Farther from the wall, if it is too near.
   Vector3 moved_off(const Vector3& x) const {
-    const double room = least_distance * parameters.bed.spacing;
+    const double room = sph::contact_distance * parameters.bed.spacing;
     const auto foot = surface.nearest(x, room);
     return foot ? foot->place + (room / foot->distance) * (x - foot->place) : x;
   }

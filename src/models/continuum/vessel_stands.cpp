@@ -102,31 +102,55 @@ class VesselWalls::PointsAround {
   std::vector<std::uint32_t> near_;
 };
 
-/// Adds a particle's stands. \param near records within reach, rising
-void VesselWalls::add_stands(const Vector3& position, std::span<std::uint32_t> near, Found& found) const {
+/// The points of a part as a particle meets them. \param points of one part, at least one
+PointsOfPart VesselWalls::points_of_part(const Vector3& position, std::span<std::uint32_t> points) const {
+  PointsOfPart result;
+  result.part = parts_[points.front()];
+  result.points = points;
+  double distance = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t n : points) {
+    const Vector3 normal = normal_of(n);
+    const double below = dot(places_[n] - position, normal);
+    result.side = result.side | (below < 0 ? Side::above : Side::below);
+    if (!(std::abs(below) < distance)) continue;
+    distance = std::abs(below);
+    result.foot = position + below * normal;
+    result.above_nearest = below < 0;
+    result.normal = below < 0 ? normal : -1.0 * normal;
+  }
+  return result;
+}
+
+/// Adds a particle's stands at the parts of the walls that it sees. \param near records within reach, rising
+/// \returns whether there are any
+bool VesselWalls::add_stands(const Vector3& position, std::span<std::uint32_t> near, Found& found) const {
   const auto of_other_part = [&](std::uint32_t n) { return parts_[n] != parts_[near.front()]; };
   if (std::any_of(near.begin(), near.end(), of_other_part))
     std::sort(near.begin(), near.end(),
               [&](std::uint32_t a, std::uint32_t b) { return std::pair(parts_[a], a) < std::pair(parts_[b], b); });
   const auto padding = static_cast<std::uint32_t>(records_.size() - 1);
-  std::uint32_t stands = 0;
-  for (auto n = near.begin(); n != near.end(); ++stands) {
-    const auto first = static_cast<std::uint32_t>(found.near.size());
-    const std::uint32_t part = parts_[*n];
-    double distance = std::numeric_limits<double>::infinity();
-    Vector3 foot;  // on that plane
-    for (; n != near.end() && parts_[*n] == part; ++n) {
-      const float* normal = records_[*n].normal;
-      const Vector3 d = places_[*n] - position, across{normal[0], normal[1], normal[2]};
-      if (const double height = dot(d, across); std::abs(height) < distance)
-        distance = std::abs(height), foot = position + height * across;
-      found.near.push_back(*n);
-    }
-    while ((found.near.size() - first) % WallPoints::padded_to != 0) found.near.push_back(padding);
-    found.stands.push_back({first, static_cast<std::uint32_t>(found.near.size()) - first, patches_[part], part,
-                            fields_ ? fields_->at(part, foot) : 0, distance});
+  thread_local std::vector<PointsOfPart> of_thread;
+  std::vector<PointsOfPart>& parts = of_thread;
+  parts.clear();
+  for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
+    while (end < near.size() && parts_[near[end]] == parts_[near[begin]]) ++end;
+    parts.push_back(points_of_part(position, near.subspan(begin, end - begin)));
   }
-  found.stands_of.push_back(stands);
+  std::uint32_t stands = 0;
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    const std::size_t seen = visibility_.keep_visible(position, parts, n);
+    if (seen == 0) continue;
+    const PointsOfPart part =
+        seen == parts[n].points.size() ? parts[n] : points_of_part(position, parts[n].points.first(seen));
+    const auto first = static_cast<std::uint32_t>(found.near.size());
+    found.near.insert(found.near.end(), part.points.begin(), part.points.end());
+    while ((found.near.size() - first) % WallPoints::padded_to != 0) found.near.push_back(padding);
+    found.stands.push_back({first, static_cast<std::uint32_t>(found.near.size()) - first, patches_[part.part],
+                            part.part, fields_ ? fields_->at(part.part, part.foot) : 0, norm(part.foot - position)});
+    ++stands;
+  }
+  if (stands > 0) found.stands_of.push_back(stands);
+  return stands > 0;
 }
 
 /// Particles whose numbers follow each other are mostly near each other too: they look among the same points.
@@ -144,8 +168,7 @@ void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<cons
       if (!boxes[set].is_empty()) around[set].gather(*this, set, boxes[set].low, boxes[set].high);
     for (const std::uint32_t i : group)
       if (const auto near = around[set_of(i)].near(position[i], reach(i)); !near.empty()) {
-        add_stands(position[i], near, found);
-        found.particles.push_back(i);
+        if (add_stands(position[i], near, found)) found.particles.push_back(i);
       }
   };
   thread_local std::vector<std::uint32_t> group;
@@ -193,6 +216,9 @@ void VesselWalls::find(ThreadTeam& team, const Neighbourhood& neighbourhood, std
       first_stand_.push_back(first_stand_.back() + some.stands_of[n]);
     }
   }
+  clearance_.resize(particles_.size());
+  for (std::size_t n = 0; n < particles_.size(); ++n)
+    clearance_[n] = {position[particles_[n]], neighbourhood.distance_from_vessel(particles_[n])};
   met_.resize(stands_.size());
   met_count_.assign(particles_.size(), 0);
   find_pairs(team, neighbourhood, position, smoothing_length, margin);

@@ -49,6 +49,11 @@ VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet 
     }
     grids_[n].emplace(std::span(places_).subspan(first_record_[n]), edge_of_cell * spacing);
   }
+  constexpr double reach = 2.6;  // of a particle of the bed, with its margin, in spacings
+  std::vector<Vector3> normals;
+  for (std::uint32_t n = 0; n < records_.size(); ++n) normals.push_back(normal_of(n));
+  visibility_ = WallVisibility(surface, places_, normals, parts_, records_.size() - first_record_[sets_of_points - 1],
+                               spacing, reach * spacing);
   records_.push_back({{}, {1, 0, 0}, 0, 0});
   for (int n = 0; n <= 2 * steps_of_h; ++n) plane_.push_back(sph::weight_of_plane(static_cast<double>(n) / steps_of_h));
 }
@@ -106,6 +111,26 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
   met_count_[slot] = static_cast<std::uint8_t>(count);
   for (const NearWall& wall : std::span(met, count))
     seats_[wall.stand] = {{wall.normal.x, wall.normal.y, wall.normal.z}, wall.distance, wall.share, {}};
+}
+
+std::optional<VesselWalls::Touch> VesselWalls::touched(std::size_t place, const Vector3& x, const Vector3& y,
+                                                       double within) {
+  constexpr double looked_beyond = 0.3;  // spacings
+  Clearance& clear = clearance_[place];
+  if (norm(y - clear.around) + within < clear.distance) return std::nullopt;
+  const double reach = within + looked_beyond * spacing_;
+  const auto foot = surface_.nearest(y, reach, clear.triangle);
+  clear = {y, foot ? foot->distance : reach, foot ? foot->triangle : Surface::no_triangle};
+  if (!foot || !(foot->distance < within)) return std::nullopt;
+  const Vector3 out = y - foot->place;
+  Touch touch{foot->triangle, foot->place, (1 / foot->distance) * out};
+  if (dot(out, x - foot->place) > 0) return touch;
+  // On the surface or beyond it.
+  if (const auto crossing = surface_.first_crossing(x, y))
+    touch.triangle = crossing->triangle, touch.place = x + crossing->at * (y - x);
+  const Vector3& normal = surface_.normal(touch.triangle);
+  touch.normal = dot(normal, x - touch.place) < 0 ? -1.0 * normal : normal;
+  return touch;
 }
 
 Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& records, std::size_t particle,

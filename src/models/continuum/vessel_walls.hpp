@@ -18,6 +18,7 @@
 #include "base/tensor.hpp"
 #include "base/vector.hpp"
 #include "models/continuum/wall_sweep/kernel.hpp"
+#include "models/continuum/wall_visibility.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/neighbourhood.hpp"
 #include "numerics/surface/surface.hpp"
@@ -92,6 +93,15 @@ class VesselWalls {
   std::span<const std::uint32_t> particles() const { return particles_; }
   std::int32_t place_of(std::size_t particle) const { return slot_[particle]; }
 
+  /// Where a particle at a place in particles() would touch the surface that moves from x to y: come nearer to it than
+  /// `within`, m, or pass it. What is found serves the next search for this particle.
+  struct Touch {
+    std::uint32_t triangle;
+    Vector3 place;   ///< of the surface, m
+    Vector3 normal;  ///< unit, towards the particle
+  };
+  std::optional<Touch> touched(std::size_t place, const Vector3& x, const Vector3& y, double within);
+
   /// The acceleration of a particle along a part of a wall by its neighbours' images there (vessel_sum.hpp), m/s^2.
   /// \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
   Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
@@ -109,7 +119,12 @@ class VesselWalls {
   void find_stands(const Neighbourhood& neighbourhood, std::span<const Vector3> position,
                    std::span<const double> smoothing_length, std::span<const double> margin, std::size_t chunk,
                    Found& found) const;
-  void add_stands(const Vector3& position, std::span<std::uint32_t> near, Found& found) const;
+  PointsOfPart points_of_part(const Vector3& position, std::span<std::uint32_t> points) const;
+  bool add_stands(const Vector3& position, std::span<std::uint32_t> near, Found& found) const;
+  Vector3 normal_of(std::uint32_t record) const {
+    const float* n = records_[record].normal;
+    return {n[0], n[1], n[2]};
+  }
   void find_pairs(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
                   std::span<const double> smoothing_length, std::span<const double> margin);
   void meet(std::size_t slot, const Vector3& position, double smoothing_length);
@@ -124,6 +139,7 @@ class VesselWalls {
   std::vector<Vector3> places_;         // of the records, m
   std::vector<std::uint32_t> parts_;    // of the records
   std::vector<std::uint32_t> patches_;  // of the parts
+  WallVisibility visibility_;           // of the records
   std::array<std::optional<CellGrid>, sets_of_points> grids_;
   std::array<std::uint32_t, sets_of_points> first_record_{};
   std::vector<std::uint32_t> near_;         // records near the particles, by stand, padded to whole registers
@@ -141,6 +157,13 @@ class VesselWalls {
   std::vector<std::uint32_t> pair_record_, pair_seat_;
   std::vector<NearWall> met_;            // by stand; of a particle those that it meets come first
   std::vector<std::uint8_t> met_count_;  // by slot
+  /// No part of the surface is nearer to a place than that distance.
+  struct Clearance {
+    Vector3 around;
+    double distance = 0;
+    std::size_t triangle = Surface::no_triangle;
+  };
+  std::vector<Clearance> clearance_;  // by slot
   bool is_met_ = false;
   std::vector<double> plane_;  // weight of a plane by its distance, in steps of h/64
 };

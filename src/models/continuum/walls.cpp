@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "numerics/sph/cubic_spline.hpp"
-#include "physics/sph/wall_friction.hpp"
+#include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
 
@@ -13,29 +14,37 @@ namespace {
 
 using Impulses = std::array<Vector3, most_walls>;
 
+constexpr int max_passes = 4;  // over the walls of a corner
+
 Impulses sum(Impulses a, const Impulses& b) {
   for (std::size_t w = 0; w < most_walls; ++w) a[w] += b[w];
   return a;
 }
 
-/// The velocity of a particle after friction at a wall.
-Vector3 velocity_after_friction(const Parameters& p, const Domain& domain, int wall, const State& state, std::size_t i,
-                                const Vector3& position, double normal_acceleration, double duration) {
+/// The velocity of a particle after the printed friction at a wall.
+Vector3 velocity_after_printed_friction(const Parameters& p, const Domain& domain, int wall, const State& state,
+                                        std::size_t i, const Vector3& position, double duration) {
   const Vector3 n = domain.normal(wall), velocity = state.velocity[i];
-  const Vector3 through = dot(velocity, n) * n;
-  const Vector3 along = velocity - through;
-  if (p.walls.friction == Friction::coulomb)
-    return through + sph::coulomb_friction(along, domain.side(wall, position) * normal_acceleration * duration,
-                                           p.walls.coefficient);
   if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass, state.density[i]) ||
       !domain.is_beside(wall, position))
     return velocity;
+  const Vector3 through = dot(velocity, n) * n;
   const SymmetricTensor3<> stress = stress_of(state.material, i);
   const Vector3 traction{stress.xx * n.x + stress.xy * n.y + stress.zx * n.z,
                          stress.xy * n.x + stress.yy * n.y + stress.yz * n.z,
                          stress.zx * n.x + stress.yz * n.y + stress.zz * n.z};
   const double normal = dot(traction, n);
-  return through + sph::printed_friction(along, norm(traction - normal * n), normal, p.walls.coefficient, duration);
+  return through +
+         sph::printed_friction(velocity - through, norm(traction - normal * n), normal, p.walls.coefficient, duration);
+}
+
+/// WallContact::gap; infinite beyond the ends of a wall and in its openings. \param side on which the particle is
+double gap_of(const Domain& domain, int wall, double side, const Vector3& x, double distance) {
+  return domain.is_beside(wall, x) ? side * domain.above(wall, x) - distance : std::numeric_limits<double>::infinity();
+}
+
+double coefficient_of_walls(const Parameters& p, const State& state) {
+  return p.walls.friction == Friction::coulomb && has_wall_friction(p, state) ? p.walls.coefficient : 0;
 }
 
 /// Whether a particle that moved so has certainly passed no boundary.
@@ -51,33 +60,74 @@ bool has_wall_friction(const Parameters& p, const State& state) {
   return p.walls.friction != Friction::none && (p.walls.friction_from == FrictionFrom::start || state.gate_time >= 0);
 }
 
-void apply_wall_friction(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
-                         std::span<const Vector3> position, double duration, State& state) {
-  const bool rough = has_wall_friction(p, state);
+void apply_wall_contact(ThreadTeam& team, const Parameters& p, const Domain& domain, const Rates& rates,
+                        std::span<const Vector3> position, const ContactStep& step, State& state) {
+  const bool printed = p.walls.friction == Friction::printed && has_wall_friction(p, state);
+  const double coefficient = coefficient_of_walls(p, state);
   std::array<Vector3, most_walls> normal;
   for (int wall = 0; wall < domain.wall_count(); ++wall) normal[static_cast<std::size_t>(wall)] = domain.normal(wall);
   const auto meet = [&](std::size_t i, Impulses& received) {
-    const auto rub = [&](int wall, double normal_acceleration) {
-      if (!domain.is_solid(wall)) return;
-      const Vector3 after =
-          velocity_after_friction(p, domain, wall, state, i, position[i], normal_acceleration, duration);
-      received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - after);
-      state.velocity[i] = after;
+    const auto become = [&](int wall, const Vector3& velocity) {
+      received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - velocity);
+      state.velocity[i] = velocity;
     };
+    const auto touch = [&](int wall, double acceleration) {
+      if (!domain.is_solid(wall)) return false;
+      const double side = domain.side(wall, position[i]);
+      const sph::AfterContact after = sph::after_contact(state.velocity[i],
+                                                         {side * normal[static_cast<std::size_t>(wall)],
+                                                          {},
+                                                          gap_of(domain, wall, side, state.position[i], step.distance),
+                                                          side * acceleration * step.duration,
+                                                          coefficient},
+                                                         step.step);
+      become(wall, after.velocity);
+      return after.contact_push > 0;
+    };
+    bool held = false;
+    int walls = 0;
     rates.by_walls.of(i, [&](int wall, double acceleration) {
       const auto w = static_cast<std::size_t>(wall);
-      received[w] -= (state.mass * duration * acceleration) * normal[w];
-      if (rough && p.walls.friction == Friction::coulomb && acceleration != 0) rub(wall, acceleration);
+      received[w] -= (state.mass * step.duration * acceleration) * normal[w];
+      held = touch(wall, acceleration) || held;
+      ++walls;
     });
-    if (rough && p.walls.friction == Friction::printed)
-      for (int wall = 0; wall < domain.wall_count(); ++wall) rub(wall, 0);
+    // What one wall gave may press on another: in corners.
+    for (int pass = 0; held && walls > 1 && pass < max_passes; ++pass) {
+      held = false;
+      rates.by_walls.of(i, [&](int wall, double) { held = touch(wall, 0) || held; });
+    }
+    if (printed)
+      for (int wall = 0; wall < domain.wall_count(); ++wall)
+        if (domain.is_solid(wall))
+          become(wall, velocity_after_printed_friction(p, domain, wall, state, i, position[i], step.duration));
   };
   state.wall_impulse = sum(state.wall_impulse, accumulate(team, position.size(), Impulses{}, meet, sum));
 }
 
-void reflect_at_walls(ThreadTeam& team, const Material& material, const Domain& domain, std::span<const Vector3> before,
-                      State& state) {
+void hold_off_walls(ThreadTeam& team, const Domain& domain, const Rates& rates, std::span<const Vector3> position,
+                    const ContactStep& step, std::span<Vector3> velocity) {
+  for_each(team, position.size(), [&](std::size_t i) {
+    bool held = true;
+    for (int pass = 0; held && pass < max_passes; ++pass) {
+      held = false;
+      rates.by_walls.of(i, [&](int wall, double) {
+        if (!domain.is_solid(wall)) return;
+        const double side = domain.side(wall, position[i]);
+        const Vector3 n = side * domain.normal(wall);
+        const double push =
+            sph::contact_push(dot(velocity[i], n), gap_of(domain, wall, side, position[i], step.distance), step.step);
+        velocity[i] += push * n;
+        held = held || push > 0;
+      });
+    }
+  });
+}
+
+void reflect_at_walls(ThreadTeam& team, const Parameters& p, const Material& material, const Domain& domain,
+                      std::span<const Vector3> before, State& state) {
   constexpr int most_bounces = 8;
+  const double coefficient = coefficient_of_walls(p, state);
   const auto turn = [&](std::size_t i, Impulses& received) {
     const auto become = [&](int wall, const Vector3& position, const Vector3& velocity) {
       received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - velocity);
@@ -88,16 +138,23 @@ void reflect_at_walls(ThreadTeam& team, const Material& material, const Domain& 
     for (int bounces = 0;; ++bounces) {
       const auto bounce = domain.bounce(before[i], state.position[i]);
       if (!bounce) break;
+      const bool solid = domain.is_solid(bounce->wall);
       if (bounces == most_bounces) {  // in a narrow corner: back the way it came
         if (!state.reset_position.empty()) state.reset_position[i] += before[i] - state.position[i];
-        become(bounce->wall, before[i], -1.0 * state.velocity[i]);
+        become(bounce->wall, before[i], solid ? Vector3{} : -1.0 * state.velocity[i]);
         break;
       }
       const Vector3 place = bounce->image.position(state.position[i]);
       if (!state.reset_position.empty())
-        state.reset_position[i] = place - bounce->image.vector(state.position[i] - state.reset_position[i]);
-      become(bounce->wall, place, bounce->image.vector(state.velocity[i]));
-      material.mirror(state.material, i, bounce->image);
+        state.reset_position[i] = solid ? state.reset_position[i] + (place - state.position[i])
+                                        : place - bounce->image.vector(state.position[i] - state.reset_position[i]);
+      if (solid) {
+        const Vector3 n = domain.side(bounce->wall, before[i]) * domain.normal(bounce->wall);
+        become(bounce->wall, place, sph::after_contact(state.velocity[i], {n, {}, 0, 0, coefficient}, 1).velocity);
+      } else {
+        become(bounce->wall, place, bounce->image.vector(state.velocity[i]));
+        material.mirror(state.material, i, bounce->image);
+      }
     }
   };
   state.wall_impulse = sum(state.wall_impulse, accumulate(team, before.size(), Impulses{}, turn, sum));

@@ -8,6 +8,7 @@
 #include "models/continuum/sector.hpp"
 #include "models/continuum/sort.hpp"
 #include "numerics/sph/cubic_spline.hpp"
+#include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
 
@@ -24,6 +25,8 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
+      contact_distance(sph::contact_distance *
+                       sph::smoothing_length(state.mass, parameters.bed.packing * parameters.grains.density)),
       lasting_time(passages_that_last * parameters.bed.spacing / sound_speed),
       vessel(surface_of(parameters)),
       load_fields(continuum::load_fields(parameters, vessel)),

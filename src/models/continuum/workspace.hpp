@@ -21,10 +21,11 @@ namespace talus::continuum {
 struct Workspace {
   Domain domain;
   Material material;
-  double sound_speed;   ///< bound for the time step, m/s
-  double loading_time;  ///< over which gravity is raised, s
-  double lasting_time;  ///< a shear that turns back sooner draws no density, s
-  Surface vessel;       ///< empty without one
+  double sound_speed;       ///< bound for the time step, m/s
+  double loading_time;      ///< over which gravity is raised, s
+  double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
+  double lasting_time;      ///< a shear that turns back sooner draws no density, s
+  Surface vessel;           ///< empty without one
   std::vector<InletLayer> inlets;
   SurfaceFields load_fields;  ///< of the vessel
   std::vector<LoadBand> load_bands;

@@ -28,7 +28,7 @@ inline constexpr double largest_shear_rate = 0.2, largest_normal_rate = 0.05;
 
 /// The table [collisions] of a case.
 struct CollisionParameters {
-  Collisions form = Collisions::printed;
+  Collisions form = Collisions::none;
   double normal = 1.67;   ///< B1
   double shear = 0.0175;  ///< B2
   double diagonal = 1;    ///< gamma_ii over du_i/dx_i: 2 if gamma_ij = du_i/dx_j + du_j/dx_i is meant for i = j too

@@ -63,9 +63,12 @@ class CriticalState {
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{"bulk_modulus", dimension::pressure, above(0),
-                    "pressure over the logarithm of the packing over that at which the grains just touch"},
+                    "pressure over the logarithm of the packing over that at which the grains just touch; left out: a "
+                    "thousand times the weight of the bed over its area (talus law and a bed without weight: 4.9 MPa)"},
           p.bulk_modulus);
-    visit(Parameter{"shear_modulus", dimension::pressure, above(0), "shear modulus below yield"}, p.shear_modulus);
+    visit(Parameter{"shear_modulus", dimension::pressure, above(0),
+                    "shear modulus below yield; left out: 0.6 times bulk_modulus"},
+          p.shear_modulus);
     visit(Parameter{"friction", dimension::none, friction_coefficient(),
                     "mu_s, friction coefficient of slow flow at the critical packing, in simple shear"},
           p.friction);
@@ -76,7 +79,8 @@ class CriticalState {
     visit(Parameter{"inertial_number", dimension::none, above(0), "I_0, at which it is half way between the two"},
           p.inertial_number);
     visit(Parameter{"reference_packing", dimension::none, between(0.1, 0.74),
-                    "packing at which the grains just touch at the start; denser, they bear pressure"},
+                    "packing at which the grains just touch at the start; denser, they bear pressure; left out: "
+                    "bed.packing (talus law and a bed looser than loosest_packing: 0.6)"},
           p.reference_packing);
     visit(Parameter{"critical_packing", dimension::none, between(0.1, 0.74),
                     "phi_c, packing that slow shear leads to from any other"},

@@ -24,7 +24,7 @@
 
 namespace talus::granular {
 
-/// All laws; the first is the default.
+/// All laws.
 using AnyLaw = std::variant<YuuUmekageIsotropic, YuuUmekagePrinted, DruckerPrager, CriticalState, LinearElastic>;
 
 template <class Variant>
@@ -55,7 +55,7 @@ enum class LawName : std::size_t {};
 
 /// The table [law] of a case, with a table of each law within.
 struct LawParameters {
-  LawName name{};
+  LawName name{Laws::index_of<CriticalState::Parameters>()};
   Laws::Parameters own;
 
   LawParameters() = default;

@@ -11,6 +11,7 @@ namespace talus::app {
 /// A cone of 30 degrees under a cylinder of 30 mm, from 60 and 90 mm on, with a lid; friction 0.3.
 inline continuum::Parameters small_silo() {
   continuum::Parameters p;
+  p.law = granular::YuuUmekageIsotropic::Parameters{};
   p.box.width = p.box.depth = 0.1, p.box.height = 0.2;
   p.bed.spacing = 2.5e-3;
   p.walls.coefficient = 0.3;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace talus::app {
 namespace {
@@ -122,6 +123,27 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
   set_from_bed(given, p, filled);
   EXPECT_EQ(law.bulk_modulus, 1e6);
   EXPECT_NEAR(law.shear_modulus, 0.6e6, 1e-6);
+}
+
+TEST(Materials, TheStiffnessFollowsWithoutAMaterialToo) {
+  const CaseFile file = a_case("[grains]\ndensity = \"2000 kg/m3\"\n");
+  const auto taken = [&](double packing, double gravity) {
+    Parameters p;
+    p.grains.density = 2000;
+    p.bed.height = 2, p.bed.packing = packing, p.gravity.acceleration = gravity;
+    FilledIn filled;
+    set_from_bed(file, p, filled);
+    return std::pair{p.law.of<granular::CriticalState>(), filled.keys};
+  };
+  const auto [law, keys] = taken(0.58, 10);
+  EXPECT_NEAR(law.bulk_modulus, 1000 * 0.58 * 2000 * 10 * 2, 1e-3);
+  EXPECT_NEAR(law.shear_modulus, 0.6 * law.bulk_modulus, 1e-3);
+  EXPECT_EQ(law.reference_packing, 0.58);
+  EXPECT_EQ(keys.at("law.critical-state.bulk_modulus"), "bed");
+  const auto [loose, of_loose] = taken(0.3, 10);
+  EXPECT_EQ(loose.reference_packing, 0.6) << "they do not touch";
+  EXPECT_FALSE(of_loose.contains("law.critical-state.reference_packing"));
+  EXPECT_EQ(taken(0.6, 0).first.bulk_modulus, granular::CriticalState::Parameters{}.bulk_modulus) << "no weight";
 }
 
 TEST(Materials, TheBedBearsNoPressureBeforeItsWeight) {

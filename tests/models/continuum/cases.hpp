@@ -12,10 +12,21 @@ namespace talus::continuum {
 
 inline constexpr double spacing = 1e-2;
 
+/// The law, collisions, viscosity and time integration of Yuu & Umekage 2011, in place of the defaults.
+inline Parameters as_printed() {
+  Parameters p;
+  p.law = granular::YuuUmekageIsotropic::Parameters{};
+  p.collisions.form = granular::Collisions::printed;
+  p.sph.viscosity_alpha = 0.05;
+  p.integration.method = Method::runge_kutta;
+  p.integration.courant = default_courant(Method::runge_kutta);
+  return p;
+}
+
 /// A frictionless box whose particles fill it along x and y to a height; elastic grains, no viscosity, no gate.
 /// \param count particles along x, y, z; \param room free height above, in spacings
 inline Parameters column(double x, double y, double z, double room = 0) {
-  Parameters p;
+  Parameters p = as_printed();
   p.box.width = x * spacing;
   p.box.depth = y * spacing;
   p.box.height = (z + room) * spacing;

@@ -15,7 +15,7 @@ namespace {
 
 /// A section one particle deep, of beads as in the cases.
 Parameters section(double width, double height) {
-  Parameters p;
+  Parameters p = as_printed();
   p.box.width = width, p.box.depth = 2.5e-3, p.box.height = 1.5 * height;
   p.bed.spacing = 2.5e-3, p.bed.height = height;
   p.settle.damping_time = 5e-3;

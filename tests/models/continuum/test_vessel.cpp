@@ -10,6 +10,7 @@
 
 #include "block_on_incline.hpp"
 #include "cases.hpp"
+#include "drawn_parts.hpp"
 #include "models/continuum/vessel.hpp"
 #include "models/continuum/vessel_loads.hpp"
 #include "vessel_parts.hpp"
@@ -27,13 +28,6 @@ void make_liquid(Parameters& p) {
   p.integration.method = Method::leapfrog;
   p.integration.courant = 0.8;
   p.settle = {.speed = 2e-2, .duration = 0.01, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
-}
-
-VesselPart drawn(std::string name, std::vector<Triangle> triangles) {
-  VesselPart part = named(std::move(name), VesselShape::stl);
-  part.unit = FileUnit::m;
-  part.drawn = std::make_shared<DrawnSurface>(std::move(triangles));
-  return part;
 }
 
 /// What every patch of the vessel received over a while after the bed has settled, N.

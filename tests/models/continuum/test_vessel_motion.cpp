@@ -165,7 +165,8 @@ TEST(VesselMotion, ADrumCarriesItsBedUpAsFarAsFrictionHoldsIt) {
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 }
 
-/// Mean packing of the places over that of the densities, less 1, after a while of turning.
+/// Mean packing of the places over that of the densities, less 1, after a while of turning: of the particles farther
+/// from the wall than its first layers, where the kernel's sum is a few per cent above that of a lattice.
 double drift_in_drum(double relaxation) {
   Parameters p = drum(Along::y, 12);
   p.sph.density_relaxation = relaxation;
@@ -174,8 +175,11 @@ double drift_in_drum(double relaxation) {
   const State& s = model.state();
   while (s.time < 1) model.advance(team);
   double of_places = 0, of_densities = 0;
-  for (std::size_t i = 0; i < s.position.size(); ++i)
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const Vector3& x = s.position[i];
+    if (std::hypot(x.x - 10 * spacing, x.z - 10 * spacing) > 6.5 * spacing) continue;
     of_places += s.packing[i] * p.grains.density, of_densities += s.density[i];
+  }
   return of_places / of_densities - 1;
 }
 

@@ -15,12 +15,13 @@ const Tensor3<> gradient{3, 40, -7, 10, -2, 5, 13, 1, -4};
 
 TEST(CollisionalStress, IsEquations13And14) {
   const double time = std::sqrt(2e-4 / 9.8), tau = 500;
-  const SymmetricTensor3<> stress = collisional_stress({}, time, tau, gradient);
+  const SymmetricTensor3<> stress = collisional_stress({.form = Collisions::printed}, time, tau, gradient);
   EXPECT_NEAR(stress.zz, 1.67 * time * 4 * tau, 1e-9);  // du_z/dz < 0 compresses: pressure
   EXPECT_NEAR(stress.xx, -1.67 * time * 3 * tau, 1e-9);
   EXPECT_NEAR(stress.xy, -0.0175 * time * 50 * tau, 1e-9);
   EXPECT_NEAR(stress.zx, -0.0175 * time * 6 * tau, 1e-9);
-  EXPECT_NEAR(collisional_stress({.diagonal = 2}, time, tau, gradient).zz, 2 * stress.zz, 1e-9);
+  EXPECT_NEAR(collisional_stress({.form = Collisions::printed, .diagonal = 2}, time, tau, gradient).zz, 2 * stress.zz,
+              1e-9);
 }
 
 TEST(CollisionalStress, IsotropicReadingIsTheSameInAnyAxes) {
@@ -30,7 +31,7 @@ TEST(CollisionalStress, IsotropicReadingIsTheSameInAnyAxes) {
   expect_near(collisional_stress(isotropic_reading, time, 500.0, turned(gradient, rotation)),
               transformed(collisional_stress(isotropic_reading, time, 500.0, gradient), rotation), 1e-9);
   // Simple shear and uniform compression as printed.
-  const CollisionParameters printed;
+  const CollisionParameters printed{.form = Collisions::printed};
   EXPECT_NEAR(collisional_stress(isotropic_reading, time, 500.0, shear(30)).zx,
               collisional_stress(printed, time, 500.0, shear(30)).zx, 1e-12);
   EXPECT_NEAR(collisional_stress(isotropic_reading, time, 500.0, squeeze(30)).zz,
@@ -70,8 +71,8 @@ TEST(CollisionalStress, BeyondItsRangeStaysWhatItIsAtTheEnd) {
       }
   }
   // 5 % of the mean stress is what Yuu et al. call small: B1 0.05 = 0.084 and B2 0.2 = 0.0035 is the most there is.
-  const SymmetricTensor3<> most =
-      collisional_stress({.range = CollisionRange::printed}, time, 1.0, 1e6 * Tensor3<>{-1, 1, 1, 1, -1, 1, 1, 1, -1});
+  const SymmetricTensor3<> most = collisional_stress({.form = Collisions::printed, .range = CollisionRange::printed},
+                                                     time, 1.0, 1e6 * Tensor3<>{-1, 1, 1, 1, -1, 1, 1, 1, -1});
   EXPECT_NEAR(most.zz, 1.67 * 0.05, 1e-12);
   EXPECT_NEAR(most.zx, -0.0175 * 0.2, 1e-12);
 }
@@ -88,7 +89,7 @@ TEST(CollisionalStress, WithinItsRangeFeelsNoSpinAndNoAxes) {
     expect_near(collisional_stress(isotropic_reading, time, 500.0, turned(times * gradient, rotation)),
                 transformed(collisional_stress(isotropic_reading, time, 500.0, times * gradient), rotation), 1e-9);
   // The component formulas do depend on the axes; what must hold is that they treat the three alike.
-  const CollisionParameters components{.range = CollisionRange::printed};
+  const CollisionParameters components{.form = Collisions::printed, .range = CollisionRange::printed};
   const Tensor3<> quarter = rotation_about_z(M_PI / 2) * rotation_about_y(M_PI / 2);
   expect_near(collisional_stress(components, time, 500.0, turned(gradient, quarter)),
               transformed(collisional_stress(components, time, 500.0, gradient), quarter), 1e-9);

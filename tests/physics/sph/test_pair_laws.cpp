@@ -6,7 +6,7 @@
 #include "physics/sph/artificial_viscosity.hpp"
 #include "physics/sph/balance.hpp"
 #include "physics/sph/pair_terms.hpp"
-#include "physics/sph/wall_friction.hpp"
+#include "physics/sph/wall_contact.hpp"
 
 namespace talus::sph {
 namespace {

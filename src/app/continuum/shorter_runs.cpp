@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/shorter_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/materials/materials.hpp"
+#include "models/continuum/layout.hpp"
+
+namespace talus::app {
+
+namespace {
+
+constexpr double enough_across = 12;  // particles, of an outlet
+constexpr int copies[] = {36, 30, 24, 20, 18, 15, 12, 10, 9, 8, 6, 5, 4};
+constexpr double larger[] = {3, 2.5, 2, 1.5, 1.25};  // spacings, over the case's
+
+/// Downwards, to four digits.
+std::string millimetres(double length) {
+  const double value = 1e3 * length, unit = std::pow(10, std::floor(std::log10(value)) - 3);
+  return fmt::format("{:.4g} mm", unit * std::floor(value / unit * (1 + 1e-12)));
+}
+
+Shortening sector() {
+  Shortening s{.alternatives = {}, .text = "one sector of the axisymmetric vessel"};
+  for (const int n : copies) s.alternatives.push_back({fmt::format("box.sector={:g} deg", 360.0 / n)});
+  return s;
+}
+
+Shortening softer_grains(double modulus) {
+  return {
+      .alternatives = {{fmt::format("law.critical-state.bulk_modulus={:.4g} MPa", 1e-6 * modulus),
+                        fmt::format("law.critical-state.shear_modulus={:.4g} MPa", 1e-6 * shear_over_bulk * modulus)}},
+      .text = "grains as soft as discharge and loads allow (decision 23)"};
+}
+
+Shortening larger_particles(const continuum::Parameters& p) {
+  const auto outlet = continuum::outlet_of(p);
+  const double width = outlet ? outlet->right - outlet->left : 0;
+  std::vector<double> spacings;
+  if (width > 0) spacings.push_back(width / enough_across);
+  for (const double factor : larger)
+    if (!(width > 0) || factor * p.bed.spacing < width / enough_across) spacings.push_back(factor * p.bed.spacing);
+  Shortening s{.alternatives = {}, .text = width > 0 ? "fewer particles across the outlet" : "fewer particles"};
+  const bool is_section = continuum::lattice_of(p).count[1] == 1;
+  for (const double spacing : spacings) {
+    if (spacing < 1.05 * p.bed.spacing) continue;
+    s.alternatives.push_back({"bed.spacing=" + millimetres(spacing)});
+    if (is_section) s.alternatives.back().push_back("box.depth=" + millimetres(spacing));
+  }
+  return s;
+}
+
+}  // namespace
+
+std::vector<Shortening> shorter_runs(const continuum::Parameters& p) {
+  std::vector<Shortening> all;
+  if (!p.box.sector && !p.vessel.empty()) all.push_back(sector());
+  if (p.law.is<granular::CriticalState>()) {
+    const double modulus = bulk_modulus_for(p);
+    if (modulus > 0 && p.law.of<granular::CriticalState>().bulk_modulus > 1.05 * modulus)
+      all.push_back(softer_grains(modulus));
+  }
+  if (p.integration.pair_precision == continuum::PairPrecision::in_double)
+    all.push_back({.alternatives = {{"integration.pair_precision=single"}}, .text = "sums over pairs to some 1e-6"});
+  all.push_back(larger_particles(p));
+  return all;
+}
+
+}  // namespace talus::app
