@@ -91,6 +91,10 @@ class Materials(unittest.TestCase):
         cone = self.cone(25, 0.03)
         foot, height, on = materials.round_deposit(np.vstack([cone, [[0.2, 0, 0.001], [0, -0.3, 0.001]]]), self.SPACING, 0.06)
         self.assertEqual((~on).sum(), 2)
+        x = np.vstack([cone, [[0.2, 0, 0.001], [0, -0.3, 0.001]]])
+        velocity = np.zeros_like(x)
+        velocity[0] = [0, 0.02, 0]
+        self.assertAlmostEqual(materials.stray_share(x, velocity, on, self.SPACING), 3 / len(x))
         self.assertAlmostEqual(foot, 0.03 / np.tan(np.radians(25)), delta=2 * self.SPACING)  # the lattice's last layer
         self.assertAlmostEqual(height, 0.03, delta=self.SPACING)
 

@@ -73,6 +73,13 @@ def deposit(x, spacing):
     return part == np.bincount(part).argmax()
 
 
+def stray_share(x, velocity, on, spacing):
+    """Share of the particles that are farther than four spacings from the deposit, or faster than 10 mm/s."""
+    from scipy.spatial import cKDTree
+    away = cKDTree(x[on]).query(x)[0] > 4 * spacing
+    return np.mean(away | (np.linalg.norm(velocity, axis=1) > 0.01))
+
+
 def foot_of(radius, direction, spacing, directions):
     """Mean over directions of the largest distance from the axis, plus half a spacing, m. \\param direction rad"""
     cell = (directions * (direction % (2 * np.pi)) / (2 * np.pi)).astype(int) % directions
@@ -126,7 +133,8 @@ def measure_run(run, kind, ratio):
     spacing = 1e-3 * SETUP["spacing"][kind]
     if kind == "drum":
         return {"drum": angle_of_drum(run, spacing)}, None
-    x = np.asarray(run.snapshots[-1].positions).copy()
+    last = run.snapshots[-1]
+    x, velocity = np.asarray(last.positions).copy(), np.asarray(last["velocity"])
     size = SETUP["column_radius"]
     if kind == "channel":
         size = SETUP["channel_length"]
@@ -138,13 +146,14 @@ def measure_run(run, kind, ratio):
         distance = np.hypot(x[:, 0], x[:, 1])
         if kind == "heap":
             angle, by_foot, on = slope_of_heap(x, spacing)
-            return {"heap": angle, "by-foot": by_foot, "stray": 1 - on.mean()}, None
+            return {"heap": angle, "by-foot": by_foot, "stray": stray_share(x, velocity, on, spacing)}, None
         foot, height, on = round_deposit(x, spacing, size)
     edges = np.arange(0, foot + spacing, 2 * spacing)
     ring = np.digitize(distance, edges)
     top = [x[on & (ring == n), 2].max(initial=0) + 0.5 * spacing for n in range(1, len(edges))]
     profile = (ratio, (edges[1:] - spacing) / size, np.array(top) / size)
-    return {f"{kind}-runout-{ratio:g}": foot / size - 1, f"{kind}-height-{ratio:g}": height / size, "stray": 1 - on.mean()}, profile
+    return {f"{kind}-runout-{ratio:g}": foot / size - 1, f"{kind}-height-{ratio:g}": height / size,
+            "stray": stray_share(x, velocity, on, spacing)}, profile
 
 
 def measure(options):
