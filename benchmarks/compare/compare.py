@@ -176,6 +176,8 @@ def main():
     parser.add_argument("--seconds", type=float, default=0.05)
     parser.add_argument("--rounds", type=int, default=1)
     options = parser.parse_args()
+    # Programs are started in folders of their own.
+    options.folder, options.talus = options.folder.resolve(), Path(options.talus).resolve()
     hopper = "yuu2011-hopper-"
     programs = {"talus-vacuum": Talus(options.talus, f"{hopper}vacuum", "Talus, continuum", "none"),
                 "talus-vacuum-fast": Talus(options.talus, f"{hopper}vacuum-fast", "Talus, continuum, softer grains", "none"),
@@ -189,7 +191,7 @@ def main():
         print(f"{name}: left out, without {reason}", flush=True)
         del programs[name]
     for name, program in programs.items():
-        folder = (options.folder / name).resolve()
+        folder = options.folder / name
         if folder.exists():
             sys.exit(f"{folder}: exists; take another folder")
         folder.mkdir(parents=True)
@@ -198,7 +200,7 @@ def main():
     best = {}
     for turn in range(options.rounds):
         for name, program in programs.items():
-            time, steps, elements = program.measure((options.folder / name).resolve(), options.seconds)
+            time, steps, elements = program.measure(options.folder / name, options.seconds)
             span = min(options.seconds, getattr(program, "longest", options.seconds))
             print(f"{name}: round {turn + 1}, {time:.1f} s of processor for {span} s, {steps} steps", flush=True)
             best[name] = min(best.get(name, (math.inf,)), (time / span, steps / span, elements, steps * elements / time))

@@ -27,10 +27,12 @@ def style():
     return matplotlib.rc_context(STYLE)
 
 
-def particles(ax, snapshot, column=None, *, view="xz", radius=None, unit=1.0, colour=PALE, limits=None, cmap=None):
+def particles(ax, snapshot, column=None, *, component=None, view="xz", radius=None, unit=1.0, colour=PALE, limits=None,
+              cmap=None):
     """Particles as discs of their own size, seen along the axis that `view` ("xz", "xy", "y-x") leaves out.
 
-    \\param column name of a column, or one number a particle; left out: all in `colour`
+    \\param column name of a column, or one number or vector a particle; left out: all in `colour`
+    \\param component "x", "y" or "z" of a vector; left out: its length
     \\param radius m, one or one a particle; left out: the column `radius`
     \\param limits (low, high) of the colours; left out: those of the numbers
     Those nearer to the reader lie on top. Returns the collection, for a colour bar.
@@ -48,8 +50,12 @@ def particles(ax, snapshot, column=None, *, view="xz", radius=None, unit=1.0, co
     if column is None:
         discs.set_facecolor(_in_order(colour, order))
     else:
-        numbers = snapshot[column] if isinstance(column, str) else column
-        discs.set_array(np.asarray(numbers, dtype=float)[order])
+        numbers = np.asarray(snapshot[column] if isinstance(column, str) else column, dtype=float)
+        if numbers.ndim == 2:
+            numbers = _of_vectors(numbers, component)
+        elif component is not None:
+            raise ValueError(f'component "{component}" of {column}, which is no vector')
+        discs.set_array(numbers[order])
         discs.set_cmap(cmap or matplotlib.rcParams["image.cmap"])
         if limits is not None:
             discs.set_clim(*limits)
@@ -74,7 +80,7 @@ def field(ax, air, column, *, component=None, y=None, unit=1.0, limits=None, **o
     \\param component "x", "y" or "z" of a vector; left out: its length. Returns the mesh, for a colour bar."""
     values = np.asarray(air.layer(column, y))
     if values.ndim == 3:
-        values = np.linalg.norm(values, axis=-1) if component is None else values[..., AXES[component]]
+        values = _of_vectors(values, component)
     low, high = limits or (None, None)
     mesh = ax.pcolormesh(_edges(air.x, air.spacing[0]) / unit, _edges(air.z, air.spacing[2]) / unit, values.T,
                          **{"vmin": low, "vmax": high, "rasterized": True, **options})
@@ -135,6 +141,11 @@ def _directions(view):
     if len(letters) != 2 or None in letters or letters[0] == letters[1]:
         raise ValueError(f'view "{view}": two of x, y, z, across and up the page, such as "xz" or "y-x"')
     return [sign * np.eye(3)[AXES[letter]] for letter, sign in zip(letters, signs)]
+
+
+def _of_vectors(vectors, component):
+    """One component of each, or its length."""
+    return np.linalg.norm(vectors, axis=-1) if component is None else vectors[..., AXES[component]]
 
 
 def _in_order(colour, order):

@@ -24,7 +24,7 @@ class Run:
     def __init__(self, folder):
         self.folder = Path(folder)
         if not self.folder.is_dir():
-            raise RunError(f"{folder}: is no folder")
+            raise RunError(f"{folder}: no such folder")
         if not (self.folder / "manifest.json").is_file():
             raise RunError(f"{folder}: is not the folder of a run: there is no manifest.json")
 
@@ -109,5 +109,5 @@ def find_runs(folder):
     """Every run at or below a folder, in the order of their paths."""
     folder = Path(folder)
     if not folder.is_dir():
-        raise RunError(f"{folder}: is no folder")
+        raise RunError(f"{folder}: no such folder")
     return [Run(path.parent) for path in sorted(folder.rglob("manifest.json"))]

@@ -52,7 +52,7 @@ std::optional<double> read_radius(const std::string& text, std::vector<Problem>&
   if (radius && radius->dimension == dimension::length && radius->value > 0) return radius->value;
   problems.push_back({.where = "--radius " + text,
                       .what = !radius                                  ? why
-                              : radius->dimension != dimension::length ? "is no length"
+                              : radius->dimension != dimension::length ? "is not a length (unit missing?)"
                                                                        : "is not above 0",
                       .allowed = "a length, above 0 mm, such as \"5 mm\""});
   return std::nullopt;

@@ -22,6 +22,10 @@ CaseFile CaseOptions::read() const {
   return file;
 }
 
+std::filesystem::path default_results(const std::string& case_path) {
+  return std::filesystem::path("results") / std::filesystem::path(case_path).stem();
+}
+
 void add_out_option(CLI::App& command, std::string& out, const std::string& text) {
   command.add_option("--out", out, text)
       ->check(

@@ -2,6 +2,7 @@
 /// What every command that takes a case takes: the file, --set, --threads.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct CaseOptions {
   /// \throws FileError, InputError as CaseFile
   CaseFile read() const;
 };
+
+/// Where the results of a case go without --out: results/NAME of the case.
+std::filesystem::path default_results(const std::string& case_path);
 
 /// Adds --out DIR; none given leaves `out` empty, an empty one is an error.
 void add_out_option(CLI::App& command, std::string& out, const std::string& text);

@@ -132,6 +132,7 @@ void print_filled_in(const Subject& s) {
 void print_groups(const Subject& s) {
   for (const NamedValue& group : s.prepared.groups)
     print("  {:{}}  {:.6g}{}\n", group.name, s.key, group.value, group.unit == "1" ? "" : " " + group.unit);
+  for (const std::string& remark : s.prepared.remarks) print("  {}\n", wrapped(remark, terminal_width(), 2, 2));
 }
 
 void print_following(const Subject& s) {
@@ -146,9 +147,9 @@ void print_scales(const Subject& s) {
 }
 
 void print_warnings(const Subject& s) {
-  const std::vector<Warning> warnings = warnings_of(s.prepared.regime);
+  const std::vector<Warning> warnings = warnings_before_run(s.prepared, default_results(s.options.path));
   if (warnings.empty()) return;
-  print("\nWarnings: the case leaves what its laws and the method assume:\n");
+  print("\nWarnings: outside the validated range\n");
   for (const Warning& warning : warnings) print("  ! {}\n", wrapped(warning.text, terminal_width(), 4, 4));
 }
 

@@ -98,8 +98,8 @@ ExitStatus follow(const LawOptions& options) {
 
 void add_law_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<LawOptions>();
-  CLI::App* command =
-      app.add_subcommand("law", "lead one material point through a path of strain: its stress as table and plot");
+  CLI::App* command = app.add_subcommand(
+      "law", "drive one material point along a strain path (element test): its stress as table and plot");
   options->case_options.add_to(*command);
   command->add_option("--path", options->path, "the path (CSV); see below")->required();
   add_out_option(*command, options->out, "folder of the results; results/CASE-PATH if not given");

@@ -26,7 +26,7 @@ struct ReportOptions {
 ExitStatus report(const ReportOptions& options) {
   if (!has_report_page()) throw FileError("talus report", without_report_page());
   ReportRequest request{.title = {}, .runs = {}, .comparisons = {}, .limits = options.limits};
-  ReadRuns runs;
+  ReadRuns runs(ReadRuns::many_times);
   for (const std::string& folder : options.folders) {
     std::vector<ReportEntry> entries = entries_of_folder(folder);
     std::move(entries.begin(), entries.end(), std::back_inserter(request.runs));

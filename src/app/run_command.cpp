@@ -46,9 +46,8 @@ ExitStatus run_finer(const PreparedCase& prepared, const RunRequest& coarse) {
 ExitStatus run(const RunOptions& options) {
   CaseFile file = options.case_options.read();
   RunRequest request = options.request;
-  request.folder = options.out.empty()
-                       ? std::filesystem::path("results") / std::filesystem::path(options.case_options.path).stem()
-                       : std::filesystem::path(options.out);
+  request.folder =
+      options.out.empty() ? default_results(options.case_options.path) : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
   if (options.resume) keep_snapshot_interval(file, request.folder);
   const PreparedCase prepared = prepare_case(file);

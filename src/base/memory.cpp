@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <string>
+#include <system_error>
 
 namespace talus {
 
@@ -63,6 +64,15 @@ std::optional<double> available_memory() {
        free_address_space()});
   if (least == unknown) return std::nullopt;
   return std::max(least, 0.0);
+}
+
+std::optional<double> available_disk(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::path above = std::filesystem::absolute(folder, failed);
+  while (!failed && !std::filesystem::exists(above, failed) && above.has_relative_path()) above = above.parent_path();
+  const std::filesystem::space_info space = std::filesystem::space(above, failed);
+  if (failed) return std::nullopt;
+  return static_cast<double>(space.available);
 }
 
 }  // namespace talus

@@ -48,6 +48,40 @@ constexpr auto units = std::to_array<Unit>({
      "57295779513082320876798154814105170332405472466564",
      -51,
      -48},
+    {"d", {0, 0, 1, 0}, 0, false, "86400", "11574074074074074074074074074074074074074074074074", 0, -54},
+    {"t", {0, 1, 0, 0}, 3, false},
+    {"kt", {0, 1, 0, 0}, 6, false},
+    {"L", {3, 0, 0, 0}, -3},
+    {"l", {3, 0, 0, 0}, -3},
+    {"P", {-1, 1, -1, 0}, -1, false},  // poise
+    {"cP", {-1, 1, -1, 0}, -3, false},
+    {"in", {1, 0, 0, 0}, 0, false, "254", "39370078740157480314960629921259842519685039370079", -4, -48},
+    {"ft", {1, 0, 0, 0}, 0, false, "3048", "32808398950131233595800524934383202099737532808399", -4, -49},
+    {"lb", {0, 1, 0, 0}, 0, false, "45359237", "22046226218487758072297380134502703385420702733602", -8, -49},
+    {"psi",
+     {-1, 1, -2, 0},
+     0,
+     false,
+     "68947572931683613367226734453468906937813875627751",
+     "14503773773020921515424102795119397670089195164109",
+     -46,
+     -53},
+    {"rev",
+     {0, 0, 0, 1},
+     0,
+     false,
+     "62831853071795864769252867665590057683943387987502", /* 2 pi */
+     "15915494309189533576888376337251436203445964574046",
+     -49,
+     -50},
+    {"rpm",
+     {0, 0, -1, 1},
+     0,
+     false,
+     "10471975511965977461542144610931676280657231331250", /* pi/30 */
+     "95492965855137201461330258023508618220675787444274",
+     -50,
+     -49},
 });
 
 struct Prefix {
@@ -74,11 +108,14 @@ constexpr auto synonyms = std::to_array<std::pair<std::string_view, std::string_
 
 /// Words that people write for units.
 constexpr auto words = std::to_array<std::pair<std::string_view, std::string_view>>(
-    {{"meter", "m"},       {"metre", "m"},        {"micron", "um"},  {"micrometer", "um"}, {"micrometre", "um"},
-     {"millimeter", "mm"}, {"millimetre", "mm"},  {"gram", "g"},     {"kilogram", "kg"},   {"sec", "s"},
-     {"second", "s"},      {"millisecond", "ms"}, {"msec", "ms"},    {"minute", "min"},    {"hour", "h"},
-     {"hr", "h"},          {"degree", "deg"},     {"radian", "rad"}, {"newton", "N"},      {"pascal", "Pa"},
-     {"hertz", "Hz"},      {"t", "Mg"},           {"mps", "m/s"}});
+    {{"meter", "m"},       {"metre", "m"},        {"micron", "um"},     {"micrometer", "um"}, {"micrometre", "um"},
+     {"millimeter", "mm"}, {"millimetre", "mm"},  {"gram", "g"},        {"kilogram", "kg"},   {"sec", "s"},
+     {"second", "s"},      {"millisecond", "ms"}, {"msec", "ms"},       {"minute", "min"},    {"hour", "h"},
+     {"hr", "h"},          {"degree", "deg"},     {"radian", "rad"},    {"newton", "N"},      {"pascal", "Pa"},
+     {"hertz", "Hz"},      {"mps", "m/s"},        {"tonne", "t"},       {"ton", "t"},         {"tph", "t/h"},
+     {"inch", "in"},       {"inches", "in"},      {"foot", "ft"},       {"feet", "ft"},       {"pound", "lb"},
+     {"lb", "lb"},         {"lbm", "lb"},         {"liter", "L"},       {"litre", "L"},       {"day", "d"},
+     {"poise", "P"},       {"centipoise", "cP"},  {"revolution", "rev"}});
 
 std::string replace_synonyms(std::string_view text) {
   std::string result;

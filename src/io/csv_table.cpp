@@ -38,6 +38,8 @@ std::vector<std::string_view> split(std::string_view line) {
 /// A column as the header describes it.
 struct Column : CsvColumn {
   std::string written_unit = {};  ///< "" if SI already: entries need no conversion
+  std::string written_name = {};  ///< in the header
+  double factor = 1;              ///< by which entries are multiplied
 };
 
 std::string si_unit(Dimension dimension) {
@@ -102,11 +104,21 @@ class TableReader {
   void read_header(std::string_view line) {
     for (const std::string_view entry : split(line)) {
       const std::size_t bracket = entry.find('[');
-      const std::string_view name = trimmed(entry.substr(0, bracket));
+      const std::string_view written = trimmed(entry.substr(0, bracket));
+      const ColumnAlias* const alias = alias_of(written);
+      const std::string_view name = alias ? alias->means : written;
       Column column{{std::string(name), si_unit(known(name) ? *known(name) : dimension::none), {}}};
+      column.written_name = written;
+      if (alias) column.factor = alias->factor;
       if (column.name.empty()) problem(entry, "column without a name");
-      if (find(column.name)) problem(column.name, "stands twice in the header");
-      if (format_.known_only && !known(name) && !column.name.empty()) unknown(name);
+      if (const Column* const other = find(name); other && other->written_name == written)
+        problem(written, "stands twice in the header");
+      else if (other)
+        problem(written, fmt::format("is the column {} once more", other->written_name), "one of them");
+      if (const RefusedColumn* const refused = refused_column(name))
+        problem(written, std::string(refused->why), names_of_known());
+      else if (format_.known_only && !known(name) && !column.name.empty())
+        unknown(name);
       if (bracket != std::string_view::npos) read_unit(entry.substr(bracket + 1), column);
       columns_.push_back(std::move(column));
     }
@@ -119,18 +131,21 @@ class TableReader {
   void read_unit(std::string_view text, Column& column) {
     const Dimension* const meant = known(column.name);
     if (text.empty() || text.back() != ']')
-      return problem(column.name, "unit without a closing bracket", "name [unit]");
+      return problem(column.written_name, "unit without a closing bracket", "name [unit]");
     const std::string unit(trimmed(text.substr(0, text.size() - 1)));
     if (unit.empty() || unit == "1" || unit == "-") {
       if (meant && *meant != dimension::none)
-        problem(column.name, fmt::format("a {0} needs a unit of {0}", dimension_name(*meant)), units_of(*meant));
+        problem(column.written_name, fmt::format("a {0} needs a unit of {0}", dimension_name(*meant)),
+                units_of(*meant));
       return;
     }
     std::string why;
     const std::optional<Quantity> one = parse_quantity("1 " + unit, &why);
-    if (!one) return problem(column.name, why);
+    if (!one) return problem(column.written_name, why);
     if (meant && one->dimension != *meant)
-      return problem(column.name, fmt::format("'{}' is no unit of {}", unit, dimension_name(*meant)), units_of(*meant));
+      return problem(column.written_name, fmt::format("'{}' is no unit of {}", unit, dimension_name(*meant)),
+                     units_of(*meant));
+    column.has_unit = true;
     column.unit = one->dimension == dimension::angle ? "rad" : one->value == 1 ? unit : unit_name(one->dimension);
     if (one->value != 1) column.written_unit = unit;
   }
@@ -149,25 +164,42 @@ class TableReader {
     double value = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (entry.empty()) {
-      problem(column.name, "missing entry");
+      problem(column.written_name, "missing entry");
     } else if (error == std::errc::result_out_of_range) {
-      problem(column.name, fmt::format("'{}' is beyond what a double holds", entry));
+      problem(column.written_name, fmt::format("'{}' is beyond what a double holds", entry));
     } else if (error != std::errc{} || stop != digits.data() + digits.size()) {
-      problem(column.name, fmt::format("'{}' is not a number", entry));
+      problem(column.written_name, fmt::format("'{}' is not a number", entry));
     } else if (!std::isfinite(value)) {
-      problem(column.name, fmt::format("'{}' is not finite", entry));
+      problem(column.written_name, fmt::format("'{}' is not finite", entry));
     } else if (column.written_unit.empty()) {
-      return value;
+      return column.factor * value;
     } else if (const auto quantity = parse_quantity(fmt::format("{} {}", entry, column.written_unit))) {
-      return quantity->value;
+      return column.factor * quantity->value;
     } else {
-      problem(column.name, fmt::format("'{}' is beyond what a double holds in SI", entry));
+      problem(column.written_name, fmt::format("'{}' is beyond what a double holds in SI", entry));
     }
     return 0;
   }
 
-  bool find(std::string_view name) const {
-    return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
+  /// Null if there is none of that name yet.
+  const Column* find(std::string_view name) const {
+    const auto found =
+        std::find_if(columns_.begin(), columns_.end(), [&](const Column& column) { return column.name == name; });
+    return found == columns_.end() ? nullptr : &*found;
+  }
+
+  /// Null for a column that may be there.
+  const RefusedColumn* refused_column(std::string_view name) const {
+    const auto found = std::find_if(format_.refused.begin(), format_.refused.end(),
+                                    [&](const RefusedColumn& column) { return column.name == name; });
+    return found == format_.refused.end() ? nullptr : &*found;
+  }
+
+  /// Null for a column that means what it is called.
+  const ColumnAlias* alias_of(std::string_view name) const {
+    const auto found = std::find_if(format_.aliases.begin(), format_.aliases.end(),
+                                    [&](const ColumnAlias& alias) { return alias.name == name; });
+    return found == format_.aliases.end() ? nullptr : &*found;
   }
 
   const Dimension* known(std::string_view name) const {
@@ -177,11 +209,17 @@ class TableReader {
   }
 
   void unknown(std::string_view name) {
+    problem(name, "unknown column", names_of_known(), nearest(name, known_names()));
+  }
+
+  std::vector<std::string_view> known_names() const {
     std::vector<std::string_view> names;
     for (const KnownColumn& column : format_.known) names.push_back(column.name);
-    const std::string_view best = nearest(name, names);
-    problem(name, "unknown column", best.empty() ? fmt::format("{}", fmt::join(names, ", ")) : std::string(), best);
+    for (const ColumnAlias& alias : format_.aliases) names.push_back(alias.name);
+    return names;
   }
+
+  std::string names_of_known() const { return fmt::format("{}", fmt::join(known_names(), ", ")); }
 
   std::string path_;
   const CsvFormat& format_;

@@ -23,8 +23,21 @@ struct KnownColumn {
   Dimension dimension;
 };
 
+/// Another name of a known column, whose entries are multiples of it: a diameter is twice a radius.
+struct ColumnAlias {
+  std::string_view name, means;
+  double factor = 1;  ///< a power of two: the multiplication is exact
+};
+
+/// A column that may not be there, because it shows that something else was expected.
+struct RefusedColumn {
+  std::string_view name, why;
+};
+
 struct CsvFormat {
   std::span<const KnownColumn> known = {};
+  std::span<const ColumnAlias> aliases = {};
+  std::span<const RefusedColumn> refused = {};
   std::span<const std::string_view> required = {};  ///< columns that must be there
   bool known_only = false;                          ///< whether other columns are faults
   std::string_view header = {};                     ///< an example of one, for messages
@@ -34,6 +47,7 @@ struct CsvColumn {
   std::string name;
   std::string unit;            ///< SI; "1" for numbers, "rad" for angles
   std::vector<double> values;  ///< SI, each the double nearest to what is written
+  bool has_unit = false;       ///< whether the header gives one
 };
 
 struct CsvTable {
@@ -46,7 +60,7 @@ struct CsvTable {
 
 /// \throws FileError if the file cannot be read
 /// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
-///         finite or too large, and columns that are missing, doubled, unknown or in a unit that does not fit
+///         finite or too large, and columns that are missing, given twice, unknown or in a unit that does not fit
 CsvTable read_csv_table(const std::filesystem::path& path, const CsvFormat& format);
 
 }  // namespace talus

@@ -93,6 +93,23 @@ void ParameterReader::check(std::vector<Problem> contradictions) {
   }
 }
 
+bool ParameterReader::has_unread() const {
+  return std::any_of(keys_.begin(), keys_.end(), [&](const std::string& key) { return is_unread(key); });
+}
+
+bool ParameterReader::is_unread(std::string_view key) const {
+  return meant_.contains(key) ||
+         std::any_of(found_.begin(), found_.end(), [&](const Found& found) { return found.problem.key == key; });
+}
+
+void ParameterReader::keep_common(std::vector<Problem>& problems, const std::vector<Problem>& others) {
+  std::erase_if(problems, [&](const Problem& problem) {
+    return std::none_of(others.begin(), others.end(), [&](const Problem& other) {
+      return other.key == problem.key && other.what == problem.what && other.allowed == problem.allowed;
+    });
+  });
+}
+
 void ParameterReader::finish() {
   report_unknown_keys();
   std::erase_if(found_, [&](const Found& found) { return found.is_missing && meant_.contains(found.problem.key); });
@@ -127,6 +144,7 @@ bool ParameterReader::is_table(std::string_view key) const {
 }
 
 void ParameterReader::report_unknown_keys() {
+  if (std::exchange(knows_unknown_keys_, true)) return;
   std::vector<std::string_view> closed;  // what lies in these is reported with them; an option is, for itself
   for (const CaseEntry& entry : file_.entries()) {
     const bool is_table_here = std::holds_alternative<CaseTable>(entry.value.value);

@@ -5,7 +5,7 @@
 ///     ParameterReader reader(case_file);
 ///     for_each_parameter(reader, model_parameters);
 ///     for_each_parameter(reader, run_parameters);
-///     reader.check(check(model_parameters));
+///     reader.check(model_parameters, [](const ModelParameters& p) { return check(p); });
 ///     reader.finish();
 #pragma once
 
@@ -40,8 +40,27 @@ class ParameterReader {
   /// that its words name, is already known to be faulty is dropped: it would be a consequence.
   void check(std::vector<Problem> contradictions);
 
-  /// Looks for keys that no parameter has, and throws one InputError with every problem there is: by line, then what
-  /// is missing, then the options.
+  /// The same, with the contradictions that contradictions_of(parameters) finds. To be called when all lists have been
+  /// visited. A parameter that is missing, faulty or misspelt has a value that nobody has given: a contradiction counts
+  /// only if it stays, word for word, when such parameters take several other values.
+  /// \param contradictions_of takes any values within the parameters' ranges
+  template <class Parameters, class Contradictions>
+  void check(const Parameters& parameters, const Contradictions& contradictions_of) {
+    report_unknown_keys();
+    std::vector<Problem> contradictions = contradictions_of(parameters);
+    for (int trial = 0; trial < trials && !contradictions.empty() && has_unread(); ++trial) {
+      Parameters others = parameters;
+      const auto replace = [&]<class T>(const Parameter& parameter, T& member) {
+        if (is_unread(parameter.key)) from_value(trial_value(parameter, value_type<T>(), trial), member);
+      };
+      for_each_parameter(replace, others);
+      keep_common(contradictions, contradictions_of(others));
+    }
+    check(std::move(contradictions));
+  }
+
+  /// Throws one InputError with every problem there is, keys that no parameter has included: by line, then what is
+  /// missing, then the options.
   void finish();
 
   /// As finish(), but keys not visited may be there: for what must be known before the lists are, such as the model.
@@ -57,16 +76,22 @@ class ParameterReader {
   std::optional<ParameterValue> read(const Parameter& parameter, const ValueType& type);
   void add(const CaseEntry& entry, std::string what, std::string allowed, std::string nearest = {});
   bool is_table(std::string_view key) const;
+  bool has_unread() const;
+  bool is_unread(std::string_view key) const;
+  static void keep_common(std::vector<Problem>& problems, const std::vector<Problem>& others);
   void report_unknown_keys();
   void report_unknown_table(const CaseEntry& table, const std::vector<const CaseEntry*>& keys);
   void report_unknown_key(const CaseEntry& entry);
   bool report_renamed_key(const CaseEntry& entry);
+
+  static constexpr int trials = 4;
 
   const CaseFile& file_;
   std::span<const RenamedKey> renamed_;
   std::vector<std::string> keys_;  // of the parameters visited, in their order
   std::vector<Found> found_;
   std::set<std::string, std::less<>> meant_;  // keys that unknown ones were meant to be
+  bool knows_unknown_keys_ = false;           // whether they are reported already
 };
 
 }  // namespace talus

@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "base/decimal.hpp"
 #include "io/case_file.hpp"
@@ -114,6 +116,39 @@ std::string example_text(const Parameter& parameter, const ValueType& type) {
       return "\"text\"";
     case ValueType::Kind::choice:
       return quoted(type.choices.front());
+  }
+  return {};
+}
+
+ParameterValue trial_value(const Parameter& parameter, const ValueType& type, int trial) {
+  const Range& range = parameter.range;
+  // Not the same for two keys: equal lengths would contradict each other in a way of their own.
+  const double of_key = 1 + static_cast<double>(std::hash<std::string>()(parameter.key) % 97) / 1000;
+  const auto number = [&](int position) {
+    constexpr std::array<double, 4> sizes{0.3, 20, 0.007, 400}, shares{0.3, 0.8, 0.1, 0.55};
+    const auto n = static_cast<std::size_t>(trial) % sizes.size();
+    const double size = (1 + position) * of_key * sizes[n];
+    const bool least = std::isfinite(range.least), most = std::isfinite(range.most);
+    if (least && most) return range.least + shares[n] / (of_key * (1 + 0.1 * position)) * (range.most - range.least);
+    return least ? range.least + size : most ? range.most - size : size;
+  };
+  if (type.shape != ValueType::Shape::one) {
+    std::vector<double> values;
+    for (int position = 0; position < (type.shape == ValueType::Shape::three ? 3 : 2 + trial % 2); ++position)
+      values.push_back(number(position));
+    return values;
+  }
+  switch (type.kind) {
+    case ValueType::Kind::number:
+      return number(0);
+    case ValueType::Kind::integer:
+      return static_cast<std::int64_t>(std::clamp(std::round(number(0)), std::ceil(range.least), range.most));
+    case ValueType::Kind::flag:
+      return trial % 2 == 0;
+    case ValueType::Kind::text:
+      return fmt::format("text {}", trial);
+    case ValueType::Kind::choice:
+      return std::string(type.choices[static_cast<std::size_t>(trial) % type.choices.size()]);
   }
   return {};
 }

@@ -130,6 +130,10 @@ std::string allowed_text(const Parameter& parameter, const ValueType& type);
 /// A valid value, as TOML: "\"5 mm\"".
 std::string example_text(const Parameter& parameter, const ValueType& type);
 
+/// A value within the parameter's range, another for every number of a trial and, of numbers, for every key: from some
+/// millimetres to some hundred metres where the range is without bounds.
+ParameterValue trial_value(const Parameter& parameter, const ValueType& type, int trial);
+
 /// A value as TOML in SI; it reads back to the same bits. Quantities are quoted, with their unit.
 std::string toml_text(const Parameter& parameter, const ParameterValue& value);
 

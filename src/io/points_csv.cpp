@@ -2,10 +2,9 @@
 #include "io/points_csv.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
-
-#include "io/csv_table.hpp"
 
 namespace talus {
 
@@ -37,15 +36,35 @@ PointSet points_of(const CsvTable& table) {
   return points;
 }
 
+constexpr KnownColumn lengths[] = {
+    {"x", dimension::length}, {"y", dimension::length}, {"z", dimension::length}, {"radius", dimension::length}};
+constexpr ColumnAlias aliases[] = {{"r", "radius"}, {"diameter", "radius", 0.5}};
+constexpr std::string_view header = "x [mm], y [mm], z [mm], radius [mm], ...";
+
 }  // namespace
 
 PointSet read_points_csv(const std::filesystem::path& path, std::span<const std::string_view> required) {
-  static constexpr KnownColumn lengths[] = {
-      {"x", dimension::length}, {"y", dimension::length}, {"z", dimension::length}, {"radius", dimension::length}};
   std::vector<std::string_view> all{"x"};
   all.insert(all.end(), required.begin(), required.end());
-  return points_of(
-      read_csv_table(path, {.known = lengths, .required = all, .header = "x [mm], y [mm], z [mm], radius [mm], ..."}));
+  return points_of(read_csv_table(path, {.known = lengths, .aliases = aliases, .required = all, .header = header}));
+}
+
+GivenPoints read_given_points(const std::filesystem::path& path, std::span<const KnownColumn> others,
+                              std::span<const RefusedColumn> refused) {
+  static constexpr std::string_view required[] = {"x"};
+  std::vector<KnownColumn> known(std::begin(lengths), std::end(lengths));
+  known.insert(known.end(), others.begin(), others.end());
+  const CsvTable table = read_csv_table(path, {.known = known,
+                                               .aliases = aliases,
+                                               .refused = refused,
+                                               .required = required,
+                                               .known_only = true,
+                                               .header = header});
+  GivenPoints given{points_of(table), {}};
+  for (const KnownColumn& length : lengths)
+    if (const CsvColumn* const column = table.find(length.name); column && !column->has_unit)
+      given.without_unit.emplace_back(length.name);
+  return given;
 }
 
 }  // namespace talus

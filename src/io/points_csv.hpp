@@ -4,14 +4,18 @@
 ///     x [mm],y [mm],z [mm],radius [um],velocity_x [m/s],velocity_y [m/s],velocity_z [m/s],mass [g]
 ///     1.5,0,2,200,0,0,-0.1,3.2e-5
 ///
-/// Coordinates and radius without a unit are metres, other columns numbers. Blank lines, blanks around entries, a byte
-/// order mark and line ends of either kind are taken.
+/// Coordinates, radii and diameters without a unit are metres, other columns numbers. A column r is the radius, a
+/// column diameter twice the radius. Blank lines, blanks around entries, a byte order mark and line ends of either kind
+/// are taken.
 #pragma once
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "io/csv_table.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus {
@@ -22,7 +26,17 @@ namespace talus {
 /// \param required columns that must be there beside x, such as "radius"
 /// \throws FileError if the file cannot be read
 /// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
-///         finite or too large, and columns that are missing, doubled or in an unknown unit
+///         finite or too large, and columns that are missing, given twice or in an unknown unit
 PointSet read_points_csv(const std::filesystem::path& path, std::span<const std::string_view> required = {});
+
+struct GivenPoints {
+  PointSet points;
+  std::vector<std::string> without_unit;  ///< of position and radius, the columns whose header gives no unit
+};
+
+/// The same of a file whose columns all have a use: any but x, y, z, radius and those of `others` is a problem, told
+/// with its reason if it is one of `refused`.
+GivenPoints read_given_points(const std::filesystem::path& path, std::span<const KnownColumn> others,
+                              std::span<const RefusedColumn> refused = {});
 
 }  // namespace talus

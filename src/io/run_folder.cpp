@@ -72,7 +72,7 @@ std::optional<int> snapshot_number(std::string_view name, std::string_view kind)
 
 /// Why the manifest is none, nothing if it is one.
 std::optional<std::string> fault_of_manifest(const RunFolder& folder) {
-  if (!fs::exists(folder.manifest())) return "no manifest.json";
+  if (!fs::exists(folder.manifest())) return "manifest.json missing";
   try {
     read_manifest(folder.manifest());
     return std::nullopt;
@@ -117,7 +117,7 @@ void check_overwritable(const RunFolder& folder, const std::optional<std::string
   if (!list)
     refuse(folder.path(),
            fault
-               ? fmt::format("holds no run of Talus ({}); nothing is overwritten", *fault)
+               ? fmt::format("is not a Talus run folder ({}); nothing is overwritten", *fault)
                : fmt::format("has no {} that says what Talus wrote there; nothing is overwritten", FileList::file_name),
            "--out for another folder");
   for (const std::string_view name : file_names)

@@ -33,7 +33,7 @@ class ChangedFiles(ProgramTest):
         self.assertEqual(tree(self.folder), before)
         said = self.talus("check", "r", status=4)
         self.assertRegex(said.stdout, f"  ! r/{name}: its checksum is")
-        self.assertIn("1 of 1 runs are not as they were written", said.stderr)
+        self.assertIn("1 of 1 run folders has been modified", said.stderr)
 
     def test_none_has(self):
         self.assertRegex(self.talus("check", "r").stdout, r"^r: 5 files compared with the checksums in checkpoint_.\.h5$")
@@ -77,11 +77,11 @@ class ChangedFiles(ProgramTest):
         self.assertEqual(self.talus("check", "e").stdout.count("files compared"), len(runs))
         self.change_digit(runs[1].relative_to(self.folder) / "series.csv")
         said = self.talus("check", "e", status=4)
-        self.assertIn("1 of 2 runs are not as they were written", said.stderr)
+        self.assertIn("1 of 2 run folders has been modified", said.stderr)
 
     def test_a_folder_without_a_run(self):
         (self.folder / "empty").mkdir()
-        self.assertIn("holds no run of Talus", self.talus("check", "empty", status=2).stderr)
+        self.assertIn("holds no Talus run folder", self.talus("check", "empty", status=2).stderr)
 
 
 if __name__ == "__main__":

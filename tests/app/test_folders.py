@@ -27,7 +27,7 @@ class Folders(ProgramTest):
         self.put("r")
         before = tree(self.folder / "r")
         said = self.talus("run", "case.toml", "--out", "r", "--overwrite", *SHORT, status=2).stderr
-        self.assertIn("r: holds no run of Talus (no manifest.json); nothing is overwritten", said)
+        self.assertIn("r: is not a Talus run folder (manifest.json missing); nothing is overwritten", said)
         self.assertEqual(tree(self.folder / "r"), before)
 
     def test_overwriting_a_run_keeps_what_the_user_put_beside_it(self):

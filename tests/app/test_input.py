@@ -111,7 +111,8 @@ class BadCase(InputTest):
 
     def test_points_of_a_file(self):
         (self.folder / "case.toml").write_text(POINTS)
-        self.assertIn("points.csv: cannot open", self.talus("run", "case.toml", status=4).stderr)
+        [problem] = self.problems("run", "case.toml")
+        self.assertTrue(problem.startswith("case.toml:5: particles.file: points.csv: cannot open: No such file"), problem)
         for text, message in (("x [mm],y [mm]\n1,2\n3,four\n", r"^points\.csv:3: y: "),
                               ("x [m],y [m]\n0,0\n1e9,0\n", r"^case\.toml:5: particles\.file: .*more than a million"),
                               ("x [m],y [m],z [m]\n0,0,0\n1,0,1\n", r"^case\.toml:5: particles\.file: .*plane of mot"),
@@ -123,6 +124,42 @@ class BadCase(InputTest):
             (self.folder / "points.csv").write_text(text)
             self.assertRegex(self.problems("run", "case.toml")[0], message)
         self.assertEqual(sorted(tree(self.folder)), ["case.toml", "points.csv"])
+
+    def test_a_file_that_is_not_there_is_told_with_the_rest(self):
+        case = (PROJECT / "cases/silo-square.toml").read_text()
+        (self.folder / "case.toml").write_text(case.replace('title = "', 'titel = "'))
+        for command in ("run", "check", "ensemble"):
+            problems = self.problems(command, "case.toml")
+            self.assertEqual(len(problems), 2, problems)
+            self.assertRegex(problems[0], r"^case\.toml:\d+: titel: unknown key")
+            self.assertRegex(problems[1], r"^case\.toml:\d+: vessel\.1\.file: silo-square\.stl: cannot open: No such file")
+        self.assert_nothing_written()
+
+    def test_no_consequences_of_an_unreadable_value(self):
+        hopper = PROJECT / "cases/wedge-hopper.toml"
+        for case, setting in ((hopper, "box.width=2.7 inches"), (hopper, "bed.height=0.1"), (hopper, "box.heigth=1 m"),
+                              (hopper, "wedge.half_angle=20"), (PROJECT / "cases/silo-cone.toml", "vessel.1.radius=2 quux"),
+                              (PROJECT / "cases/silo-cone.toml", "bed.mass=80 stone"),
+                              (PROJECT / "cases/chute-bend.toml", "bed.spacing=1"),
+                              ("case.toml", "particles.radius=5 furlong"), ("case.toml", "particles.shape=circel")):
+            problems = self.problems("check", case, "--set", setting)
+            self.assertEqual(len(problems), 1, problems)
+            self.assertTrue(problems[0].startswith(f"--set {setting}: {setting.split('=')[0]}: "), problems)
+
+    def test_check_warns_of_what_the_end_would_tell(self):
+        slide = HOPPER
+        said = self.warnings(slide, "integration.method=leapfrog", "integration.courant=3")
+        self.assertIn("Courant number = 3: ", said)
+        self.assertIn("Courant number = 0.6: ", self.warnings(slide, "integration.method=runge-kutta", "integration.courant=0.6"))
+        self.assertNotIn("Courant", self.warnings(slide, "integration.method=leapfrog", "integration.courant=1.2"))
+        self.assertIn("! disk = ", self.warnings(slide, "output.snapshots=1e-12 s"))
+        self.assertNotIn("disk", self.warnings(slide))
+
+    def warnings(self, case, *settings):
+        (self.folder / "case.toml").write_text(case)
+        options = [word for setting in settings for word in ("--set", setting)]
+        said = self.talus("check", "case.toml", *options).stdout
+        return said[said.find("Warnings"):said.find("Forecast")] if "Warnings" in said else ""
 
     def test_what_cannot_be_computed_is_told_from_counts(self):
         hopper, slot = PROJECT / "cases/yuu2011-hopper-vacuum.toml", PROJECT / "cases/slot.toml"

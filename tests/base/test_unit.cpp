@@ -48,6 +48,31 @@ TEST(ParseQuantity, RoundsOnceFromWhatWasWritten) {
   EXPECT_EQ(value_of("1 N/deg"), 57.295779513082320876798);
 }
 
+TEST(ParseQuantity, ReadsTheUnitsOfTheTrade) {
+  EXPECT_EQ(value_of("80 t"), 80e3);
+  EXPECT_EQ(value_of("1.5 kt"), 1.5e6);
+  EXPECT_EQ(value_of("36 t/h"), 10.0);
+  EXPECT_EQ(value_of("7.2 kg/h"), 0.002);
+  EXPECT_EQ(value_of("60 rpm"), 2 * std::numbers::pi);
+  EXPECT_EQ(value_of("1 rpm"), 0.10471975511965977461542144610931676280657);
+  EXPECT_EQ(value_of("30 rev/min"), std::numbers::pi);
+  EXPECT_EQ(value_of("1 rev"), 2 * std::numbers::pi);
+  EXPECT_EQ(value_of("1 in"), 0.0254);
+  EXPECT_EQ(value_of("2.7 in"), 0.06858);
+  EXPECT_EQ(value_of("10 ft"), 3.048);
+  EXPECT_EQ(value_of("1 lb"), 0.45359237);
+  EXPECT_DOUBLE_EQ(value_of("62.4 lb/ft3"), 62.4 * 0.45359237 / (0.3048 * 0.3048 * 0.3048));
+  EXPECT_EQ(value_of("1 psi"), 6894.757293168361336722673445346890693781);
+  EXPECT_EQ(value_of("18.5 cP"), 0.0185);
+  EXPECT_EQ(value_of("2 P"), 0.2);
+  EXPECT_EQ(value_of("6 L/min"), 1e-4);
+  EXPECT_EQ(value_of("250 mL"), 250e-6);
+  EXPECT_EQ(value_of("2 d"), 172800.0);
+  EXPECT_EQ(parse_quantity("3 rpm").value().dimension, (Dimension{0, 0, -1, 1}));
+  EXPECT_EQ(parse_quantity("3 t/h").value().dimension, (Dimension{0, 1, -1, 0}));
+  EXPECT_EQ(parse_quantity("3 cP").value().dimension, dimension::viscosity);
+}
+
 // Each overflowed an int: undefined behaviour.
 TEST(ParseQuantity, RefusesPowersOfAnyLength) {
   for (const char* text : {"1 m2147483648", "1 m^99999999999999999999", "1 s^-99999999999", "1 (m s)99999999999"})
@@ -143,6 +168,10 @@ TEST(ParseQuantity, SaysWhatIsWrong) {
   EXPECT_EQ(why_not("5 quux"), "has the unknown unit 'quux'");
   EXPECT_EQ(why_not("5 meters"), "has the unknown unit 'meters'; write 'm'");
   EXPECT_EQ(why_not("5 Mm/sec"), "has the unknown unit 'sec'; write 's'");
+  EXPECT_EQ(why_not("5 inches"), "has the unknown unit 'inches'; write 'in'");
+  EXPECT_EQ(why_not("5 tph"), "has the unknown unit 'tph'; write 't/h'");
+  EXPECT_EQ(why_not("5 lbs"), "has the unknown unit 'lbs'; write 'lb'");
+  EXPECT_EQ(why_not("5 kin"), "has the unknown unit 'kin'");
   EXPECT_EQ(why_not("5 KPA"), "has the unknown unit 'KPA'; write 'kPa'");
   EXPECT_EQ(why_not("5 kmin"), "has the unknown unit 'kmin'");
   EXPECT_EQ(why_not("5 12"), "has a second number after the first");
@@ -180,7 +209,8 @@ TEST(FormatQuantity, ShortestText) {
 
 TEST(FormatQuantity, ReadsBackToTheSameBits) {
   Random random(3);
-  for (const char* unit : {"", "m", "um", "kg/m3", "deg", "rad/s", "km/h", "min", "deg^-2", "m^2 kg s^-3"}) {
+  for (const char* unit : {"", "m", "um", "kg/m3", "deg", "rad/s", "km/h", "min", "deg^-2", "m^2 kg s^-3", "rpm", "in",
+                           "ft", "lb", "psi", "t/h"}) {
     for (int i = 0; i < 500; ++i) {
       const double value = std::ldexp(random.uniform(-1, 1), static_cast<int>(random.uniform(-200, 200)));
       const std::string text = format_quantity(value, unit);

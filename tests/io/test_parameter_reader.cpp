@@ -317,6 +317,75 @@ TEST(ParameterReader, ALackThatAMisspellingExplainsIsNoProblem) {
               ElementsAre("c:1: particles.sise: unknown key; did you mean 'particles.size'?"));
 }
 
+/// A radius and a size that contradict each other in words that name no key, and a contradiction of others.
+std::vector<Problem> contradictions_of(const example::Parameters& p) {
+  std::vector<Problem> problems;
+  if (p.particles.size && !(*p.particles.size > 2 * p.particles.radius))
+    problems.push_back({.key = "particles.shape", .what = "no room for a grain"});
+  if (!(p.particles.radius > 1e-3)) problems.push_back({.key = "particles.shape", .what = "too fine for words"});
+  if (p.slope.angle > 1) problems.push_back({.key = "slope.angle", .what = "too steep"});
+  if (p.numerics.scheme == example::Scheme::chebyshev && p.seed == 1)
+    problems.push_back({.key = "title", .what = "the seed suits another scheme"});
+  return problems;
+}
+
+std::vector<std::string> all_problems(const std::string& text) {
+  std::vector<std::string> problems;
+  const CaseFile file = CaseFile::from_text(text, "c");
+  example::Parameters parameters;
+  example::Run run;
+  try {
+    ParameterReader reader(file);
+    for_each_parameter(reader, run);
+    for_each_parameter(reader, parameters);
+    reader.check(parameters, contradictions_of);
+    reader.finish();
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems()) problems.push_back(to_string(problem));
+  }
+  return problems;
+}
+
+TEST(ParameterReader, WhatFollowsFromAnUnreadableValueIsNotTold) {
+  const std::string rest = "particles.shape = \"circle\"\nrun.end = \"1 s\"\nseed = 2\nslope.angle = \"70 deg\"\n";
+  EXPECT_THAT(all_problems(rest + "particles.size = \"5 mm\"\nparticles.radius = \"5 mm\"\n"),
+              ElementsAre("c:1: particles.shape: no room for a grain", "c:4: slope.angle: too steep"));
+  for (const char* radius : {"radius = \"5 furlongs\"", "radius = 5", "raduis = \"5 mm\"", "radius = \"-1 mm\""})
+    EXPECT_THAT(all_problems(rest + "particles.size = \"5 mm\"\nparticles." + radius),
+                ElementsAre("c:4: slope.angle: too steep", HasSubstr("c:6: particles.")))
+        << radius;
+  EXPECT_THAT(all_problems(rest + "particles.size = \"5 mm\""),
+              ElementsAre("c:4: slope.angle: too steep", HasSubstr("c: particles.radius: missing")));
+  // A choice and a whole number: their defaults would contradict each other.
+  EXPECT_THAT(all_problems("particles.shape = \"circle\"\nrun.end = \"1 s\"\nparticles.radius = \"5 mm\"\n"
+                           "numerics.scheme = \"eular\""),
+              ElementsAre(HasSubstr("c:4: numerics.scheme: \"eular\"")));
+  EXPECT_THAT(all_problems("particles.shape = \"circle\"\nrun.end = \"1 s\"\nparticles.radius = \"5 mm\"\nseed = 0.5"),
+              ElementsAre(HasSubstr("c:4: seed: 0.5")));
+}
+
+TEST(ParameterReader, ValuesOfATrialAreAllowed) {
+  example::Parameters p;
+  example::Run run;
+  const auto check_values = []<class T>(const Parameter& parameter, const T&) {
+    const auto value_of = [&](int trial) { return trial_value(parameter, value_type<T>(), trial); };
+    for (int trial = 0; trial < 8; ++trial) {
+      const ParameterValue value = value_of(trial);
+      if (const auto* number = std::get_if<double>(&value))
+        EXPECT_TRUE(parameter.range.contains(*number)) << parameter.key;
+      if (const auto* whole = std::get_if<std::int64_t>(&value))
+        EXPECT_TRUE(parameter.range.contains(static_cast<double>(*whole))) << parameter.key;
+      if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+        for (const double number : *numbers) EXPECT_TRUE(parameter.range.contains(number)) << parameter.key;
+      T member{};
+      from_value(value, member);
+    }
+    EXPECT_NE(value_of(0), value_of(1)) << parameter.key;
+  };
+  for_each_parameter(check_values, p);
+  for_each_parameter(check_values, run);
+}
+
 TEST(ParameterReader, LongTextIsCutBetweenLetters) {
   const std::string letters(59, 'x');
   EXPECT_THAT(problem_of("numerics.scheme = \"" + letters + "µµ\""),

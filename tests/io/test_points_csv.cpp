@@ -94,5 +94,33 @@ TEST_F(PointsCsv, ReportsWhatIsWrongWithTheHeader) {
               HasSubstr("none.csv: cannot open: No such file or directory"));
 }
 
+TEST_F(PointsCsv, TakesRadiiByTheirUsualNames) {
+  EXPECT_THAT(read("x,r\n0,0.002\n1,0.003\n").view().scalars("radius"), ElementsAre(0.002, 0.003));
+  EXPECT_THAT(read("x,r [mm]\n0,2\n").view().scalars("radius"), ElementsAre(0.002));
+  EXPECT_THAT(read("x,diameter [mm]\n0,2.2\n").view().scalars("radius"), ElementsAre(0.0011));
+  EXPECT_THAT(problems("x,r [kg]\n0,1\n"), ElementsAre(HasSubstr(":1: r: 'kg' is no unit of length")));
+  EXPECT_THAT(problems("x,diameter\n0,big\n"), ElementsAre(":2: diameter: 'big' is not a number"));
+  EXPECT_THAT(problems("x,radius,diameter\n0,1,2\n"),
+              ElementsAre(":1: diameter: is the column radius once more; allowed: one of them"));
+}
+
+TEST_F(PointsCsv, NamesColumnsThatHaveNoUse) {
+  static constexpr KnownColumn id[] = {{"id", dimension::none}};
+  static constexpr RefusedColumn refused[] = {{"vx", "no velocities here"}};
+  const auto given = [&](const std::string& content) {
+    put_content(folder_ / "points.csv", content);
+    return read_given_points(folder_ / "points.csv", id, refused);
+  };
+  const std::string said = message_of<InputError>([&] { given("id,x,radus,colour,vx\n1,0,1,2,3\n"); });
+  EXPECT_THAT(said, HasSubstr("points.csv:1: radus: unknown column; allowed: x, y, z, radius, id, r, diameter; did you "
+                              "mean 'radius'?"));
+  EXPECT_THAT(said, HasSubstr(":1: colour: unknown column; allowed: x, y, z, radius, id, r, diameter"));
+  EXPECT_THAT(said, HasSubstr(":1: vx: no velocities here"));
+  const GivenPoints points = given("id,x [mm],y,diameter\n7,8,0,0.006\n");
+  EXPECT_THAT(points.points.view().scalars("id"), ElementsAre(7));
+  EXPECT_THAT(points.points.view().scalars("radius"), ElementsAre(0.003));
+  EXPECT_THAT(points.without_unit, ElementsAre("y", "radius"));
+}
+
 }  // namespace
 }  // namespace talus

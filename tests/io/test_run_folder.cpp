@@ -146,11 +146,11 @@ TEST(RunFolder, OverwritesNothingThatIsNotFromTalus) {
   };
   std::filesystem::create_directory(scratch / "pictures");
   put_content(scratch / "pictures/holiday.png", "precious");
-  refused("holds no run of Talus (no manifest.json); nothing is overwritten");
+  refused("is not a Talus run folder (manifest.json missing); nothing is overwritten");
   put_content(scratch / "log.txt", "precious");
   put_content(scratch / "files.txt", "bread, milk");
   put_content(scratch / "manifest.json", R"({"name": "a web page"})");
-  refused("holds no run of Talus (");
+  refused("is not a Talus run folder (");
   EXPECT_THAT(refusal(scratch.path(), Existing::resume), HasSubstr("holds no run to resume: "));
   EXPECT_THAT(names_in(scratch.path()), ElementsAre("files.txt", "log.txt", "manifest.json", "pictures"));
   // A run of a version that kept no list: nobody knows what is whose.

@@ -186,7 +186,7 @@ class Reading(OnARun):
         np.testing.assert_allclose(walls(wedge), [[(0, 0.9), (0.4, 0.5)], [(1, 0.9), (0.6, 0.5)]])
 
     def test_what_is_no_run(self):
-        with self.assertRaisesRegex(talus.RunError, "is no folder"):
+        with self.assertRaisesRegex(talus.RunError, "no such folder"):
             talus.Run(self.folder / "none")
         with self.assertRaisesRegex(talus.RunError, "no manifest.json"):
             talus.Run(self.folder)
@@ -237,6 +237,13 @@ class Drawing(OnARun):
         np.testing.assert_allclose(discs.get_array(), snapshot["density"][order])
         self.assertTrue((discs._widths == discs._heights).all())
         np.testing.assert_allclose(2 * discs._widths, 2.5)  # matplotlib keeps half of what it is given
+        velocity = np.asarray(snapshot["velocity"])
+        discs = talus.draw.particles(self.ax, snapshot, "velocity", radius=1e-3)
+        np.testing.assert_allclose(discs.get_array(), np.linalg.norm(velocity, axis=1)[order])
+        discs = talus.draw.particles(self.ax, snapshot, 2 * velocity, component="z", radius=1e-3)
+        np.testing.assert_allclose(discs.get_array(), 2 * velocity[order][:, 2])
+        with self.assertRaisesRegex(ValueError, "no vector"):
+            talus.draw.particles(self.ax, snapshot, "density", component="z", radius=1e-3)
         downhill = talus.draw.particles(self.ax, snapshot, view="y-x", radius=1e-3)
         self.assertAlmostEqual(downhill.get_offsets()[:, 1].min(), -snapshot.positions[:, 0].max())
         for view in ("xx", "x", "xyz", "up"):
@@ -272,10 +279,15 @@ class Installing(unittest.TestCase):
         folder = Path(tempfile.mkdtemp(prefix="talus-pip-"))
         self.addCleanup(shutil.rmtree, folder)
         shutil.copytree(PROJECT / "python", folder / "source", ignore=shutil.ignore_patterns("__pycache__"))
-        subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", "--no-build-isolation", "--no-deps",
-                        "--target", folder / "installed", folder / "source"], check=True, capture_output=True)
+        offline = ["--no-index", "--no-build-isolation", "--no-deps"]
+        self.assertIn(f"pip install {' '.join(offline)} ./python", (PROJECT / "docs/tutorials/python.md").read_text())
+        subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", *offline, "--target", folder / "installed", folder / "source"], check=True, capture_output=True)
         names = {path.name for path in (folder / "installed" / "talus").glob("*.py")}
         self.assertEqual(names, {path.name for path in (PROJECT / "python" / "talus").glob("*.py")})
+        [metadata] = (folder / "installed").glob("talus-*.dist-info")
+        self.assertEqual(metadata.name, f"talus-{talus.__version__}.dist-info")
+        version = subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout
+        self.assertEqual(version.split()[1], talus.__version__)
         said = subprocess.run([sys.executable, "-c", "import talus, talus.draw; print(talus.__file__)"], cwd=folder,
                               env={"PYTHONPATH": str(folder / "installed")}, check=True, capture_output=True, text=True)
         self.assertTrue(said.stdout.startswith(str(folder / "installed")), said.stdout)

@@ -45,7 +45,7 @@ class Site(unittest.TestCase):
                     lost.append(f"{page.relative_to(folder)}: {link}")
         self.assertEqual(lost, [])
         index = (folder / "site/index.html").read_text(encoding="utf-8")
-        for name in ("Gallery", "Trouble, by message", "Talus"):
+        for name in ("Gallery", "Troubleshooting by error message", "Talus"):
             self.assertIn(name, index)
 
 

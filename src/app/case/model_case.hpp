@@ -30,7 +30,7 @@ ModelCase<P> read_case(ParameterReader& reader, P defaults = {}) {
   ModelCase<P> read{.run = {}, .model = std::move(defaults)};
   for_each_parameter(reader, read.run);
   for_each_parameter(reader, read.model);
-  reader.check(check(read.model));
+  reader.check(read.model, [](const P& model) { return check(model); });
   reader.finish();
   if (read.run.snapshots == 0) read.run.snapshots = read.run.end / 20;
   return read;

@@ -47,8 +47,9 @@ struct PreparedCase {
   ParameterList parameters;  ///< of the model and of the run, with the values they have
   std::map<std::string, std::string, std::less<>> filled_in;  ///< keys whose values follow from others, and from what
   std::string instruction_set;                                ///< that the choice resolves to on this machine
-  std::string inputs;  ///< digest of what the files hold that the case names; empty if it names none
-  std::any read;       ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
+  std::vector<std::string> remarks;  ///< what was made of the files that the case names, a line each
+  std::string inputs;                ///< digest of what the files hold that the case names; empty if it names none
+  std::any read;  ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
 
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <any>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -12,6 +13,14 @@ namespace talus::app {
 
 class ReadRuns {
  public:
+  /// At the end of a run, whose numbers are made snapshot by snapshot, and in a comparison, whose rows ask for the same
+  /// snapshots again and again.
+  static constexpr std::size_t one_by_one = 16'000'000, many_times = 256'000'000;
+
+  /// \param snapshot_memory bytes of a run's snapshots that are kept in memory while they are measured, about
+  explicit ReadRuns(std::size_t snapshot_memory = one_by_one) : snapshot_memory_(snapshot_memory) {}
+  std::size_t snapshot_memory() const { return snapshot_memory_; }
+
   /// The run in a folder: read() gives it when it is first asked for. \throws what read() and std::filesystem throw;
   /// std::bad_any_cast if it was read as another kind of run
   template <class Run, class Read>
@@ -42,6 +51,7 @@ class ReadRuns {
     return std::any_cast<const Kept&>(value);
   }
 
+  std::size_t snapshot_memory_;
   std::map<std::filesystem::path, std::any> runs_, cases_;
 };
 

@@ -14,11 +14,11 @@ std::vector<std::filesystem::path> snapshot_paths(const std::filesystem::path& r
   return paths;
 }
 
-std::size_t snapshots_in_memory(const std::vector<std::filesystem::path>& paths) {
-  constexpr std::size_t budget = 256'000'000, unpacked = 2;  // bytes; of a snapshot in memory over its file
+std::size_t snapshots_in_memory(const std::vector<std::filesystem::path>& paths, std::size_t bytes) {
+  constexpr std::size_t unpacked = 2;  // of a snapshot in memory over its file
   std::error_code none;
   const std::size_t size = paths.empty() ? 1 : std::filesystem::file_size(paths.front(), none);
-  return std::max<std::size_t>(4, budget / (unpacked * std::max<std::size_t>(size, 1)));
+  return std::max<std::size_t>(2, bytes / (unpacked * std::max<std::size_t>(size, 1)));
 }
 
 std::vector<std::size_t> chosen_snapshots(const std::vector<double>& time, std::size_t count) {

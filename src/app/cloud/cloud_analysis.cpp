@@ -39,7 +39,8 @@ struct Loaded {
 
 }  // namespace
 
-AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame) {
+AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame,
+                            std::size_t snapshot_memory) {
   const Series series = read_series(RunFolder(run_folder).series());
   const Curve front = front_of(series, frame);
   const auto overlap = series.column("overlap_max");
@@ -60,7 +61,7 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
     loaded->snapshot.gravity = frame.gravity;
     return {loaded, &loaded->snapshot};
   };
-  run.snapshots = AvalancheRun::Numbers::of(std::move(time), read, snapshots_in_memory(paths));
+  run.snapshots = AvalancheRun::Numbers::of(std::move(time), read, snapshots_in_memory(paths, snapshot_memory));
   if (run.view == AvalancheView::from_above && !paths.empty()) {
     const auto last = read(paths.size() - 1);
     for (const GrainSet& head : last->heads())

@@ -29,7 +29,8 @@ struct CloudFrame {
 /// Reads series.csv; a snapshot when a measure asks for it. Without a slope the run has no front. The run's end is the
 /// time of its last row: that of its last snapshot, at most a step after run.end, and no more than there is of a run
 /// cut short. \throws FileError
-AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame);
+AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame,
+                            std::size_t snapshot_memory);
 
 /// Writes analysis/front_speed.csv, analysis/snapshots.csv (a column per measure) and, seen from above,
 /// analysis/head_widths.csv (every head of the last snapshot); returns the summary's quantities. \throws FileError

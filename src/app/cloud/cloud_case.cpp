@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analysis/fronts.hpp"
+#include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/cloud/cloud_analysis.hpp"
@@ -29,32 +30,82 @@ using cloud::Cloud;
 using cloud::Grains;
 using cloud::Parameters;
 
-/// Columns that the model has no use for, and that say that somebody thinks it has.
-void refuse_velocities(const Snapshot& points, std::vector<Problem>& problems) {
-  for (const char* name : {"velocity", "velocity_x", "velocity_y", "velocity_z", "vx", "vy", "vz"})
-    if (points.has(name))
-      problems.push_back({.key = "particles.file",
-                          .what = fmt::format("has a column {}: a cloud has no inertia, its velocities follow from "
-                                              "the places of the grains at every moment (Eq. 4a)",
-                                              name),
-                          .allowed = "columns x, y, z and radius"});
+/// Columns without a unit are metres. Where that makes grains of another size than those of the case, or a cloud so
+/// thin that the grains hardly meet, the numbers are of another unit: the case then has to name it.
+void check_units(const std::vector<std::string>& without_unit, const Parameters& p, const Grains& grains,
+                 std::vector<Problem>& problems) {
+  constexpr double most_ratio = 100;
+  const auto without = [&](const char* name) {
+    return std::find(without_unit.begin(), without_unit.end(), name) != without_unit.end();
+  };
+  const auto add = [&](const char* columns, const char* column, std::string what) {
+    problems.push_back(
+        {.key = "particles.file",
+         .what = fmt::format("{} without a unit: as metres, {}", columns, what),
+         .allowed = fmt::format("the unit in the header: {0} [mm], or {0} [m] if that is meant", column)});
+  };
+  const auto count = static_cast<double>(grains.radius.size());
+  if (grains.radius.empty()) return;
+  const double radius = std::accumulate(grains.radius.begin(), grains.radius.end(), 0.0) / count;
+  const double ratio = radius / p.particles.radius;
+  if (without("radius") && !(ratio < most_ratio && ratio > 1 / most_ratio))
+    return add("radius", "radius", fmt::format("a mean of {:.3g} times particles.radius", ratio));
+  if (!without("x") || grains.radius.size() < 2) return;
+  Vector3 low = grains.position.front(), high = low;
+  for (const Vector3& x : grains.position)
+    for (int axis = 0; axis < 3; ++axis)
+      low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
+  double room = 1;
+  int axes = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (high[axis] > low[axis]) room *= high[axis] - low[axis], ++axes;
+  const double distance = axes > 0 ? std::pow(room / count, 1.0 / axes) : 0;
+  if (distance > most_ratio * radius)
+    add("coordinates", "x", fmt::format("some {:.3g} radii from grain to grain", distance / radius));
 }
 
-/// Reads the points of particles.file; radii that the file does not give are the mean radius.
-Grains read_grains(const CaseFile& file, const Parameters& p, std::vector<Problem>& problems) {
-  std::filesystem::path path = p.particles.file;
-  if (path.is_relative()) path = std::filesystem::path(file.name()).parent_path() / path;
-  const PointSet points = read_points_csv(path);
-  const Snapshot view = points.view();
-  refuse_velocities(view, problems);
+/// What was made of the columns.
+std::vector<std::string> remarks_on(const Snapshot& points, const Grains& grains) {
+  const auto [least, most] = std::minmax_element(grains.radius.begin(), grains.radius.end());
+  std::vector<std::string> remarks{fmt::format(
+      "particles.file: {} grains; {}", grains.radius.size(),
+      points.has("radius") ? fmt::format("radii from {:.4g} to {:.4g} mm", 1e3 * *least, 1e3 * *most)
+                           : fmt::format("no column radius: all have particles.radius, {:.4g} mm", 1e3 * *least))};
+  if (points.has("id")) remarks.emplace_back("particles.file: the column id is not used; grains keep the file's order");
+  return remarks;
+}
+
+struct GivenGrains {
   Grains grains;
+  std::vector<std::string> remarks;
+};
+
+/// Reads the points of particles.file; radii that the file does not give are the mean radius.
+GivenGrains read_grains(const CaseFile& file, const Parameters& p, std::vector<Problem>& problems) {
+  static constexpr KnownColumn others[] = {{"id", dimension::none}};
+  static constexpr std::string_view no_inertia =
+      "a cloud has no inertia, its velocities follow from the places of the grains at every moment (Eq. 4a)";
+  static constexpr RefusedColumn refused[] = {
+      {"velocity", no_inertia}, {"velocity_x", no_inertia}, {"velocity_y", no_inertia}, {"velocity_z", no_inertia},
+      {"vx", no_inertia},       {"vy", no_inertia},         {"vz", no_inertia}};
+  GivenPoints given;
+  read_input("particles.file", problems,
+             [&] { given = read_given_points(input_path(file, p.particles.file), others, refused); });
+  GivenGrains read;
+  if (!problems.empty()) return read;
+  const Snapshot view = given.points.view();
+  Grains& grains = read.grains;
   grains.position.assign(view.positions().begin(), view.positions().end());
   if (view.has("radius")) {
     grains.radius.assign(view.scalars("radius").begin(), view.scalars("radius").end());
   } else {
     grains.radius.assign(grains.position.size(), p.particles.radius);
   }
-  return grains;
+  check_units(given.without_unit, p, grains, problems);
+  const std::vector<Problem> faults = cloud::check_grains(p, grains);
+  if (problems.empty()) problems = faults;
+  if (problems.empty()) read.remarks = remarks_on(view, grains);
+  return read;
 }
 
 std::string digest_of(const Grains& grains) {
@@ -146,7 +197,9 @@ Scene scene_of_cloud(const CaseFile& resolved) {
 std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                           ReadRuns& runs) {
   const CloudFrame frame = study_of(resolved).frame;
-  return analyze_cloud(folder, frame, runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, frame); }));
+  return analyze_cloud(folder, frame, runs.of<AvalancheRun>(folder, [&] {
+    return read_avalanche(folder, frame, runs.snapshot_memory());
+  }));
 }
 
 std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
@@ -165,19 +218,21 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   }
 
   std::optional<Grains> given;
+  std::vector<std::string> remarks;
   if (p.particles.shape == cloud::Shape::file) {
     std::vector<Problem> problems;
-    given = read_grains(file, p, problems);
+    auto [grains, made] = read_grains(file, p, problems);
     ParameterReader points(file);
-    for_each_parameter(points, p);
     points.check(problems);
-    points.check(cloud::check_grains(p, *given));
     points.throw_problems();
+    given = std::move(grains);
+    remarks = std::move(made);
     p.particles.count = static_cast<std::int64_t>(given->radius.size());
   }
 
   PreparedCase prepared = prepared_case("cloud", read);
   if (given) prepared.inputs = digest_of(*given);
+  prepared.remarks = std::move(remarks);
   prepared.seed = p.seed;
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.groups = groups(p);

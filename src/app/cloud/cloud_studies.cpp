@@ -10,7 +10,8 @@ namespace {
 
 AvalancheRun cloud_run(const std::filesystem::path& folder, const CaseFile& file, ReadRuns& runs) {
   const CloudStudy study = study_of(file);
-  AvalancheRun run = runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, study.frame); });
+  AvalancheRun run =
+      runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, study.frame, runs.snapshot_memory()); });
   run.contact_weight_ratio = study.contact_weight_ratio;
   return run;
 }

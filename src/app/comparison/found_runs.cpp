@@ -83,7 +83,7 @@ const Candidate* best(const std::vector<Candidate>& candidates, const CaseFile& 
 }  // namespace
 
 std::vector<FoundEnsemble> ensembles_of(const std::filesystem::path& folder, const Reference& reference) {
-  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "is no folder");
+  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "no such folder");
   std::vector<FoundEnsemble> ensembles;
   for (FoundRun& run : find_runs(folder)) {
     const ReferenceCase* c = best(reference.cases, run.file, &ReferenceCase::where);

@@ -38,10 +38,17 @@ ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::p
 
   const Summary one = read_summary(first.summary()), two = read_summary(second.summary());
   print("{:32} {:>14} {:>14} {:>12}\n", "quantity", name_of(a), name_of(b), "difference");
-  for (const NamedValue& value : one.quantities)
-    if (const NamedValue* other = two.find(value.name))
-      print("{:32} {:>14.6g} {:>14.6g} {:>12.3g} {}\n", value.name, value.value, other->value,
-            other->value - value.value, value.unit == "1" ? "" : value.unit);
+  const auto print_row = [](const std::string& name, const NamedValue* first_value, const NamedValue* second_value) {
+    const auto text = [](const NamedValue* value) { return value ? fmt::format("{:.6g}", value->value) : "-"; };
+    const std::string difference =
+        first_value && second_value ? fmt::format("{:.3g}", second_value->value - first_value->value) : "-";
+    const std::string& unit = (first_value ? first_value : second_value)->unit;
+    print("{:32} {:>14} {:>14} {:>12} {}\n", name, text(first_value), text(second_value), difference,
+          unit == "1" ? "" : unit);
+  };
+  for (const NamedValue& value : one.quantities) print_row(value.name, &value, two.find(value.name));
+  for (const NamedValue& value : two.quantities)
+    if (!one.find(value.name)) print_row(value.name, nullptr, &value);
 
   if (picture.empty()) return ExitStatus::done;
   const Series s = read_series(first.series()), t = read_series(second.series());

@@ -136,7 +136,7 @@ Window read_window(Reader& reader, const toml::table& row) {
     const toml::node* node = table->get(key);
     if (node->value<std::string>() == "end") return Window::end_of_run;
     if (const auto value = node->value<double>()) return *value;
-    reader.fault(*node, "window", "is no time", "a number of a/v_s, or \"end\"");
+    reader.fault(*node, "window", "is not a time", "a number of a/v_s, or \"end\"");
     return 0.0;
   };
   if (table->contains("at")) window.at = time("at");
@@ -154,7 +154,8 @@ Place read_place(Reader& reader, const toml::table& row) {
       if (length && length->dimension == dimension::length)
         place.emplace(key.str(), length->value);
       else
-        reader.fault(value, "place", std::string(key.str()) + " is no length", "lengths, such as \"120 mm\"");
+        reader.fault(value, "place", std::string(key.str()) + " is not a length (unit missing?)",
+                     "lengths, such as \"120 mm\"");
     }
   return place;
 }

@@ -176,7 +176,8 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
   return setting;
 }
 
-HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting) {
+HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting,
+                      std::size_t snapshot_memory) {
   HopperRun run{.setting = setting, .series = read_series(RunFolder(run_folder).series())};
   if (run.series.rows() == 0) throw FileError((run_folder / "series.csv").string(), "has no rows");
   run.gate_time = gate_time_of(run.series);
@@ -185,7 +186,8 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
   for (const auto& path : paths) time.push_back(read_points_time(path) - run.gate_time);
   const auto reader = std::make_shared<Reader>(paths, time, setting, run.gate_time);
   run.snapshots = HopperRun::Numbers::of(
-      std::move(time), [reader](std::size_t n) { return reader->read(n); }, snapshots_in_memory(paths));
+      std::move(time), [reader](std::size_t n) { return reader->read(n); },
+      snapshots_in_memory(paths, snapshot_memory));
   return run;
 }
 

@@ -20,7 +20,8 @@ std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Parameter
 HopperSetting hopper_setting(const continuum::Parameters& parameters);
 
 /// Reads series.csv; a snapshot when a measure asks for it. \throws FileError
-HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting);
+HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting,
+                      std::size_t snapshot_memory);
 
 /// Writes analysis/snapshots.csv (a column per measure), analysis/surfaces.csv (both free surfaces at the end)
 /// and, with a plate, analysis/discharge.csv (20 ms means, one every 5 ms); with the outlet of a vessel

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/answers.hpp"
@@ -113,19 +114,20 @@ Problem too_large(const Parameters& p, double available) {
       .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
 }
 
-std::filesystem::path path_of(const CaseFile& file, const std::string& given) {
-  const std::filesystem::path path = given;
-  return path.is_absolute() ? path : std::filesystem::path(file.name()).parent_path() / path;
-}
-
 /// Reads the files of the vessel before the case is checked, so that their faults are told with the rest.
-void read_surfaces(const CaseFile& file, Parameters& p) {
+/// \returns those that cannot be read
+std::vector<Problem> read_surfaces(const CaseFile& file, Parameters& p) {
+  std::vector<Problem> problems;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    const CaseEntry* entry = file.find(continuum::vessel_key(n, "file"));
+    const std::string key = continuum::vessel_key(n, "file");
+    const CaseEntry* entry = file.find(key);
     const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
     if (name && !name->empty())
-      p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(path_of(file, *name)));
+      read_input(key, problems, [&] {
+        p.vessel[n].drawn = std::make_shared<continuum::DrawnSurface>(read_stl(input_path(file, *name)));
+      });
   }
+  return problems;
 }
 
 /// Of the surfaces that the files of the case hold.
@@ -147,10 +149,11 @@ ContinuumCase read_continuum(const CaseFile& file) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
-  read_surfaces(file, defaults);
+  std::vector<Problem> unreadable = read_surfaces(file, defaults);
   FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
   reader.check(filled.problems);
+  reader.check(std::move(unreadable));
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
   read.model = continuum::with_level(read.model);
   set_from_bed(file, read.model, read.filled);
@@ -160,7 +163,7 @@ ContinuumCase read_continuum(const CaseFile& file) {
   }
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
-      part.file = std::filesystem::absolute(path_of(file, part.file)).lexically_normal();
+      part.file = std::filesystem::absolute(input_path(file, part.file)).lexically_normal();
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.throw_problems();
   return read;
@@ -210,6 +213,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
+  prepared.regime.push_back(continuum::courant_of_case(p));
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);
@@ -226,7 +230,8 @@ PreparedCase prepare_continuum(const CaseFile& file) {
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
   return runs.of<HopperRun>(folder, [&] {
     const auto* const read = runs.find_case<ContinuumCase>(folder);
-    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model));
+    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model),
+                       runs.snapshot_memory());
   });
 }
 

@@ -51,7 +51,7 @@ std::vector<ReportEntry> entries_of(const std::vector<EnsembleGroup>& groups) {
 
 std::vector<ReportEntry> entries_of_folder(const std::filesystem::path& folder) {
   if (is_run(folder)) return {entry_of_run(folder)};
-  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "is no folder");
+  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "no such folder");
   std::vector<std::filesystem::path> runs;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     if (entry.is_directory() && is_run(entry.path())) runs.push_back(entry.path());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "app/ensemble/schedule.hpp"
 #include "io/atomic_file.hpp"
@@ -33,11 +34,62 @@ bool tells_about_the_machine(const std::string& name) {
   return std::find(of_the_machine.begin(), of_the_machine.end(), name) != of_the_machine.end();
 }
 
+/// Of the members that have any row of it.
 std::vector<Series> read_tables(const EnsembleGroup& group, const std::filesystem::path& table) {
   std::vector<Series> tables;
   for (const EnsembleMember* member : done_members(group))
-    if (const auto path = member->folder / table; std::filesystem::exists(path)) tables.push_back(read_series(path));
+    if (const auto path = member->folder / table; std::filesystem::exists(path))
+      if (Series read = read_series(path); read.rows() > 0) tables.push_back(std::move(read));
   return tables;
+}
+
+/// The columns of all tables, in the order in which they first occur, with their units.
+std::vector<SeriesColumn> columns_of(const std::vector<Series>& tables) {
+  std::vector<SeriesColumn> columns;
+  for (const Series& t : tables)
+    for (std::size_t c = 0; c < t.names.size(); ++c)
+      if (std::none_of(columns.begin(), columns.end(), [&](const auto& known) { return known.name == t.names[c]; }))
+        columns.push_back({t.names[c], t.units[c]});
+  return columns;
+}
+
+/// A row of one of the tables.
+struct TableRow {
+  std::size_t table, row;
+  double time;
+};
+
+/// Rows of several tables that belong together: those of the same number where the tables are equally long, otherwise
+/// those of the same time, to within half of the usual distance of two rows.
+std::vector<std::vector<TableRow>> rows_together(const std::vector<Series>& tables) {
+  std::vector<TableRow> all;
+  std::vector<double> distances;
+  bool equally_long = true;
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    const std::vector<double>& time = tables[t].columns.front();
+    equally_long = equally_long && time.size() == tables.front().rows();
+    for (std::size_t row = 0; row < time.size(); ++row) {
+      all.push_back({t, row, time[row]});
+      if (row > 0) distances.push_back(time[row] - time[row - 1]);
+    }
+  }
+  std::vector<std::vector<TableRow>> together;
+  if (equally_long) {
+    together.resize(tables.empty() ? 0 : tables.front().rows());
+    for (const TableRow& one : all) together[one.row].push_back(one);
+    return together;
+  }
+  std::sort(distances.begin(), distances.end());
+  const double near = distances.empty() ? 0 : 0.5 * distances[distances.size() / 2];
+  std::stable_sort(all.begin(), all.end(), [](const TableRow& a, const TableRow& b) { return a.time < b.time; });
+  for (const TableRow& one : all) {
+    const auto of_same_table = [&](const TableRow& other) { return other.table == one.table; };
+    if (together.empty() || !(one.time - together.back().front().time <= near) ||
+        std::any_of(together.back().begin(), together.back().end(), of_same_table))
+      together.emplace_back();
+    together.back().push_back(one);
+  }
+  return together;
 }
 
 void write_series(const std::filesystem::path& path, const Series& series) {
@@ -100,46 +152,48 @@ std::vector<QuantitySpread> quantity_spreads(const EnsembleGroup& group) {
 
 Series table_spread(const EnsembleGroup& group, const std::filesystem::path& table) {
   const std::vector<Series> tables = read_tables(group, table);
+  const std::vector<std::vector<TableRow>> rows = rows_together(tables);
   Series bands;
-  if (tables.empty()) return bands;
-  const Series& first = tables.front();
-  std::size_t rows = first.rows();
-  for (const Series& t : tables) rows = std::min(rows, t.rows());
-  for (std::size_t c = 0; c < first.names.size(); ++c) {
-    std::vector<double> means(rows), deviations(rows);
-    for (std::size_t row = 0; row < rows; ++row) {
+  for (const SeriesColumn& column : columns_of(tables)) {
+    const bool is_time = bands.names.empty();
+    std::vector<double> means, deviations;
+    for (const std::vector<TableRow>& together : rows) {
       std::vector<double> values;
-      for (const Series& t : tables)
-        if (const double v = t.column(first.names[c])[row]; std::isfinite(v)) values.push_back(v);
-      means[row] = mean(values);
-      deviations[row] = standard_deviation(values);
+      for (const TableRow& one : together)
+        if (const Series& t = tables[one.table]; t.has(column.name))
+          if (const double v = t.column(column.name)[one.row]; std::isfinite(v)) values.push_back(v);
+      means.push_back(mean(values));
+      deviations.push_back(standard_deviation(values));
     }
-    bands.names.push_back(c == 0 ? first.names[c] : first.names[c] + "_mean");
-    bands.units.push_back(first.units[c]);
+    bands.names.push_back(is_time ? column.name : column.name + "_mean");
+    bands.units.push_back(column.unit);
     bands.columns.push_back(std::move(means));
-    if (c == 0) continue;
-    bands.names.push_back(first.names[c] + "_deviation");
-    bands.units.push_back(first.units[c]);
+    if (is_time) continue;
+    bands.names.push_back(column.name + "_deviation");
+    bands.units.push_back(column.unit);
     bands.columns.push_back(std::move(deviations));
   }
   return bands;
 }
 
 std::vector<std::string> time_tables(const EnsembleGroup& group) {
-  std::vector<std::string> names;
-  const auto done = done_members(group);
-  if (done.empty() || !std::filesystem::exists(done.front()->folder / "analysis")) return names;
-  for (const auto& entry : std::filesystem::directory_iterator(done.front()->folder / "analysis"))
-    if (entry.path().extension() == ".csv" && read_series(entry.path()).names.front() == "time")
-      names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
+  std::set<std::string> names;
+  for (const EnsembleMember* member : done_members(group)) {
+    const std::filesystem::path tables = member->folder / "analysis";
+    if (!std::filesystem::exists(tables)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(tables))
+      if (entry.path().extension() == ".csv")
+        if (const Series table = read_series(entry.path()); table.rows() > 0 && table.names.front() == "time")
+          names.insert(entry.path().stem().string());
+  }
+  return {names.begin(), names.end()};
 }
 
 std::vector<double> pooled_column(const EnsembleGroup& group, const std::filesystem::path& table,
                                   const std::string& column) {
   std::vector<double> values;
   for (const Series& t : read_tables(group, table)) {
+    if (!t.has(column)) continue;
     const auto more = t.column(column);
     values.insert(values.end(), more.begin(), more.end());
   }

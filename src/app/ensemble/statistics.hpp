@@ -21,16 +21,17 @@ struct QuantitySpread {
   double mean = 0, deviation = 0;
 };
 
-/// Quantities of a group's members that are done, in the order of the first member's summary; those about the machine
+/// Quantities of a group's members that are done, in the order in which they first occur; those about the machine
 /// (times, memory, threads) are left out.
 std::vector<QuantitySpread> quantity_spreads(const EnsembleGroup& group);
 
 /// Mean and standard deviation, row by row, of one table of the members that are done: columns "time", then NAME_mean
-/// and NAME_deviation. Rows that not all members have are left out; values that are not finite do not count.
+/// and NAME_deviation, of every column that any member has. A row is the mean over the members that have it: by its
+/// number where all have as many rows, otherwise by its time. Values that are not finite do not count.
 /// \param table path within a member's folder: "analysis/front_speed.csv"
 Series table_spread(const EnsembleGroup& group, const std::filesystem::path& table);
 
-/// Names of the tables, with time as first column, that the first done member has under analysis/.
+/// Names of the tables, with time as first column, that any done member has under analysis/ with at least one row.
 std::vector<std::string> time_tables(const EnsembleGroup& group);
 
 /// All values of one column over the members: widths of heads.

@@ -23,7 +23,7 @@ LawCase read_law_case(const CaseFile& file) {
   ParameterReader reader(part, continuum::renamed_keys);
   reader(Parameter{.key = "title", .text = "one line"}, title);
   for_each_parameter(reader, parameters);
-  reader.check(granular::check(parameters.law));
+  reader.check(parameters, [](const LawCase& read) { return granular::check(read.law); });
   auto& critical = parameters.law.of<granular::CriticalState>();
   if (part.contains("law.critical-state.bulk_modulus") && !part.contains("law.critical-state.shear_modulus"))
     critical.shear_modulus = shear_over_bulk * critical.bulk_modulus;

@@ -92,6 +92,18 @@ PreparedCase prepare_case(const CaseFile& file) {
   return model_of(file).prepare(file);
 }
 
+std::vector<Warning> warnings_before_run(const PreparedCase& prepared, const std::filesystem::path& folder) {
+  std::vector<RegimeLine> lines = prepared.regime;
+  const std::optional<double> free = available_disk(folder);
+  if (free && prepared.forecast.disk_bytes > *free)
+    lines.push_back({"disk", fmt::format("{:.4g} GB", prepared.forecast.disk_bytes / 1e9),
+                     fmt::format("of the run's files, but {:.4g} GB are free for {}; fewer snapshots "
+                                 "(output.snapshots) or rows (output.series), or another folder (--out)",
+                                 *free / 1e9, folder.string()),
+                     true});
+  return warnings_of(lines);
+}
+
 void check_memory(const PreparedCase& prepared, const CaseFile& file) {
   const std::optional<double> available = available_memory();
   if (!available || prepared.forecast.memory_bytes <= *available) return;

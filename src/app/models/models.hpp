@@ -15,6 +15,7 @@
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "numerics/named_value.hpp"
+#include "numerics/warning.hpp"
 
 namespace talus::app {
 
@@ -57,5 +58,9 @@ PreparedCase prepare_case(const CaseFile& file);
 /// \throws InputError if the run needs more memory than there is now, on this machine, with the line of the case that
 /// asks for it
 void check_memory(const PreparedCase& prepared, const CaseFile& file);
+
+/// What `check` and the log of a run warn of beforehand: regime, and a disk with less room than the run's files take.
+/// \param folder of the results, which need not be there yet
+std::vector<Warning> warnings_before_run(const PreparedCase& prepared, const std::filesystem::path& folder);
 
 }  // namespace talus::app

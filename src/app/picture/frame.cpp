@@ -119,7 +119,7 @@ void show_arrows(const Snapshot& snapshot, const std::string& name, const std::f
 RunFrames::RunFrames(const std::filesystem::path& path) : folder_(path) {
   const RunFolder folder(path);
   if (!std::filesystem::exists(folder.manifest()))
-    throw FileError(path.string(), "holds no run of Talus (no manifest.json)");
+    throw FileError(path.string(), "is not a Talus run folder (manifest.json missing)");
   const CaseFile resolved = CaseFile::from_text(read_manifest(folder.manifest()).case_text, folder.manifest().string());
   ReadRuns runs;
   scene_ = model_of(resolved).scene(resolved, path, runs);

@@ -43,7 +43,7 @@ void PictureOptions::add_to(CLI::App& command) {
   command.add_option("--range", range, "ends of the colours, LOW,HIGH; those of nearly all that is shown if not given");
   command.add_option("--unit", style.unit, "unit of the colours, such as kPa; SI if not given");
   command.add_option("--arrows", style.shown.arrows, "arrows of a vector: air (its velocity), or one of the particles");
-  command.add_option("--view", style.view, "from where; that of the case if not given")
+  command.add_option("--view", style.view, "direction of view [default: the case's]")
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(picture_views), std::end(picture_views))));
   command.add_option("--names", names, "names of the runs, in place of those of their folders")->delimiter(',');
   command.add_option("--title", style.title, "a line above everything; the case's title of a single run if not given");
@@ -87,7 +87,7 @@ double read_time(const std::string& text, const std::string& option) {
   const auto time = parse_quantity(text);
   if (time && (time->dimension == dimension::none || time->dimension == dimension::time)) return time->value;
   throw InputError({{.where = option,
-                     .what = fmt::format("'{}' is no time", text),
+                     .what = fmt::format("'{}' is not a time (unit missing?)", text),
                      .allowed = "seconds, or a time such as 170 ms"}});
 }
 

@@ -68,7 +68,8 @@ class Particles {
     ++frame_;
   }
 
-  void describe(Json& run, std::vector<std::string>& blocks) const {
+  /// Once: the values go as they are packed.
+  void describe(Json& run, std::vector<std::string>& blocks) {
     const std::size_t count = identities_.size();
     run["count"] = count;
     run["of_particles"] = of_particles_;
@@ -78,8 +79,9 @@ class Particles {
       run["identity"] = blocks.size() - 1;
     }
     run["position"] = run["fields"] = Json::array();
-    for (const auto& [name, column] : columns_) {
+    for (auto& [name, column] : columns_) {
       const std::vector<float> values = column.joined(count);
+      column.frames = {};
       const bool is_position = name.starts_with("position_");
       if (values.empty() || (is_constant(values) && !is_position && name != "radius")) continue;
       Json field = described(pack_frames(values, count, is_position ? levels_of_position : levels_of_field), blocks);

@@ -170,7 +170,7 @@ void write_report(const ReportRequest& request, const std::filesystem::path& pat
 ReportEntry entry_of_run(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
   if (!std::filesystem::exists(RunFolder(path).manifest()) || !std::filesystem::exists(RunFolder(path).summary()))
-    throw FileError(path.string(), "holds no run of Talus (no manifest.json or no summary.json)");
+    throw FileError(path.string(), "is not a Talus run folder (manifest.json or summary.json missing)");
   return {.folder = path, .name = path.filename().string()};
 }
 

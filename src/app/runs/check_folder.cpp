@@ -83,7 +83,7 @@ ExitStatus check_folder(const fs::path& path) {
   const std::vector<fs::path> runs = runs_in(path);
   if (runs.empty())
     throw InputError(
-        {{.where = path.string(), .what = "holds no run of Talus with a checkpoint", .allowed = "a run's folder"}});
+        {{.where = path.string(), .what = "holds no Talus run folder with a checkpoint", .allowed = "a run's folder"}});
   std::size_t bad = 0;
   for (const fs::path& run : runs) {
     std::string found = "nothing was compared";
@@ -93,7 +93,7 @@ ExitStatus check_folder(const fs::path& path) {
     if (!faults.empty()) ++bad;
   }
   if (bad == 0) return ExitStatus::done;
-  print_error("talus: {} of {} runs are not as they were written\n", bad, runs.size());
+  print_error("talus: {} of {} run folders {} been modified\n", bad, runs.size(), bad == 1 ? "has" : "have");
   return ExitStatus::files;
 }
 

@@ -128,6 +128,12 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
     print_error("talus: passed over: {}\n", damage);
   }
 
+  for (const std::string& remark : prepared.remarks) log.write("{}", remark);
+  for (const Warning& warning : warnings_before_run(prepared, folder.path())) {
+    log.write("warning {}", to_string(warning));
+    if (warning.id == "disk") print_error("talus: {}\n", warning.text);  // the others stand in the card at the end
+  }
+
   std::unique_ptr<run::AnyModel> model = prepared.make_model();
   ThreadTeam team(request.threads);
   const run::LoopResult loop = run::run_loop(*model, team, folder.path(),

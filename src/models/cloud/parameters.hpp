@@ -91,7 +91,11 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"particles.length", dimension::length, above(0), "rectangle: extent along x"}, p.particles.length);
   visit(Parameter{"particles.width", dimension::length, above(0), "rectangle: extent across (y or z)"},
         p.particles.width);
-  visit(Parameter{"particles.file", {}, {}, "CSV file with columns x, y, z and radius, relative to the case"},
+  visit(Parameter{"particles.file",
+                  {},
+                  {},
+                  "CSV file, relative to the case, with the columns x, y, z and radius (or r, diameter), each with its "
+                  "unit as in x [mm]; without units m"},
         p.particles.file);
   visit(Parameter{"particles.radius", dimension::length, above(0), "mean radius a_p; the unit of length of the results",
                   true},

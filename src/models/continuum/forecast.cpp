@@ -95,6 +95,10 @@ Forecast forecast(const Parameters& p, double end) {
           .flow_steps = std::ceil(end / step)};
 }
 
+double courant_number(const Parameters& p) {
+  return time_step_of(p) * wave_speed(p) / smoothing_length(p);
+}
+
 std::vector<Problem> check_steps(const Parameters& p, double end) {
   std::vector<Problem> problems;
   const double length = smoothing_length(p), speed = wave_speed(p), step = time_step_of(p);

@@ -263,12 +263,9 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double slow = record.value("inertial_share");
   std::vector<RegimeLine> lines = regime_of_case(parameters_);
   const std::vector<RegimeLine> of_run = {
-      {"Courant number", fmt::format("{:.3g}", courant),
-       "time step times the speed of pressure waves over the least smoothing length; stable below about 0.5 "
-       "(Runge-Kutta), 1.5 (leapfrog)",
-       courant > (parameters_.integration.method == Method::runge_kutta ? 0.5 : 1.5)},
-      {"speed of pressure waves", fmt::format("{:.4g} m/s", c), "bound over the law's own table"},
-      {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over that of pressure waves", mach > 0.3},
+      courant_line(parameters_.integration.method, courant),
+      {"sound speed", fmt::format("{:.4g} m/s", c), "upper bound, used for the time step"},
+      {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over the sound speed", mach > 0.3},
       {"largest packing", fmt::format("{:.3f}", packing),
        "of a particle in the run, as the kernel deposits it; at most 0.74 in grains", packing > 0.74},
       {"share of slow flow", fmt::format("{:.3f}", slow),

@@ -177,12 +177,13 @@ void for_each_parameter(Visit&& visit, P& p) {
   auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
   const bool bears_tension =
       granular::with_chosen_law(p.law, []<class Law>(const auto&) { return Law::bears_tension; });
-  auto loose_where_free =
-      only_if({"law.name", "is " + value_text(p.law.name), "of a law that bears no tension", !bears_tension}, as_sum);
+  auto loose_where_free = only_if(
+      {"law.name", "is " + value_text(p.law.name), "of a law without tensile strength", !bears_tension}, as_sum);
   loose_where_free(
-      Parameter{"sph.density_relaxation", dimension::none, at_least(0),
-                "share of the difference between the kernel's sum and the density that a shear strain of "
-                "1 takes back; not under a law that bears tension; 0, as printed: both drift apart as the grains flow"},
+      Parameter{
+          "sph.density_relaxation", dimension::none, at_least(0),
+          "share of the difference between the kernel's sum and the density that a shear strain of "
+          "1 takes back; not under a law with tensile strength; 0, as printed: both drift apart as the grains flow"},
       p.sph.density_relaxation);
   visit(Parameter{"sph.stress_form",
                   {},
@@ -192,7 +193,8 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(
       Parameter{
           "sph.viscosity_alpha", dimension::none, at_least(0),
-          "Monaghan's viscosity, linear coefficient; less than 0.1 lets grains fly off where a stream strikes a wall"},
+          "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a few spacings "
+          "above the head that they came with"},
       p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
@@ -276,12 +278,10 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"integration.step", dimension::time, above(0),
                   "fixed time step, instead of that of the Courant number"},
         p.integration.step);
-  visit(
-      Parameter{
-          "integration.courant", dimension::none, above(0),
-          "time step times the speed of pressure waves over the smallest smoothing length; left out: 1.2 with the "
-          "leapfrog, 0.3 with Runge-Kutta"},
-      p.integration.courant);
+  visit(Parameter{"integration.courant", dimension::none, above(0),
+                  "time step times the sound speed over the smallest smoothing length; left out: 1.2 with the "
+                  "leapfrog, 0.3 with Runge-Kutta"},
+        p.integration.courant);
   visit(Parameter{"integration.skin", dimension::none, between(0, 2),
                   "largest skin of the neighbour lists, of particles that move half of it in 20 steps, in spacings"},
         p.integration.skin);
@@ -289,12 +289,14 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "share of that skin which particles at rest have: with a smaller one lists of a bed are shorter, and "
                   "built anew as soon as it moves"},
         p.integration.skin_at_rest);
-  visit(Parameter{"integration.pair_precision",
-                  {},
-                  {},
-                  "arithmetic of a pair of particles: double, or single precision with differences of places as good, "
-                  "some 1e-6 of a sum, twice the lanes; the state is double either way"},
-        p.integration.pair_precision);
+  visit(
+      Parameter{
+          "integration.pair_precision",
+          {},
+          {},
+          "precision of the sums over pairs; single: relative error 1e-6 of a sum, about twice as fast; the state "
+          "stays double"},
+      p.integration.pair_precision);
   visit(
       Parameter{
           "integration.instruction_set", {}, {}, "instruction set of the sums over neighbours; the bits depend on it"},

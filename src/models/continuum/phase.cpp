@@ -76,7 +76,7 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
     throw NumericalError(
-        {.what = "the bed has not settled",
+        {.what = fmt::format("the bed is still moving after {:.3g} s", s.time),
          .term = fmt::format("{} of {} particles are faster than settle.speed", moving, s.velocity.size()),
          .place = "the bed",
          .step = s.step,

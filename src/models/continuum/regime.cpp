@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 
 namespace talus::continuum {
@@ -101,11 +102,24 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
         few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
     lines.push_back(
         {"particles across the outlet", fmt::format("{:.3g}", width / p.bed.spacing),
-         "it discharges as if it were about three narrower; fewer than 12 are few (validation/slots)" + advice, few});
+         "the flow is underestimated as if the outlet were 3 spacings narrower; use at least 12 (validation/slots)" +
+             advice,
+         few});
     lines.push_back({"grains across the outlet", fmt::format("{:.3g}", width / p.grains.diameter),
                      "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
   }
   return lines;
+}
+
+RegimeLine courant_line(Method method, double courant) {
+  return {"Courant number", fmt::format("{:.3g}", courant),
+          "time step times the sound speed over the smallest smoothing length; stable below about 0.5 (Runge-Kutta), "
+          "1.5 (leapfrog)",
+          courant > (method == Method::runge_kutta ? 0.5 : 1.5)};
+}
+
+RegimeLine courant_of_case(const Parameters& p) {
+  return courant_line(p.integration.method, courant_number(p));
 }
 
 }  // namespace talus::continuum

@@ -12,4 +12,10 @@ namespace talus::continuum {
 
 std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
 
+/// The line of a time step's Courant number. \param courant step times speed of sound over smoothing length
+RegimeLine courant_line(Method method, double courant);
+
+/// The same of the step that the case gives, before the run.
+RegimeLine courant_of_case(const Parameters& parameters);
+
 }  // namespace talus::continuum

@@ -30,11 +30,4 @@ inline double angle_of_friction(FrictionTest test, double friction) {
   return std::asin(3 * third / (6 + third));
 }
 
-/// M of grains of which a test gave an angle. \param angle phi, rad, 0 to pi/2
-inline double friction_of_angle(FrictionTest test, double angle) {
-  if (test == FrictionTest::shear_plane) return std::tan(angle);
-  const double sine = std::sin(angle);
-  return test == FrictionTest::plane_strain ? sine : 2 * std::numbers::sqrt3 * sine / (3 - sine);
-}
-
 }  // namespace talus::granular

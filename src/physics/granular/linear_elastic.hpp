@@ -15,7 +15,7 @@ namespace talus::granular {
 class LinearElastic {
  public:
   static constexpr std::string_view name = "linear-elastic";
-  static constexpr std::string_view text = "Hooke's law, which bears tension (for verification)";
+  static constexpr std::string_view text = "Hooke's law, with tensile strength (for verification)";
   static constexpr bool bears_tension = true;
 
   struct Parameters {

@@ -117,7 +117,7 @@ TEST(Reference, ARowBringsThePlaceThatItsMeasureNeeds) {
     return message_of<InputError>([&] { read(with(quantity, place)); });
   };
   EXPECT_THAT(fault("packing_max_outside_impact", ""), HasSubstr("needs distance"));
-  EXPECT_THAT(fault("packing_max_outside_impact", "distance = 20"), HasSubstr("is no length"));
+  EXPECT_THAT(fault("packing_max_outside_impact", "distance = 20"), HasSubstr("is not a length (unit missing?)"));
   EXPECT_THAT(fault("packing_max", "distance = \"20 mm\""), HasSubstr("takes no distance"));
   EXPECT_THAT(fault("mass", ""), HasSubstr("kg")) << "another unit than the row's";
 }

@@ -60,9 +60,8 @@ TEST(Materials, EveryFrictionIsThatOfTheTestThatItsFileNames) {
       ASSERT_LT(test, choices<granular::FrictionTest>.size()) << line.key << ": no test \"" << line.test << '"';
       EXPECT_TRUE(!line.angle.empty() || line.key.ends_with("fast_friction"));
       if (line.angle.empty()) continue;
-      const double angle = parse_quantity(line.angle)->value;
-      EXPECT_NEAR(parse_quantity(line.value)->value,
-                  granular::friction_of_angle(static_cast<granular::FrictionTest>(test), angle), 5e-3)
+      EXPECT_NEAR(granular::angle_of_friction(static_cast<granular::FrictionTest>(test), parse_quantity(line.value)->value),
+                  parse_quantity(line.angle)->value, 5e-4)
           << choices<GrainMaterial>[n];
     }
 }
