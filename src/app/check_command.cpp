@@ -20,6 +20,7 @@
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
+#include "app/picture/options.hpp"
 #include "app/runs/check_folder.hpp"
 #include "base/memory.hpp"
 #include "base/terminal.hpp"
@@ -239,15 +240,28 @@ void print_forecast(const Subject& s) {
   if (seconds > hour) print_shortenings(s, seconds);
 }
 
-using Section = void (*)(const Subject&);
-constexpr Section in_short[] = {print_given, print_following, print_warnings, print_forecast};
-constexpr Section in_full[] = {print_every_key, print_scales, print_warnings, print_forecast};
+void print_start(const Subject& s) {
+  if (!s.prepared.start) return;
+  print("\nAt the start:\n");
+  for (const auto& [name, text] : s.prepared.start())
+    print("  {:{}}  {}\n", name, s.key, wrapped(text, terminal_width(), s.key + 4, s.key + 4));
+}
 
-ExitStatus check(const CaseOptions& options, int threads, bool all) {
+using Section = void (*)(const Subject&);
+constexpr Section in_short[] = {print_given, print_following, print_start, print_warnings, print_forecast};
+constexpr Section in_full[] = {print_every_key, print_scales, print_start, print_warnings, print_forecast};
+
+/// \param picture of walls and bed at the start, none if empty
+ExitStatus check(const CaseOptions& options, int threads, bool all, const std::string& picture) {
   if (std::filesystem::is_directory(options.path)) return check_folder(options.path);
   const CaseFile file = options.read();
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
+  const std::filesystem::path drawn = picture.empty() ? std::filesystem::path() : read_out(picture, {".png"});
+  if (!picture.empty() && !prepared.draw_start)
+    throw InputError({{.where = "--picture " + picture,
+                       .what = fmt::format("the model {} has no bed", prepared.model),
+                       .allowed = "a case of the model continuum"}});
 
   Subject subject{options, file, prepared, threads, std::string_view("from the material").size()};
   for (const NamedValue& group : prepared.groups) subject.key = std::max(subject.key, group.name.size());
@@ -257,6 +271,10 @@ ExitStatus check(const CaseOptions& options, int threads, bool all) {
   print("{}: valid{}\n", options.path, all ? "." : ". Every key in SI, with the defaults: --all");
   for (const Section section : all ? std::span<const Section>(in_full) : std::span<const Section>(in_short))
     section(subject);
+  if (!picture.empty()) {
+    prepared.draw_start(drawn);
+    print("Picture: {}\n", picture);
+  }
   return ExitStatus::done;
 }
 
@@ -267,6 +285,7 @@ void add_check_command(CLI::App& app, Action& action) {
     CaseOptions case_options;
     int threads = 1;
     bool all = false;
+    std::string picture;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
@@ -274,13 +293,15 @@ void add_check_command(CLI::App& app, Action& action) {
   options->case_options.add_to(*command);
   add_threads_option(*command, options->threads);
   command->add_flag("--all", options->all, "every key in SI, with its default, where it is from and what it means");
+  command->add_option("--picture", options->picture, "PNG file for sections of walls and bed at the start")
+      ->type_name("FILE.png");
   command->footer(
       "What was given, what follows from it (bed, particles, step, outlet), warnings, and a forecast; of more than an\n"
       "hour with what would shorten it.\n"
       "In place of CASE the folder of a run, or one that holds runs: compares their series and snapshots with the\n"
       "checksums that were written with them; exit status 4 if one has changed.");
   command->callback([options, &action] {
-    action = [options] { return check(options->case_options, options->threads, options->all); };
+    action = [options] { return check(options->case_options, options->threads, options->all, options->picture); };
   });
 }
 

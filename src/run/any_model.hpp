@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,8 @@ class AnyModel {
   virtual std::uint64_t step() const = 0;
   virtual double time_origin() const = 0;    ///< from which run.end counts, s; infinite until it is known
   virtual double latest_origin() const = 0;  ///< its latest possible value, s
+  /// Why the run is over before its end; nothing while there is something to compute.
+  virtual std::optional<std::string> ended() const { return std::nullopt; }
   /// The condition that limits the last step, where, and what to try; the rest of the report is empty.
   virtual NumericalError::Report step_limit() const = 0;
   virtual void begin(ThreadTeam& team) = 0;
@@ -49,6 +52,10 @@ class ModelAdapter final : public AnyModel {
   std::uint64_t step() const override { return model_.state().step; }
   double time_origin() const override { return model_.time_origin(); }
   double latest_origin() const override { return model_.latest_origin(); }
+  std::optional<std::string> ended() const override {
+    if constexpr (requires { model_.ended(); }) return model_.ended();
+    return std::nullopt;
+  }
   NumericalError::Report step_limit() const override { return model_.step_limit(); }
   void begin(ThreadTeam& team) override { model_.begin(team); }
   void advance(ThreadTeam& team) override { model_.advance(team); }

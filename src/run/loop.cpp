@@ -208,6 +208,10 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
       result.reason = *reason;
       break;
     }
+    if (const auto ended = model.ended()) {
+      result.ended = *ended;
+      break;
+    }
     const double time_before = model.time();
     const bool begun = !std::isinf(model.time_origin());
     model.advance(team);
@@ -221,6 +225,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     line.update(row);
   }
   line.finish();
+  if (!result.ended.empty() && row.front().value < model.time()) add_row(*series);
   if (!result.interrupted) snapshots.take_last(model);
   save();
   result.wall_seconds = clock.wall();

@@ -41,19 +41,19 @@ struct LoopOptions {
 struct LoopResult {
   bool interrupted = false;
   std::string reason;       ///< why, if interrupted
+  std::string ended;        ///< why the run was over before its end; empty: it was not
   double wall_seconds = 0;  ///< of all sessions of this run together, without the start
   double cpu_seconds = 0;   ///< the same, of all threads
   std::uint64_t steps = 0;  ///< since the start of the run
 };
 
-/// Runs a model to the end, or until it is interrupted. Each snapshot is taken at the end of the first step that
-/// reaches its time (no step is cut to an output time, so outputs do not change the bits); the last step's state is the
-/// last snapshot. A checkpoint is written at the start, now and then, on interruption and at the end. With `resume` it
-/// continues from the newest intact checkpoint, or starts from the beginning if there is none; rows and snapshots
-/// written after that checkpoint are replaced. \param folder of the run, with a folder `snapshots` \throws
-/// NumericalError, FileError; earlier checkpoints remain intact; NumericalError also if the step has fallen by more
-/// than StepGuard allows
-/// \throws InputError if the checkpoint belongs to another case
+/// Runs a model to the end, until nothing is left to compute, or until it is interrupted. Each snapshot is taken at the
+/// end of the first step that reaches its time (no step is cut to an output time, so outputs do not change the bits);
+/// the last step's state is the last snapshot. A checkpoint is written at the start, now and then, on interruption and
+/// at the end. With `resume` it continues from the newest intact checkpoint, or starts from the beginning if there is
+/// none; rows and snapshots written after that checkpoint are replaced. \param folder of the run, with a folder
+/// `snapshots` \throws NumericalError, FileError; earlier checkpoints remain intact; NumericalError also if the step
+/// has fallen by more than StepGuard allows \throws InputError if the checkpoint belongs to another case
 LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::path& folder, const LoopOptions& options,
                     const std::vector<Observer>& observers);
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/comparison/reference.hpp"
+#include "app/continuum/bed_file.hpp"
 #include "app/law/law_case.hpp"
 #include "base/error.hpp"
 #include "base/terminal.hpp"
@@ -22,6 +23,7 @@
 #include "io/stl.hpp"
 #include "models/cloud/forecast.hpp"
 #include "models/continuum/forecast.hpp"
+#include "models/continuum/given_bed.hpp"
 #include "numerics/surface/surface_faults.hpp"
 #include "run/run_parameters.hpp"
 
@@ -200,6 +202,24 @@ void read_stl_file(std::string_view content) {
              "a fault is one of the file's triangles");
       demand(!text_of(fault.kind).empty(), "a fault has a name");
     }
+  });
+}
+
+void read_bed_file(std::string_view content) {
+  take_file(content, [](const std::string& path) {
+    const continuum::GivenBed bed = app::read_bed(path);
+    const std::size_t count = bed.position.size();
+    demand(bed.lines.size() == count || bed.lines.empty(), "every particle has its line");
+    demand(bed.velocity.empty() || bed.velocity.size() == count, "every particle has a velocity, or none");
+    demand(bed.density.empty() || bed.density.size() == count, "every particle has a density, or none");
+    continuum::Parameters p;
+    p.box.width = p.box.depth = p.box.height = 1;
+    p.bed.spacing = 1e-3;
+    p.bed.file = path;
+    p.bed.given = std::make_shared<continuum::GivenBed>(bed);
+    const std::vector<Problem> problems = continuum::check_given_bed(p);
+    demand(count > 0 || !problems.empty(), "a file without particles is no bed");
+    for (const Problem& problem : problems) demand(!problem.what.empty(), "a problem says what is wrong");
   });
 }
 

@@ -49,6 +49,14 @@ class Files(unittest.TestCase):
         self.assertEqual(reader.GetErrorCode(), 0)
         return reader.GetOutput()
 
+    def test_vtk_and_h5py_read_a_frame_without_particles(self):
+        file = Path(self.folder.name) / "empty.vtkhdf"
+        grid = self.read_with_vtk(file)
+        self.assertEqual((grid.GetNumberOfPoints(), grid.GetNumberOfCells()), (0, 0))
+        with h5py.File(file) as content:
+            self.assertEqual(content["VTKHDF/Points"].shape, (0, 3))
+            self.assertEqual(content["VTKHDF/PointData/identity"].shape, (0,))
+
     def test_vtk_sees_the_triangles_of_a_surface(self):
         for frame in (0, 1):
             grid = self.read_with_vtk(Path(self.folder.name) / f"walls_000{frame}.vtkhdf")

@@ -7,6 +7,10 @@
 #include "io/vtkhdf_surface.hpp"
 
 int main(int, char** arguments) {
+  const talus::PointSet nobody{.columns = {{"position", "m", std::vector<talus::Vector3>{}},
+                                           {"radius", "m", std::vector<double>{}},
+                                           {"identity", "1", std::vector<std::int64_t>{}}}};
+  talus::write_points(std::string(arguments[1]) + "/empty.vtkhdf", nobody.view());
   for (int frame = 0; frame < 2; ++frame) {
     std::vector<talus::Vector3> position, velocity;
     std::vector<double> radius;

@@ -8,7 +8,7 @@ from attack import Attack, Fault
 from hostile import PROJECT
 
 TARGETS = {"case": "cases", "setting": "", "unit": "", "points": "", "series": "", "path": "cases/law",
-           "reference": "validation", "stl": ""}
+           "reference": "validation", "stl": "", "bed": ""}
 
 
 class Fuzzing(Attack):

@@ -4,10 +4,12 @@
 
 #include <any>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -59,6 +61,10 @@ struct PreparedCase {
   std::vector<NamedValue> groups;
   /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.
   std::vector<RegimeLine> regime;
+  /// Where the particles lie at the start, for `check`: lines of a name and a text. None: there is nothing to say.
+  std::function<std::vector<std::pair<std::string, std::string>>()> start;
+  /// Draws walls and particles at the start as a PNG. None: of no such model.
+  std::function<void(const std::filesystem::path& path)> draw_start;
   Forecast forecast;
   /// Seconds that an evaluation takes, measured now on a small sample.
   std::function<double(ThreadTeam& team)> measure_evaluation;

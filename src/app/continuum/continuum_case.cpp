@@ -11,6 +11,8 @@
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
 #include "app/continuum/answers.hpp"
+#include "app/continuum/bed_file.hpp"
+#include "app/continuum/bed_start.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
@@ -36,7 +38,7 @@ namespace {
 using continuum::Continuum;
 using continuum::Parameters;
 
-constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16;
+constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16, most_beds = 64;
 
 std::vector<NamedValue> groups(const Parameters& p) {
   const double density = p.bed.packing * p.grains.density;
@@ -45,14 +47,15 @@ std::vector<NamedValue> groups(const Parameters& p) {
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
   std::vector<NamedValue> groups = {{"particles", "1", count},
                                     {"mass", "kg", continuum::lattice_of(p).mass * count * continuum::copies_of(p)},
-                                    {"bed_height", "m", p.bed.height},
+                                    {"bed_height", "m", continuum::has_no_bed(p) ? 0 : continuum::depth_of_grains(p)},
                                     {"sound_speed", "m/s", sound},
                                     {"time_step", "s", continuum::time_step_of(p)},
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
   if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(continuum::copies_of(p))});
   // Where the bed is as wide as the box from its bottom to its top.
-  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && p.plates.empty() && p.vessel.empty())
+  if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&
+      p.beds.empty() && !continuum::has_no_bed(p) && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
@@ -84,16 +87,19 @@ double measure_particle(const Parameters& p, ThreadTeam& team) {
   if (!p.vessel.empty())
     for (std::size_t c = 0; c < 3; ++c)
       std::fill(s.material.stress[c].begin(), s.material.stress[c].end(),
-                p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height);
+                p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p));
   model.begin(team);
-  const double duration = p.air.enabled ? 0.6 : 0.2;  // the air's steps are longer, and few
-  return seconds_of(duration, [&] { model.advance(team); }) / static_cast<double>(s.position.size());
+  const auto count = static_cast<double>(s.position.size());  // some may be taken away
+  const double duration = p.air.enabled ? 0.6 : 0.2;          // the air's steps are longer, and few
+  return seconds_of(duration, [&] { model.advance(team); }) / count;
 }
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
 /// walls of its vessel by larger particles in it.
-double measure_step(const Parameters& p, ThreadTeam& team) {
+double measure_step(const Parameters& p, double end, ThreadTeam& team) {
   constexpr double most = 8000;
+  if (continuum::has_no_bed(p))  // half of what comes in
+    return 0.5 * continuum::forecast(p, end).particles * measure_particle(continuum::sample(p, most), team);
   const double count = continuum::bed_count(p);
   if (count <= most) return count * measure_particle(p, team);
   const double inside = measure_particle(continuum::sample(p, most), team);
@@ -130,9 +136,28 @@ std::vector<Problem> read_surfaces(const CaseFile& file, Parameters& p) {
   return problems;
 }
 
-/// Of the surfaces that the files of the case hold.
+/// The same of the particles of bed.file. \returns the faults of the file
+std::vector<Problem> read_given_bed(const CaseFile& file, Parameters& p) {
+  std::vector<Problem> problems;
+  const CaseEntry* entry = file.find("bed.file");
+  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+  if (!name || name->empty()) return problems;
+  try {
+    read_input("bed.file", problems,
+               [&] { p.bed.given = std::make_shared<continuum::GivenBed>(read_bed(input_path(file, *name))); });
+  } catch (const InputError& error) {
+    problems = error.problems();
+  }
+  return problems;
+}
+
+/// Of the surfaces and particles that the files of the case hold.
 std::string digest_of_files(const Parameters& p) {
   std::string bytes;
+  const auto append = [&](const auto& column) {
+    bytes.append(reinterpret_cast<const char*>(column.data()), column.size() * sizeof column[0]);
+  };
+  if (p.bed.given) append(p.bed.given->position), append(p.bed.given->velocity), append(p.bed.given->density);
   for (const continuum::VesselPart& part : p.vessel)
     for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
       bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
@@ -143,20 +168,23 @@ struct ContinuumCase : ModelCase<Parameters> {
   FilledIn filled;  ///< what follows from other keys
 };
 
-/// \throws InputError with every problem
-ContinuumCase read_continuum(const CaseFile& file) {
-  Parameters defaults;
+/// \throws InputError with every problem, but for those of bed.file
+ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
   std::vector<Problem> unreadable = read_surfaces(file, defaults);
+  defaults.beds.resize(std::min(file.tables("beds"), most_beds));
+  for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
   FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
   reader.check(filled.problems);
   reader.check(std::move(unreadable));
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
   read.model = continuum::with_level(read.model);
-  set_from_bed(file, read.model, read.filled);
+  if (!read.model.bed.file.empty())
+    read.model.bed.file = std::filesystem::absolute(input_path(file, read.model.bed.file)).lexically_normal();
+  set_from_bed(file, read.model, read.run.end, read.filled);
   if (!file.contains("integration.courant")) {
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
     read.filled.keys.emplace("integration.courant", "method");
@@ -167,6 +195,19 @@ ContinuumCase read_continuum(const CaseFile& file) {
   reader.check(continuum::check_steps(read.model, read.run.end));
   reader.throw_problems();
   return read;
+}
+
+/// \throws InputError with every problem
+ContinuumCase read_continuum(const CaseFile& file) {
+  Parameters defaults;
+  std::vector<Problem> problems = read_given_bed(file, defaults);
+  if (problems.empty()) return read_continuum(file, std::move(defaults));
+  try {
+    read_continuum(file, std::move(defaults));
+  } catch (const InputError& others) {
+    problems.insert(problems.begin(), others.problems().begin(), others.problems().end());
+  }
+  throw InputError(std::move(problems));
 }
 
 /// Lists parameters, those that follow from others without a value of their own.
@@ -197,6 +238,7 @@ ParameterList continuum_parameters() {
   defaults.model.plates.resize(1);  // whose keys stand for those of all
   defaults.model.vessel.resize(1);
   defaults.model.inlets.resize(1);
+  defaults.model.beds.resize(1);
   WithoutWhatFollows list;
   for_each_parameter(list, defaults.run);
   for_each_parameter(list, defaults.model);
@@ -214,11 +256,13 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
   prepared.regime.push_back(continuum::courant_of_case(p));
+  prepared.start = [p] { return bed_lines(p); };
+  prepared.draw_start = [p, title = read.run.title](const std::filesystem::path& path) { draw_bed(p, title, path); };
   prepared.make_model = [p] { return run::any_model(Continuum(p)); };
   prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
   prepared.forecast = forecast(p, read.run);
-  prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
-  prepared.shortenings = [p] { return shorter_runs(p); };
+  prepared.measure_evaluation = [p, end = read.run.end](ThreadTeam& team) { return measure_step(p, end, team); };
+  prepared.shortenings = [p, end = read.run.end] { return shorter_runs(p, end); };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = p.plate.height || continuum::outlet_of(p)
                           ? run::Headline{.column = "discharge_rate", .name = "discharge"}

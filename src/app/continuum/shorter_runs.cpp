@@ -56,11 +56,11 @@ Shortening larger_particles(const continuum::Parameters& p) {
 
 }  // namespace
 
-std::vector<Shortening> shorter_runs(const continuum::Parameters& p) {
+std::vector<Shortening> shorter_runs(const continuum::Parameters& p, double end) {
   std::vector<Shortening> all;
   if (!p.box.sector && !p.vessel.empty()) all.push_back(sector());
   if (p.law.is<granular::CriticalState>()) {
-    const double modulus = bulk_modulus_for(p);
+    const double modulus = bulk_modulus_for(p, end);
     if (modulus > 0 && p.law.of<granular::CriticalState>().bulk_modulus > 1.05 * modulus)
       all.push_back(softer_grains(modulus));
   }

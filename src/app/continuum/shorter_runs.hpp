@@ -11,6 +11,6 @@ namespace talus::app {
 
 /// Changes that leave what the case asks: none makes grains softer than bulk_modulus_for(). Whether the case bears them
 /// (an axisymmetric vessel, enough particles across the outlet) shows when it is read with them.
-std::vector<Shortening> shorter_runs(const continuum::Parameters& parameters);
+std::vector<Shortening> shorter_runs(const continuum::Parameters& parameters, double end);
 
 }  // namespace talus::app

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/convert_value.hpp"
+#include "models/continuum/population.hpp"
 #include "physics/granular/critical_state.hpp"
 
 namespace talus::app {
@@ -26,6 +27,7 @@ constexpr std::pair<std::string_view, std::string_view> files[] = {
 };
 
 constexpr double moduli_over_weight = 1000;
+constexpr double max_mach_number_of_fall = 0.1;
 
 template <class T>
 std::optional<T> read(const CaseFile& material, const std::string& key, const Parameter& parameter) {
@@ -161,11 +163,49 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   return filled;
 }
 
-double bulk_modulus_for(const continuum::Parameters& p) {
-  return moduli_over_weight * (p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height);
+namespace {
+
+/// The depth that the bed and what comes in until the end of the run can have, m.
+double depth_that_may_be_reached(const continuum::Parameters& p, double end) {
+  const double depth = continuum::depth_of_grains(p), mass = continuum::mass_to_come(p, end, p.settle.longest);
+  if (!(mass > 0)) return depth;
+  double low = 0, high = 0, area = p.box.width * p.box.depth;
+  if (!p.vessel.empty()) {
+    const auto [from, to] = continuum::bounds_of_vessel(p);
+    area = std::min(area, (to.x - from.x) * (to.y - from.y));
+    low = std::max(low, from.z);
+  }
+  for (const continuum::Inlet& inlet : p.inlets) high = std::max(high, inlet.centre[2]);
+  const double before = continuum::has_no_bed(p) ? 0 : depth;
+  return std::max(before, std::min(high - low, before + mass / (p.bed.packing * p.grains.density * area)));
 }
 
-void set_from_bed(const CaseFile& file, continuum::Parameters& p, FilledIn& filled) {
+/// The largest speed of a free fall from where grains begin to the lowest place that they can reach, m/s.
+double speed_of_fall(const continuum::Parameters& p) {
+  double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;
+  low = std::max(low, p.removal.below.value_or(low));
+  const auto speed = [&](double from, const std::array<double, 3>& v) {
+    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 2 * p.gravity.acceleration * std::max(0.0, from - low));
+  };
+  double largest = 0;
+  if (!continuum::has_no_bed(p)) {
+    const auto outlet = continuum::outlet_of(p);
+    largest =
+        speed(outlet ? outlet->height : continuum::bed_bottom(p), p.bed.velocity.value_or(std::array<double, 3>{}));
+  }
+  for (const continuum::Inlet& inlet : p.inlets) largest = std::max(largest, speed(inlet.centre[2], inlet.velocity));
+  return largest;
+}
+
+}  // namespace
+
+double bulk_modulus_for(const continuum::Parameters& p, double end) {
+  const double density = p.bed.packing * p.grains.density, speed = speed_of_fall(p) / max_mach_number_of_fall;
+  return std::max(moduli_over_weight * (density * p.gravity.acceleration * depth_that_may_be_reached(p, end)),
+                  density * speed * speed / (1 + 4.0 / 3 * shear_over_bulk));
+}
+
+void set_from_bed(const CaseFile& file, continuum::Parameters& p, double end, FilledIn& filled) {
   if (!p.law.is<granular::CriticalState>()) return;
   auto& law = p.law.of<granular::CriticalState>();
   const auto set = [&](const char* key, double& number, double value) {
@@ -173,7 +213,7 @@ void set_from_bed(const CaseFile& file, continuum::Parameters& p, FilledIn& fill
     number = value;
     filled.keys.insert_or_assign(key, "bed");
   };
-  set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(p));
+  set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(p, end));
   if (p.bed.packing >= law.loosest_packing)
     set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
   set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);

@@ -59,16 +59,18 @@ template <class P>
 std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
 
 /// Pa; discharge, surfaces and heaps are then those of stiff grains (docs/decisions/0023-softer-grains.md): a thousand
-/// times the weight of the bed over its area, the stress that they are to bear.
-double bulk_modulus_for(const continuum::Parameters& parameters);
+/// times the weight over its area of as deep a bed as the grains at the start and those that come in can make, and so
+/// much that what falls from where it begins to the lowest place has a Mach number of 0.1 at most. \param end of the
+/// run, s
+double bulk_modulus_for(const continuum::Parameters& parameters, double end);
 
 /// The shear modulus over the bulk modulus, as in the paper's law at zero strain.
 inline constexpr double shear_over_bulk = 0.6;
 
 /// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The
 /// packing at which the grains just touch: the bed's, so that it bears no pressure before its weight, unless so loose
-/// that they do not touch. \param parameters as read
-void set_from_bed(const CaseFile& file, continuum::Parameters& parameters, FilledIn& filled);
+/// that they do not touch. \param parameters as read \param end of the run, s
+void set_from_bed(const CaseFile& file, continuum::Parameters& parameters, double end, FilledIn& filled);
 
 // ------------------------------------------------------------------------------------------------------------------
 

@@ -88,6 +88,8 @@ void Artist::look_at(std::size_t run, const Frame& frame) {
   const Scene& scene = runs_[run].scene();
   const ParticlePicture picture{.positions = frame.positions, .radii = frame.radii, .view = view_of(scene)};
   Window w = window_of(picture);
+  if (frame.positions.empty() && windows_[run].left < windows_[run].right) return;
+  if (frame.positions.empty() && scene.box) w.bottom = w.top = scene.box->first.z;  // no particle is up to anywhere
   if (scene.box && picture.view.up.z == 1) {
     const auto& [low, high] = *scene.box;
     w.left = dot(picture.view.right, low), w.right = dot(picture.view.right, high);
@@ -135,13 +137,15 @@ ParticlePicture Artist::picture(const Panel& panel, bool alone) const {
   picture.slope = scene.slope && picture.view.toward.z < 0.999;
   picture.depth = axis_of(picture.view.up).name == nullptr;
   picture.axes = alone;
-  if (!frame.values.empty()) {
+  // Without particles, too, the picture has the colours and arrows of the others.
+  const bool is_empty = frame.positions.empty() && low_ <= high_;
+  if (!frame.values.empty() || is_empty) {
     double low = style_.range ? style_.range->first : low_ / unit_.value,
            high = style_.range ? style_.range->second : high_ / unit_.value;
     if (!(low < high)) low -= 0.5, high = low + 1;  // all alike
     picture.colouring = ByValue{.values = frame.values, .unit = unit_, .low = low, .high = high, .bar = false};
   }
-  if (!frame.arrow_values.empty() && usual_arrow_ > 0)
+  if ((!frame.arrow_values.empty() || frame.positions.empty()) && usual_arrow_ > 0)
     picture.arrows = Arrows{.values = frame.arrow_values,
                             .positions = frame.arrow_positions,
                             .unit = {1, arrow_unit_},

@@ -179,6 +179,10 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
           folder.path().string());
     return ExitStatus::interrupted;
   }
+  if (!loop.ended.empty()) {
+    log.write("ended at t = {:.6g} s: {}", model->time(), loop.ended);
+    print("Ended at t = {:.6g} s: {}.\n", model->time(), loop.ended);
+  }
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);

@@ -38,6 +38,18 @@ double count_of_mass(const Parameters& p) {
 }
 
 Parameters with_level(const Parameters& p) {
+  if (!p.beds.empty()) {
+    Parameters filled = p;
+    filled.bed.height = with_level(with_bed_alone(p, 0)).bed.height;
+    for (std::size_t n = 0; n < p.beds.size(); ++n)
+      filled.beds[n].height = with_level(with_bed_alone(p, n + 1)).bed.height;
+    return filled;
+  }
+  if (p.bed.given) {
+    Parameters filled = p;
+    filled.bed.height = p.bed.given->high.z - p.bed.given->low.z + p.bed.spacing;
+    return filled;
+  }
   if (!p.bed.mass) return p;
   const std::int64_t most = most_layers(p);
   if (most == 0) return p;

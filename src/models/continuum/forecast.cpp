@@ -44,7 +44,7 @@ SettlingTime settling_time(const Parameters& p) {
   if (p.gate.opens == GateOpens::from_the_start) return known(0);
   if (p.gate.opens == GateOpens::at_time) return known(p.gate.time);
   constexpr double pi = std::numbers::pi;
-  const double frequency = 0.5 * pi * wave_speed(p) / p.bed.height, loading = loading_time(p, wave_speed(p));
+  const double frequency = 0.5 * pi * wave_speed(p) / depth_of_grains(p), loading = loading_time(p, wave_speed(p));
   const double periods = loading * frequency / (2 * pi);
   const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
   const double excess = std::log(std::max(1.0, speed / p.settle.speed)), least = loading + p.settle.duration;
@@ -145,6 +145,10 @@ double memory_of(const Forecast& f) {
 Parameters coarser(const Parameters& p, double particles) {
   Parameters q = p;
   q.bed.spacing *= std::cbrt(bed_count(p) / particles);
+  if (!p.bed.given) return q;
+  const Extent x = bed_along_x(p), y = bed_along_y(p);  // where the file's particles lie
+  q.bed.left = x.low, q.bed.right = x.high, q.bed.front = y.low, q.bed.rear = y.high, q.bed.bottom = bed_bottom(p);
+  q.bed.given = nullptr, q.bed.file.clear();
   return q;
 }
 
@@ -155,8 +159,9 @@ Parameters sample(const Parameters& p, double particles) {
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
-  q.inlets.clear(), q.removal = {}, q.bed.mass = std::nullopt;
-  q.bed.bottom = q.bed.left = q.bed.right = std::nullopt;
+  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.bed.mass = std::nullopt;
+  q.bed.bottom = q.bed.left = q.bed.right = q.bed.front = q.bed.rear = std::nullopt;
+  q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.file.clear();
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;
   q.bed.height = side * lattice.spacing.z, q.box.height = 2 * q.bed.height;
   q.bed.spacing = std::cbrt(lattice.spacing.x * lattice.spacing.y * lattice.spacing.z);

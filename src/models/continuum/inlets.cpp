@@ -73,7 +73,8 @@ std::vector<Problem> check_inlets(const Parameters& p) {
   const auto refuse = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
-  const bool sized = p.bed.spacing > 0 && p.box.width > 0 && p.box.depth > 0 && p.box.height > 0 && p.bed.height > 0;
+  const bool sized = p.bed.spacing > 0 && p.box.width > 0 && p.box.depth > 0 && p.box.height > 0 &&
+                     (p.bed.height > 0 || has_no_bed(p));
   for (std::size_t n = 0; n < p.inlets.size(); ++n) {
     const Inlet& inlet = p.inlets[n];
     const auto& x = inlet.centre;

@@ -76,8 +76,7 @@ void for_each_parameter_of_inlets(Visit&& visit, I& inlets, R& removal) {
   visit(Parameter{"removal.below",
                   dimension::length,
                   {},
-                  "height below which particles are taken away and counted, as by a conveyor, but for the last one; "
-                  "left out: none"},
+                  "height below which particles are taken away and counted, as by a conveyor; left out: none"},
         removal.below);
   visit(Parameter{"removal.outside",
                   {},

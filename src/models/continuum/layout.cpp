@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -65,24 +66,72 @@ std::vector<Wall> walls_of(const Parameters& p) {
 
 }  // namespace
 
-Extent bed_along_x(const Parameters& p) {
-  Extent x{0, p.box.width};
+namespace {
+
+/// Along an axis: what bed.file holds with half a spacing around it; else from key to key, where these are left out the
+/// faces, or the vessel where it stands apart from both.
+Extent bed_along(const Parameters& p, int axis, double width, const std::optional<double>& first,
+                 const std::optional<double>& last) {
+  if (p.bed.given) return {p.bed.given->low[axis] - 0.5 * p.bed.spacing, p.bed.given->high[axis] + 0.5 * p.bed.spacing};
+  Extent extent{0, width};
   if (!p.vessel.empty())
-    if (const VesselBounds around = bounds_of_vessel(p); around.low.x > 0 && around.high.x < p.box.width)
-      x = {around.low.x, around.high.x};
-  return {p.bed.left.value_or(x.low), p.bed.right.value_or(x.high)};
+    if (const VesselBounds around = bounds_of_vessel(p); around.low[axis] > 0 && around.high[axis] < width)
+      extent = {around.low[axis], around.high[axis]};
+  return {first.value_or(extent.low), last.value_or(extent.high)};
+}
+
+}  // namespace
+
+Extent bed_along_x(const Parameters& p) {
+  return bed_along(p, 0, p.box.width, p.bed.left, p.bed.right);
 }
 
 Extent bed_along_y(const Parameters& p) {
-  if (!p.vessel.empty())
-    if (const VesselBounds around = bounds_of_vessel(p); around.low.y > 0 && around.high.y < p.box.depth)
-      return {around.low.y, around.high.y};
-  return {0, p.box.depth};
+  return bed_along(p, 1, p.box.depth, p.bed.front, p.bed.rear);
 }
 
 double bed_bottom(const Parameters& p) {
+  if (p.bed.given) return p.bed.given->low.z - 0.5 * p.bed.spacing;
   if (!p.bed.bottom && !p.vessel.empty()) return std::max(0.0, bounds_of_vessel(p).low.z);
   return p.bed.bottom.value_or(p.wedge.half_angle ? p.wedge.height : p.plate.height.value_or(0));
+}
+
+std::string beds_key(std::size_t n, std::string_view name) {
+  return fmt::format("beds.{}.{}", n + 1, name);
+}
+
+Parameters with_bed_alone(const Parameters& p, std::size_t bed) {
+  Parameters q = p;
+  q.beds.clear();
+  if (bed == 0) return q;
+  static_cast<BedRegion&>(q.bed) = p.beds[bed - 1];
+  q.bed.file.clear(), q.bed.given = nullptr;
+  return q;
+}
+
+std::vector<std::size_t> beds_of(const Parameters& p) {
+  std::vector<std::size_t> beds;
+  if (p.bed.mass || p.bed.given || p.bed.height > 0) beds.push_back(0);
+  for (std::size_t n = 1; n <= p.beds.size(); ++n) beds.push_back(n);
+  return beds;
+}
+
+bool has_no_bed(const Parameters& p) {
+  return beds_of(p).empty();
+}
+
+double depth_of_grains(const Parameters& p) {
+  if (p.beds.empty() && !has_no_bed(p)) return p.bed.height;
+  if (has_no_bed(p)) {
+    const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
+    return std::max(p.bed.spacing, top - bed_bottom(p));
+  }
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::size_t n : beds_of(p)) {
+    const Parameters one = with_bed_alone(p, n);
+    low = std::min(low, bed_bottom(one)), high = std::max(high, bed_bottom(one) + one.bed.height);
+  }
+  return high - low;
 }
 
 std::optional<Outlet> outlet_of(const Parameters& p) {
@@ -123,6 +172,7 @@ double least_distance_of_layers(const Parameters& p) {
 }
 
 Lattice lattice_of(const Parameters& p) {
+  if (!p.beds.empty()) return lattice_of(with_bed_alone(p, beds_of(p).front()));
   const Extent x = bed_along_x(p), y = bed_along_y(p);
   const Vector3 extent{x.high - x.low, y.high - y.low, p.bed.height};
   Lattice lattice{.corner = {x.low, y.low, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
@@ -132,6 +182,13 @@ Lattice lattice_of(const Parameters& p) {
                                                      : std::int64_t{most_along_an_axis};
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
+  }
+  const bool empty = has_no_bed(p);
+  if (empty) lattice.count[2] = 0;
+  if (empty || p.bed.given) {
+    lattice.spacing = {p.bed.spacing, p.bed.spacing, p.bed.spacing};
+    lattice.mass = p.bed.packing * p.grains.density * p.bed.spacing * p.bed.spacing * p.bed.spacing;
+    return lattice;
   }
   lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
   if (const int copies = copies_of(p); copies > 1) {  // of the circle a whole number in each sector
@@ -150,7 +207,9 @@ struct Bed {
   const Parameters& parameters;
   Lattice lattice = lattice_of(parameters);
   Domain domain = domain_of(parameters);
-  Vector3 top = at(0.5 * static_cast<double>(lattice.count[0] - 1), 0, static_cast<double>(lattice.count[2] - 1));
+  Vector3 seed = parameters.bed.inside ? Vector3{(*parameters.bed.inside)[0], 0, (*parameters.bed.inside)[2]}
+                                       : at(0.5 * static_cast<double>(lattice.count[0] - 1), 0,
+                                            static_cast<double>(lattice.count[2] - 1));
 
   Vector3 at(double i, double j, double k) const {
     return lattice.corner +
@@ -158,13 +217,21 @@ struct Bed {
   }
   bool is_whole = !parameters.wedge.half_angle && parameters.plates.empty();
   bool holds(const Vector3& x) const {
-    return is_whole || (!domain.is_near_wall(x, 0.25 * parameters.bed.spacing) && !domain.blocks(x, top));
+    return is_whole || (!domain.is_near_wall(x, 0.25 * parameters.bed.spacing) && !domain.blocks(x, seed));
   }
 };
 
 }  // namespace
 
 std::vector<Vector3> bed_positions(const Parameters& p) {
+  if (!p.beds.empty()) {
+    std::vector<Vector3> positions;
+    for (const std::size_t n : beds_of(p))
+      for (const Vector3& x : bed_positions(with_bed_alone(p, n))) positions.push_back(x);
+    return positions;
+  }
+  if (p.bed.given) return p.bed.given->position;
+  if (has_no_bed(p)) return {};
   if (p.bed.mass) {  // the lowest of them
     Parameters whole = p;
     whole.bed.mass = std::nullopt;
@@ -189,6 +256,13 @@ double places_of(const Lattice& lattice) {
 }
 
 double bed_count(const Parameters& p) {
+  if (!p.beds.empty()) {
+    double count = 0;
+    for (const std::size_t n : beds_of(p)) count += bed_count(with_bed_alone(p, n));
+    return count;
+  }
+  if (p.bed.given) return static_cast<double>(p.bed.given->position.size());
+  if (has_no_bed(p)) return 0;
   if (p.bed.mass) return count_of_mass(p);
   if (!p.vessel.empty()) {
     if (places_of(lattice_of(p)) <= most_places_of_vessel) return static_cast<double>(bed_in_vessel(p).size());

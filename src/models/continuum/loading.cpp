@@ -10,7 +10,7 @@ namespace talus::continuum {
 double loading_time(const Parameters& p, double sound_speed) {
   constexpr double passages = 20, most = 0.25;
   if (p.gate.opens != GateOpens::when_settled) return 0;
-  return p.settle.loading_time.value_or(std::min(passages * p.bed.height / sound_speed, most * p.settle.longest));
+  return p.settle.loading_time.value_or(std::min(passages * depth_of_grains(p) / sound_speed, most * p.settle.longest));
 }
 
 double share_of_gravity(double time, double loading_time) {

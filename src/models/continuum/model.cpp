@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "models/continuum/air_totals.hpp"
+#include "models/continuum/population.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"
 #include "numerics/snapshot_of.hpp"
@@ -41,6 +42,8 @@ ParticleTotals totals_of_particles(const Box& box, const State& s) {
     outside += (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
                (x.z > box.high.z);
   }
+  if (s.position.empty())
+    totals.least_density = totals.largest_density = totals.largest_packing = std::numeric_limits<double>::quiet_NaN();
   totals.largest_speed = std::sqrt(square);
   totals.momentum = s.mass * totals.momentum;
   totals.mass_outside = s.mass * static_cast<double>(outside);
@@ -147,6 +150,11 @@ double Continuum::latest_origin() const {
   if (state_.gate_time >= 0) return state_.gate_time;
   if (parameters_.gate.opens == GateOpens::from_the_start) return 0;
   return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time : parameters_.settle.longest;
+}
+
+std::optional<std::string> Continuum::ended() const {
+  if (!has_emptied(parameters_, state_)) return std::nullopt;
+  return "all grains have left: the vessel has emptied";
 }
 
 NumericalError::Report Continuum::step_limit() const {
@@ -257,8 +265,14 @@ std::optional<SurfaceSnapshot> Continuum::walls() const {
 std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const State& s = state_;
   const double c = workspace_->sound_speed;
-  const double h = *std::min_element(workspace_->smoothing_length.begin(), workspace_->smoothing_length.end());
-  const double courant = s.last_step * c / h;
+  const auto& lengths = workspace_->smoothing_length;
+  // Of an empty vessel that of the bed's particles.
+  const double h = lengths.empty()
+                       ? workspace_->sweep.smoothing_length(parameters_.bed.packing * parameters_.grains.density)
+                       : *std::min_element(lengths.begin(), lengths.end());
+  const double step =
+      lengths.empty() ? parameters_.integration.step.value_or(parameters_.integration.courant * h / c) : s.last_step;
+  const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max");
   const double slow = record.value("inertial_share");
   std::vector<RegimeLine> lines = regime_of_case(parameters_);

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "models/continuum/initial.hpp"
@@ -31,6 +32,8 @@ class Continuum {
   const Domain& domain() const { return workspace_->domain; }
   double time_origin() const;
   double latest_origin() const;
+  /// Why nothing is left to compute; nothing while there is.
+  std::optional<std::string> ended() const;
   NumericalError::Report step_limit() const;
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);

@@ -136,8 +136,8 @@ void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool st
     stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, stress_[ghosts[g].source].half_density, 0};
   });
   constexpr double far_away = 1e3;  // m
-  motion_.back() = {{far_away, far_away, far_away}, motion_.front().half_length, {}, 0};
-  stress_.back() = {{}, 0.5 * particles.density.front(), 0};
+  motion_.back() = {{far_away, far_away, far_away}, count > 0 ? motion_.front().half_length : 1, {}, 0};
+  stress_.back() = {{}, count > 0 ? 0.5 * particles.density.front() : 1, 0};
 }
 
 Records Sweep::records() const {
@@ -209,7 +209,7 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
   // cost a processor a hundred cycles each.
   constexpr float vast = 1e16F;  // m
   single_motion_.back() = {{}, vast, {}, 0};
-  single_stress_.back() = {{}, single_stress_.front().half_density, 0};
+  single_stress_.back() = {{}, count > 0 ? single_stress_.front().half_density : 1, 0};
 }
 
 }  // namespace talus::continuum

@@ -53,6 +53,7 @@ struct Parameters {
     MaterialRange range;  ///< of the material. Not a key: who reads the case fills it in
   } grains;
   BedParameters bed;
+  std::vector<TaggedBed> beds;  ///< besides
   std::int64_t seed = 1;
   granular::LawParameters law;
   granular::CollisionParameters collisions;
@@ -152,7 +153,8 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
 
-  for_each_parameter_of_bed(visit, p.bed, p.seed);
+  for_each_parameter_of_bed(visit, p.bed, p.seed, !p.inlets.empty() || !p.beds.empty());
+  for_each_parameter_of_beds(visit, p.beds);
 
   granular::for_each_parameter(visit, p.law);
   granular::for_each_parameter(visit, p.collisions);

@@ -52,9 +52,13 @@ bool draws_by_lasting_rate(const Parameters& p) {
 
 void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   if (!is_loose_where_free(p)) return;
+  // Particles of a file keep the densities that it gives them.
+  const std::size_t given = p.bed.given ? p.bed.given->density.size() : 0;
   evaluate(team, p, s, w);
   const double bed = p.bed.packing * p.grains.density;
-  for_each(team, s.density.size(), [&](std::size_t i) { s.density[i] = std::min(bed, w.rates.kernel_density[i]); });
+  for_each(team, s.density.size(), [&](std::size_t i) {
+    if (static_cast<std::size_t>(s.identity[i]) >= given) s.density[i] = std::min(bed, w.rates.kernel_density[i]);
+  });
   update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
 }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double room_between = 0.8;  // particles that come in and those that are there, in spacings
 constexpr double beyond_faces = 2;    // in spacings
+constexpr std::int64_t tag_of_inlets = -1;
 
 /// Gives every column of particles one entry for each of `order`, those of these particles.
 void select(State& state, const std::vector<std::uint32_t>& order) {
@@ -29,7 +30,7 @@ void select(State& state, const std::vector<std::uint32_t>& order) {
 void lengthen(State& state, std::size_t count) {
   const auto resize = [&]<class Member>(const FieldInfo& field, Member& column) {
     if constexpr (!std::is_arithmetic_v<Member>)
-      if (field.of_particles && !column.empty()) column.resize(count);
+      if (field.of_particles) column.resize(count);
   };
   for_each_field(resize, state);
 }
@@ -72,7 +73,8 @@ void add(State& s, const InletLayer& layer, const Vector3& velocity, const Vecto
     s.velocity[i] = velocity;
     s.density[i] = layer.density[n];
     s.identity[i] = static_cast<std::int64_t>(s.population.next_identity++);
-    if (!s.reset_position.empty()) s.reset_position[i] = s.position[i];
+    if (s.has.tag) s.tag[i] = tag_of_inlets;
+    if (s.has.reset_position) s.reset_position[i] = s.position[i];
   }
   s.population.fed += layer.places.size();
   s.population.fed_momentum += (s.mass * static_cast<double>(layer.places.size())) * velocity;
@@ -129,14 +131,10 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   std::vector<std::uint32_t> left;
   Vector3 taken;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const bool outside = is_outside(p, w.domain.box(), s.position[i]);
-    if (outside) taken += s.velocity[i];
-    if (outside && left.empty() && i + 1 == s.position.size()) {  // the last one
-      s.velocity[i] = {};
+    if (is_outside(p, w.domain.box(), s.position[i]))
+      taken += s.velocity[i];
+    else
       left.push_back(static_cast<std::uint32_t>(i));
-    } else if (!outside) {
-      left.push_back(static_cast<std::uint32_t>(i));
-    }
   }
   const std::size_t gone = s.position.size() - left.size();
   s.population.removed_momentum += s.mass * taken;
@@ -144,6 +142,15 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   s.population.removed += gone;
   select(s, left);
   fit(p, s, w);
+  return true;
+}
+
+bool has_emptied(const Parameters& p, const State& s) {
+  if (!s.position.empty() || s.population.removed == 0) return false;
+  for (std::size_t n = 0; n < p.inlets.size(); ++n) {
+    const bool waits = p.inlets[n].clock == InletClock::gate && s.gate_time < 0;
+    if (waits || s.population.next_layer[n] <= p.inlets[n].end()) return false;
+  }
   return true;
 }
 

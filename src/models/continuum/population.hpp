@@ -15,9 +15,11 @@ Population initial_population(const Parameters& parameters, std::size_t particle
 /// Adds the layers of inlets that are due at the time of the state. \returns whether there are new particles
 bool feed(const Parameters& parameters, State& state, Workspace& workspace);
 
-/// Takes away the particles that [removal] says; the last one of all stays and is brought to rest, each time anew, so
-/// that it does not fall on for ever. \returns whether any were taken away
+/// Takes away the particles that [removal] says. \returns whether any were taken away
 bool remove_particles(const Parameters& parameters, State& state, Workspace& workspace);
+
+/// Whether all particles have been taken away, and no inlet will bring more.
+bool has_emptied(const Parameters& parameters, const State& state);
 
 /// The mass that inlets can bring until then, kg. \param end of the run, \param gate when its clock begins, s
 double mass_to_come(const Parameters& parameters, double end, double gate);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/continuum/bed_report.hpp"
 #include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 
@@ -26,7 +27,7 @@ void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
                      fmt::format("the law {} is a fit to grains of {:.4g} mm", law, fitted / millimetre),
                      p.grains.diameter < 0.5 * fitted || p.grains.diameter > 2 * fitted});
   if (!std::isfinite(range.largest_pressure)) return;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * depth_of_grains(p);
   lines.push_back({"weight of the bed over its area", fmt::format("{:.4g} Pa", weight),
                    fmt::format("the fit of the law {} ends at a pressure of {:.4g} Pa", law, range.largest_pressure),
                    weight > range.largest_pressure});
@@ -41,7 +42,7 @@ void add_range_of_material(const Parameters& p, std::vector<RegimeLine>& lines) 
                    fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", name,
                                range.least_diameter / millimetre, range.largest_diameter / millimetre),
                    !(p.grains.diameter >= range.least_diameter && p.grains.diameter <= range.largest_diameter)});
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * depth_of_grains(p);
   lines.push_back(
       {"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
        fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", name, range.largest_pressure),
@@ -54,7 +55,7 @@ void add_pressure_at_start(const Parameters& p, std::vector<RegimeLine>& lines) 
   const auto& law = p.law.of<granular::CriticalState>();
   const double pressure = law.bulk_modulus * std::log(p.bed.packing / law.reference_packing);
   if (!(pressure > 0)) return;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * p.bed.height;
+  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * depth_of_grains(p);
   lines.push_back({"pressure of the bed at the start", fmt::format("{:.4g} Pa", pressure),
                    fmt::format("before it bears its weight, {:.4g} Pa over its area: bed.packing is above "
                                "law.critical-state.reference_packing, {:.4g}",
@@ -95,6 +96,7 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
                    "a particle stands for many grains; below 1 it would be smaller than one",
                    p.bed.spacing < p.grains.diameter});
   add_sector(p, lines);
+  for (RegimeLine& line : regime_of_bed(p)) lines.push_back(std::move(line));
   const auto outlet = outlet_of(p);
   if (const double width = outlet ? outlet->right - outlet->left : 0; width > 0) {
     const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;

@@ -61,10 +61,18 @@ std::vector<Problem> check_sector(const Parameters& p) {
   refuse(!p.plates.empty(), "plates", "plates through the depth of the box beside box.sector", "one of them");
   refuse(p.air.enabled, "air.enabled", "the air's cells are no sector", "false with box.sector");
   refuse(!p.inlets.empty(), "inlet", "grains do not come into a sector yet", "none with box.sector");
-  refuse(p.bed.left.has_value(), "bed.left", "cuts the bed of a sector", "left out with box.sector");
-  refuse(p.bed.right.has_value(), "bed.right", "cuts the bed of a sector", "left out with box.sector");
-  refuse(p.bed.velocity && ((*p.bed.velocity)[0] != 0 || (*p.bed.velocity)[1] != 0), "bed.velocity",
-         "is not along the axis of the sector", "0 along x and y with box.sector");
+  const auto refuse_ends = [&](const BedRegion& bed, const auto& key) {
+    const std::pair<const char*, const std::optional<double>&> ends[] = {
+        {"left", bed.left}, {"right", bed.right}, {"front", bed.front}, {"rear", bed.rear}};
+    for (const auto& [name, end] : ends)
+      refuse(end.has_value(), key(name), "cuts the bed of a sector", "left out with box.sector");
+    refuse(bed.velocity && ((*bed.velocity)[0] != 0 || (*bed.velocity)[1] != 0), key("velocity"),
+           "is not along the axis of the sector", "0 along x and y with box.sector");
+  };
+  refuse_ends(p.bed, [](const char* name) { return std::string("bed.") + name; });
+  for (std::size_t n = 0; n < p.beds.size(); ++n)
+    refuse_ends(p.beds[n], [n](const char* name) { return beds_key(n, name); });
+  refuse(p.bed.given != nullptr, "bed.file", "particles of a file in a sector", "left out with box.sector");
   return problems;
 }
 
@@ -109,11 +117,11 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
 
 PointSet whole_of(const State& s, const Sector& sector) {
   Snapshot part = snapshot_of(s);
-  std::erase_if(part.columns, [](const ColumnView& column) {  // not yet derived
-    return std::visit([](const auto& values) { return values.empty(); }, column.values);
-  });
   const int copies = sector.copies();
   const std::size_t own = s.position.size();
+  std::erase_if(part.columns, [&](const ColumnView& column) {  // not yet derived
+    return std::visit([&](const auto& values) { return values.size() != own; }, column.values);
+  });
   PointSet whole{.time = part.time, .step = part.step, .columns = {}};
   /// Writes value(i, k) of particle i in copy k.
   const auto add = [&](const ColumnView& column, const auto& value) {
@@ -131,8 +139,9 @@ PointSet whole_of(const State& s, const Sector& sector) {
         return places ? sector.turned((*vectors)[i], k) : sector.turn(k) * (*vectors)[i];
       });
     } else if (const auto* integers = std::get_if<std::span<const std::int64_t>>(&column.values)) {
+      const std::int64_t apart = column.name == "identity" ? number : 0;  // copies of a tag are alike
       add(column,
-          [&](std::size_t i, int k) { return (*integers)[i] + number * ((k + copies - s.sector_turns[i]) % copies); });
+          [&](std::size_t i, int k) { return (*integers)[i] + apart * ((k + copies - s.sector_turns[i]) % copies); });
     } else if (begins_tensor(part.columns, c)) {
       std::array<std::span<const double>, 6> of{};
       for (std::size_t n = 0; n < 6; ++n) of[n] = std::get<std::span<const double>>(part.columns[c + n].values);

@@ -65,9 +65,15 @@ struct State {
   std::vector<Vector3> velocity;       ///< m/s; with the leapfrog of half a step before
   std::vector<double> density;         ///< bulk density, kg/m^3
   std::vector<std::int64_t> identity;  ///< number of the particle at the start: columns are re-sorted now and then
+  std::vector<std::int64_t> tag;       ///< of the bed that it belongs to, -1 of an inlet's; only with several beds
   MaterialColumns material;
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
-  double mass = 0;                           ///< of a particle, kg
+  /// Which of the columns below there are. From the case, not fields: without particles every column is empty.
+  struct Columns {
+    bool tag = false, collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
+         deformation_rate = false;
+  } has;
+  double mass = 0;  ///< of a particle, kg
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;
   /// Of each particle in a sector, how many angles it has been turned back, from 0 to one circle; empty without one.
@@ -207,20 +213,21 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"velocity", "m/s"}, s.velocity);
   visit(FieldInfo{"density", "kg/m3"}, s.density);
   visit(FieldInfo{"identity", "1"}, s.identity);
+  if (s.has.tag) visit(FieldInfo{"tag", "1"}, s.tag);
   for (std::size_t c = 0; c < 6; ++c) visit(FieldInfo{detail::stress_names[c], "Pa"}, s.material.stress[c]);
-  for (std::size_t c = 0; c < 6 && !s.material.collisional[c].empty(); ++c)
+  for (std::size_t c = 0; c < 6 && s.has.collisional; ++c)
     visit(FieldInfo{detail::collisional_names[c], "Pa", FieldRole::kept, false}, s.material.collisional[c]);
   for (std::size_t k = 0; k < s.slots.size(); ++k)
     visit(FieldInfo{s.slots[k].name, s.slots[k].unit, FieldRole::kept, false}, s.material.history[k]);
   visit(FieldInfo{"mass", "kg"}, s.mass);
-  if (!s.reset_position.empty()) visit(FieldInfo{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
-  if (!s.sector_turns.empty()) visit(FieldInfo{"sector_turns", "1", FieldRole::kept, false}, s.sector_turns);
+  if (s.has.reset_position) visit(FieldInfo{"reset_position", "m", FieldRole::kept, false}, s.reset_position);
+  if (s.has.sector_turns) visit(FieldInfo{"sector_turns", "1", FieldRole::kept, false}, s.sector_turns);
   visit(FieldInfo{"packing", "1", FieldRole::derived}, s.packing);
   visit(FieldInfo{"strain", "1", FieldRole::derived}, s.strain);
   visit(FieldInfo{"shear_rate", "1/s"}, s.shear_rate);
-  for (std::size_t c = 0; c < 6 && !s.lasting_rate[c].empty(); ++c)
+  for (std::size_t c = 0; c < 6 && s.has.lasting_rate; ++c)
     visit(FieldInfo{detail::lasting_names[c], "1/s", FieldRole::kept, false}, s.lasting_rate[c]);
-  for (std::size_t c = 0; c < 6 && !s.deformation_rate[c].empty(); ++c)
+  for (std::size_t c = 0; c < 6 && s.has.deformation_rate; ++c)
     visit(FieldInfo{detail::rate_names[c], "1/s", FieldRole::kept, false}, s.deformation_rate[c]);
   for (std::size_t wall = 0; wall < most_walls; ++wall)
     for (int axis = 0; axis < 3; ++axis)

@@ -118,9 +118,12 @@ GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& 
       });
 }
 
-/// The step that pressure waves and the speed of the grains allow, s, or the fixed one.
+/// The step that pressure waves and the speed of the grains allow, s, or the fixed one; without particles that of the
+/// bed's.
 double step_of_grains(const Parameters& p, const GrainLimits& limits, const Workspace& w) {
   if (p.integration.step) return *p.integration.step;
+  if (w.smoothing_length.empty())
+    return p.integration.courant * w.sweep.smoothing_length(p.bed.packing * p.grains.density) / w.sound_speed;
   return std::min(p.integration.courant * limits.min_smoothing_length / w.sound_speed,
                   max_advance * p.bed.spacing / limits.max_speed);
 }
@@ -279,6 +282,11 @@ void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
 }
 
 NumericalError::Report step_limit(const Parameters& p, const State& s, const Workspace& w) {
+  NumericalError::Report report{};
+  if (s.position.empty()) {
+    report.term = "step without particles", report.place = "an empty vessel", report.advice = "integration.courant";
+    return report;
+  }
   // That of the densest particle, or of the fastest within the box.
   std::size_t densest = 0, fastest = 0;
   const auto speed = [&](std::size_t i) { return w.domain.box().contains(s.position[i]) ? norm(s.velocity[i]) : 0; };
@@ -286,14 +294,12 @@ NumericalError::Report step_limit(const Parameters& p, const State& s, const Wor
     if (w.smoothing_length[i] < w.smoothing_length[densest]) densest = i;
     if (speed(i) > speed(fastest)) fastest = i;
   }
-  if (s.position.empty()) return {};
   const GrainLimits limits{w.smoothing_length[densest], speed(fastest)};
   const double of_grains = step_of_grains(p, limits, w);
   if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
   const bool by_speed = !(of_grains < max_advance * p.bed.spacing / limits.max_speed);
   const std::size_t i = by_speed ? fastest : densest;
   const Vector3& x = s.position[i];
-  NumericalError::Report report{};
   if (p.integration.step) {
     report.term = "integration.step";
   } else if (by_speed) {

@@ -228,11 +228,12 @@ struct VesselOutlet {
 };
 std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
 
-/// The places of a lattice that the bed of the case fills: those that are connected with the middle of its top, as far
-/// as the vessel takes it in, by steps from place to place that no wall crosses; those nearer to a wall than the
-/// contact distance (physics/sph/wall_contact.hpp) are moved off it to that distance. In a sector the places of a layer
-/// stand on rings about the axis, all of one area and evenly spread along each, so that they are as far from its faces
-/// as from each other.
+/// The places of a lattice that the bed of the case fills: those that are connected with bed.inside, else with what
+/// lies above the level gates or the outlet, else with the middle of its top as far as the vessel takes it in, by steps
+/// from place to place that no wall crosses; those nearer to a wall than the contact distance
+/// (physics/sph/wall_contact.hpp) are moved off it to that distance. In a sector the places of a layer stand on rings
+/// about the axis, all of one area and evenly spread along each, so that they are as far from its faces as from each
+/// other.
 std::vector<Vector3> bed_in_vessel(const Parameters& parameters);
 
 /// Whether a gate is still shut whose time has come. \param time from the opening of the gate of the case, s

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The bed in a vessel.
+#include "models/continuum/vessel_places.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <vector>
 
-#include "models/continuum/layout.hpp"
-#include "models/continuum/parameters.hpp"
-#include "models/continuum/vessel.hpp"
 #include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
@@ -17,20 +13,17 @@ namespace talus::continuum {
 namespace {
 
 constexpr double golden = std::numbers::phi - 1;
-constexpr double on_the_wall = 0.02;  // in spacings
+constexpr double on_the_wall = 0.02;                    // in spacings
+constexpr double around_seed = 1.5, above_gate = 0.01;  // in spacings
+constexpr double least_level = 0.7;                     // of a level gate: the mean of its normals' |z|
 
 /// Of a whole.
 double share(double x) {
   return x - std::floor(x);
 }
 
-/// The places of a layer, as they are seen from above, and which stand beside each.
-struct Layer {
-  std::vector<Vector3> places;
-  std::vector<double> azimuth;  ///< of the places of rings, as a share of the sector's angle
-  std::vector<std::vector<std::uint32_t>> beside;
-  std::uint32_t middle = 0;  ///< of what the vessel takes of the layer
-};
+using Layer = VesselPlaces::Layer;
+using Index = VesselPlaces::Index;
 
 Layer layer_of_lattice(const Parameters& p, const Lattice& lattice) {
   Layer layer;
@@ -104,72 +97,144 @@ Layer layer_of_rings(const Parameters& p, const Lattice& lattice, const Sector& 
   return layer;
 }
 
-/// The places of all layers and which of them hold particles, layer by layer.
-struct Places {
-  const Parameters& parameters;
-  Lattice lattice = lattice_of(parameters);
-  Surface surface = surface_of(parameters);
-  Domain domain = domain_of(parameters);
-  Layer layer =
-      domain.sector() ? layer_of_rings(parameters, lattice, *domain.sector()) : layer_of_lattice(parameters, lattice);
-  std::size_t layers = static_cast<std::size_t>(lattice.count[2]);
-  std::vector<char> taken = std::vector<char>(layer.places.size() * layers);
-
-  struct Index {
-    std::uint32_t place;
-    std::size_t layer;
-  };
-  std::size_t number(const Index& n) const { return n.layer * layer.places.size() + n.place; }
-  Vector3 at(const Index& n) const {
-    Vector3 x = layer.places[n.place];
-    if (!layer.azimuth.empty()) {  // nor in rows from layer to layer
-      const Sector& sector = *domain.sector();
-      const double azimuth = 2 * std::numbers::pi / sector.copies() *
-                             share(layer.azimuth[n.place] + golden * golden * static_cast<double>(n.layer));
-      const double radius = sector.radius(x);
-      x = sector.axis() + Vector3{radius * std::cos(azimuth), radius * std::sin(azimuth), 0};
-    }
-    x.z = lattice.corner.z + (static_cast<double>(n.layer) + 0.5) * lattice.spacing.z;
-    return x;
-  }
-  bool is_clear(const Vector3& x) const {
-    return !surface.nearest(x, on_the_wall * parameters.bed.spacing) &&
-           !domain.is_near_wall(x, 0.25 * parameters.bed.spacing);
-  }
-  /// Farther from the wall, if it is too near.
-  Vector3 moved_off(const Vector3& x) const {
-    const double room = sph::contact_distance * parameters.bed.spacing;
-    const auto foot = surface.nearest(x, room);
-    return foot ? foot->place + (room / foot->distance) * (x - foot->place) : x;
-  }
-  bool is_hidden(const Vector3& a, const Vector3& b) const { return surface.blocks(a, b) || domain.blocks(a, b); }
-};
-
 }  // namespace
 
-std::vector<Vector3> bed_in_vessel(const Parameters& p) {
-  Places places{p};
-  std::vector<Places::Index> border;
-  const auto take = [&](const Places::Index& n) {
-    places.taken[places.number(n)] = 1;
+std::vector<LevelOpening> level_openings(const Parameters& p) {
+  std::vector<LevelOpening> openings;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    if (!p.vessel[n].gate) continue;
+    const DrawnSurface part(triangles_of(p, n));
+    double area = 0, level = 0;
+    Vector3 middle;
+    for (const Triangle& t : part.triangles) {
+      const double own = norm(t.area());
+      area += own, level += std::abs(t.area().z), middle += own * t.middle();
+    }
+    if (!(level > least_level * area)) continue;
+    openings.push_back(
+        {.name = name_of(p, n), .middle = (1 / area) * middle, .low = part.low, .high = part.high, .is_gate = true});
+  }
+  if (!openings.empty()) return openings;
+  if (const auto outlet = outlet_of_vessel(p)) {
+    const Vector3 half{0.5 * outlet->width, 0.5 * outlet->depth, 0};
+    openings.push_back({.name = "outlet",
+                        .middle = outlet->middle,
+                        .low = outlet->middle - half,
+                        .high = outlet->middle + half,
+                        .is_gate = false});
+  }
+  return openings;
+}
+
+VesselPlaces::VesselPlaces(const Parameters& p)
+    : parameters(p),
+      lattice(lattice_of(p)),
+      surface(surface_of(p)),
+      domain(domain_of(p)),
+      layer(domain.sector() ? layer_of_rings(p, lattice, *domain.sector()) : layer_of_lattice(p, lattice)),
+      layers(static_cast<std::size_t>(lattice.count[2])),
+      taken(layer.places.size() * layers) {}
+
+Vector3 VesselPlaces::at(const Index& n) const {
+  Vector3 x = layer.places[n.place];
+  if (!layer.azimuth.empty()) {  // nor in rows from layer to layer
+    const Sector& sector = *domain.sector();
+    const double azimuth = 2 * std::numbers::pi / sector.copies() *
+                           share(layer.azimuth[n.place] + golden * golden * static_cast<double>(n.layer));
+    const double radius = sector.radius(x);
+    x = sector.axis() + Vector3{radius * std::cos(azimuth), radius * std::sin(azimuth), 0};
+  }
+  x.z = lattice.corner.z + (static_cast<double>(n.layer) + 0.5) * lattice.spacing.z;
+  return x;
+}
+
+bool VesselPlaces::is_clear(const Vector3& x) const {
+  return !surface.nearest(x, on_the_wall * parameters.bed.spacing) &&
+         !domain.is_near_wall(x, 0.25 * parameters.bed.spacing);
+}
+
+Vector3 VesselPlaces::moved_off(const Vector3& x) const {
+  const double room = sph::contact_distance * parameters.bed.spacing;
+  const auto foot = surface.nearest(x, room);
+  return foot ? foot->place + (room / foot->distance) * (x - foot->place) : x;
+}
+
+bool VesselPlaces::is_hidden(const Vector3& a, const Vector3& b) const {
+  return surface.blocks(a, b) || domain.blocks(a, b);
+}
+
+std::optional<Index> VesselPlaces::seen_from(const Vector3& x) const {
+  const auto& sector = domain.sector();
+  const double reach = around_seed * parameters.bed.spacing;
+  std::vector<std::pair<double, std::uint32_t>> near;  // as they are seen from above
+  for (std::uint32_t n = 0; n < layer.places.size(); ++n) {
+    const Vector3 d = layer.places[n] - x;
+    const double apart = sector ? std::abs(sector->radius(layer.places[n]) - sector->radius(x)) : std::hypot(d.x, d.y);
+    if (apart < reach) near.emplace_back(apart, n);
+  }
+  std::sort(near.begin(), near.end());
+  const auto in_layer = [&](std::size_t k) -> std::optional<Index> {
+    for (const auto& [apart, place] : near) {
+      const Vector3 y = at({place, k});
+      Vector3 from = x;
+      if (sector) {  // wherever a ring's place stands along its ring
+        const double radius = sector->radius(y), share_of_radius = radius > 0 ? sector->radius(x) / radius : 0;
+        from = sector->axis() + share_of_radius * (y - sector->axis());
+        from.z = x.z;
+      }
+      if (is_clear(y) && !is_hidden(from, y)) return Index{place, k};
+    }
+    return std::nullopt;
+  };
+  const double above_bottom = std::floor((x.z - lattice.corner.z) / lattice.spacing.z);
+  const auto own = static_cast<std::size_t>(std::clamp(above_bottom, 0.0, static_cast<double>(layers) - 1));
+  for (std::size_t k = own; k < layers; ++k)
+    if (const auto found = in_layer(k)) return found;
+  return own > 0 ? in_layer(own - 1) : std::nullopt;
+}
+
+std::vector<Index> VesselPlaces::seeds() const {
+  std::vector<Index> seeds;
+  if (layers == 0) return seeds;
+  const auto add = [&](const Vector3& x) {
+    if (const auto seen = seen_from(x)) seeds.push_back(*seen);
+  };
+  if (const auto& inside = parameters.bed.inside) {
+    add({(*inside)[0], (*inside)[1], (*inside)[2]});
+    return seeds;
+  }
+  for (const LevelOpening& opening : level_openings(parameters))
+    add(opening.middle + Vector3{0, 0, above_gate * parameters.bed.spacing});
+  if (!seeds.empty()) return seeds;
+  if (const Index top{layer.middle, layers - 1}; is_clear(at(top))) seeds.push_back(top);
+  return seeds;
+}
+
+void VesselPlaces::fill() {
+  std::vector<Index> border;
+  const auto take = [&](const Index& n) {
+    taken[number(n)] = 1;
     border.push_back(n);
   };
-  if (const Places::Index top{places.layer.middle, places.layers - 1}; places.is_clear(places.at(top))) take(top);
+  for (const Index& seed : seeds())
+    if (!taken[number(seed)]) take(seed);
   while (!border.empty()) {
-    const Places::Index n = border.back();
+    const Index n = border.back();
     border.pop_back();
-    const Vector3 x = places.at(n);
-    const auto offer = [&](const Places::Index& next) {
-      if (places.taken[places.number(next)]) return;
-      const Vector3 y = places.at(next);
-      if (places.is_clear(y) && !places.is_hidden(x, y)) take(next);
-    };
-    for (const std::uint32_t place : places.layer.beside[n.place]) offer({place, n.layer});
-    if (n.layer > 0) offer({n.place, n.layer - 1});
-    if (n.layer + 1 < places.layers) offer({n.place, n.layer + 1});
+    const Vector3 x = at(n);
+    for_each_beside(n, [&](const Index& next) {
+      if (taken[number(next)]) return;
+      const Vector3 y = at(next);
+      if (is_clear(y) && !is_hidden(x, y)) take(next);
+    });
   }
+}
+
+std::vector<Vector3> bed_in_vessel(const Parameters& p) {
+  VesselPlaces places{p};
+  places.fill();
   std::vector<Vector3> positions;
-  for (Places::Index n{0, 0}; n.layer < places.layers; ++n.layer)
+  for (Index n{0, 0}; n.layer < places.layers; ++n.layer)
     for (n.place = 0; n.place < places.layer.places.size(); ++n.place)
       if (places.taken[places.number(n)]) positions.push_back(places.moved_off(places.at(n)));
   return positions;

@@ -58,14 +58,9 @@ double acceleration_down(double angle, double coefficient) {
                .openings = {},
                .opens_after = {}}};
   p.box.width = 3;
-  p.bed = {.packing = 0.6,
-           .spacing = spacing,
-           .mass = {},
-           .height = spacing,
-           .bottom = 9,
-           .left = 0.5,
-           .right = 0.5 + spacing,
-           .velocity = {}};
+  p.bed = {};
+  p.bed.packing = 0.6, p.bed.spacing = spacing, p.bed.height = spacing;
+  p.bed.bottom = 9, p.bed.left = 0.5, p.bed.right = 0.5 + spacing;
   p.box.front = p.box.rear = FaceKind::periodic;
   ThreadTeam team(1);
   Continuum model(p);
