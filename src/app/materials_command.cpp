@@ -32,7 +32,7 @@ ExitStatus print_material(GrainMaterial material) {
     if (line.test.empty()) continue;
     const std::string measured = line.angle.empty() ? "" : fmt::format(", {}", line.angle);
     print("  {}\n", wrapped(fmt::format("test: {}{}; as an angle {}", line.test, measured,
-                                       angles_of_friction(parse_quantity(line.value)->value)),
+                                        angles_of_friction(parse_quantity(line.value)->value)),
                             terminal_width(), 2, 2));
   }
   return ExitStatus::done;

@@ -18,7 +18,8 @@ using continuum::VesselPart;
 using continuum::VesselShape;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double usual_angle = 30 * std::numbers::pi / 180;  // in plane strain, where the law has no friction of its own
+constexpr double usual_angle =
+    30 * std::numbers::pi / 180;  // in plane strain, where the law has no friction of its own
 
 double friction_of(const continuum::Parameters& p, const VesselPart& v) {
   return p.walls.friction == continuum::Friction::none ? 0 : v.friction.value_or(p.walls.coefficient);

@@ -132,9 +132,10 @@ std::string angles_of_friction(double friction) {
   const auto degrees = [&](granular::FrictionTest test) {
     return granular::angle_of_friction(test, friction) * 180 / std::numbers::pi;
   };
-  return fmt::format("{:.1f} degrees on the plane of a shear tester, {:.1f} in plane strain, {:.1f} in triaxial compression",
-                     degrees(granular::FrictionTest::shear_plane), degrees(granular::FrictionTest::plane_strain),
-                     degrees(granular::FrictionTest::triaxial_compression));
+  return fmt::format(
+      "{:.1f} degrees on the plane of a shear tester, {:.1f} in plane strain, {:.1f} in triaxial compression",
+      degrees(granular::FrictionTest::shear_plane), degrees(granular::FrictionTest::plane_strain),
+      degrees(granular::FrictionTest::triaxial_compression));
 }
 
 FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults) {

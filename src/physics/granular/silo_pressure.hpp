@@ -40,7 +40,8 @@ inline ConeBearing cone_at_rest(double half_angle, double friction) {
 
 /// In flow: F = (1 + sin phi cos eps)/(1 - sin phi cos(2 beta + eps)), eps = phi_w + asin(sin phi_w/sin phi), phi_w =
 /// atan mu. A wall rougher than the grains counts as rough as they. Source: Walker 1966, as in EN 1991-4:2006, 6.3.
-/// \param internal phi, rad, with sin phi the radius of Mohr's circle over its centre: in plane strain (friction_angle.hpp)
+/// \param internal phi, rad, with sin phi the radius of Mohr's circle over its centre: in plane strain
+/// (friction_angle.hpp)
 inline ConeBearing cone_in_flow(double half_angle, double friction, double internal) {
   const double wall = std::min(std::atan(friction), internal);
   const double turned = wall + std::asin(std::clamp(std::sin(wall) / std::sin(internal), 0.0, 1.0));

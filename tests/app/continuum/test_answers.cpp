@@ -48,7 +48,8 @@ TEST_F(Answers, StandBesideTheFormulasUsedByHand) {
   EXPECT_EQ(find(answers, "99 % have left")->by_hand, "0.654 s (at the discharge by hand)");
   EXPECT_EQ(find(answers, "above the outlet at the end")->answer, "0.0 % of the bed");
   EXPECT_EQ(find(answers, "kind of flow")->answer, "mass flow, 100 % of the bed moves");
-  EXPECT_EQ(find(answers, "kind of flow")->by_hand, "mass flow, 30 degrees of at most 42 (Jenike, grains of 30 degrees in plane strain)");
+  EXPECT_EQ(find(answers, "kind of flow")->by_hand,
+            "mass flow, 30 degrees of at most 42 (Jenike, grains of 30 degrees in plane strain)");
   EXPECT_EQ(find(answers, "walls bear at rest")->answer, "99.2 % of the weight");
 }
 

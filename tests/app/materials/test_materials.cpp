@@ -56,12 +56,14 @@ TEST(Materials, EveryFrictionIsThatOfTheTestThatItsFileNames) {
     for (const MaterialLine& line : lines_of(static_cast<GrainMaterial>(n))) {
       if (line.key != "law.critical-state.friction" && line.key != "law.critical-state.fast_friction") continue;
       std::size_t test = 0;
-      while (test < choices<granular::FrictionTest>.size() && choices<granular::FrictionTest>[test] != line.test) ++test;
+      while (test < choices<granular::FrictionTest>.size() && choices<granular::FrictionTest>[test] != line.test)
+        ++test;
       ASSERT_LT(test, choices<granular::FrictionTest>.size()) << line.key << ": no test \"" << line.test << '"';
       EXPECT_TRUE(!line.angle.empty() || line.key.ends_with("fast_friction"));
       if (line.angle.empty()) continue;
-      EXPECT_NEAR(granular::angle_of_friction(static_cast<granular::FrictionTest>(test), parse_quantity(line.value)->value),
-                  parse_quantity(line.angle)->value, 5e-4)
+      EXPECT_NEAR(
+          granular::angle_of_friction(static_cast<granular::FrictionTest>(test), parse_quantity(line.value)->value),
+          parse_quantity(line.angle)->value, 5e-4)
           << choices<GrainMaterial>[n];
     }
 }

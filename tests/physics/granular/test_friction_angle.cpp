@@ -18,12 +18,12 @@ constexpr double degree = std::numbers::pi / 180;
 /// Grains without peak, strength at rest and rate, pressed together, then deformed at constant volume until they yield.
 std::vector<SymmetricTensor3<>> yielding(double friction, const Tensor3<>& gradient) {
   std::vector<SymmetricTensor3<>> stresses;
-  for (const AnyLaw& law : {make_law(CriticalState::Parameters{.friction = friction,
-                                                               .fast_friction = friction,
-                                                               .dilatancy = 0,
-                                                               .strength_at_rest = 0},
-                                     2500),
-                            make_law(DruckerPrager::Parameters{.friction = friction}, 2500)}) {
+  for (const AnyLaw& law :
+       {make_law(
+            CriticalState::Parameters{
+                .friction = friction, .fast_friction = friction, .dilatancy = 0, .strength_at_rest = 0},
+            2500),
+        make_law(DruckerPrager::Parameters{.friction = friction}, 2500)}) {
     const std::vector<PathStretch> path = {{1, squeeze(1e-3)}, {1, gradient}};
     stresses.push_back(follow_path(law, path, {.largest_increment = 1e-5, .points = 1}).back().stress);
   }
