@@ -113,7 +113,7 @@ class Materials(unittest.TestCase):
         self.assertFalse(study.is_met(row, 30.9) or study.is_met(row, 36.1))
 
     def test_a_small_column_runs_and_is_measured(self):
-        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(materials.SETUP["spacing"], column=12):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(materials.SETUP["spacing"]["column"], {"0.55": 12}):
             kind, ratio, name, settings = next(r for r in materials.runs_of("sand") if r[:2] == ("column", 0.55))
             run = talus.simulate(VALIDATION / "materials" / f"{kind}.toml", pathlib.Path(folder) / name,
                                  settings | {"run.end": "20 ms", "output.snapshots": "20 ms"}, threads=1, program=PROGRAM)

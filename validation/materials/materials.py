@@ -28,18 +28,21 @@ KINDS = ("heap", "column", "channel", "drum")
 
 
 def row_of(material, name):
-    """What table_of_numbers takes of a band; None where there is none."""
-    band = BANDS[material].get(name) or BANDS.get(name)
+    """What table_of_numbers takes of a band."""
     what, _, ratio = name.rpartition("-")
     says = SAYS.get(name) or SAYS[what].format(ratio)
-    if band is None:
-        return None
-    low, high = band
+    low, high = BANDS[material].get(name) or BANDS[name]
     return {"says": f"{material}: {says}", "value": 0.5 * (low + high), "tolerance": 0.5 * (high - low)}
 
 
-ROWS = {f"{material} {name}": row for material in MATERIALS for name in (*(n for n in BANDS if n not in MATERIALS), *BANDS[material])
-        if (row := row_of(material, name))}
+COMMON = [name for name in BANDS if name not in MATERIALS]
+ROWS = {f"{material} {name}": row_of(material, name) for material in MATERIALS for name in (*COMMON, *BANDS[material])}
+
+
+def spacing_of(kind, ratio):
+    """Of the particles, mm."""
+    of = SETUP["spacing"][kind]
+    return of[f"{ratio:g}"] if isinstance(of, dict) else of
 
 
 def runs_of(material, kinds=KINDS):
@@ -47,11 +50,13 @@ def runs_of(material, kinds=KINDS):
     ratios = {"heap": [None], "drum": [None], "column": SETUP["columns"], "channel": SETUP["channels"]}
     size = {"column": SETUP["column_radius"], "channel": SETUP["channel_length"]}
     for kind in kinds:
-        spacing = f"{SETUP['spacing'][kind]:g} mm"
         for ratio in ratios[kind]:
+            spacing = f"{spacing_of(kind, ratio):g} mm"
             settings = {"grains.material": material, "bed.spacing": spacing}
             if kind in ("channel", "drum"):
                 settings["box.depth"] = spacing
+            if kind == "column":
+                settings["walls.material"] = SETUP["floor"][material]
             if ratio:
                 settings["bed.height"] = f"{1e3 * ratio * size[kind]:g} mm"
             yield kind, ratio, f"{material}/{kind}" + (f"-{ratio:g}" if ratio else ""), settings
@@ -130,7 +135,7 @@ def angle_of_drum(run, spacing):
 
 def measure_run(run, kind, ratio):
     """Numbers of a run by the end of their row's name, and its deposit's profile: distances and heights over the column's size."""
-    spacing = 1e-3 * SETUP["spacing"][kind]
+    spacing = 1e-3 * spacing_of(kind, ratio)
     if kind == "drum":
         return {"drum": angle_of_drum(run, spacing)}, None
     last = run.snapshots[-1]
