@@ -124,6 +124,23 @@ Curve passed_mass(const HopperRun& run) {
   return integral(run.curve("discharge_rate"));
 }
 
+std::vector<NamedValue> outlet_quantities(const HopperRun& run, double from, double to) {
+  std::vector<NamedValue> quantities;
+  for (const OutletSetting& outlet : run.setting.outlets) {
+    const Curve passed = integral(run.curve("discharge_rate_" + outlet.name));
+    const auto add = [&](const char* name, const char* unit, double value) {
+      if (std::isfinite(value)) quantities.push_back({name + ("_" + outlet.name), unit, value});
+    };
+    if (passed.value.empty()) continue;
+    add("discharged_mass", "kg", passed.value.back());
+    add("discharge_rate", "kg/s", from < to ? mean_rate(passed, from, to) : HopperRun::none);
+    if (outlet.hand_discharge > 0) add("discharge_rate_beverloo", "kg/s", outlet.hand_discharge);
+    add("particles_across", "1", outlet.across / run.setting.shape.spacing);
+    add("grains_across", "1", outlet.across / run.setting.grain_diameter);
+  }
+  return quantities;
+}
+
 Curve discharged_share(const HopperRun& run) {
   Curve share = scaled(discharged_mass(run), 1 / run.setting.mass());
   const Curve fed = run.curve("fed_mass");

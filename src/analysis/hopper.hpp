@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,13 @@
 #include "numerics/snapshot.hpp"
 
 namespace talus {
+
+/// One of several outlets of a vessel.
+struct OutletSetting {
+  std::string name;
+  double hand_discharge = 0;  ///< by a hand formula, kg/s; 0: none
+  double across = 0;          ///< its narrower side, m
+};
 
 /// What the case says. SI.
 struct HopperSetting {
@@ -35,10 +43,11 @@ struct HopperSetting {
   /// The walls of a vessel in space, where the plane through its middle meets them, m; empty: what is seen from the
   /// side is all there is.
   std::vector<std::array<Vector3, 2>> section = {};
-  double middle = 0;                   ///< y of that plane, m
-  double outlet_length = 0;            ///< of an outlet that is not round, its longer side, m; 0: round, or none
-  std::vector<BandOfWall> bands = {};  ///< of the vessel's walls
-  double hand_discharge = 0;           ///< by a hand formula, kg/s; 0: none for this outlet
+  double middle = 0;                        ///< y of that plane, m
+  double outlet_length = 0;                 ///< of an outlet that is not round, its longer side, m; 0: round, or none
+  std::vector<BandOfWall> bands = {};       ///< of the vessel's walls
+  double hand_discharge = 0;                ///< by a hand formula, kg/s; 0: none for this outlet
+  std::vector<OutletSetting> outlets = {};  ///< where there are several
   double mass_flow_half_angle = std::numeric_limits<double>::quiet_NaN();  ///< by a hand formula, rad; nan: none
   double stress_share = 1;  ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
@@ -124,5 +133,10 @@ Curve discharged_share(const HopperRun& run);
 /// Integral of the discharge Q, kg: of particles spread along z by the kernel. Of this all rates are made: counted
 /// whole, the particles' layers would pass one by one, with a period h/u of their own.
 Curve passed_mass(const HopperRun& run);
+
+/// Of each of several outlets the mass that passed it, the mean rate in a steady stretch of the whole discharge, that
+/// by hand, and how many particles and grains its narrower side is across; rates of a stretch that is not a number are
+/// left out. \param from, to of the stretch, from the opening of the gate, s
+std::vector<NamedValue> outlet_quantities(const HopperRun& run, double from, double to);
 
 }  // namespace talus

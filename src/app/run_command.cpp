@@ -15,6 +15,7 @@
 #include "app/runs/run_case.hpp"
 #include "base/terminal.hpp"
 #include "io/run_folder.hpp"
+#include "numerics/warning.hpp"
 
 namespace talus::app {
 
@@ -52,6 +53,8 @@ ExitStatus run(const RunOptions& options) {
   if (options.resume) keep_snapshot_interval(file, request.folder);
   const PreparedCase prepared = prepare_case(file);
   check_memory(prepared, file);
+  for (const Warning& warning : warnings_of(prepared.regime))
+    print("! {}\n", wrapped(warning.text, terminal_width(), 2, 2));
   if (!options.refine) return run_case(prepared, request);
   const CaseFile finer = refined_case(file);
   const PreparedCase prepared_finer = prepare_case(finer);

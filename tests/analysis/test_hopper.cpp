@@ -258,5 +258,28 @@ TEST(Hopper, TheGatesTime) {
   EXPECT_EQ(gate_time_of(series), 3) << "it never opened";
 }
 
+TEST(Hopper, EachOfSeveralOutletsHasItsQuantities) {
+  HopperRun run{.setting = setting(), .series = {}, .gate_time = 0.1};
+  run.setting.outlets = {{"west", 0.25, 0.01}, {"east", 0, 0.02}};
+  run.series.names = {"time", "discharge_rate_west", "discharge_rate_east"};
+  run.series.units = {"s", "kg/s", "kg/s"};
+  run.series.columns = {{0, 0.1, 0.2, 0.3, 0.4}, {0, 0, 0.2, 0.2, 0.2}, {0, 0, 0.1, 0.1, 0.1}};
+  const auto value = [&](const std::vector<NamedValue>& of, const std::string& name) {
+    const auto found = std::find_if(of.begin(), of.end(), [&](const NamedValue& v) { return v.name == name; });
+    return found != of.end() ? found->value : HopperRun::none;
+  };
+  const auto steady = outlet_quantities(run, 0.1, 0.3);
+  EXPECT_NEAR(value(steady, "discharge_rate_west"), 0.2, 1e-12);
+  EXPECT_NEAR(value(steady, "discharge_rate_east"), 0.1, 1e-12);
+  EXPECT_NEAR(value(steady, "discharged_mass_west"), 0.05, 1e-12);
+  EXPECT_EQ(value(steady, "discharge_rate_beverloo_west"), 0.25);
+  EXPECT_TRUE(std::isnan(value(steady, "discharge_rate_beverloo_east")));
+  EXPECT_NEAR(value(steady, "particles_across_east"), 0.02 / run.setting.shape.spacing, 1e-12);
+  EXPECT_NEAR(value(steady, "grains_across_west"), 0.01 / run.setting.grain_diameter, 1e-9);
+  const auto unsteady = outlet_quantities(run, HopperRun::none, HopperRun::none);
+  EXPECT_TRUE(std::isnan(value(unsteady, "discharge_rate_west")));
+  EXPECT_NEAR(value(unsteady, "discharged_mass_east"), 0.025, 1e-12);
+}
+
 }  // namespace
 }  // namespace talus

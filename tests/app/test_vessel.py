@@ -109,10 +109,70 @@ class DrawnVessel(ProgramTest):
         triangles[7] = (triangles[7][0], triangles[7][2], triangles[7][1])
         triangles[11] = (triangles[11][0], triangles[11][0], triangles[11][2])
         (self.folder / "wall.stl").write_text(ascii_stl(triangles))
-        said = self.talus("run", "case.toml", "--out", "run", status=2).stderr
-        self.assertRegex(said, r"case\.toml:\d+: vessel\.1\.file: wall\.stl: triangle 12 at .* mm: has no area")
-        self.assertRegex(said, r"triangle 7 and triangle 8 at .* mm: their normals are on different sides")
+        said = self.talus("run", "case.toml", "--set", "vessel.1.closed=true", "--out", "run", status=2).stderr
+        self.assertRegex(said, r"case\.toml:\d+: vessel\.1\.file: wall\.stl: triangle 1 at .* mm: no triangle joins it")
+        self.assertIn("more such faults", said)
         self.assertFalse((self.folder / "run").exists())
+
+    def test_what_is_harmless_is_mended(self):
+        triangles = round_wall()
+        triangles[7] = (triangles[7][0], triangles[7][2], triangles[7][1])
+        triangles.append(triangles[3])
+        (self.folder / "wall.stl").write_text(ascii_stl(triangles))
+        said = " ".join(self.talus("check", "case.toml").stdout.split())
+        self.assertIn("vessel.1.file: wall.stl: 1 of 49 triangles turned over, triangle 8 the first", said)
+        self.assertIn("vessel.1.file: wall.stl: 1 of 49 triangles that are there twice left out, triangle 49 the first", said)
+        self.talus("run", "case.toml", "--out", "run")
+        self.assertIn("vessel.1.file: wall.stl: 1 of 49", (self.folder / "run/log.txt").read_text())
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        self.talus("run", "case.toml", "--out", "sound")
+        self.assertEqual(*((self.folder / name / "series.csv").read_bytes() for name in ("run", "sound")))
+
+    def test_one_drawn_elsewhere_is_placed_by_keys(self):
+        """About its origin, in m, y upwards: as it is it is refused; with four keys it is the same wall."""
+        drawn = [tuple((1e-3 * (x - 30), 1e-3 * z, -1e-3 * (y - 30)) for x, y, z in triangle) for triangle in round_wall()]
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        expected = self.talus("check", "case.toml").stdout
+        (self.folder / "wall.stl").write_text(ascii_stl(drawn))
+        said = self.talus("run", "case.toml", "--out", "run", status=2).stderr
+        self.assertIn("drawn spans", said)
+        self.assertIn('allowed: unit = "m" and move = ["30 mm", ', said)
+        self.assertEqual(said.count("case.toml:"), 1, "one problem, and nothing of what follows from it")
+        found = self.talus("check", "case.toml", "--set", "vessel.1.unit=m", "--set", "vessel.1.up=y", "--set",
+                           'vessel.1.move=["30 mm", "30 mm", "0 mm"]').stdout
+        for name in ("particles", "mass"):
+            line = next(line for line in expected.splitlines() if line.startswith(f"  {name} "))
+            self.assertIn(line, found)
+
+    def test_a_hole_is_found_before_the_run(self):
+        triangles = round_wall()
+        del triangles[12:16]
+        (self.folder / "wall.stl").write_text(ascii_stl(triangles))
+        said = " ".join(self.talus("check", "case.toml", "--set", "bed.spacing=2.5 mm").stdout.split())
+        self.assertRegex(said, r"! rim of drawn below the top of the bed = [0-9.]+ x [0-9.]+ mm at \([0-9., ]+\) mm:")
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        self.assertNotIn("rim of", self.talus("check", "case.toml", "--set", "bed.spacing=2.5 mm").stdout)
+
+    def test_several_outlets_have_a_row_each(self):
+        (self.folder / "wall.stl").write_text(ascii_stl(round_wall()))
+        case = CASE.replace("[gate]", """[[vessel]]
+name = "second"
+shape = "plate"
+corner = ["52 mm", "20 mm", "12 mm"]
+first_edge = ["6 mm", "0 mm", "0 mm"]
+second_edge = ["0 mm", "20 mm", "0 mm"]
+gate = true
+[gate]""", 1)
+        (self.folder / "case.toml").write_text(case)
+        said = " ".join(self.talus("check", "case.toml").stdout.split())
+        for text in ("particles across the outlet second = 1.2", "particles across the outlet lid = 7.95",
+                     "discharge_by_hand_second", "slit_over_spacing_second 1.2"):
+            self.assertIn(text, said)
+        self.talus("run", "case.toml", "--out", "run")
+        self.assertIn("discharge_rate_second [kg/s]", (self.folder / "run/series.csv").read_text().splitlines()[0])
+        quantities = json.loads((self.folder / "run/summary.json").read_text())["quantities"]
+        for name in ("discharged_mass_lid", "discharge_rate_beverloo_second", "particles_across_second", "grains_across_lid"):
+            self.assertIn(name, quantities)
 
     def test_a_file_that_is_none_is_refused(self):
         (self.folder / "wall.stl").write_bytes(b"solid wall\nfacet normal 0 0 0\nouter loop\nvertex 1 2\n")

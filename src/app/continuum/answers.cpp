@@ -45,6 +45,19 @@ const char* kind_of(bool all_moves) {
   return all_moves ? "mass flow" : "funnel flow";
 }
 
+/// Of each of several outlets what passes it.
+std::vector<Answer> answers_of_outlets(const continuum::Parameters& p, const std::vector<NamedValue>& quantities) {
+  std::vector<Answer> answers;
+  for (const continuum::VesselOutlet& outlet : continuum::outlets_of_vessel(p)) {
+    const double rate = value_of(quantities, "discharge_rate_" + outlet.name),
+                 hand = value_of(quantities, "discharge_rate_beverloo_" + outlet.name);
+    if (!std::isfinite(rate)) continue;
+    answers.push_back({"steady discharge through " + outlet.name, fmt::format("{:.3g} kg/s", rate), {}});
+    if (hand > 0) answers.back().by_hand = fmt::format("{:.3g} kg/s", hand);
+  }
+  return answers;
+}
+
 /// Of each wall of the vessel the band with the largest pressure at rest; walls that bear next to none are left out.
 std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const std::filesystem::path& table) {
   if (!std::filesystem::exists(table)) return {};
@@ -85,6 +98,7 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
     if (const double hand = value("discharge_rate_beverloo"); hand > 0)
       answers.back().by_hand = fmt::format("{:.3g} kg/s ({})", hand, formula_of_discharge(p));
   }
+  for (Answer& answer : answers_of_outlets(p, quantities)) answers.push_back(std::move(answer));
   if (const double left = value("residual_fraction"); std::isfinite(left)) {
     const double time = value("emptying_time"), hand = value("emptying_time_by_hand");
     answers.push_back(

@@ -18,6 +18,7 @@
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_grid.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/surface/section.hpp"
 
@@ -164,7 +165,10 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
     setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(p);
     setting.bands = bands_of(p);
     if (const auto outlet = continuum::outlet_of_vessel(p); outlet && !outlet->round)
-      setting.outlet_length = std::max(outlet->width, outlet->depth);
+      setting.outlet_length = outlet->length;
+    if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
+      for (const continuum::VesselOutlet& outlet : outlets)
+        setting.outlets.push_back({outlet.name, discharge_by_hand(p, outlet), outlet.narrow});
   }
   if (const auto outlet = continuum::outlet_of(p))
     setting.shape.plate = {outlet->height, outlet->left, outlet->right};
@@ -204,7 +208,12 @@ std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folde
     const PointSet last = read_points(paths.back());
     write_surfaces(folder / "surfaces.csv", HopperSnapshot(setting, last.view(), run.gate_time).surfaces());
   }
-  return summary_of(run, hopper_measures());
+  std::vector<NamedValue> quantities = summary_of(run, hopper_measures());
+  const RunRecord record{.series = {}, .summary = quantities};
+  const std::vector<NamedValue> of_outlets =
+      outlet_quantities(run, record.value("discharge_steady_from"), record.value("discharge_steady_to"));
+  quantities.insert(quantities.end(), of_outlets.begin(), of_outlets.end());
+  return quantities;
 }
 
 }  // namespace talus::app

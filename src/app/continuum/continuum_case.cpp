@@ -61,8 +61,14 @@ std::vector<NamedValue> groups(const Parameters& p) {
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
   if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
   if (const auto outlet = continuum::outlet_of(p))
-    groups.insert(groups.end(), {{"outlet_width", "m", outlet->right - outlet->left},
-                                 {"slit_over_spacing", "1", (outlet->right - outlet->left) / p.bed.spacing}});
+    groups.insert(groups.end(),
+                  {{"outlet_width", "m", outlet->across}, {"slit_over_spacing", "1", outlet->across / p.bed.spacing}});
+  if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
+    for (const continuum::VesselOutlet& outlet : outlets) {
+      groups.push_back({"discharge_by_hand_" + outlet.name, "kg/s", discharge_by_hand(p, outlet)});
+      groups.push_back({"slit_over_spacing_" + outlet.name, "1", outlet.narrow / p.bed.spacing});
+      groups.push_back({"slit_over_grain_" + outlet.name, "1", outlet.narrow / p.grains.diameter});
+    }
   return groups;
 }
 
@@ -159,7 +165,7 @@ std::string digest_of_files(const Parameters& p) {
   };
   if (p.bed.given) append(p.bed.given->position), append(p.bed.given->velocity), append(p.bed.given->density);
   for (const continuum::VesselPart& part : p.vessel)
-    for (const Triangle& t : part.drawn ? part.drawn->triangles : std::vector<Triangle>{})
+    for (const Triangle& t : part.drawn ? part.drawn->triangles() : std::span<const Triangle>{})
       bytes.append(reinterpret_cast<const char*>(t.corner.data()), sizeof t.corner);
   return bytes.empty() ? std::string() : digest(bytes);
 }
@@ -255,6 +261,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.filled_in = read.filled.keys;
   prepared.groups = groups(p);
   prepared.regime = continuum::regime_of_case(p);
+  prepared.remarks = continuum::remarks_of_vessel(p);
   prepared.regime.push_back(continuum::courant_of_case(p));
   prepared.start = [p] { return bed_lines(p); };
   prepared.draw_start = [p, title = read.run.title](const std::filesystem::path& path) { draw_bed(p, title, path); };

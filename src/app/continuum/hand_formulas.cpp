@@ -77,12 +77,22 @@ PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart
           pressure(granular::cone_in_flow(angle, mu, internal_friction_by_hand(p)))};
 }
 
+/// The cone that ends at an outlet.
+const VesselPart* cone_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
+  for (const VesselPart& v : p.vessel) {
+    if (!outlet.round || !is_hopper(v)) continue;
+    const Vector3 axis = continuum::on_axis(p, v);
+    if (std::abs(v.bottom - outlet.middle.z) <= p.bed.spacing && outlet.is_beside(axis, 0) &&
+        std::hypot(axis.x - outlet.middle.x, axis.y - outlet.middle.y) < 0.1 * outlet.width)
+      return &v;
+  }
+  return nullptr;
+}
+
 /// The cone through which the vessel empties.
 const VesselPart* emptying_cone(const continuum::Parameters& p) {
   const auto outlet = continuum::outlet_of_vessel(p);
-  for (const VesselPart& v : p.vessel)
-    if (outlet && outlet->round && is_hopper(v) && v.bottom == outlet->middle.z) return &v;
-  return nullptr;
+  return outlet ? cone_above(p, *outlet) : nullptr;
 }
 
 /// What a slit of a plate across the box discharges: half of one twice as wide where it begins at a face.
@@ -99,20 +109,29 @@ double discharge_of_slit(const continuum::Parameters& p) {
 
 }  // namespace
 
-double discharge_by_hand(const continuum::Parameters& p) {
-  const auto outlet = continuum::outlet_of_vessel(p);
-  if (!outlet) return p.vessel.empty() ? discharge_of_slit(p) : 0;
+double discharge_by_hand(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
   const auto inside = [](double middle, double width, double extent) {
-    return (std::min(middle + 0.5 * width, extent) - std::max(middle - 0.5 * width, 0.0)) / width;
+    return std::max(0.0, std::min(middle + 0.5 * width, extent) - std::max(middle - 0.5 * width, 0.0)) / width;
   };
-  const double share =
-      inside(outlet->middle.x, outlet->width, p.box.width) * inside(outlet->middle.y, outlet->depth, p.box.depth);
-  if (!outlet->round)
-    return share * granular::rectangular_discharge(outlet->width, outlet->depth, false, bulk_density(p),
-                                                   p.gravity.acceleration, p.grains.diameter);
-  const VesselPart* cone = emptying_cone(p);
-  return share * (cone ? granular::factor_of_cone(tangent_of(*cone)) : 1) *
-         granular::orifice_discharge(outlet->width, bulk_density(p), p.gravity.acceleration, p.grains.diameter);
+  const double of_width = inside(outlet.middle.x, outlet.width, p.box.width),
+               of_depth = inside(outlet.middle.y, outlet.depth, p.box.depth);
+  const auto rectangular = [&](double width, double length, bool endless) {
+    return granular::rectangular_discharge(width, length, endless, bulk_density(p), p.gravity.acceleration,
+                                           p.grains.diameter);
+  };
+  if (outlet.endless_along_x) return of_depth * rectangular(outlet.depth, p.box.width, true);
+  if (outlet.endless_along_y) return of_width * rectangular(outlet.width, p.box.depth, true);
+  if (!outlet.round) return of_width * of_depth * rectangular(outlet.narrow, outlet.length, false);
+  const VesselPart* cone = cone_above(p, outlet);
+  return of_width * of_depth * (cone ? granular::factor_of_cone(tangent_of(*cone)) : 1) *
+         granular::orifice_discharge(outlet.width, bulk_density(p), p.gravity.acceleration, p.grains.diameter);
+}
+
+double discharge_by_hand(const continuum::Parameters& p) {
+  if (p.vessel.empty()) return discharge_of_slit(p);
+  double rate = 0;
+  for (const continuum::VesselOutlet& outlet : continuum::outlets_of_vessel(p)) rate += discharge_by_hand(p, outlet);
+  return rate;
 }
 
 double internal_friction_by_hand(const continuum::Parameters& p) {

@@ -4,13 +4,16 @@
 
 #include "analysis/hopper.hpp"
 #include "models/continuum/parameters.hpp"
+#include "models/continuum/vessel_outlets.hpp"
 
 namespace talus::app {
 
-/// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with a round or rectangular outlet; of a
+/// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with round or rectangular outlets; of a
 /// level plate with a slit, which goes on beyond the faces that it ends at. Of an outlet that is cut by planes of
 /// symmetry, what leaves on this side of them. \returns 0 where there is no formula, as for a wedge
 double discharge_by_hand(const continuum::Parameters& parameters);
+/// Of one of the outlets of a vessel; discharge_by_hand() adds them up.
+double discharge_by_hand(const continuum::Parameters& parameters, const continuum::VesselOutlet& outlet);
 
 /// The angle of internal friction that Walker's and Jenike's formulas take, rad: that of Mohr's circle in plane strain
 /// (physics/granular/friction_angle.hpp), of the law's friction, which counts up to 1; 30 degrees where it has none.

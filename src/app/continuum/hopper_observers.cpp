@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/particle_field.hpp"
+#include "models/continuum/vessel_outlets.hpp"
 
 namespace talus::app {
 
@@ -18,6 +19,26 @@ double spread_along_z(double distance, double h) {
   const double q = std::abs(distance) / h;
   const double outer = std::max(2 - q, 0.0), inner = std::max(1 - q, 0.0);
   return (outer * outer * outer - 4 * inner * inner * inner) / (6 * h);
+}
+
+/// What passes each of several outlets of a vessel, near which it is, spread along z as that of all; empty of one
+/// alone.
+std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuum::Parameters& p, double mass) {
+  const std::vector<continuum::VesselOutlet> outlets = continuum::outlets_of_vessel(p);
+  std::vector<NamedValue> rates;
+  if (outlets.size() < 2) return rates;
+  const auto position = snapshot.positions();
+  const auto velocity = snapshot.vectors("velocity");
+  for (const continuum::VesselOutlet& outlet : outlets) {
+    double rate = 0;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      const double above = position[i].z - outlet.middle.z;
+      if (std::abs(above) < sph::support * p.bed.spacing && outlet.is_beside(position[i], p.bed.spacing))
+        rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
+    }
+    rates.push_back({"discharge_rate_" + outlet.name, "kg/s", rate});
+  }
+  return rates;
 }
 
 }  // namespace
@@ -41,11 +62,12 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     if (z < p.bed.spacing) near_floor += mass;
   }
   if (position.empty()) lowest = std::nan("");
+  const std::vector<NamedValue> by_outlet = rates_by_outlet(snapshot, p, mass);
 
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
-    const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
+    const Vector3 slit{0.5 * (outlet->left + outlet->right), outlet->middle_y, outlet->height};
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
     // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
     auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
@@ -68,15 +90,17 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     probe_stress = field.value(probe, pick(snapshot.scalars("stress_zz")));
     probe_strain = field.value(probe, pick(snapshot.scalars("strain")));
   }
-  return {{"discharged_mass", "kg", passed},
-          {"discharge_rate", "kg/s", rate},
-          {"lowest_z", "m", lowest},
-          {"mass_near_floor", "kg", near_floor},
-          {"slit_velocity", "m/s", slit_velocity},
-          {"probe_density", "kg/m3", probe_density},
-          {"probe_velocity", "m/s", probe_velocity},
-          {"probe_stress", "Pa", probe_stress},
-          {"probe_strain", "1", probe_strain}};
+  std::vector<NamedValue> values = {{"discharged_mass", "kg", passed},
+                                    {"discharge_rate", "kg/s", rate},
+                                    {"lowest_z", "m", lowest},
+                                    {"mass_near_floor", "kg", near_floor},
+                                    {"slit_velocity", "m/s", slit_velocity},
+                                    {"probe_density", "kg/m3", probe_density},
+                                    {"probe_velocity", "m/s", probe_velocity},
+                                    {"probe_stress", "Pa", probe_stress},
+                                    {"probe_strain", "1", probe_strain}};
+  values.insert(values.end(), by_outlet.begin(), by_outlet.end());
+  return values;
 }
 
 }  // namespace talus::app

@@ -18,6 +18,8 @@ namespace talus::app {
 ///   (u_z), probe_stress Pa (the law's, zz), probe_strain 1 (norm of the strain
 ///                    that the law remembers; 0 if it remembers none): 5 mm above the middle of the slit
 /// Values at a place are the kernel's means over the particles around it; nan where there are none.
+/// Of a vessel with several outlets the columns discharge_rate_NAME besides, the flux through each at its own height,
+/// of the particles no farther beside it than a spacing.
 std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Parameters& parameters);
 
 }  // namespace talus::app

@@ -39,7 +39,7 @@ Shortening softer_grains(double modulus) {
 
 Shortening larger_particles(const continuum::Parameters& p) {
   const auto outlet = continuum::outlet_of(p);
-  const double width = outlet ? outlet->right - outlet->left : 0;
+  const double width = outlet ? outlet->across : 0;
   std::vector<double> spacings;
   if (width > 0) spacings.push_back(width / enough_across);
   for (const double factor : larger)

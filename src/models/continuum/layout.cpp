@@ -11,6 +11,7 @@
 
 #include "models/continuum/filling.hpp"
 #include "models/continuum/parameters.hpp"
+#include "models/continuum/vessel_outlets.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
@@ -136,11 +137,16 @@ double depth_of_grains(const Parameters& p) {
 
 std::optional<Outlet> outlet_of(const Parameters& p) {
   if (const auto outlet = outlet_of_vessel(p))
-    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width};
+    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width,
+                  outlet->narrow, outlet->middle.y};
+  const auto slit = [&](double height, double left, double right) {
+    const double across = std::min(right - left, distance_of_walls(p.box.front, p.box.rear, p.box.depth));
+    return Outlet{height, left, right, across, 0.5 * p.box.depth};
+  };
   if (p.wedge.half_angle)
-    return Outlet{p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet)};
+    return slit(p.wedge.height, 0.5 * (p.box.width - p.wedge.outlet), 0.5 * (p.box.width + p.wedge.outlet));
   if (p.plate.height && p.plate.slit_left && p.plate.slit_right)
-    return Outlet{*p.plate.height, *p.plate.slit_left, *p.plate.slit_right};
+    return slit(*p.plate.height, *p.plate.slit_left, *p.plate.slit_right);
   return std::nullopt;
 }
 

@@ -14,9 +14,11 @@ namespace talus::continuum {
 
 struct Parameters;
 
-/// The slit of the plate or the outlet of the wedge: what the grains leave through.
+/// The slit of the plate, the outlet of the wedge or the lowest of the vessel's: what the grains leave through.
 struct Outlet {
   double height, left, right;  ///< m
+  double across;               ///< its narrower side; of a slit between mirrors its width, m
+  double middle_y;             ///< m
 };
 std::optional<Outlet> outlet_of(const Parameters& parameters);
 

@@ -302,7 +302,10 @@ std::vector<Problem> check(const Parameters& given) {
   check_plate(given, problems);
   check_wedge(given, problems);
   check_inclined_plates(given, problems);
-  for (const Problem& problem : check_vessel(given)) problems.push_back(problem);
+  std::vector<Problem> of_vessel = check_vessel(given);
+  const std::vector<Problem> outside = of_vessel.empty() ? check_extents(given) : std::vector<Problem>{};
+  of_vessel.insert(of_vessel.end(), outside.begin(), outside.end());
+  problems.insert(problems.end(), of_vessel.begin(), of_vessel.end());
   for (const Problem& problem : check_sector(given)) problems.push_back(problem);
   if (problems.empty()) problems = check_symmetry(given);
   // How far a mass fills a vessel can be said of a sound vessel only.
@@ -312,9 +315,10 @@ std::vector<Problem> check(const Parameters& given) {
     for (const std::size_t n : beds)
       for (Problem& problem : renamed(check_one(with_bed_alone(p, n)), n)) problems.push_back(std::move(problem));
   };
-  check_each([](const Parameters& one) {
+  check_each([&](const Parameters& one) {
     std::vector<Problem> of_bed;
-    if (!one.bed.mass || one.bed.height > 0) check_bed(one, of_bed);
+    // A bed in walls that are elsewhere has faults of its own.
+    if (outside.empty() && (!one.bed.mass || one.bed.height > 0)) check_bed(one, of_bed);
     return of_bed;
   });
   check_materials(p, problems);

@@ -36,6 +36,26 @@ bool is_being_filled(const Parameters& p, double time) {
   });
 }
 
+/// How many are beside or below the box around the vessel.
+std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& position) {
+  VesselBounds room{{0, 0, 0}, {p.box.width, p.box.depth, p.box.height}};
+  if (!p.vessel.empty()) {
+    const VesselBounds vessel = bounds_of_vessel(p);
+    for (int axis = 0; axis < 3; ++axis)
+      room.low[axis] = std::max(room.low[axis], vessel.low[axis]),
+      room.high[axis] = std::min(room.high[axis], vessel.high[axis]);
+  }
+  return static_cast<std::size_t>(std::count_if(position.begin(), position.end(), [&](const Vector3& x) {
+    return x.x < room.low.x || x.x > room.high.x || x.y < room.low.y || x.y > room.high.y || x.z < room.low.z;
+  }));
+}
+
+/// How many have left it since the start, those that were taken away among them.
+std::size_t left_vessel(const Parameters& p, const State& s) {
+  const std::size_t before = outside_vessel(p, bed_positions(p)), now = outside_vessel(p, s.position);
+  return (now > before ? now - before : 0) + s.population.removed;
+}
+
 }  // namespace
 
 bool is_loose_where_free(const Parameters& p) {
@@ -79,14 +99,19 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
     begin_flow(s.time, s.wall_loads);
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
+    const std::size_t left = left_vessel(p, s);
+    const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";
+    const std::string leak = left > 0 ? "first a wall, lid or gate where the vessel is open (talus check names rims of "
+                                        "STL files below the top of the bed); then "
+                                      : "";
     throw NumericalError(
         {.what = fmt::format("the bed is still moving after {:.3g} s", s.time),
-         .term = fmt::format("{} of {} particles are faster than settle.speed", moving, s.velocity.size()),
+         .term = fmt::format("{} of {} particles are faster than settle.speed{}", moving, s.velocity.size(), gone),
          .place = "the bed",
          .step = s.step,
          .time = s.time,
-         .advice = "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
-                   "inclined walls, walls.friction_from = \"start\""});
+         .advice = leak + "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
+                          "inclined walls, walls.friction_from = \"start\""});
   }
 }
 

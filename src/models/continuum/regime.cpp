@@ -9,6 +9,8 @@
 #include "models/continuum/bed_report.hpp"
 #include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
+#include "models/continuum/vessel_outlets.hpp"
+#include "models/continuum/vessel_rims.hpp"
 
 namespace talus::continuum {
 
@@ -17,6 +19,7 @@ namespace {
 constexpr double millimetre = 1e-3;
 constexpr double fewest_across = 12;  // particles
 constexpr double least_outlet_over_axis = 2.8;
+constexpr double notable_share = 0.1;  // of an outlet, of a wall
 
 /// The law's range: its grains, and the pressure at which its fit ends.
 void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
@@ -73,7 +76,7 @@ void add_sector(const Parameters& p, std::vector<RegimeLine>& lines) {
                    "the whole",
                    copies)});
   const auto outlet = outlet_of(p);
-  const double width = outlet ? outlet->right - outlet->left : 0;
+  const double width = outlet ? outlet->across : 0;
   if (!(width > 0)) return;
   const double ring = std::sqrt(copies / std::numbers::pi) * p.bed.spacing, ratio = 0.5 * width / ring;
   lines.push_back(
@@ -83,6 +86,57 @@ void add_sector(const Parameters& p, std::vector<RegimeLine>& lines) {
                    "(validation/sector): below {:g} take a larger sector or a smaller bed.spacing",
                    ring / millimetre, least_outlet_over_axis),
        ratio < least_outlet_over_axis});
+}
+
+/// \param width the narrower side; \param name of one of several, with a blank before it
+void add_outlet(const Parameters& p, double width, const std::string& name, std::vector<RegimeLine>& lines) {
+  if (!(width > 0)) return;
+  const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;
+  const std::string advice =
+      few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
+  lines.push_back(
+      {"particles across the outlet" + name, fmt::format("{:.3g}", width / p.bed.spacing),
+       "the flow is underestimated as if the outlet were 3 spacings narrower; use at least 12 (validation/slots)" +
+           advice,
+       few});
+  lines.push_back({"grains across the outlet" + name, fmt::format("{:.3g}", width / p.grains.diameter),
+                   "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
+}
+
+void add_outlets(const Parameters& p, std::vector<RegimeLine>& lines) {
+  const std::vector<VesselOutlet> outlets = outlets_of_vessel(p);
+  if (outlets.empty())
+    if (const auto outlet = outlet_of(p)) add_outlet(p, outlet->across, "", lines);
+  for (const VesselOutlet& outlet : outlets) {
+    const std::string name = outlets.size() > 1 ? " " + outlet.name : "";
+    add_outlet(p, outlet.narrow, name, lines);
+    if (const double blocked = share_blocked_below(p, outlet); blocked > 0)
+      lines.push_back({"share of the outlet" + name + " with a wall below", fmt::format("{:.2g}", blocked),
+                       fmt::format("nearer than it is across, {:.4g} mm: grains that do not fall freely there leave "
+                                   "more slowly than the analytical estimate says",
+                                   outlet.narrow / millimetre),
+                       blocked > notable_share});
+  }
+}
+
+void add_walls_beyond_box(const Parameters& p, std::vector<RegimeLine>& lines) {
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    if (const double share = share_in_box(p, n); share < notable_share)
+      lines.push_back({"share of " + name_of(p, n) + " within the box", fmt::format("{:.2g}", share),
+                       extents_text(p, n) + ": are place and unit right?", true});
+}
+
+/// Where grains may leave the vessel of a file before any gate opens.
+void add_rims(const Parameters& p, std::vector<RegimeLine>& lines) {
+  for (const OpenRim& rim : rims_below_bed(p)) {
+    const auto mm = [](double x) { return std::round(1e3 * x / millimetre) / 1e3 + 0.0; };
+    lines.push_back(
+        {"rim of " + name_of(p, rim.part) + " below the top of the bed",
+         fmt::format("{:.3g} x {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) mm", mm(rim.length), mm(rim.width),
+                     mm(rim.middle.x), mm(rim.middle.y), mm(rim.middle.z)),
+         "the surface ends there and nothing covers it: grains leave through it, unless it is meant as an outlet",
+         true});
+  }
 }
 
 }  // namespace
@@ -97,19 +151,9 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
                    p.bed.spacing < p.grains.diameter});
   add_sector(p, lines);
   for (RegimeLine& line : regime_of_bed(p)) lines.push_back(std::move(line));
-  const auto outlet = outlet_of(p);
-  if (const double width = outlet ? outlet->right - outlet->left : 0; width > 0) {
-    const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;
-    const std::string advice =
-        few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
-    lines.push_back(
-        {"particles across the outlet", fmt::format("{:.3g}", width / p.bed.spacing),
-         "the flow is underestimated as if the outlet were 3 spacings narrower; use at least 12 (validation/slots)" +
-             advice,
-         few});
-    lines.push_back({"grains across the outlet", fmt::format("{:.3g}", width / p.grains.diameter),
-                     "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
-  }
+  add_outlets(p, lines);
+  add_walls_beyond_box(p, lines);
+  add_rims(p, lines);
   return lines;
 }
 

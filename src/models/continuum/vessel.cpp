@@ -12,8 +12,8 @@
 
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
+#include "models/continuum/vessel_file.hpp"
 #include "models/continuum/vessel_motion.hpp"
-#include "numerics/surface/surface_faults.hpp"
 
 namespace talus::continuum {
 
@@ -21,7 +21,6 @@ namespace {
 
 constexpr double millimetre = 1e-3;
 constexpr double round_off = 0.02;  // of a polygon from its circle, in spacings
-constexpr std::size_t most_faults = 5;
 
 /// A closed line of corners at each of two heights, joined by triangles that face its axis. A corner that two lines
 /// share is one place.
@@ -79,46 +78,11 @@ std::vector<Vector3> rectangle(const Parameters& p, const VesselPart& v, double 
           {axis.x - x, axis.y + y, z}};
 }
 
-double metres(FileUnit unit) {
-  constexpr double all[] = {1, 1e-2, 1e-3, 25.4e-3};
-  return all[static_cast<std::size_t>(unit)];
-}
-
 Vector3 vector_of(const std::array<double, 3>& a) {
   return {a[0], a[1], a[2]};
 }
 
-std::string place_text(const Vector3& x) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x, x.y, x.z);
-}
-
-void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& problems) {
-  if (!v.drawn) return;
-  std::size_t told = 0;
-  const std::vector<SurfaceFault> faults = faults_of(v.drawn->triangles, v.closed);
-  for (const SurfaceFault& fault : faults) {
-    if (told++ == most_faults) break;
-    const std::string other = fault.other ? fmt::format(" and triangle {}", *fault.other + 1) : "";
-    problems.push_back({.key = vessel_key(n, "file"),
-                        .what = fmt::format("{}: triangle {}{} at {} {}: {}", v.file, fault.triangle + 1, other,
-                                            place_text(fault.place), choice_name(v.unit), text_of(fault.kind)),
-                        .allowed = "a surface without such triangles"});
-  }
-  if (faults.size() > most_faults)
-    problems.push_back({.key = vessel_key(n, "file"),
-                        .what = fmt::format("{}: {} more such faults", v.file, faults.size() - most_faults)});
-}
-
 }  // namespace
-
-DrawnSurface::DrawnSurface(std::vector<Triangle> of_file) : triangles(std::move(of_file)) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  low = {infinity, infinity, infinity}, high = -1.0 * low;
-  for (const Triangle& t : triangles)
-    for (const Vector3& c : t.corner)
-      for (int axis = 0; axis < 3; ++axis)
-        low[axis] = std::min(low[axis], c[axis]), high[axis] = std::max(high[axis], c[axis]);
-}
 
 Vector3 placed(const VesselPart& v, const Vector3& x) {
   return v.along == Along::z ? x : v.along == Along::x ? Vector3{x.z, x.x, x.y} : Vector3{x.x, x.z, x.y};
@@ -165,85 +129,72 @@ std::vector<Triangle> triangles_of(const Parameters& p, std::size_t part) {
       break;
     }
     case VesselShape::stl:
-      if (v.drawn) triangles = v.drawn->triangles;
-      for (Triangle& t : triangles)
-        for (Vector3& corner : t.corner) corner = metres(v.unit) * corner;
+      triangles = placed_triangles(v);
       break;
   }
   for (Triangle& t : triangles) t.patch = static_cast<std::uint32_t>(part);
   return triangles;
 }
 
-VesselBounds bounds_of_vessel(const Parameters& p) {
+namespace {
+
+VesselBounds no_bounds() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  VesselBounds all{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-  const auto add = [&](const Vector3& x) {
-    for (int axis = 0; axis < 3; ++axis)
-      all.low[axis] = std::min(all.low[axis], x[axis]), all.high[axis] = std::max(all.high[axis], x[axis]);
+  return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+void add(VesselBounds& all, const Vector3& x) {
+  for (int axis = 0; axis < 3; ++axis)
+    all.low[axis] = std::min(all.low[axis], x[axis]), all.high[axis] = std::max(all.high[axis], x[axis]);
+}
+
+}  // namespace
+
+VesselBounds bounds_of(const Parameters& p, std::size_t part) {
+  const VesselPart& v = p.vessel[part];
+  const Axis axis = axis_of(p, v);
+  VesselBounds all = no_bounds();
+  const auto around = [&](double width, double depth, double bottom, double top) {
+    add(all, placed(v, {axis.x - 0.5 * width, axis.y - 0.5 * depth, bottom}));
+    add(all, placed(v, {axis.x + 0.5 * width, axis.y + 0.5 * depth, top}));
   };
-  for (const VesselPart& v : p.vessel) {
-    const Axis axis = axis_of(p, v);
-    const auto around = [&](double width, double depth, double bottom, double top) {
-      add(placed(v, {axis.x - 0.5 * width, axis.y - 0.5 * depth, bottom}));
-      add(placed(v, {axis.x + 0.5 * width, axis.y + 0.5 * depth, top}));
-    };
-    switch (v.shape) {
-      case VesselShape::cylinder:
-        around(2 * v.radius, 2 * v.radius, v.bottom, v.top);
-        break;
-      case VesselShape::cone: {
-        const double widest = 2 * std::max(v.lower_radius, v.upper_radius);
-        around(widest, widest, v.bottom, v.top);
-        break;
-      }
-      case VesselShape::disc:
-        around(2 * v.radius, 2 * v.radius, v.height, v.height);
-        break;
-      case VesselShape::box:
-        around(v.width, v.depth, v.bottom, v.top);
-        break;
-      case VesselShape::pyramid:
-        around(std::max(v.lower_width, v.upper_width), std::max(v.lower_depth, v.upper_depth), v.bottom, v.top);
-        break;
-      case VesselShape::plate: {
-        const Vector3 a = vector_of(v.corner), b = vector_of(v.first_edge), c = vector_of(v.second_edge);
-        add(a), add(a + b), add(a + c), add(a + b + c);
-        break;
-      }
-      case VesselShape::stl:
-        if (v.drawn) add(metres(v.unit) * v.drawn->low), add(metres(v.unit) * v.drawn->high);
-        break;
+  switch (v.shape) {
+    case VesselShape::cylinder:
+      around(2 * v.radius, 2 * v.radius, v.bottom, v.top);
+      break;
+    case VesselShape::cone: {
+      const double widest = 2 * std::max(v.lower_radius, v.upper_radius);
+      around(widest, widest, v.bottom, v.top);
+      break;
     }
+    case VesselShape::disc:
+      around(2 * v.radius, 2 * v.radius, v.height, v.height);
+      break;
+    case VesselShape::box:
+      around(v.width, v.depth, v.bottom, v.top);
+      break;
+    case VesselShape::pyramid:
+      around(std::max(v.lower_width, v.upper_width), std::max(v.lower_depth, v.upper_depth), v.bottom, v.top);
+      break;
+    case VesselShape::plate: {
+      const Vector3 a = vector_of(v.corner), b = vector_of(v.first_edge), c = vector_of(v.second_edge);
+      add(all, a), add(all, a + b), add(all, a + c), add(all, a + b + c);
+      break;
+    }
+    case VesselShape::stl:
+      if (v.drawn) all = placed_bounds(v);
+      break;
   }
   return all;
 }
 
-std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
-  std::optional<VesselOutlet> lowest;
-  const auto offer = [&](const VesselPart& v, double height, double width, double depth, bool round) {
-    const Axis axis = axis_of(p, v);
-    if (width > 0 && (!lowest || height < lowest->middle.z))
-      lowest = VesselOutlet{{axis.x, axis.y, height}, width, depth, round};
-  };
+VesselBounds bounds_of_vessel(const Parameters& p) {
+  VesselBounds all = no_bounds();
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    const VesselPart& v = p.vessel[n];
-    if (!v.gate || v.along != Along::z) continue;
-    if (v.shape == VesselShape::disc) {
-      offer(v, v.height, 2 * v.radius, 2 * v.radius, true);
-    } else if (v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0) {
-      const Surface plate(triangles_of(p, n), p.vessel.size());
-      const Vector3 extent = plate.high() - plate.low();
-      lowest = VesselOutlet{plate.low() + 0.5 * extent, extent.x, extent.y, false};
-    }
+    const VesselBounds own = bounds_of(p, n);
+    add(all, own.low), add(all, own.high);
   }
-  if (lowest) return lowest;
-  for (const VesselPart& v : p.vessel) {
-    if (v.along != Along::z) continue;
-    if (v.shape == VesselShape::cone) offer(v, v.bottom, 2 * v.lower_radius, 2 * v.lower_radius, true);
-    if (v.shape == VesselShape::disc) offer(v, v.height, 2 * v.hole, 2 * v.hole, true);
-    if (v.shape == VesselShape::pyramid) offer(v, v.bottom, v.lower_width, v.lower_depth, false);
-  }
-  return lowest;
+  return all;
 }
 
 bool has_gates_due(const Parameters& p, const Surface& surface, double time) {

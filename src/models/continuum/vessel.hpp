@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "models/continuum/material_names.hpp"
+#include "numerics/surface/mended_surface.hpp"
+#include "numerics/surface/rims.hpp"
 #include "numerics/surface/surface.hpp"
 
 namespace talus::continuum {
@@ -24,11 +27,40 @@ enum class VesselShape { cylinder, cone, disc, box, pyramid, plate, stl };
 enum class Along { z, x, y };
 enum class FileUnit { m, cm, mm, inch };
 
-/// The triangles of a file.
-struct DrawnSurface {
-  std::vector<Triangle> triangles;
-  Vector3 low, high;  ///< corners of the box around them
+/// Corners of a box around something, m.
+struct VesselBounds {
+  Vector3 low, high;
+};
+
+/// How the triangles of a file are turned: the axis of the file that points upwards is made z, then angles about x, y
+/// and z one after the other, axes that stay where they are.
+struct Turn {
+  Along up = Along::z;
+  std::array<double, 3> angles{};
+  bool operator==(const Turn&) const = default;
+};
+
+/// The triangles of a file, mended, and what was found in it.
+class DrawnSurface {
+ public:
   explicit DrawnSurface(std::vector<Triangle> of_file);
+
+  std::span<const Triangle> triangles() const { return mended_.triangles; }
+  const MendedSurface& mended() const { return mended_; }
+  std::span<const SurfaceFault> faults() const { return faults_; }  ///< of the file as it is, rims among them
+  std::span<const Rim> rims() const { return rims_; }               ///< of the mended triangles
+  std::size_t size_of_file() const { return size_of_file_; }
+  /// Around the triangles once they are turned, in the unit of the file. Remembered: it is asked for at every row.
+  VesselBounds bounds(const Turn& turn) const;
+
+ private:
+  std::size_t size_of_file_;
+  std::vector<SurfaceFault> faults_;
+  MendedSurface mended_;
+  std::vector<Rim> rims_;
+  mutable std::mutex mutex_;
+  mutable std::optional<Turn> turn_;  // of the bounds
+  mutable VesselBounds bounds_;
 };
 
 /// One of [[vessel]]. SI.
@@ -43,6 +75,9 @@ struct VesselPart {
   std::array<double, 3> corner{}, first_edge{}, second_edge{};
   std::string file;
   FileUnit unit = FileUnit::mm;
+  Along up = Along::z;
+  double scale = 1;
+  std::array<double, 3> rotate{}, move{};
   bool closed = false;
   std::optional<WallMaterial> material;
   std::optional<double> friction;
@@ -135,6 +170,24 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
           v.file);
     drawn(Parameter{key("unit"), {}, {}, "unit of the numbers in the file, which an STL file does not say", true},
           v.unit);
+    drawn(Parameter{key("up"),
+                    {},
+                    {},
+                    "axis of the file that points upwards: with y its (x, y, z) become (x, -z, y), with x (-z, y, x)"},
+          v.up);
+    drawn(Parameter{key("scale"), dimension::none, above(0), "factor of all places of the file, about its origin"},
+          v.scale);
+    drawn(Parameter{key("rotate"),
+                    dimension::angle,
+                    {},
+                    "angles by which it is turned about the x, y and z axes of the box through the file's origin, one "
+                    "after the other, each right-handed (roll, pitch, yaw); after `up`"},
+          v.rotate);
+    drawn(Parameter{key("move"),
+                    dimension::length,
+                    {},
+                    "by how much it is moved at last: where the file's origin comes to lie in the box"},
+          v.move);
     drawn(
         Parameter{
             key("closed"), {}, {}, "whether the surface of the file is to have no rim, as that of a body has none"},
@@ -178,6 +231,18 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
 /// Contradictions between keys of the vessel that are each valid by themselves, and faults of its files.
 std::vector<Problem> check_vessel(const Parameters& parameters);
 
+/// Walls that are not where the box is, or of another size by orders of magnitude, with what would bring them there
+/// (vessel_extent.cpp). \pre check_vessel() finds nothing
+std::vector<Problem> check_extents(const Parameters& parameters);
+
+/// The share of a part's area that lies within the box, 0 to 1.
+double share_in_box(const Parameters& parameters, std::size_t part);
+/// "tray spans -30..30 x -30..30 x -10..-10 mm, the box 0..80 x 0..80 x 0..80 mm"
+std::string extents_text(const Parameters& parameters, std::size_t part);
+
+/// What was mended in the files of the vessel, a sentence each.
+std::vector<std::string> remarks_of_vessel(const Parameters& parameters);
+
 /// Of a part: that of its key, or its shape and number.
 std::string name_of(const Parameters& parameters, std::size_t part);
 
@@ -197,6 +262,9 @@ class VesselSurface {
   struct Part {
     std::shared_ptr<const DrawnSurface> drawn;  // of a file, whose triangles need not be compared
     FileUnit unit;
+    Turn turn;
+    double scale;
+    std::array<double, 3> move;
     std::vector<Triangle> triangles;  // of others
     bool operator==(const Part&) const = default;
   };
@@ -213,20 +281,18 @@ Vector3 on_axis(const Parameters& parameters, const VesselPart& part);
 /// The triangles of one part.
 std::vector<Triangle> triangles_of(const Parameters& parameters, std::size_t part);
 
-/// Corners of the box around the vessel, m, without making its surface.
-struct VesselBounds {
-  Vector3 low, high;
-};
+/// The box around a part, m, and around the vessel, without making its surface.
+VesselBounds bounds_of(const Parameters& parameters, std::size_t part);
 VesselBounds bounds_of_vessel(const Parameters& parameters);
 
-/// What the grains leave the vessel through: the gate if one is flat and level, else the hole of a disc or the lower
-/// end of a cone or pyramid, the lowest of them; nothing if there is none, or if it is the work of an STL file.
-struct VesselOutlet {
-  Vector3 middle;               ///< m
-  double width = 0, depth = 0;  ///< along x and y; of a round one its diameter, m
-  bool round = false;
-};
-std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
+/// m
+double metres(FileUnit unit);
+Turn turn_of(const VesselPart& part);
+/// The triangles of the file of a part, turned, scaled and moved into the box, m.
+std::vector<Triangle> placed_triangles(const VesselPart& part);
+VesselBounds placed_bounds(const VesselPart& part);
+/// Rims of its surface, with the numbers of the triangles there.
+std::vector<Rim> placed_rims(const VesselPart& part);
 
 /// The places of a lattice that the bed of the case fills: those that are connected with bed.inside, else with what
 /// lies above the level gates or the outlet, else with the middle of its top as far as the vessel takes it in, by steps

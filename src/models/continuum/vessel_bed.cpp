@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/continuum/vessel_outlets.hpp"
 #include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
@@ -103,16 +104,19 @@ std::vector<LevelOpening> level_openings(const Parameters& p) {
   std::vector<LevelOpening> openings;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     if (!p.vessel[n].gate) continue;
-    const DrawnSurface part(triangles_of(p, n));
+    const VesselBounds bounds = bounds_of(p, n);
     double area = 0, level = 0;
     Vector3 middle;
-    for (const Triangle& t : part.triangles) {
+    for (const Triangle& t : triangles_of(p, n)) {
       const double own = norm(t.area());
       area += own, level += std::abs(t.area().z), middle += own * t.middle();
     }
     if (!(level > least_level * area)) continue;
-    openings.push_back(
-        {.name = name_of(p, n), .middle = (1 / area) * middle, .low = part.low, .high = part.high, .is_gate = true});
+    openings.push_back({.name = name_of(p, n),
+                        .middle = (1 / area) * middle,
+                        .low = bounds.low,
+                        .high = bounds.high,
+                        .is_gate = true});
   }
   if (!openings.empty()) return openings;
   if (const auto outlet = outlet_of_vessel(p)) {

@@ -18,9 +18,9 @@ Surface VesselSurface::of(const Parameters& p) {
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
     if (v.shape == VesselShape::stl)
-      parts.push_back({v.drawn, v.unit, {}});
+      parts.push_back({v.drawn, v.unit, turn_of(v), v.scale, v.move, {}});
     else
-      parts.push_back({nullptr, {}, triangles_of(p, n)});
+      parts.push_back({nullptr, {}, {}, 1, {}, triangles_of(p, n)});
   }
   const std::scoped_lock lock(mutex_);
   if (parts == parts_) return surface_;

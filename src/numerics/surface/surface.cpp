@@ -38,12 +38,13 @@ std::vector<std::uint32_t> joined(std::span<const Triangle> triangles, std::span
     return t;
   };
   edges.for_each([&](std::span<const TriangleEdges::Edge> same) {
-    for (std::size_t e = 1; e < same.size(); ++e) {
-      const std::uint32_t a = same[e - 1].triangle, b = same[e].triangle;
-      if (triangles[a].patch != triangles[b].patch || std::abs(dot(normals[a], normals[b])) < cosine) continue;
-      const std::uint32_t p = find(a), q = find(b);
-      root[std::max(p, q)] = std::min(p, q);
-    }
+    for (std::size_t e = 1; e < same.size(); ++e)
+      for (std::size_t before = 0; before < e; ++before) {  // of more than two any pair may be one surface
+        const std::uint32_t a = same[before].triangle, b = same[e].triangle;
+        if (triangles[a].patch != triangles[b].patch || std::abs(dot(normals[a], normals[b])) < cosine) continue;
+        const std::uint32_t p = find(a), q = find(b);
+        root[std::max(p, q)] = std::min(p, q);
+      }
   });
   std::vector<std::uint32_t> number(triangles.size()), result(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {

@@ -28,10 +28,15 @@ struct Sum {
   double area = 0;
   Vector3 place, normal;  // times the area
 
-  void add(double a, const Vector3& x, const Vector3& n) {
-    area += a;
-    place += a * x;
-    normal += a * n;
+  /// \param n to either side: the sum has it on one
+  void add(double a, const Vector3& x, const Vector3& n) { join({a, a * x, a * n}); }
+  void join(const Sum& other) {
+    area += other.area;
+    place += other.place;
+    if (dot(normal, other.normal) < 0)
+      normal -= other.normal;
+    else
+      normal += other.normal;
   }
 };
 
@@ -242,11 +247,8 @@ std::vector<SurfacePoint> spread(const Surface& surface, double distance, const 
   std::vector<Rest> left;
   for (std::size_t begin = 0, end = 0; begin < rests.size(); begin = end) {
     Rest all = rests[begin];
-    for (end = begin + 1; end < rests.size() && rests[end].part == all.part && rests[end].cell == all.cell; ++end) {
-      all.sum.area += rests[end].sum.area;
-      all.sum.place += rests[end].sum.place;
-      all.sum.normal += rests[end].sum.normal;
-    }
+    for (end = begin + 1; end < rests.size() && rests[end].part == all.part && rests[end].cell == all.cell; ++end)
+      all.sum.join(rests[end].sum);
     if (all.sum.area >= least || points.empty())
       points.push_back(point_of(all.sum, all.patch, all.part));
     else

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -33,6 +34,48 @@ TEST(DischargeByHand, OfARectangularGateHasEdgesOnFourSides) {
   p.vessel[1].second_edge = {0, 0.01, 0};
   EXPECT_NEAR(discharge_by_hand(p), granular::rectangular_discharge(0.02, 0.01, false, 1500, 9.81, p.grains.diameter),
               1e-12);
+}
+
+/// A level gate in a box of 0.1 x 0.1 m.
+continuum::Parameters gated(std::array<double, 3> corner, double width, double depth) {
+  continuum::Parameters p;
+  p.box.width = p.box.depth = 0.1, p.box.height = 0.25;
+  continuum::VesselPart plate;
+  plate.name = "gate", plate.shape = continuum::VesselShape::plate, plate.gate = true;
+  plate.corner = corner, plate.first_edge = {width, 0, 0}, plate.second_edge = {0, depth, 0};
+  p.vessel = {plate};
+  return p;
+}
+
+TEST(DischargeByHand, OfARectangleIsTheSameTurnedByAQuarter) {
+  const double along_x = discharge_by_hand(gated({0.035, 0.046, 0.1}, 0.03, 0.008));
+  EXPECT_NEAR(along_x, granular::rectangular_discharge(0.008, 0.03, false, 1500, 9.81, 200e-6), 1e-12);
+  EXPECT_NEAR(discharge_by_hand(gated({0.046, 0.035, 0.1}, 0.008, 0.03)), along_x, 1e-12);
+}
+
+TEST(DischargeByHand, OfAGateFromFaceToFaceIsThatOfAnEndlessSlot) {
+  const double slot = granular::rectangular_discharge(0.02, 0.1, true, 1500, 9.81, 200e-6);
+  EXPECT_NEAR(discharge_by_hand(gated({0.04, -0.005, 0.1}, 0.02, 0.11)), slot, 1e-12) << "it sticks out";
+  EXPECT_NEAR(discharge_by_hand(gated({0, 0.01, 0.1}, 0.1, 0.02)), slot, 1e-12);
+  continuum::Parameters p = gated({-0.01, 0, 0.1}, 0.02, 0.1);
+  EXPECT_NEAR(discharge_by_hand(p), 0.5 * slot, 1e-12) << "half of it, cut by its plane of symmetry";
+  p = gated({0.04, -0.005, 0.1}, 0.02, 0.11);
+  p.box.rear = FaceKind::open;
+  EXPECT_LT(discharge_by_hand(p), slot) << "it ends there";
+}
+
+TEST(DischargeByHand, OfSeveralOutletsIsTheirSum) {
+  continuum::Parameters p = gated({0.01, 0.01, 0.1}, 0.03, 0.02);
+  const double first = discharge_by_hand(p);
+  continuum::VesselPart second = p.vessel[0];
+  second.name = "second", second.corner = {0.06, 0.07, 0.1}, second.first_edge = {0.02, 0, 0};
+  p.vessel.push_back(second);
+  const auto outlets = continuum::outlets_of_vessel(p);
+  ASSERT_EQ(outlets.size(), 2u);
+  EXPECT_NEAR(discharge_by_hand(p, outlets[0]), first, 1e-12);
+  EXPECT_NEAR(discharge_by_hand(p, outlets[1]), granular::rectangular_discharge(0.02, 0.02, false, 1500, 9.81, 200e-6),
+              1e-12);
+  EXPECT_NEAR(discharge_by_hand(p), discharge_by_hand(p, outlets[0]) + discharge_by_hand(p, outlets[1]), 1e-12);
 }
 
 TEST(DischargeByHand, OfASlitInAPlateIsThatOfAnEndlessOne) {

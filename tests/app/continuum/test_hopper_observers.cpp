@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "../../models/continuum/cases.hpp"
+#include "../../models/continuum/vessel_parts.hpp"
 #include "analysis/particle_field.hpp"
 #include "models/continuum/layout.hpp"
 #include "run/any_model.hpp"
@@ -50,6 +51,7 @@ void expect_probes_of_all(const continuum::Parameters& p) {
       particles_of_density(snapshot.positions(), density, continuum::lattice_of(p).mass, p.grains.density),
       *snapshot.domain);
   const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
+  ASSERT_EQ(outlet->middle_y, slit.y);
   const auto values = observe_hopper(snapshot, p);
   const double velocity = all.value(slit, snapshot.vectors("velocity")).z;
   const double above = all.value(slit + Vector3{0, 0, 5e-3}, density);
@@ -65,6 +67,44 @@ TEST(HopperObservers, ProbesTakeAllThatReachesThem) {
   p.wedge = {.half_angle = 0.5, .outlet = 4 * continuum::spacing, .height = 15 * continuum::spacing};
   p.box.height = 60 * continuum::spacing;
   expect_probes_of_all(p);
+}
+
+TEST(HopperObservers, EachOfSeveralOutletsHasARate) {
+  using continuum::spacing;
+  continuum::Parameters p = continuum::room(20, 20, 24);
+  p.vessel = {continuum::plate("west", {2, 2, 10}, {6, 0, 0}, {0, 6, 0}),
+              continuum::plate("east", {12, 12, 12}, {4, 0, 0}, {0, 6, 0})};
+  PointSet points;
+  std::vector<Vector3> places, velocities;
+  const auto fill = [&](const Vector3& corner, int width, double speed) {
+    for (double x = 0.5; x < width; ++x)
+      for (double y = 0.5; y < 6; ++y)
+        for (double z = 4.5; z < 20; ++z) {
+          places.push_back(spacing * (Vector3{x, y, z} + corner));
+          velocities.push_back({0, 0, -speed});
+        }
+  };
+  fill({2, 2, 0}, 6, 0.1), fill({12, 12, 0}, 4, 0.3);
+  const std::vector<double> zero(places.size(), 0), density(places.size(), continuum::bulk_density(p));
+  points.columns = {{"position", "m", places},
+                    {"velocity", "m/s", velocities},
+                    {"density", "kg/m3", density},
+                    {"stress_zz", "Pa", zero},
+                    {"strain", "1", zero}};
+  const Domain domain = continuum::domain_of(p);
+  Snapshot snapshot = points.view();
+  snapshot.domain = &domain;
+  const auto has = [&](const std::vector<NamedValue>& values, const std::string& name) {
+    return std::any_of(values.begin(), values.end(), [&](const NamedValue& v) { return v.name == name; });
+  };
+  for (continuum::VesselPart& part : p.vessel) part.gate = true;
+  const auto values = observe_hopper(snapshot, p);
+  const double column = continuum::lattice_of(p).mass / spacing;  // of one row of particles
+  EXPECT_NEAR(value_of(values, "discharge_rate_west"), 36 * column * 0.1, 1e-9 * column);
+  EXPECT_NEAR(value_of(values, "discharge_rate_east"), 24 * column * 0.3, 1e-9 * column);
+  EXPECT_NEAR(value_of(values, "slit_velocity"), -0.1, 1e-9) << "of the lowest, where it is along y too";
+  p.vessel.pop_back();
+  EXPECT_FALSE(has(observe_hopper(snapshot, p), "discharge_rate_west")) << "one is all";
 }
 
 }  // namespace

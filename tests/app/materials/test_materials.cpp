@@ -115,13 +115,13 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
   FilledIn filled = fill_in_material(file, p);
   p.bed.height = 2;
   p.gravity.acceleration = 10;
-  set_from_bed(file, p, filled);
+  set_from_bed(file, p, 1, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_NEAR(law.bulk_modulus, 1000 * 0.6 * 1350 * 10 * 2, 1e-3);
   EXPECT_NEAR(law.shear_modulus, 0.6 * law.bulk_modulus, 1e-3);
   const CaseFile given = a_case("[grains]\nmaterial = \"wheat\"\n[law.critical-state]\nbulk_modulus = \"1 MPa\"\n");
   p.law.of<granular::CriticalState>().bulk_modulus = 1e6;
-  set_from_bed(given, p, filled);
+  set_from_bed(given, p, 1, filled);
   EXPECT_EQ(law.bulk_modulus, 1e6);
   EXPECT_NEAR(law.shear_modulus, 0.6e6, 1e-6);
 }
@@ -133,7 +133,7 @@ TEST(Materials, TheStiffnessFollowsWithoutAMaterialToo) {
     p.grains.density = 2000;
     p.bed.height = 2, p.bed.packing = packing, p.gravity.acceleration = gravity;
     FilledIn filled;
-    set_from_bed(file, p, filled);
+    set_from_bed(file, p, 1, filled);
     return std::pair{p.law.of<granular::CriticalState>(), filled.keys};
   };
   const auto [law, keys] = taken(0.58, 10);
@@ -153,12 +153,12 @@ TEST(Materials, TheBedBearsNoPressureBeforeItsWeight) {
   p.grains.material = GrainMaterial::maize;
   FilledIn filled = fill_in_material(file, p);
   p.bed.packing = 0.64;
-  set_from_bed(file, p, filled);
+  set_from_bed(file, p, 1, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_EQ(law.reference_packing, 0.64);
   const CaseFile given = a_case("[grains]\nmaterial = \"maize\"\n[law.critical-state]\nreference_packing = 0.6\n");
   p.law.of<granular::CriticalState>().reference_packing = 0.6;
-  set_from_bed(given, p, filled);
+  set_from_bed(given, p, 1, filled);
   EXPECT_EQ(law.reference_packing, 0.6);
 }
 
