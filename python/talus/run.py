@@ -18,7 +18,7 @@ class Run:
     """What a run has left in its folder so far; files are read when they are asked for.
 
     `manifest` (as written), `case` (resolved: tables of values with units, by key), `status`, `summary` (quantities with
-    units, by name), `series` (a Table), `snapshots` and `air` (Snapshots), `table("front_speed")` (of analysis/).
+    units, by name), `key_results`, `series` (a Table), `snapshots` and `air` (Snapshots), `table("front_speed")` (of analysis/).
     """
 
     def __init__(self, folder):
@@ -54,6 +54,12 @@ class Run:
         quantities = self._summary["quantities"].items()
         return _Named(self.folder / "summary.json", "quantity",
                       ((name, Value(np.nan if q["value"] is None else q["value"], q["unit"])) for name, q in quantities))
+
+    @property
+    def key_results(self):
+        """What the run answers, in words and with units: (value, analytical estimate or "") by title."""
+        lines = self._summary.get("key_results", [])
+        return {line["title"]: (line["value"], line.get("estimate", "")) for line in lines}
 
     @cached_property
     def series(self):

@@ -64,15 +64,86 @@ class _Frame(Mapping):
         return f"<{type(self).__name__} {self.number} at {self.time:.6g} s: {', '.join(self)}>"
 
 
+#: The components of a symmetric tensor, a column each.
+_TENSOR = ["_xx", "_yy", "_zz", "_xy", "_yz", "_zx"]
+
+
+class _Sector:
+    """A sector about an upright axis, from which the columns of the whole are made, copy by copy.
+    \\param identities of particles in one copy"""
+
+    def __init__(self, copies, axis, identities):
+        self.copies, self.axis, self.identities = copies, np.asarray(axis), identities
+        angle = 2 * np.pi * np.arange(copies) / copies
+        self.turns = np.zeros((copies, 3, 3))
+        self.turns[:, 0, 0] = self.turns[:, 1, 1] = np.cos(angle)
+        self.turns[:, 1, 0] = np.sin(angle)
+        self.turns[:, 0, 1] = -self.turns[:, 1, 0]
+        self.turns[:, 2, 2] = 1
+
+    def places(self, values):
+        return self.axis + self.vectors(values - self.axis)
+
+    def vectors(self, values):
+        return np.einsum("kab,nb->kna", self.turns, values).reshape(-1, 3)
+
+    def tensors(self, components):
+        xx, yy, zz, xy, yz, zx = components
+        tensor = np.stack([np.stack(row, -1) for row in ([xx, xy, zx], [xy, yy, yz], [zx, yz, zz])], -2)
+        turned = np.einsum("kab,nbc,kdc->knad", self.turns, tensor, self.turns).reshape(-1, 3, 3)
+        return [turned[:, a, b] for a, b in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))]
+
+    def column(self, name, values):
+        if values.ndim == 2 and values.shape[1] == 3:
+            return self.vectors(values)
+        repeated = np.tile(values, (self.copies,) + (1,) * (values.ndim - 1))
+        if name != "identity" or self.identities == 0:
+            return repeated
+        of_copy = self.identities * np.repeat(np.arange(self.copies), len(values))
+        return (repeated + of_copy) % (self.identities * self.copies)
+
+
 class ParticleSnapshot(_Frame):
-    """Particles at one time: `positions` (n, 3), `time`, `step`, and the columns by name, a row a particle."""
+    """Particles at one time: `positions` (n, 3), `time`, `step`, and the columns by name, a row a particle.
+
+    Of a run with box.sector the file holds the sector once, and this the whole: all `copies` of it, one after the other,
+    places, vectors and tensors turned about the axis. `positions[: len(positions) // copies]` is the sector.
+    """
 
     kind = "UnstructuredGrid"
 
     @cached_property
     def positions(self):
         with self._open() as file:
-            return Column(file["VTKHDF/Points"][()], "m")
+            places = file["VTKHDF/Points"][()]
+        return Column(places if self._sector is None else self._sector.places(places), "m")
+
+    @property
+    def copies(self):
+        """Of the sector that the file holds; 1: it holds the whole."""
+        return 1 if self._sector is None else self._sector.copies
+
+    @cached_property
+    def _sector(self):
+        with self._open() as file:
+            fields = file.get("VTKHDF/FieldData", {})
+            if "sector_copies" not in fields:
+                return None
+            return _Sector(int(fields["sector_copies"][0]), fields["sector_axis"][0], int(fields["sector_identities"][0]))
+
+    def __getitem__(self, name):
+        if self._sector is None or name in self._read or name not in self._columns:
+            return super().__getitem__(name)
+        base, ending = name[:-3], name[-3:]
+        with self._open() as file:
+            data = file["VTKHDF/PointData"]
+            units = _text(data[name].attrs.get("units", "1"))
+            if ending in _TENSOR and all(base + component in self._columns for component in _TENSOR):
+                values = self._sector.tensors([data[base + component][()] for component in _TENSOR])[_TENSOR.index(ending)]
+            else:
+                values = self._sector.column(name, data[name][()])
+        self._read[name] = Column(values, units)
+        return self._read[name]
 
     @cached_property
     def time(self):

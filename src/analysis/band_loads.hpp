@@ -23,19 +23,21 @@ struct BandOfWall {
 
 /// Stresses on a band, Pa: across it, and along it downwards (nan on a level one).
 struct BandLoad {
-  double pressure_at_rest = 0, shear_at_rest = 0;  ///< over 20 ms before the gate opened; nan without that
+  double pressure_at_rest = 0, shear_at_rest = 0;  ///< over T before the gate opened; nan without that
   double pressure_in_flow = 0, shear_in_flow = 0;  ///< over the window
-  double pressure_largest = 0;                     ///< largest 10 ms mean since the gate opened, one every 1 ms
+  double pressure_largest = 0;                     ///< largest mean over T/2 since the gate opened, one every T/20
   double time_of_largest = 0;                      ///< its middle, from the opening, s
 };
 
 /// \param gate_time in the series' time, s \param from, to the window of the flow, from the opening, s
-BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time, double from, double to);
+/// \param averaging_time T, s
+BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time, double from, double to,
+                 double averaging_time);
 
-/// Pressure and shear of the band against time, means over 10 ms one every 5 ms, the time from the gate's opening.
+/// Pressure and shear of the band against time, means over T/2 one every T/4, the time from the gate's opening.
 struct BandCurves {
   Curve pressure, shear;  ///< shear without points on a level one
 };
-BandCurves curves_of(const Series& series, const BandOfWall& band, double gate_time);
+BandCurves curves_of(const Series& series, const BandOfWall& band, double gate_time, double averaging_time);
 
 }  // namespace talus

@@ -142,10 +142,13 @@ std::vector<NamedValue> outlet_quantities(const HopperRun& run, double from, dou
 }
 
 Curve discharged_share(const HopperRun& run) {
-  Curve share = scaled(discharged_mass(run), 1 / run.setting.mass());
   const Curve fed = run.curve("fed_mass");
-  for (std::size_t n = 0; n < fed.value.size(); ++n)
-    share.value[n] *= run.setting.mass() / (run.setting.mass() + fed.value[n]);
+  if (fed.value.empty()) return scaled(discharged_mass(run), 1 / run.setting.mass());
+  Curve share = discharged_mass(run);
+  for (std::size_t n = 0; n < fed.value.size(); ++n) {
+    const double all = run.setting.mass() + fed.value[n];
+    share.value[n] = all > 0 ? share.value[n] / all : 0;
+  }
   return share;
 }
 

@@ -49,7 +49,13 @@ struct HopperSetting {
   double hand_discharge = 0;                ///< by a hand formula, kg/s; 0: none for this outlet
   std::vector<OutletSetting> outlets = {};  ///< where there are several
   double mass_flow_half_angle = std::numeric_limits<double>::quiet_NaN();  ///< by a hand formula, rad; nan: none
-  double stress_share = 1;  ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
+  double averaging_time = 20e-3;  ///< T, of rates, loads and speeds; peaks are averages over half of it, s
+  double time_scale = 64e-3;      ///< (D/g)^½ of the outlet's width D, without one of the bed's height, s
+  double outlet_width = 0;        ///< D, its narrower side or diameter; 0: no outlet, m
+  double outlet_depth = 0;        ///< along y, m
+  bool outlet_is_round = false;
+  double bed_packing = 0.6;  ///< at the start
+  double stress_share = 1;   ///< of the stress, that moves grains and loads walls: 1 - Phi in Eq. 17 as printed
 
   double mass() const { return particles * particle_mass; }
 };
@@ -65,7 +71,7 @@ class HopperSnapshot {
   const HopperSetting& setting;
   const Snapshot now;
   const double time;  ///< from the opening of the gate, s
-  /// An earlier snapshot, about 20 ms before, over which speeds are means; null if there is none. Not set: none.
+  /// An earlier snapshot, about T before, over which speeds are means; null if there is none. Not set: none.
   std::function<const Snapshot*()> before = {};
   /// Cells with the columns velocity, pressure, solid_fraction, grain_velocity, drag; null if there are none.
   std::function<const GridSnapshot*()> air = {};
@@ -109,7 +115,7 @@ struct HopperRun {
 
   double end() const;  ///< from the opening of the gate, s
   /// Whether the run went on to that time, but for a few steps: it ends with the step that reaches its end.
-  bool reaches(double time) const { return end() >= time - 1e-3; }
+  bool reaches(double time) const { return end() >= time - 0.05 * setting.averaging_time; }
   /// A column of the series against the time from the gate's opening; without points if there is none.
   Curve curve(std::string_view column) const;
   /// A number of the snapshots from the gate's opening on; those without one are left out.

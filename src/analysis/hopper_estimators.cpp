@@ -15,14 +15,13 @@ namespace {
 
 constexpr double none = HopperRun::none;
 
-// Lengths of means, estimator.discharge_rate: one printed period, a load cell's sampling.
-constexpr double extreme_mean = 6e-3, extreme_every = 0.2e-3, largest_every = 1e-3;
-constexpr double load_time = 20e-3;
-constexpr double period_rate = 5000;  // 1/s, of the data
-constexpr double shortest_period = 2e-3, longest_period = 20e-3;
+// Of the averaging time: length and interval of the means whose maximum is sought, interval of data of which periods
+// are, and the periods (the paper's: 6 ms, 0.2 ms; 5000 a second; 2 to 20 ms).
+constexpr double extreme_mean = 0.3, extreme_every = 0.01, interval_of_data = 0.01, shortest_period = 0.1;
 constexpr double begins_to_incline = 1;             // deg
 constexpr double repose_printed = 30;               // deg
 constexpr double begins_to_flow = 0.1, half = 0.5;  // of what passes the outlet
+constexpr double plateau_spread = 0.1;
 
 double end_of(const Window& window, const HopperRun& run) {
   return std::min(window.to, run.end());
@@ -31,7 +30,7 @@ double end_of(const Window& window, const HopperRun& run) {
 /// The time that a window names, or the end; nan if the run ended before it, but for a few steps.
 double time_of(const Window& window, const HopperRun& run) {
   const double at = window.at.value_or(Window::end_of_run), end = run.end();
-  return at > end + trend_mean && !std::isinf(at) ? none : std::min(at, end);
+  return at > end + averages(run).trend && !std::isinf(at) ? none : std::min(at, end);
 }
 
 std::vector<double> within(Number number, const HopperRun& run, const Place& place, const Window& window) {
@@ -47,22 +46,24 @@ Curve while_there_are_grains(Curve curve, double from) {
   return curve;
 }
 
-/// 5000 data a second over the window, or as much of it as there are grains at the place; none if that is not half.
-Curve swinging_part(const Curve& whole, const Window& window) {
+/// A hundred data in T over the window, or as much of it as there are grains at the place; none if that is not half.
+Curve swinging_part(const HopperRun& run, std::string_view column, const Window& window) {
+  const Curve whole = run.curve(column);
   const Curve curve = while_there_are_grains(whole, window.from);
   if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return {};
-  return at_equal_times(curve, period_rate, window.from, std::min(window.to, curve.time.back()));
+  return at_equal_times(curve, 1 / (interval_of_data * run.setting.averaging_time), window.from,
+                        std::min(window.to, curve.time.back()));
 }
 
 double first_time_at_or_above(const Curve& curve, double level) {
   return first_time_at_or_below(scaled(curve, -1), -level);
 }
 
-/// Means over 10 ms of a curve that has data now and then.
-std::vector<double> coarse_means(const Curve& curve) {
+/// Means over a length of time of a curve that has data now and then.
+std::vector<double> coarse_means(const Curve& curve, double length) {
   std::map<long, std::vector<double>> groups;
   for (std::size_t n = 0; n < curve.time.size(); ++n)
-    groups[std::lround(std::floor(curve.time[n] / trend_mean))].push_back(curve.value[n]);
+    groups[std::lround(std::floor(curve.time[n] / length))].push_back(curve.value[n]);
   std::vector<double> means;
   for (const auto& [group, values] : groups) means.push_back(mean(values));
   return means;
@@ -76,6 +77,54 @@ Window while_it_flows(const HopperRun& run) {
   if (!(all > 0)) return {.at = 0.5 * run.end(), .from = 0.5 * run.end(), .to = run.end()};
   const double from = first_time_at_or_above(mass, begins_to_flow * all), to = first_time_at_or_above(mass, half * all);
   return {.at = 0.5 * (from + to), .from = from, .to = to};
+}
+
+namespace {
+
+/// M and what has come in, kg.
+double mass_at_end(const HopperRun& run) {
+  const Curve fed = run.curve("fed_mass");
+  return run.setting.mass() + (fed.value.empty() ? 0 : fed.value.back());
+}
+
+}  // namespace
+
+FlowEnd flow_end(const HopperRun& run) {
+  constexpr double hardly = 0.01, emptied = 0.99, rest = 3;  // rest: of the time scale
+  const Curve mass = discharged_mass(run), share = discharged_share(run);
+  if (mass.value.empty()) return {};
+  const double end = run.end(), length = std::min(run.setting.time_scale, 0.25 * end);
+  const auto at_end = [](const Curve& curve) { return curve.value.back(); };
+  const double passed = at_end(mass);
+  FlowEnd flow{.discharged = at_end(share), .left = std::max(0.0, mass_at_end(run) - passed)};
+  if (!(passed > 0) || !(length > 0)) return flow;
+  const Curve means = mean_rates(mass, length, 0.25 * length, 0, end);
+  double largest = run.setting.hand_discharge;
+  for (const double mean : means.value) largest = std::max(largest, mean);
+  double last = 0;  // end of the last window through which grains passed
+  for (std::size_t n = 0; n < means.value.size(); ++n)
+    if (means.value[n] > hardly * largest) last = std::min(end, means.time[n] + 0.5 * length);
+  if (!(last > 0)) return flow;
+  flow.state = flow.discharged >= emptied ? FlowState::has_emptied : FlowState::flows;
+  if (end - last < rest * run.setting.time_scale) return flow;
+  if (flow.state == FlowState::flows) flow.state = FlowState::has_stopped;
+  flow.stop_time = first_time_at_or_above(mass, value_at(mass, std::max(last, mass.time.front())));
+  return flow;
+}
+
+Plateau steady_discharge(const HopperRun& run) {
+  const Curve share = discharged_share(run);
+  if (share.value.empty()) return {};
+  const double from = first_time_at_or_above(share, steady_from);
+  if (!std::isfinite(from)) return {};
+  // A vessel that is fed stays full: its share discharged says nothing of its height.
+  const bool is_fed = mass_at_end(run) > run.setting.mass();
+  const double low = is_fed ? none : first_time_at_or_above(share, steady_to);
+  const Curve passed = passed_mass(run);
+  const Plateau found =
+      find_plateau(passed, run.setting.averaging_time, plateau_spread, from, std::isfinite(low) ? low : run.end());
+  if (!std::isfinite(found.value)) return found;
+  return found.value * (found.to - found.from) >= steady_least * mass_at_end(run) ? found : Plateau{};
 }
 
 double value_at_window(Number number, const HopperRun& run, const Place& place, const Window& window) {
@@ -104,15 +153,16 @@ Estimator<HopperRun> mean_of(Number number) {
 
 Estimator<HopperRun> period_of(std::string_view column) {
   return {[=](const HopperRun& run, const Place&, const Window& window) {
-    const Curve part = swinging_part(run.curve(column), window);
-    return part.time.empty() ? none : dominant_period(part, shortest_period, longest_period);
+    const Curve part = swinging_part(run, column, window);
+    const double longest = run.setting.averaging_time;
+    return part.time.empty() ? none : dominant_period(part, shortest_period * longest, longest);
   }};
 }
 
 Estimator<HopperRun> crossing_period_of(std::string_view column) {
   return {[=](const HopperRun& run, const Place&, const Window& window) {
-    const Curve part = swinging_part(run.curve(column), window);
-    return crossing_period(about_running_mean(part, largest_mean, window.from, window.to));
+    const Curve part = swinging_part(run, column, window);
+    return crossing_period(about_running_mean(part, averages(run).largest, window.from, window.to));
   }};
 }
 
@@ -137,7 +187,8 @@ double foot_speed(const HopperRun& run, const Place& place, const Window& window
 }
 
 LargestMean largest_discharge(const HopperRun& run, const Window& window) {
-  const Curve means = mean_rates(passed_mass(run), largest_mean, largest_every, window.from, end_of(window, run));
+  const Averages of = averages(run);
+  const Curve means = mean_rates(passed_mass(run), of.largest, of.largest_every, window.from, end_of(window, run));
   if (means.time.empty()) return {};
   const Extremes found = extremes(means);
   return {found.largest, found.largest_time};
@@ -145,13 +196,13 @@ LargestMean largest_discharge(const HopperRun& run, const Window& window) {
 
 double discharge_share_of_largest(const HopperRun& run, const Place&, const Window& window) {
   const Curve passed = passed_mass(run),
-              means = mean_rates(passed, window.to - window.from, largest_every, 0, run.end());
+              means = mean_rates(passed, window.to - window.from, averages(run).largest_every, 0, run.end());
   return means.time.empty() ? none : mean_rate(passed, window.from, window.to) / extremes(means).largest;
 }
 
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window) {
-  return first_maximum_time(mean_rates(cumulative, extreme_mean, extreme_every, window.from, end_of(window, run)),
-                            extreme_mean);
+  const double length = extreme_mean * run.setting.averaging_time, every = extreme_every * run.setting.averaging_time;
+  return first_maximum_time(mean_rates(cumulative, length, every, window.from, end_of(window, run)), length);
 }
 
 double discharge_fall(const HopperRun& run, const Place&, const Window& window) {
@@ -173,7 +224,7 @@ double settled_force(const HopperRun& run) {
   double force = 0;
   for (const std::string& wall : walls_of(run.series))
     if (wall == "floor" || wall == "plate")
-      force -= wall_force(run.series, wall, run.gate_time - load_time, run.gate_time).z;
+      force -= wall_force(run.series, wall, run.gate_time - averages(run).load, run.gate_time).z;
   return force;
 }
 
@@ -182,20 +233,21 @@ double settled_stress_ratio(const HopperRun& run, const Place& place, const Wind
   std::size_t settled = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) settled = n;
-  return !time.empty() && time[settled] <= load_time ? run.snapshots.value(settled, stress_ratio, place) : none;
+  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio, place)
+                                                              : none;
 }
 
 double balance_error(const HopperRun& run, const Place&, const Window& window) {
   const double to = run.gate_time + time_of(window, run);
-  return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - load_time, to);
+  return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - averages(run).load, to);
 }
 
-double largest_fall(const Curve& angle) {
+double largest_fall(const Curve& angle, double length) {
   std::size_t first = 0;
   while (first < angle.value.size() && angle.value[first] <= begins_to_incline) ++first;
   if (first == angle.value.size()) return none;
   double largest = angle.value[first], fall = 0;
-  for (const double mean : coarse_means(part(angle, angle.time[first], Window::end_of_run))) {
+  for (const double mean : coarse_means(part(angle, angle.time[first], Window::end_of_run), length)) {
     largest = std::max(largest, mean);
     fall = std::max(fall, largest - mean);
   }
@@ -224,14 +276,16 @@ double mean_over_members(Pair runs, const Number& of) {
 
 double ratio_of_rates(const HopperRun& first, const HopperRun& second, const Window& window) {
   const LargestMean largest = largest_discharge(first, window);
-  const double from = largest.time - 0.5 * largest_mean, to = largest.time + 0.5 * largest_mean;
+  const double half_mean = 0.5 * averages(first).largest;
+  const double from = largest.time - half_mean, to = largest.time + half_mean;
   return largest.value / mean_rate(passed_mass(second), from, to);
 }
 
 double share_in_which_larger(const HopperRun& first, const HopperRun& second, const Window& window) {
   const double to = std::min({window.to, first.end(), second.end()});
-  const Curve a = mean_rates(passed_mass(first), largest_mean, largest_every, window.from, to);
-  const Curve b = mean_rates(passed_mass(second), largest_mean, largest_every, window.from, to);
+  const Averages of = averages(first);
+  const Curve a = mean_rates(passed_mass(first), of.largest, of.largest_every, window.from, to);
+  const Curve b = mean_rates(passed_mass(second), of.largest, of.largest_every, window.from, to);
   if (a.value.empty() || a.value.size() != b.value.size()) return none;
   double larger = 0;
   for (std::size_t n = 0; n < a.value.size(); ++n) larger += a.value[n] > b.value[n];
@@ -243,7 +297,7 @@ double largest_difference_of_shares(const HopperRun& first, const HopperRun& sec
   const double to = std::min({window.to, first.end(), second.end()});
   double largest = none;
   for (std::size_t n = 0;; ++n) {
-    const double t = window.from + static_cast<double>(n) * largest_every;
+    const double t = window.from + static_cast<double>(n) * averages(first).largest_every;
     if (t > to) return largest;
     if (covers(a, t, t) && covers(b, t, t)) largest = std::fmax(largest, std::abs(value_at(a, t) - value_at(b, t)));
   }

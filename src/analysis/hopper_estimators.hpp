@@ -3,19 +3,57 @@
 #pragma once
 
 #include "analysis/hopper_numbers.hpp"
+#include "analysis/plateau.hpp"
 
 namespace talus::hopper {
 
 using Number = HopperRun::Numbers::Number;
 
-// Lengths of means, estimator.discharge_rate, s: of the largest rate, of a trend.
-inline constexpr double largest_mean = 20e-3, trend_mean = 10e-3;
+/// Lengths of averages, s, of T = analysis.averaging_time (the paper's T is 20 ms: estimator.discharge_rate).
+struct Averages {
+  double largest;        ///< T: of the largest rate
+  double largest_every;  ///< T/20
+  double trend;          ///< T/2
+  double curve_every;    ///< T/4: of a curve of averages over T
+  double load;           ///< T
+};
+inline Averages averages(const HopperRun& run) {
+  const double t = run.setting.averaging_time;
+  return {.largest = t, .largest_every = 0.05 * t, .trend = 0.5 * t, .curve_every = 0.25 * t, .load = t};
+}
 
 inline const std::vector<std::string_view> across{"height", "left", "right"}, beside{"from", "to"};
 
 /// From when a tenth of what passes the outlet in all has passed it until when half of it has; the time in the middle.
 /// Where nothing passes: half of the run.
 Window while_it_flows(const HopperRun& run);
+
+/// Of M and what has come in since, from which a regime of the flow shows: before that only what stood above the outlet
+/// has left. A tenth is some ten outlets' worth in a usual silo.
+inline constexpr double share_of_regime = 0.1;
+
+/// How the flow through the outlet has gone to the end of the run.
+enum class FlowState {
+  has_not_started,  ///< nothing has passed
+  flows,            ///< at the end
+  has_emptied,      ///< 99 % have passed
+  has_stopped       ///< the rest stays
+};
+struct FlowEnd {
+  FlowState state = FlowState::has_not_started;
+  double discharged = 0;               ///< of M and what has come in since, 1
+  double left = 0;                     ///< above the outlet at the end, kg
+  double stop_time = HopperRun::none;  ///< of the last outflow, where it has stopped or emptied, s
+};
+/// The flow has stopped if over three (D/g)^½ before the end, in each (D/g)^½ of them, less passed than a hundredth of
+/// the larger of its largest mean over as long and the analytical estimate. \pre the run has an outlet
+FlowEnd flow_end(const HopperRun& run);
+
+/// The discharge while it is steady, found between two shares discharged (steady_from, steady_to): before, the flow
+/// begins; after, the bed is so low that the rate falls with it (in a silo whose outlet is a tenth of its height, at a
+/// height of two outlets). Nan where less than `steady_least` of the bed leaves within the stretch found.
+Plateau steady_discharge(const HopperRun& run);
+inline constexpr double steady_from = 0.1, steady_to = 0.7, steady_least = 0.05;
 
 /// The number in the snapshot nearest the window's time, of two the earlier; nan if the run ended more than half an
 /// interval before.
@@ -26,7 +64,7 @@ Estimator<HopperRun> largest_of(Number number);  ///< over the snapshots in the 
 Estimator<HopperRun> mean_of(Number number);     ///< the same
 /// Of a column, over the window or as much of it as there are grains at the place, at least half.
 Estimator<HopperRun> period_of(std::string_view column);
-/// The mean time between the up-crossings of its centred 20 ms mean, of the same.
+/// The mean time between the up-crossings of its centred mean over T, of the same.
 Estimator<HopperRun> crossing_period_of(std::string_view column);
 /// Product of the circulations left and right over the sum of their squares: below 0 for a pair that turns against each
 /// other.
@@ -54,25 +92,25 @@ double foot_speed(const HopperRun& run, const Place& place, const Window& window
 struct LargestMean {
   double value = HopperRun::none, time = HopperRun::none;
 };
-/// The largest of the 20 ms means of the discharge, and its time.
+/// The largest of the means over T of the discharge, and its time.
 LargestMean largest_discharge(const HopperRun& run, const Window& window);
 /// Mean discharge over the window, over the largest mean over as long a time.
 double discharge_share_of_largest(const HopperRun& run, const Place& place, const Window& window);
-/// First maximum of the 6 ms means of what the curve is the integral of.
+/// First maximum of the means over 0.3 T of what the curve is the integral of.
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window);
 double discharge_fall(const HopperRun& run, const Place& place, const Window& window);
 double share_at(const HopperRun& run, const Place& place, const Window& window);
 double floor_arrival(const HopperRun& run, const Place& place, const Window& window);
-/// Force on the bed's ground, plate and floor together, over 20 ms before the gate opened; upwards on the grains, N.
+/// Force on the bed's ground, plate and floor together, over T before the gate opened; upwards on the grains, N.
 double settled_force(const HopperRun& run);
 /// Of the last snapshot before the gate opened, or at its opening.
 double settled_stress_ratio(const HopperRun& run, const Place& place, const Window& window);
 double balance_error(const HopperRun& run, const Place& place, const Window& window);
-/// Largest by which an angle lies below an earlier value of itself, 10 ms means, once it has passed 1 degree.
-double largest_fall(const Curve& angle);
+/// Largest by which an angle lies below an earlier value of itself, once it has passed 1 degree. \param length of means
+double largest_fall(const Curve& angle, double length);
 template <double (*angle_of)(const HopperSnapshot&, const Place&)>
 double largest_fall_of(const HopperRun& run, const Place& place, const Window&) {
-  return largest_fall(run.curve(angle_of, place));
+  return largest_fall(run.curve(angle_of, place), averages(run).trend);
 }
 /// An angle less that of the heaps that stay in the hopper.
 template <double (*angle_of)(const HopperSnapshot&, const Place&)>
@@ -98,8 +136,12 @@ double mean_speed_above(double height, std::span<const Vector3> positions, std::
 double wall_pressure_ratio(const HopperRun& run, const Place& place, const Window& window);
 /// Height of the settled bed: half a spacing above its 99.5th percentile, m; nan without a snapshot of it.
 double settled_top(const HopperRun& run);
-/// Share of the particles above the outlet that do; nan without a snapshot before.
+/// Share of the particles above the outlet that move; nan without a snapshot before.
 double share_that_moves(const HopperSnapshot& s, const Place& place);
+/// The same at the time of the window, but not before `share_of_regime` has left; nan where the flow had stopped then.
+double share_in_motion(const HopperRun& run, const Place& place, const Window& window);
+/// Packing of the space of the outlet's width and as high above it.
+double outlet_packing(const HopperSnapshot& s, const Place& place);
 
 // Two runs, one of each variant.
 using Pair = std::span<const std::vector<HopperRun>>;

@@ -40,7 +40,7 @@ bool outlet_and_bin(const Run& run) {
 
 const std::vector<Row> of_grains = {
     Row("floor_stress_settled", "Pa",
-        "upward force of floor and plate on the settled bed over the area of the box, over 20 ms before the gate "
+        "upward force of floor and plate on the settled bed over the area of the box, over T before the gate "
         "opens; "
         "with `sph.stress_form = \"printed\"`, where the grains feel 1 - Φ of their stress (Eq. 17), that over the "
         "bed's packing: the stress itself",
@@ -70,14 +70,16 @@ const std::vector<Row> of_grains = {
         "1982); of a slit in a plate 1.04 ρ_b g^½ (W − k d)^(3/2) for each length",
         {[](const Run& r, const Place&, const Window&) { return r.setting.hand_discharge; }}, {{hand_formula}}),
     Row("discharge_rate_drift", "1",
-        "slope of the line through the 10 ms means of Q times the length of the window, over their mean",
-        {[](const Run& r, const Place&, const Window& w) { return drift(passed_mass(r), trend_mean, w.from, w.to); }}),
+        "slope of the line through the means of Q over T/2 times the length of the window, over their mean",
+        {[](const Run& r, const Place&, const Window& w) {
+          return drift(passed_mass(r), averages(r).trend, w.from, w.to);
+        }}),
     Row("discharge_rate_fall", "kg/s", "mean of Q over the window less that over as long a time before",
         {discharge_fall}),
     Row("discharge_rate_extreme_time", "s",
-        "centre of the first 6 ms mean of Q (one every 0.2 ms) that is the largest within 6 ms before and after",
+        "centre of the first mean of Q over 0.3 T (one every T/100) that is the largest within 0.3 T before and after",
         {[](const Run& r, const Place&, const Window& w) { return extreme_time(passed_mass(r), r, w); }}, {{outlet}}),
-    Row("discharge_rate_max", "kg/s", "largest 20 ms mean of Q, one every 1 ms",
+    Row("discharge_rate_max", "kg/s", "largest mean of Q over T, one every T/20",
         {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).value; }}, {{outlet}}),
     Row("discharge_rate_max_time", "s", "its centre",
         {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).time; }}, {{outlet}}),
@@ -89,9 +91,9 @@ const std::vector<Row> of_grains = {
         }},
         {{outlet}}),
     Row("slit_velocity_fluctuation", "m/s",
-        "standard deviation of u_z in the middle of the outlet about its centred 20 ms mean",
+        "standard deviation of u_z in the middle of the outlet about its centred mean over T",
         {[](const Run& r, const Place&, const Window& w) {
-          return fluctuation(r.curve("slit_velocity"), largest_mean, w.from, w.to);
+          return fluctuation(r.curve("slit_velocity"), averages(r).largest, w.from, w.to);
         }}),
     Row("floor_arrival_time", "s", "first time at which 0.1 % of M is within h of the floor", {floor_arrival},
         {{outlet_and_bin}}),
@@ -161,15 +163,16 @@ const std::vector<Row> of_grains = {
         "height of the hopper's surface in the middle less that `beside` it, means over `width`, mean over the window",
         mean_of(surface_swelling), {}, {"beside", "width"}),
     Row("surface_angle_largest_fall", "deg",
-        "largest by which surface_angle_hopper lies below an earlier value, 10 ms means, once it has passed 1 degree",
+        "largest by which surface_angle_hopper lies below an earlier value, means over T/2, once it has passed 1 "
+        "degree",
         {largest_fall_of<surface_angle_in<Where::hopper>>}),
     Row("surface_angle_end_difference", "deg", "surface_angle_hopper less repose_angle_hopper",
         {above_repose<surface_angle_in<Where::hopper>>}),
-    Row("weight_balance_error", "1", "upward force of all walls, from their impulses over 20 ms, over M g, less 1",
+    Row("weight_balance_error", "1", "upward force of all walls, from their impulses over T, over M g, less 1",
         {balance_error}, {{always}}),
     Row("quiescent_speed", "m/s",
         "95th percentile of the speeds of the particles deeper than 3 h below the surface, and not within 3 h of the "
-        "outlet; speed: displacement since the snapshot about 20 ms before, over the time between",
+        "outlet; speed: displacement since the snapshot about T before, over the time between",
         at(quiescent_speed), {{always}}),
     Row("packing_max", "1", "99.9th percentile of the particles' packing, largest over the snapshots",
         largest_of(packing_max), {{always}}),
@@ -182,39 +185,45 @@ const std::vector<Row> of_grains = {
         "mean of |density by continuity over the kernel's − 1| deeper than 3 h, largest over the snapshots",
         largest_of(density_drift), {{always}}),
     Row("period_discharge", "s",
-        "Q at 5000 values a second, line removed, Hann window, zero-padded four times: period of the highest peak of "
-        "the power between 2 and 20 ms",
+        "Q at a hundred values in T, line removed, Hann window, zero-padded four times: period of the highest peak of "
+        "the power between T/10 and T",
         period_of("discharge_rate"), {{outlet, while_it_flows}}),
     Row("period_density", "s",
-        "period of ρ_b 5 mm above the middle of the outlet, from its spectrum as in period_discharge",
+        "period of ρ_b an eighth of its width above the middle of the outlet, from its spectrum as in period_discharge",
         period_of("probe_density")),
     Row("period_velocity", "s",
-        "period of u_z 5 mm above the middle of the outlet, from its spectrum as in period_discharge",
+        "period of u_z an eighth of its width above the middle of the outlet, from its spectrum as in period_discharge",
         period_of("probe_velocity")),
     Row("period_stress", "s",
-        "period of τ_zz 5 mm above the middle of the outlet, from its spectrum as in period_discharge",
+        "period of τ_zz an eighth of its width above the middle of the outlet, from its spectrum as in "
+        "period_discharge",
         period_of("probe_stress")),
     Row("period_strain", "s",
-        "period of the strain that the law remembers 5 mm above the middle of the outlet, from its spectrum as in "
+        "period of the strain that the law remembers an eighth of its width above the middle of the outlet, from its "
+        "spectrum as in "
         "period_discharge",
         period_of("probe_strain")),
     Row("crossing_period_discharge", "s",
-        "Q less its centred 20 ms mean, 5000 values a second: mean time between its passages upwards through 0",
+        "Q less its centred mean over T, a hundred values in T: mean time between its passages upwards through 0",
         crossing_period_of("discharge_rate"), {{outlet, while_it_flows}}),
     Row("crossing_period_density", "s",
-        "ρ_b 5 mm above the middle of the outlet less its centred 20 ms mean: mean time between its passages upwards "
+        "ρ_b an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its "
+        "passages upwards "
         "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_density")),
     Row("crossing_period_velocity", "s",
-        "u_z 5 mm above the middle of the outlet less its centred 20 ms mean: mean time between its passages upwards "
+        "u_z an eighth of its width above the middle of the outlet less its centred mean over T: mean time between its "
+        "passages upwards "
         "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_velocity")),
     Row("crossing_period_stress", "s",
-        "τ_zz 5 mm above the middle of the outlet less its centred 20 ms mean: mean time between its passages upwards "
+        "τ_zz an eighth of its width above the middle of the outlet less its centred mean over T: mean time between "
+        "its passages upwards "
         "through 0, as in crossing_period_discharge",
         crossing_period_of("probe_stress")),
     Row("crossing_period_strain", "s",
-        "the strain that the law remembers 5 mm above the middle of the outlet less its centred 20 ms mean: mean time "
+        "the strain that the law remembers an eighth of its width above the middle of the outlet less its centred mean "
+        "over T: mean time "
         "between its passages upwards through 0, as in crossing_period_discharge",
         crossing_period_of("probe_strain")),
     Row("inertial_share_of_bearing", "1",
@@ -293,11 +302,11 @@ const std::vector<Row> of_grains = {
 
 const GroupMeasure<Run> of_two[] = {
     {"discharge_rate_ratio_at_max", "1",
-     "ratio of the discharges of two runs at the time of the first one's largest 20 ms mean", ratio_at_largest},
-    {"discharge_rate_share_larger", "1", "share of the 20 ms means in which the first of two runs discharges more",
+     "ratio of the discharges of two runs at the time of the first one's largest mean over T", ratio_at_largest},
+    {"discharge_rate_share_larger", "1", "share of the means over T in which the first of two runs discharges more",
      share_of_larger},
     {"discharge_resolution_difference", "1",
-     "largest difference of the discharged shares of two runs at equal times, one every 1 ms",
+     "largest difference of the discharged shares of two runs at equal times, one every T/20",
      largest_share_difference},
 };
 

@@ -18,7 +18,6 @@ using Run = HopperRun;
 using Row = Measure<Run>;
 
 constexpr double none = Run::none;
-constexpr double plateau_mean = 20e-3, plateau_spread = 0.1, load_time = 20e-3;
 constexpr double hardly = 0.1;  // of the mean speed: what is slower rests
 
 bool vessel(const Run& run) {
@@ -26,9 +25,6 @@ bool vessel(const Run& run) {
 }
 bool vessel_with_outlet(const Run& run) {
   return vessel(run) && run.setting.shape.plate.has_value();
-}
-bool vessel_with_hand_formula(const Run& run) {
-  return vessel_with_outlet(run) && run.setting.hand_discharge > 0;
 }
 bool vessel_with_slit(const Run& run) {
   return vessel_with_outlet(run) && run.setting.outlet_length > 0;
@@ -44,20 +40,23 @@ bool has_upright_walls(const Run& run) {
   return false;
 }
 
-Plateau plateau(const Run& run) {
-  return find_plateau(passed_mass(run), plateau_mean, plateau_spread, 0, run.end());
+bool outlet(const Run& run) {
+  return run.setting.shape.plate.has_value();
+}
+bool hand_formula(const Run& run) {
+  return outlet(run) && run.setting.hand_discharge > 0;
 }
 
 /// Upward force of all walls on the settled bed over its weight, less 1.
 double balance_at_rest(const Run& run, const Place&, const Window&) {
   const double weight = run.setting.mass() * run.setting.gravity;
-  return weight_balance_error(run.series, weight, run.gate_time - load_time, run.gate_time);
+  return weight_balance_error(run.series, weight, run.gate_time - averages(run).load, run.gate_time);
 }
 
 /// A number of the last snapshot before the gate opened.
 double settled(const Run& run, Number number, const Place& place) {
   const std::vector<double>& time = run.snapshots.time();
-  if (time.empty() || time.front() > load_time) return none;
+  if (time.empty() || time.front() > averages(run).load) return none;
   std::size_t last = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) last = n;
@@ -85,7 +84,7 @@ double wall_pressure_ratio(const HopperRun& run, const Place&, const Window&) {
   double of_walls = 0, of_bed = 0;
   for (const BandOfWall& band : run.setting.bands) {
     if (!band.is_upright() || !(band.high <= top) || !(band.area > 0)) continue;
-    of_walls += band.area * load_of(run.series, band, run.gate_time, 0, 0).pressure_at_rest;
+    of_walls += band.area * load_of(run.series, band, run.gate_time, 0, 0, run.setting.averaging_time).pressure_at_rest;
     of_bed += band.area * settled(run, vertical_stress, {{"from", band.low}, {"to", band.high}});
   }
   return of_bed > 0 ? of_walls / of_bed : none;
@@ -96,6 +95,34 @@ double mean_speed_above(double height, std::span<const Vector3> positions, std::
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (positions[i].z >= height && std::isfinite(speed[i])) sum += speed[i], ++count;
   return sum / count;
+}
+
+double outlet_packing(const HopperSnapshot& s, const Place&) {
+  const HopperShape& shape = s.shape();
+  const HopperSetting& of = s.setting;
+  if (!shape.plate || !(of.outlet_width > 0)) return none;
+  const double height = of.outlet_width, half_width = 0.5 * (shape.plate->slit_right - shape.plate->slit_left);
+  const Vector3 middle{shape.plate->slit_left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
+  double inside = 0;
+  for (const Vector3& x : s.now.positions()) {
+    const double across = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y), up = x.z - shape.plate->height;
+    if (up < 0 || up > height) continue;
+    inside += of.outlet_is_round ? std::hypot(across, along) <= half_width
+                                 : across <= half_width && along <= 0.5 * of.outlet_depth;
+  }
+  const double area =
+      of.outlet_is_round ? std::numbers::pi * half_width * half_width : 2 * half_width * of.outlet_depth;
+  return inside * of.particle_mass / (of.grain_density * area * height);
+}
+
+double share_in_motion(const HopperRun& run, const Place& place, const Window& window) {
+  const Curve share = discharged_share(run);
+  const double from = first_time_at_or_below(scaled(share, -1), -share_of_regime);
+  const std::vector<double>& time = run.snapshots.time();
+  if (!std::isfinite(from) || time.empty()) return none;
+  const double at = std::max(from, window.at.value_or(run.end()));
+  const std::size_t nearest = nearest_point(time, std::min(at, run.end()));
+  return time[nearest] > flow_end(run).stop_time ? none : run.snapshots.value(nearest, share_that_moves, place);
 }
 
 double share_that_moves(const HopperSnapshot& s, const Place&) {
@@ -113,18 +140,21 @@ double share_that_moves(const HopperSnapshot& s, const Place&) {
 std::vector<Row> hopper_vessel_measures() {
   return {
       Row("discharge_steady", "kg/s",
-          "mean of Q over the longest stretch of 20 ms means, five at least, that lie within 10 % of their own mean, "
-          "from half of the largest on",
-          {[](const Run& r, const Place&, const Window&) { return plateau(r).value; }}, {{vessel_with_outlet}}),
+          "mean of Q over the longest stretch of means over T, five at least, that lie within 10 % of their own mean, "
+          "between 10 % and 70 % discharged; none where less than 5 % of the bed leaves within it",
+          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).value; }}, {{outlet}}),
       Row("discharge_steady_error", "kg/s",
-          "two standard errors of that mean; where neighbouring means are alike, of as many as are independent",
-          {[](const Run& r, const Place&, const Window&) { return plateau(r).error; }}, {{vessel_with_outlet}}),
+          "half width of the 95 % interval of that mean, by Student's t of the means of blocks, five at least, each "
+          "longer than the correlation time; none where the stretch is too short for that",
+          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).error; }}, {{outlet}}),
       Row("discharge_steady_from", "s", "where that stretch begins",
-          {[](const Run& r, const Place&, const Window&) { return plateau(r).from; }}, {{vessel_with_outlet}}),
+          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).from; }}, {{outlet}}),
       Row("discharge_steady_to", "s", "where it ends",
-          {[](const Run& r, const Place&, const Window&) { return plateau(r).to; }}, {{vessel_with_outlet}}),
+          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).to; }}, {{outlet}}),
       Row("discharge_steady_per_length", "kg/(s m)", "discharge_steady over the length of the slit",
-          {[](const Run& r, const Place&, const Window&) { return plateau(r).value / r.setting.outlet_length; }},
+          {[](const Run& r, const Place&, const Window&) {
+            return steady_discharge(r).value / r.setting.outlet_length;
+          }},
           {{vessel_with_slit}}),
       Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
           {[](const Run& r, const Place&, const Window&) {
@@ -132,17 +162,28 @@ std::vector<Row> hopper_vessel_measures() {
             for (double& share : left.value) share = 1 - share;
             return first_time_at_or_below(left, 0.01);
           }},
-          {{vessel_with_outlet}}),
+          {{outlet}}),
       Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
           {[](const Run& r, const Place&, const Window&) {
             return 0.99 * r.setting.mass() / r.setting.hand_discharge;
           }},
-          {{vessel_with_hand_formula}}),
+          {{hand_formula}}),
       Row("share_that_moves", "1",
           "share of the particles above the outlet that are faster than a tenth of their mean; speed: displacement "
-          "since the snapshot about 20 ms before, over the time between. From 0.99 on it is mass flow, below that "
-          "funnel flow",
-          at(share_that_moves), {{vessel_with_outlet, while_it_flows}}),
+          "since the snapshot about T before, over the time between. From 0.99 on it is mass flow, below that funnel "
+          "flow; none before 10 % have been discharged, or where the flow had stopped",
+          {share_in_motion, share_that_moves}, {{vessel_with_outlet, while_it_flows}}),
+      Row("residual_mass", "kg", "mass above the outlet at the end",
+          {[](const Run& r, const Place&, const Window&) { return flow_end(r).left; }}, {{outlet}}),
+      Row("flow_stop_time", "s",
+          "time of the last outflow from the opening of the gate on, where over three (D/g)^½ before the end of the "
+          "run "
+          "less than a hundredth of the discharge passed; none where it flows at the end, or nothing has passed",
+          {[](const Run& r, const Place&, const Window&) { return flow_end(r).stop_time; }}, {{outlet}}),
+      Row("outlet_packing", "1",
+          "packing in the space of the outlet's width and as high above it, at the end: of an arch that stands there, "
+          "0.3 of the bed's at least",
+          at(outlet_packing), {{outlet}}),
       Row("mass_flow_half_angle_jenike", "deg",
           "half angle, from the vertical, up to which a cone empties in mass flow by hand: 90° − ½ acos((1 − sin φ)/(2 "
           "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ = asin M of the grains' friction M, their angle in "
@@ -152,11 +193,11 @@ std::vector<Row> hopper_vessel_measures() {
           }},
           {{cone}}),
       Row("wall_pressure_ratio", "1",
-          "K: stress across the upright walls, from their impulses over 20 ms before the gate opened, over the mean "
+          "K: stress across the upright walls, from their impulses over T before the gate opened, over the mean "
           "τ_zz of the bed at the same heights, in the last snapshot before",
           {wall_pressure_ratio}, {{has_upright_walls}}),
       Row("weight_balance_error_at_rest", "1",
-          "upward force of all walls, from their impulses over 20 ms before the gate opened, over M g, less 1",
+          "upward force of all walls, from their impulses over T before the gate opened, over M g, less 1",
           {balance_at_rest}, {{vessel}}),
   };
 }

@@ -98,6 +98,12 @@ Histogram histogram(std::span<const double> sample, double least, double most, s
   return result;
 }
 
+double student_t(double freedom) {
+  constexpr double x = 1.959963984540054, x3 = x * x * x, x5 = x3 * x * x, x7 = x5 * x * x;
+  return x + (x3 + x) / (4 * freedom) + (5 * x5 + 16 * x3 + 3 * x) / (96 * std::pow(freedom, 2)) +
+         (3 * x7 + 19 * x5 + 17 * x3 - 15 * x) / (384 * std::pow(freedom, 3));
+}
+
 double spearman_correlation(std::span<const double> x, std::span<const double> y) {
   require_pairs(x, y);
   const std::vector<double> x_rank = ranks(x), y_rank = ranks(y);

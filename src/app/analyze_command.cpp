@@ -21,6 +21,7 @@
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
 #include "io/vtkhdf.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::app {
 
@@ -89,7 +90,9 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
   const ModelEntry& model = model_of(resolved);
   ReadRuns runs;
+  auto waiting = std::make_unique<run::Waiting>("analysing the run, drawing pictures, writing the report");
   const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path(), runs);
+  if (model.answers) summary.answers = model.answers(resolved, folder.path(), quantities, runs);
   if (model.draw) model.draw(resolved, folder.path(), runs);
   std::erase_if(summary.quantities, [&](const NamedValue& old) {
     return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == old.name; });
@@ -97,6 +100,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   summary.quantities.insert(summary.quantities.begin(), quantities.begin(), quantities.end());
   write_summary(folder.summary(), summary);
   if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(folder.path(), runs);
+  waiting.reset();
   const Measured measured{.quantities = quantities, .columns = {}, .rows = {}};
   print("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
   return ExitStatus::done;

@@ -12,6 +12,7 @@
 #include "app/ensemble/report_entries.hpp"
 #include "base/terminal.hpp"
 #include "io/report/page.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::app {
 
@@ -42,7 +43,10 @@ ExitStatus report(const ReportOptions& options) {
   const std::filesystem::path path = !options.out.empty() ? std::filesystem::path(options.out)
                                      : one ? options.folders.front() / std::filesystem::path("report.html")
                                            : std::filesystem::path("report.html");
-  write_report(request, path, runs);
+  {
+    const run::Waiting waiting("writing the report");
+    write_report(request, path, runs);
+  }
   print("Report: {} ({:.1f} MB)\n", path.string(), static_cast<double>(std::filesystem::file_size(path)) / 1e6);
   return ExitStatus::done;
 }

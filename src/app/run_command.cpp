@@ -16,6 +16,7 @@
 #include "base/terminal.hpp"
 #include "io/run_folder.hpp"
 #include "numerics/warning.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::app {
 
@@ -51,7 +52,10 @@ ExitStatus run(const RunOptions& options) {
       options.out.empty() ? default_results(options.case_options.path) : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
   if (options.resume) keep_snapshot_interval(file, request.folder);
-  const PreparedCase prepared = prepare_case(file);
+  const PreparedCase prepared = [&] {
+    const run::Waiting waiting("reading and checking the case");
+    return prepare_case(file);
+  }();
   check_memory(prepared, file);
   for (const Warning& warning : warnings_of(prepared.regime))
     print("! {}\n", wrapped(warning.text, terminal_width(), 2, 2));

@@ -45,11 +45,17 @@ void write_summary(const std::filesystem::path& path, const Summary& summary) {
   for (const RegimeLine& line : summary.regime)
     regime.push_back(
         {{"quantity", line.quantity}, {"value", line.value}, {"meaning", line.meaning}, {"warning", line.warning}});
+  Json key_results = Json::array();
+  for (const Answer& answer : summary.answers) {
+    key_results.push_back({{"title", answer.question}, {"value", answer.answer}});
+    if (!answer.by_hand.empty()) key_results.back()["estimate"] = answer.by_hand;
+  }
   write_json(path, {{"status", summary.status},
                     {"wall_seconds", summary.wall_seconds},
                     {"instruction_set", summary.instruction_set},
                     {"warnings", summary.warnings},
                     {"regime", regime},
+                    {"key_results", key_results},
                     {"quantities", quantities}});
 }
 
@@ -60,6 +66,7 @@ Summary read_summary(const std::filesystem::path& path) {
                     .instruction_set = json.value("instruction_set", ""),
                     .quantities = {},
                     .warnings = {},
+                    .answers = {},
                     .regime = {}};
     for (const auto& [name, entry] : json.at("quantities").items())
       summary.quantities.push_back({name, entry.at("unit"), value_of(entry)});
@@ -67,6 +74,8 @@ Summary read_summary(const std::filesystem::path& path) {
     for (const Json& line : json.value("regime", Json::array()))
       summary.regime.push_back(
           {line.at("quantity"), line.at("value"), line.at("meaning"), line.at("warning").get<bool>()});
+    for (const Json& line : json.value("key_results", Json::array()))
+      summary.answers.push_back({line.at("title"), line.at("value"), line.value("estimate", "")});
     return summary;
   });
 }

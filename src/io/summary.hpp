@@ -4,7 +4,8 @@
 ///     {"status": "done", "wall_seconds": 12.3, "instruction_set": "avx2",
 ///      "warnings": ["mach-number: Mach number = 0.4: ..."],
 ///      "regime": [{"quantity": "Mach number", "value": "0.4", "meaning": "...", "warning": true}, ...],
-///      "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
+///      "key_results": [{"title": "Flow", "value": "has emptied after 2.3 s, 12 g (0.8 %) left", "estimate": "..."},
+///      ...], "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
 ///
 /// JSON has no numbers that are not finite: such a quantity has the value null and a "reason", one of "not a number",
 /// "infinite" and "minus infinity". It is written rather than left out, so that a reader sees that it was asked for.
@@ -25,6 +26,7 @@ struct Summary {
   std::string instruction_set = {};         ///< of the sum over pairs: the bits belong to it
   std::vector<NamedValue> quantities = {};  ///< names unique
   std::vector<std::string> warnings = {};   ///< where case or run leave what the laws assume, each after its name
+  std::vector<Answer> answers = {};         ///< the key results, each beside its analytical estimate
   std::vector<RegimeLine> regime = {};      ///< the card of a run that has ended, those that warn too
 
   /// \returns null if there is none

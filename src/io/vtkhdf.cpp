@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -10,6 +11,8 @@
 #include "io/atomic_file.hpp"
 #include "io/hdf5.hpp"
 #include "io/vtkhdf_unstructured.hpp"
+#include "numerics/geometry/sector.hpp"
+#include "numerics/whole.hpp"
 
 namespace talus {
 
@@ -42,6 +45,11 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
   }
 
   vtkhdf::write_time(file, snapshot.time, snapshot.step);
+  if (const auto& copies = snapshot.copies) {
+    file.write(root + "/FieldData/sector_copies", std::vector<std::int64_t>{copies->count}, "1");
+    file.write(root + "/FieldData/sector_axis", std::vector<Vector3>{copies->axis}, "m");
+    file.write(root + "/FieldData/sector_identities", std::vector<std::int64_t>{copies->identities}, "1");
+  }
   write_atomically(path, file.image());
 }
 
@@ -68,8 +76,9 @@ class PointsReader {
     if (file_.has(data_))
       for (const std::string& name : file_.names(data_)) read_column(name);
     read_time();
+    read_sector();
     stop_at_problems();
-    return std::move(points_);
+    return points_.copies ? whole_of(points_.view()) : std::move(points_);
   }
 
  private:
@@ -143,6 +152,25 @@ class PointsReader {
     points_.step = static_cast<std::uint64_t>(step[0]);
   }
 
+  void read_sector() {
+    const std::string name = root + "/FieldData/sector_";
+    if (!file_.has(name + "copies")) return;
+    constexpr std::int64_t most = std::int64_t{1} << 50;
+    const auto number = [&](const char* of) {
+      const std::vector<std::int64_t> values =
+          file_.has(name + of) ? file_.integers(name + of) : std::vector<std::int64_t>();
+      return values.size() == 1 ? values[0] : -1;
+    };
+    const std::int64_t count = number("copies"), identities = number("identities");
+    const std::vector<Vector3> axis = file_.has(name + "axis") ? file_.vectors(name + "axis") : std::vector<Vector3>();
+    if (count < Sector::fewest_copies || count > Sector::most_copies || identities < 0 || identities > most ||
+        axis.size() != 1)
+      return problem(
+          "field data 'sector_copies', 'sector_axis', 'sector_identities' describe no sector",
+          fmt::format("{} to {} copies, one axis, a number of identities", Sector::fewest_copies, Sector::most_copies));
+    points_.copies = SectorCopies{.axis = axis[0], .count = static_cast<int>(count), .identities = identities};
+  }
+
   /// The library would turn an integer beyond the range into the nearest one; as a real it shows.
   bool exceeds_64_bits(const std::string& name) const {
     for (const double value : file_.doubles(name))
@@ -166,6 +194,13 @@ class PointsReader {
 
 PointSet read_points(const std::filesystem::path& path) {
   return PointsReader(path).read();
+}
+
+int read_copies(const std::filesystem::path& path) {
+  const hdf5::Reader file(path);
+  const std::string name = root + "/FieldData/sector_copies";
+  const std::vector<std::int64_t> copies = file.has(name) ? file.integers(name) : std::vector<std::int64_t>();
+  return copies.size() == 1 ? static_cast<int>(std::clamp<std::int64_t>(copies[0], 1, Sector::most_copies)) : 1;
 }
 
 double read_points_time(const std::filesystem::path& path) {

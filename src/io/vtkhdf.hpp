@@ -6,6 +6,8 @@
 ///       Points  n x 3       the column "position"
 ///       PointData/NAME      every other column: n or n x 3 doubles, or n 64-bit integers
 ///       FieldData/time, step, TimeValue
+///       FieldData/sector_copies, sector_axis (1 x 3), sector_identities
+///                           of a sector, which stands in the file once: SectorCopies
 ///
 /// Every data set with a unit carries it in the attribute "units".
 /// Source: VTK File Formats, "VTKHDF file format", https://docs.vtk.org/en/latest/vtk_file_formats/vtkhdf_file_format/
@@ -24,10 +26,15 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot);
 
 /// Reads an unstructured grid or poly data of one time, ours or another program's: points and data of points; cells are
 /// passed over. Reals of any width become doubles, integers 64 bits; columns of k components other than 3 become
-/// k columns NAME_0 ... A missing unit is "1"; positions are taken as metres. Time and step are 0 where not given.
+/// k columns NAME_0 ... A missing unit is "1"; positions are taken as metres. Time and step are 0 where not given. Of a
+/// sector the particles of all copies (whole_of(), numerics/whole.hpp); a file without sector_copies holds the whole.
 /// \throws FileError if the file cannot be read or is damaged
 /// \throws InputError if it is no such file: all that is wrong with it
 PointSet read_points(const std::filesystem::path& path);
+
+/// How many times as many particles read_points() returns as the file of particles holds: the copies of a sector,
+/// else 1. \throws FileError
+int read_copies(const std::filesystem::path& path);
 
 /// The time of one of our files, of points or of a grid, s. \throws FileError
 double read_points_time(const std::filesystem::path& path);

@@ -40,7 +40,7 @@ bool Snapshot::has(std::string_view name) const {
 }
 
 Snapshot PointSet::view() const {
-  Snapshot snapshot{.time = time, .step = step, .columns = {}, .domain = nullptr};
+  Snapshot snapshot{.time = time, .step = step, .columns = {}, .domain = nullptr, .copies = copies};
   for (const Column& column : columns)
     snapshot.columns.push_back(
         {column.name, column.unit,

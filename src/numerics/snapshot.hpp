@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,15 @@ struct ColumnView {
   std::variant<std::span<const double>, std::span<const Vector3>, std::span<const std::int64_t>> values;
 };
 
+/// Says of columns that they are of one sector about an upright axis, of which the whole is so many copies
+/// (numerics/whole.hpp).
+struct SectorCopies {
+  Vector3 axis;                 ///< a place on it, m
+  int count = 1;                ///< of the sectors that make up the whole, itself counted
+  std::int64_t identities = 0;  ///< of particles in one copy: those of copy k are (identity + k identities) mod count
+                                ///< identities
+};
+
 /// The particles at one time. Valid as long as the state it was made from is unchanged. The column "position" is always
 /// there.
 struct Snapshot {
@@ -29,6 +39,7 @@ struct Snapshot {
   std::uint64_t step = 0;
   std::vector<ColumnView> columns;
   const Domain* domain = nullptr;  ///< where the particles are; null: no boundaries, or not known
+  std::optional<SectorCopies> copies = std::nullopt;
 
   /// Number of particles; 0 where a model has none, and no columns.
   std::size_t size() const;
@@ -50,6 +61,7 @@ struct PointSet {
   double time = 0;
   std::uint64_t step = 0;
   std::vector<Column> columns;
+  std::optional<SectorCopies> copies = std::nullopt;
 
   Snapshot view() const;
 };

@@ -17,6 +17,7 @@
 #include "run/progress.hpp"
 #include "run/snapshot_writer.hpp"
 #include "run/step_guard.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::run {
 
@@ -155,14 +156,20 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
 
   // The position of a run: at its start, or at the newest intact checkpoint.
   std::optional<CheckpointReader> checkpoint;
-  if (options.resume) checkpoint = checkpoints.load();
+  if (options.resume) {
+    const Waiting waiting("reading the checkpoint");
+    checkpoint = checkpoints.load();
+  }
   std::optional<SeriesWriter> series;
   if (checkpoint) {
     if (checkpoint->fingerprint() != options.fingerprint)
       throw InputError({{.where = checkpoint->path().string(),
                          .what = "this run was made with another case",
                          .allowed = "the same case to resume (only run.end may be later), or --overwrite"}});
-    model.resume(team, *checkpoint);
+    {
+      const Waiting waiting("finding neighbours");
+      model.resume(team, *checkpoint);
+    }
     std::uint64_t rows = 0;
     double wall = 0, cpu = 0;
     checkpoint->get("run/rows", rows);
@@ -175,7 +182,11 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     series = SeriesWriter::resume(folder / "series.csv", columns_of(row), rows);
     snapshots.resume(*checkpoint);
   } else {
-    model.begin(team);
+    {
+      const Waiting waiting("finding neighbours");
+      model.begin(team);
+    }
+    const Waiting waiting("writing the first files");
     series.emplace(folder / "series.csv", columns_of(row_of(model, observers)));
     add_row(*series);
     snapshots.take(model);
@@ -202,6 +213,8 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   LiveLine line(model, options);
   double last_checkpoint = clock.wall();
   LoopResult result;
+  constexpr double slow_step = 1;          // s: the next one is named while it lasts
+  double seconds_of_step = 2 * slow_step;  // of the last; the first builds what it needs
   while (!(model.time() >= model.time_origin() + options.end)) {
     if (const auto reason = interrupt.reason()) {
       result.interrupted = true;
@@ -214,7 +227,13 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
     }
     const double time_before = model.time();
     const bool begun = !std::isinf(model.time_origin());
-    model.advance(team);
+    {
+      std::optional<Waiting> waiting;
+      if (seconds_of_step > slow_step) waiting.emplace(fmt::format("step {}", model.step() + 1));
+      const auto began = std::chrono::steady_clock::now();
+      model.advance(team);
+      seconds_of_step = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    }
     check_step(guard, model, time_before, begun);
     if (model.time() >= next_row_time) add_row(*series);
     if (snapshots.is_due(model.time())) snapshots.take(model);
@@ -226,6 +245,7 @@ LoopResult run_loop(AnyModel& model, ThreadTeam& team, const std::filesystem::pa
   }
   line.finish();
   if (!result.ended.empty() && row.front().value < model.time()) add_row(*series);
+  const Waiting waiting("writing the last files");
   if (!result.interrupted) snapshots.take_last(model);
   save();
   result.wall_seconds = clock.wall();

@@ -95,7 +95,7 @@ bool Progress::is_due(Clock::time_point clock, double now) const {
 
 std::string Progress::time_left(Clock::time_point clock, double now) const {
   const double speed = (now - samples_.front().now) / seconds(clock - samples_.front().clock);
-  const auto lasts = [&](double length) { return format_seconds(length / speed); };
+  const auto lasts = [&](double length) { return format_seconds(std::max(0.0, length) / speed); };
   if (!phase_.name.empty())
     return fmt::format("{}, at most {}{}", phase_.name, speed > 0 ? lasts(phase_.end - now) : "until its limit",
                        speed > 0 && phase_.after > 0 ? ", then about " + lasts(phase_.after) : "");

@@ -27,7 +27,7 @@ Series pressed() {
 
 TEST(BandLoads, AreForcesOverTheAreaAtRestInFlowAndAtTheirLargest) {
   const BandOfWall band{.name = "wall_2", .patch = 0, .low = 0, .high = 1, .area = 2, .sine = 0};
-  const BandLoad load = load_of(pressed(), band, 0.1, 0.1, 0.2);
+  const BandLoad load = load_of(pressed(), band, 0.1, 0.1, 0.2, 20e-3);
   EXPECT_NEAR(load.pressure_at_rest, 3, 1e-9);
   EXPECT_NEAR(load.shear_at_rest, 1.5, 1e-9);
   EXPECT_NEAR(load.pressure_in_flow, 2, 1e-9);
@@ -38,12 +38,12 @@ TEST(BandLoads, AreForcesOverTheAreaAtRestInFlowAndAtTheirLargest) {
 
 TEST(BandLoads, ALevelBandHasNoShearAndARunWithoutRestNoLoadAtRest) {
   const BandOfWall floor{.name = "floor", .patch = 1, .low = 0, .high = 0, .area = 4, .sine = 1};
-  const BandLoad load = load_of(pressed(), floor, 0, 0.25, 0.3);
+  const BandLoad load = load_of(pressed(), floor, 0, 0.25, 0.3, 20e-3);
   EXPECT_TRUE(std::isnan(load.pressure_at_rest));
   EXPECT_TRUE(std::isnan(load.shear_in_flow));
   EXPECT_NEAR(load.pressure_in_flow, 2, 1e-9);
-  EXPECT_TRUE(curves_of(pressed(), floor, 0.1).shear.time.empty());
-  const Curve pressure = curves_of(pressed(), floor, 0.1).pressure;
+  EXPECT_TRUE(curves_of(pressed(), floor, 0.1, 20e-3).shear.time.empty());
+  const Curve pressure = curves_of(pressed(), floor, 0.1, 20e-3).pressure;
   EXPECT_NEAR(pressure.value.front(), 3, 1e-9);
   EXPECT_NEAR(pressure.time.front(), -0.095, 1e-9);
 }

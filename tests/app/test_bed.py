@@ -157,6 +157,10 @@ class File(BedTest):
         self.lay("x [mm],y [mm],z [mm]\n")
         self.assertRegex(self.problems("check", "case.toml")[0], "has no particles")
 
+    def test_a_file_that_is_not_there_is_a_fault_of_the_case(self):
+        self.write(BIN.replace('bottom = "40 mm"\nheight = "12 mm"\n', 'file = "none.csv"\n'))
+        self.assertRegex(self.problems("check", "case.toml")[0], r"case\.toml:\d+: bed\.file: .*none\.csv")
+
     def test_faults_of_case_and_file_are_told_together(self):
         self.lay("x [mm],y [mm]\n28,30\n")
         said = self.problems("check", "case.toml", "--set", "bed.left=1 mm", "--set", "walls.coefficient=-1")

@@ -86,6 +86,11 @@ class Content(ProgramTest):
         self.assertIn("upward force of floor and plate", page.header["definitions"]["floor_stress_settled"])
         self.assertEqual(run["regime"], summary["regime"])
         self.assertTrue(run["regime"])
+
+        # The key results of the summary, and a time at which the gate is open.
+        self.assertEqual([line["title"] for line in run["key_results"]], [line["title"] for line in summary["key_results"]])
+        self.assertEqual(run["key_results"][0]["title"], "Flow")
+        self.assertGreaterEqual(run.get("telling_time", 0), 0)
         self.assertEqual(run["case"], json.loads((self.folder / "r/manifest.json").read_text())["case"])
         series = next(t for t in run["tables"] if t["name"] == "series")
         times = page.numbers(series["columns"][0]["block"])
@@ -151,6 +156,10 @@ class InABrowser(ProgramTest):
         page = self.open(self.folder / "r/report.html")
         canvas = "document.getElementById('canvas').toDataURL()"
         seen = [page.evaluate(canvas)]
+        results = page.evaluate("document.getElementById('key-results-body').textContent")
+        self.assertRegex(results, "Flow.*Steady discharge.*Pressure at rest, plate")
+        top = "document.getElementById('{}').getBoundingClientRect().top"
+        self.assertLess(page.evaluate(top.format("key-results")), page.evaluate(top.format("view")), "they stand first")
         clock = "document.getElementById('clock').textContent"
         before = page.evaluate(clock)
 
@@ -180,7 +189,8 @@ class InABrowser(ProgramTest):
         # The keys: play, then the first frame.
         page.evaluate("document.getElementById('canvas').focus()")
         page.key("Home")
-        self.assertEqual(page.evaluate(clock), before)
+        first = page.evaluate(clock)
+        self.assertNotEqual(first, before, "it opens with the gate open, not at the first frame")
         page.key(" ", " ")
         self.assertEqual(page.evaluate("document.getElementById('play').textContent"), "Pause")
         page.key(" ", " ")

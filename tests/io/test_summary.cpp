@@ -27,11 +27,14 @@ TEST(Summary, StandsInTheDocumentedForm) {
                                           .instruction_set = "avx2",
                                           .quantities = {{"front_speed_max", "1", 0.1}, {"angle", "deg", NAN}},
                                           .warnings = {"mach-number: Mach number = 0.4: too fast"},
+                                          .answers = {{"Flow", "has emptied after 2 s", ""}, {"Rate", "1", "2"}},
                                           .regime = {{"Mach number", "0.4", "too fast", true}}});
   EXPECT_EQ(nlohmann::json::parse(content_of(folder / "summary.json")), nlohmann::json::parse(R"({
     "status": "done", "wall_seconds": 1.5, "instruction_set": "avx2",
     "warnings": ["mach-number: Mach number = 0.4: too fast"],
-    "regime": [{"quantity": "Mach number", "value": "0.4", "meaning": "too fast", "warning": true}], "quantities": {
+    "regime": [{"quantity": "Mach number", "value": "0.4", "meaning": "too fast", "warning": true}],
+    "key_results": [{"title": "Flow", "value": "has emptied after 2 s"}, {"title": "Rate", "value": "1", "estimate": "2"}],
+    "quantities": {
       "front_speed_max": {"value": 0.1, "unit": "1"},
       "angle": {"value": null, "unit": "deg", "reason": "not a number"}}})"));
 }
@@ -42,11 +45,15 @@ TEST(Summary, ReadsBackEveryValueInOrder) {
   Summary written{
       .status = "stopped: \"walltime\"", .wall_seconds = 0.1, .instruction_set = "avx512", .warnings = {"a: b", "c"}};
   written.regime = {{"a", "1", "b", true}, {"d", "2", "e", false}};
+  written.answers = {{"Flow", "has emptied after 2 s", ""}, {"Rate", "1", "2"}};
   for (std::size_t i = 0; i < values.size(); ++i)
     written.quantities.push_back({fmt::format("z{}", 10 - i), "m/s", values[i]});
   write_summary(folder / "summary.json", written);
   const Summary read = read_summary(folder / "summary.json");
   ASSERT_EQ(read.regime.size(), 2);
+  ASSERT_EQ(read.answers.size(), 2);
+  EXPECT_EQ(read.answers[0].answer, "has emptied after 2 s");
+  EXPECT_EQ(read.answers[1].by_hand, "2");
   EXPECT_EQ(read.regime[1].meaning, "e");
   EXPECT_TRUE(read.regime[0].warning && !read.regime[1].warning);
   EXPECT_EQ(read.status, written.status);

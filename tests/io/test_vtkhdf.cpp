@@ -49,6 +49,30 @@ TEST(VtkHdf, ReadsBackBitForBit) {
   expect_same_bits(std::get<0>(read.columns[2].values), std::get<0>(written.columns[0].values));
 }
 
+TEST(VtkHdf, OfASectorHoldsItOnceAndReadsTheWhole) {
+  const ScratchFolder folder;
+  PointSet part{.time = 1,
+                .step = 2,
+                .columns = {{"identity", "1", std::vector<std::int64_t>{0}},
+                            {"position", "m", std::vector<Vector3>{{2, 1, 5}}},
+                            {"velocity", "m/s", std::vector<Vector3>{{1, 0, 0}}}},
+                .copies = SectorCopies{.axis = {1, 1, 0}, .count = 4, .identities = 1}};
+  write_points(folder / "p.vtkhdf", part.view());
+  EXPECT_EQ(hdf5::Reader(folder / "p.vtkhdf").describe("VTKHDF/Points").shape[0], 1u);
+  const PointSet read = read_points(folder / "p.vtkhdf");
+  const Snapshot whole = read.view();
+  ASSERT_EQ(whole.size(), 4u);
+  EXPECT_LT(norm(whole.positions()[1] - Vector3{1, 2, 5}), 1e-15);
+  EXPECT_LT(norm(whole.vectors("velocity")[3] - Vector3{0, -1, 0}), 1e-15);
+  EXPECT_THAT(whole.integers("identity"), ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(read_copies(folder / "p.vtkhdf"), 4);
+  write_points(folder / "whole.vtkhdf", sample().view());
+  EXPECT_EQ(read_copies(folder / "whole.vtkhdf"), 1);
+  part.copies->count = 3;
+  write_points(folder / "q.vtkhdf", part.view());
+  EXPECT_THAT(message_of<InputError>([&] { read_points(folder / "q.vtkhdf"); }), HasSubstr("describe no sector"));
+}
+
 TEST(VtkHdf, LeavesOneFileWhoseBytesDependOnTheSnapshotAlone) {
   const ScratchFolder folder;
   write_points(folder / "a.vtkhdf", sample().view());

@@ -76,6 +76,92 @@ class OnARun(unittest.TestCase):
         return copy
 
 
+SECTOR = """model = "continuum"
+[box]
+width = "60 mm"
+depth = "60 mm"
+height = "60 mm"
+sector = "20 deg"
+floor = "open"
+[removal]
+below = "1 mm"
+[[vessel]]
+name = "wall"
+shape = "cylinder"
+radius = "20 mm"
+bottom = "10 mm"
+top = "55 mm"
+[[vessel]]
+name = "gate"
+shape = "disc"
+radius = "20 mm"
+height = "10 mm"
+gate = true
+[gate]
+opens = "at-time"
+time = "1 ms"
+[grains]
+density = "2500 kg/m3"
+diameter = "200 um"
+[bed]
+packing = 0.6
+spacing = "4 mm"
+height = "12 mm"
+[law]
+name = "critical-state"
+[collisions]
+form = "none"
+[run]
+end = "2 ms"
+[output]
+snapshots = "1 ms"
+series = "0.1 ms"
+pictures = false
+report = false
+"""
+
+
+class OfASector(unittest.TestCase):
+    """A file holds the sector once; what is read is the whole, as the program counts it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="talus-python-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "case.toml").write_text(SECTOR)
+        subprocess.run([PROGRAM, "run", "case.toml", "--out", "run"], cwd=cls.folder, check=True, capture_output=True)
+        cls.read = talus.Run(cls.folder / "run")
+        cls.last = cls.read.snapshots[-1]
+
+    def test_the_file_holds_it_once(self):
+        with h5py.File(self.last.path) as file:
+            own = len(file["VTKHDF/Points"])
+        self.assertEqual(self.last.copies, 18)
+        self.assertEqual(len(self.last.positions), 18 * own)
+        for name in self.last:
+            self.assertEqual(len(self.last[name]), 18 * own, name)
+        self.assertEqual(len(np.unique(self.last["identity"])), 18 * own)
+
+    def test_the_whole_is_round(self):
+        from_axis = np.asarray(self.last.positions) - [0.03, 0.03, 0]
+        self.assertLess(abs(from_axis[:, :2].sum(axis=0)).max(), 1e-12)
+        outwards = (np.asarray(self.last["velocity"]) * from_axis * [1, 1, 0]).sum(axis=1).reshape(18, -1)
+        np.testing.assert_allclose(outwards, np.broadcast_to(outwards[0], outwards.shape), atol=1e-15)
+        trace = (self.last["stress_xx"] + self.last["stress_yy"]).reshape(18, -1)
+        scale = abs(np.asarray(trace)).max() + 1e-30
+        np.testing.assert_allclose(trace / scale, np.broadcast_to(trace[0] / scale, trace.shape), atol=1e-12)
+        xx, xy = np.asarray(self.last["stress_xx"]).reshape(18, -1), np.asarray(self.last["stress_xy"]).reshape(18, -1)
+        yy = np.asarray(self.last["stress_yy"]).reshape(18, -1)
+        size = xx**2 + 2 * xy**2 + yy**2
+        np.testing.assert_allclose(size, np.broadcast_to(size[0], size.shape), rtol=1e-9, atol=1e-9 * size.max())
+
+    def test_totals_and_measures_are_of_the_whole(self):
+        self.assertLess(abs(self.read.summary["mass_error"]), 1e-12)
+        self.assertAlmostEqual(self.read.summary["residual_mass"] / (0.6 * 2500 * np.pi * 0.02**2 * 0.012), 1, delta=0.1)
+        value, _ = self.read.key_results["Flow"]
+        self.assertRegex(value, r"has not started|still flows")
+
+
 class Reading(OnARun):
     def test_case_has_units(self):
         case = self.read.case

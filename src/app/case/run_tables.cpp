@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "io/run_folder.hpp"
+#include "io/vtkhdf.hpp"
 
 namespace talus::app {
 
@@ -15,9 +16,11 @@ std::vector<std::filesystem::path> snapshot_paths(const std::filesystem::path& r
 }
 
 std::size_t snapshots_in_memory(const std::vector<std::filesystem::path>& paths, std::size_t bytes) {
-  constexpr std::size_t unpacked = 2;  // of a snapshot in memory over its file
+  constexpr std::size_t unpacked = 2;  // of a snapshot in memory over its file, of a sector for each copy
   std::error_code none;
-  const std::size_t size = paths.empty() ? 1 : std::filesystem::file_size(paths.front(), none);
+  const std::size_t size = paths.empty() ? 1
+                                         : std::filesystem::file_size(paths.front(), none) *
+                                               static_cast<std::size_t>(read_copies(paths.front()));
   return std::max<std::size_t>(2, bytes / (unpacked * std::max<std::size_t>(size, 1)));
 }
 

@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <optional>
 #include <string>
 
 #include "analysis/hopper.hpp"
+#include "analysis/hopper_estimators.hpp"
+#include "app/continuum/engineering_units.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
+#include "models/continuum/state.hpp"
+#include "models/continuum/time_scale.hpp"
+#include "models/continuum/vessel_outlets.hpp"
 
 namespace talus::app {
 
@@ -19,8 +25,9 @@ namespace {
 
 using continuum::VesselShape;
 
-constexpr double hardly = 0.01;     // of the largest pressure
+constexpr double hardly = 0.05;     // of the largest pressure on any wall
 constexpr double mass_flow = 0.99;  // of the particles move: measure share_that_moves
+constexpr double arch = 0.3;        // of the bed's packing above the outlet: measure outlet_packing
 
 /// A quantity of the summary; nan if it has none.
 double value_of(const std::vector<NamedValue>& quantities, std::string_view name) {
@@ -29,19 +36,13 @@ double value_of(const std::vector<NamedValue>& quantities, std::string_view name
   return found != quantities.end() ? found->value : HopperRun::none;
 }
 
-/// Three digits, and the error to the same place.
-std::string with_error(double number, double error) {
-  const int places = number > 0 ? std::max(0, 2 - static_cast<int>(std::floor(std::log10(number)))) : 3;
-  return fmt::format("{:.{}f} ± {:.{}f}", number, places, error, places);
-}
-
 std::string formula_of_discharge(const continuum::Parameters& p) {
   const auto outlet = continuum::outlet_of_vessel(p);
   if (!outlet || !outlet->round) return "Beverloo by the hydraulic diameter, flat bottom";
   return half_angle_of_cone(p) < std::numbers::pi / 4 ? "Beverloo; Rose & Tanaka" : "Beverloo";  // nan: no cone
 }
 
-const char* kind_of(bool all_moves) {
+const char* regime_of(bool all_moves) {
   return all_moves ? "mass flow" : "funnel flow";
 }
 
@@ -52,36 +53,161 @@ std::vector<Answer> answers_of_outlets(const continuum::Parameters& p, const std
     const double rate = value_of(quantities, "discharge_rate_" + outlet.name),
                  hand = value_of(quantities, "discharge_rate_beverloo_" + outlet.name);
     if (!std::isfinite(rate)) continue;
-    answers.push_back({"steady discharge through " + outlet.name, fmt::format("{:.3g} kg/s", rate), {}});
-    if (hand > 0) answers.back().by_hand = fmt::format("{:.3g} kg/s", hand);
+    answers.push_back({"Steady discharge through " + outlet.name, rate_text(rate, HopperRun::none), {}});
+    if (hand > 0) answers.back().by_hand = rate_text(hand, HopperRun::none);
   }
   return answers;
 }
 
-/// Of each wall of the vessel the band with the largest pressure at rest; walls that bear next to none are left out.
-std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const std::filesystem::path& table) {
-  if (!std::filesystem::exists(table)) return {};
-  const Series loads = read_series(table);
-  const auto patch = loads.column("patch"), low = loads.column("low"), high = loads.column("high"),
-             pressure = loads.column("pressure_at_rest"), by_hand = loads.column("pressure_at_rest_by_hand");
-  const double most = std::accumulate(pressure.begin(), pressure.end(), 0.0,
-                                      [](double a, double b) { return b > a ? b : a; });  // some may be nan
+/// The flow through the outlet. \param of a quantity of the summary
+class FlowAnswers {
+ public:
+  FlowAnswers(const continuum::Parameters& parameters, const std::vector<NamedValue>& quantities)
+      : p_(parameters), quantities_(quantities), left_(of("residual_fraction")) {}
+
+  std::vector<Answer> all() const {
+    if (!std::isfinite(left_)) return {};
+    std::vector<Answer> answers = {end()};
+    if (!p_.vessel.empty()) answers.push_back(regime());
+    answers.push_back(steady_discharge());
+    if (const double peak = of("discharge_rate_max"); peak > 0)
+      answers.push_back(
+          {fmt::format("Peak discharge ({} average)", time_text(time_scales_of(p_).averaging_time)),
+           fmt::format("{} after {}", rate_text(peak, HopperRun::none), time_text(of("discharge_rate_max_time"))),
+           {}});
+    answers.push_back({"Emptying time (99 %)",
+                       std::isfinite(of("emptying_time")) ? time_text(of("emptying_time")) : "not reached",
+                       {}});
+    if (const double estimate = of("emptying_time_by_hand"); estimate > 0)
+      answers.back().by_hand = time_text(estimate) + " (at the estimated discharge)";
+    return answers;
+  }
+
+ private:
+  double of(std::string_view name) const { return value_of(quantities_, name); }
+  double discharged() const { return 1 - left_; }
+  std::string too_little() const {
+    return fmt::format("not yet known: {} has left, {} needed", share_text(discharged()),
+                       share_text(hopper::share_of_regime));
+  }
+
+  Answer end() const {
+    const std::string rest = of("residual_mass") > 0 ? fmt::format("{} ({}) left", mass_text(of("residual_mass")),
+                                                                   share_text(std::abs(left_)))
+                                                     : "nothing left";
+    const double stopped = of("flow_stop_time"), emptied = of("emptying_time");
+    Answer answer{.question = "Flow", .answer = {}};
+    if (std::isfinite(emptied))
+      answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
+    else if (std::isfinite(stopped))
+      answer.answer = fmt::format(
+          "has stopped after {} with {}: {}", time_text(stopped), rest,
+          of("outlet_packing") >= arch * p_.bed.packing ? "arch over the outlet" : "stagnant at its angle of repose");
+    else if (!(discharged() > 1e-9))
+      answer.answer = fmt::format("has not started: {}", rest);
+    else
+      answer.answer = fmt::format("still flows at the end of the run: {}", rest);
+    return answer;
+  }
+
+  Answer regime() const {
+    Answer answer{.question = "Flow regime", .answer = {}};
+    if (const double share = of("share_that_moves"); std::isfinite(share))
+      answer.answer = fmt::format("{}, stagnant zone {}", regime_of(share >= mass_flow), share_text(1 - share));
+    else
+      answer.answer = discharged() < hopper::share_of_regime ? too_little() : "not known: no snapshots while it flowed";
+    const double own = half_angle_of_cone(p_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
+    if (std::isfinite(own) && std::isfinite(most))
+      answer.by_hand =
+          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike)", regime_of(own <= most), own, most);
+    return answer;
+  }
+
+  Answer steady_discharge() const {
+    const double rate = of("discharge_steady"), error = of("discharge_steady_error"),
+                 estimate = of("discharge_rate_beverloo");
+    Answer answer{.question = "Steady discharge", .answer = {}};
+    if (std::isfinite(rate))
+      answer.answer =
+          rate_text(rate, error) + (std::isfinite(error) ? " (95 % interval)" : " (too short for an uncertainty)");
+    else
+      answer.answer =
+          discharged() < hopper::steady_from ? too_little() : "none: it did not stay within 10 % for long enough";
+    if (estimate > 0)
+      answer.by_hand = fmt::format("{} ({})", rate_text(estimate, HopperRun::none), formula_of_discharge(p_));
+    return answer;
+  }
+
+  const continuum::Parameters& p_;
+  const std::vector<NamedValue>& quantities_;
+  double left_;
+};
+
+/// The rows of a table of loads that are of one wall.
+class LoadsOfWall {
+ public:
+  LoadsOfWall(const Series& table, std::string_view column, double wall) : table_(table) {
+    const auto of = table.column(column);
+    for (std::size_t n = 0; n < of.size(); ++n)
+      if (of[n] == wall) rows_.push_back(n);
+  }
+
+  /// The row with the largest value; nothing where there is none, or where all are below `least`.
+  std::optional<std::size_t> largest(std::string_view column, double least) const {
+    const auto values = table_.column(column);
+    std::optional<std::size_t> found;
+    for (const std::size_t n : rows_)
+      if (values[n] > least && (!found || values[n] > values[*found])) found = n;
+    return found;
+  }
+
+  double at(std::string_view column, std::size_t row) const {
+    return table_.has(column) ? table_.column(column)[row] : HopperRun::none;
+  }
+
+  /// "1.2 kPa at z = 75 mm"; the height where it is given and the wall is not level.
+  std::string text(std::string_view column, std::size_t row) const {
+    std::string text = pressure_text(at(column, row));
+    if (at("high", row) > at("low", row))
+      text += fmt::format(" at z = {}", length_text(0.5 * (at("low", row) + at("high", row))));
+    return text;
+  }
+
+ private:
+  const Series& table_;
+  std::vector<std::size_t> rows_;
+};
+
+/// Of each wall the largest pressure at rest, in flow and at its peak; walls that carry almost no load are left out.
+/// \param flows whether enough has left to speak of a flow
+std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const Series& table, std::string_view column,
+                                     std::size_t walls, const auto& name, const auto& formula, bool flows) {
+  double most = 0;
+  for (const std::string_view of : {"pressure_at_rest", "pressure_largest"})
+    for (const double pressure : table.column(of))
+      if (pressure > most) most = pressure;  // some may be nan
+  const std::string peak = fmt::format("Peak pressure ({} average)", time_text(time_scales_of(p).peak_time()));
+  struct Kind {
+    std::string title;
+    const char *pressure, *estimate;
+  };
+  std::vector<Kind> kinds = {{"Pressure at rest", "pressure_at_rest", "pressure_at_rest_by_hand"}};
+  if (flows) kinds.push_back({"Pressure in flow", "pressure_in_flow", "pressure_in_flow_by_hand"});
+  kinds.push_back({peak, "pressure_largest", nullptr});
   std::vector<Answer> answers;
-  for (std::size_t v = 0; v < p.vessel.size(); ++v) {
-    std::size_t largest = patch.size();
-    for (std::size_t n = 0; n < patch.size(); ++n)
-      if (patch[n] == static_cast<double>(v + 1) && pressure[n] > hardly * most && high[n] > low[n] &&
-          (largest == patch.size() || pressure[n] > pressure[largest]))
-        largest = n;
-    if (largest == patch.size()) continue;
-    Answer answer{
-        .question = "largest pressure at rest, " + p.vessel[v].name,
-        .answer = fmt::format("{:.3g} Pa at z = {:.3g} mm", pressure[largest], 500 * (low[largest] + high[largest])),
-        .by_hand = {}};
-    if (std::isfinite(by_hand[largest]))
-      answer.by_hand = fmt::format("{:.3g} Pa ({})", by_hand[largest],
-                                   p.vessel[v].shape == VesselShape::cone ? "Walker" : "Janssen");
-    answers.push_back(std::move(answer));
+  for (std::size_t w = 0; w < walls; ++w) {
+    const LoadsOfWall loads(table, column, static_cast<double>(w + 1));
+    for (const Kind& kind : kinds) {
+      if (!table.has(kind.pressure)) continue;
+      const auto row = loads.largest(kind.pressure, hardly * most);
+      if (!row) continue;
+      Answer answer{.question = fmt::format("{}, {}", kind.title, name(w)), .answer = loads.text(kind.pressure, *row)};
+      if (!kind.estimate)
+        answer.answer += fmt::format(", after {}", time_text(loads.at("time_of_largest", *row)));
+      else if (const double estimate = loads.at(kind.estimate, *row); std::isfinite(estimate))
+        answer.by_hand = fmt::format("{} ({})", pressure_text(estimate), formula(w));
+      answers.push_back(std::move(answer));
+    }
   }
   return answers;
 }
@@ -90,15 +216,9 @@ std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const std::
 
 std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector<NamedValue>& quantities,
                                const std::filesystem::path& run_folder) {
-  if (p.vessel.empty()) return {};
-  const auto value = [&](std::string_view name) { return value_of(quantities, name); };
-  std::vector<Answer> answers;
-  if (const double rate = value("discharge_steady"); std::isfinite(rate)) {
-    answers.push_back({"steady discharge", with_error(rate, value("discharge_steady_error")) + " kg/s", {}});
-    if (const double hand = value("discharge_rate_beverloo"); hand > 0)
-      answers.back().by_hand = fmt::format("{:.3g} kg/s ({})", hand, formula_of_discharge(p));
-  }
+  std::vector<Answer> answers = FlowAnswers(p, quantities).all();
   for (Answer& answer : answers_of_outlets(p, quantities)) answers.push_back(std::move(answer));
+<<<<<<< HEAD
   if (const double left = value("residual_fraction"); std::isfinite(left)) {
     const double time = value("emptying_time"), hand = value("emptying_time_by_hand");
     answers.push_back(
@@ -119,6 +239,25 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
     answers.push_back({"walls bear at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
   std::vector<Answer> walls = answers_of_walls(p, run_folder / "analysis" / "wall_loads.csv");
   answers.insert(answers.end(), walls.begin(), walls.end());
+=======
+  const double left = value_of(quantities, "residual_fraction");
+  const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
+  if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
+    answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
+  const auto add = [&](const char* table, const char* column, std::size_t walls, const auto& name,
+                       const auto& formula) {
+    const std::filesystem::path path = run_folder / "analysis" / table;
+    if (!std::filesystem::exists(path)) return;
+    for (Answer& answer : answers_of_walls(p, read_series(path), column, walls, name, formula, flows))
+      answers.push_back(std::move(answer));
+  };
+  add(
+      "wall_loads.csv", "patch", p.vessel.size(), [&](std::size_t w) { return continuum::name_of(p, w); },
+      [&](std::size_t w) { return p.vessel[w].shape == VesselShape::cone ? "Walker" : "Janssen"; });
+  add(
+      "box_walls.csv", "wall", continuum::wall_names.size(),
+      [](std::size_t w) { return std::string(continuum::wall_names[w]); }, [](std::size_t) { return "Janssen"; });
+>>>>>>> main
   return answers;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a run of a vessel answers, in the words of its user, each number beside that of the hand formula.
+/// The key results of a run with an outlet or walls: what its user asks, in the units of an engineer, each beside its
+/// analytical estimate.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +11,10 @@
 
 namespace talus::app {
 
-/// Discharge, emptying time, residue, kind of flow and, of each upright or conical wall, the largest pressure at rest;
-/// what the case does not have is left out. \param quantities of the summary \param run_folder with
-/// analysis/wall_loads.csv, if the vessel has loads \throws FileError
+/// First how the flow ended: emptied, stopped (when, with how much left), not begun, or still flowing. Then flow
+/// regime, steady and peak discharge, emptying time, and of each wall the largest pressure at rest, in flow and at its
+/// peak. What cannot be known yet says so; what the case does not have is left out. \param quantities of the summary
+/// \param run_folder with analysis/wall_loads.csv and analysis/box_walls.csv, if there are loads \throws FileError
 std::vector<Answer> answers_of(const continuum::Parameters& parameters, const std::vector<NamedValue>& quantities,
                                const std::filesystem::path& run_folder);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analysis/discharge.hpp"
+#include "analysis/hopper_estimators.hpp"
 #include "analysis/residence.hpp"
 #include "app/case/run_tables.hpp"
 #include "app/continuum/hand_formulas.hpp"
@@ -18,6 +19,7 @@
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_grid.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/surface/section.hpp"
@@ -26,12 +28,10 @@ namespace talus::app {
 
 namespace {
 
-constexpr double time_of_mean_speed = 20e-3;  // s, estimator.quiescent_speed
-
-/// Of the snapshots before the n-th, the one whose time is nearest to 20 ms before; nothing if there is none.
-std::optional<std::size_t> earlier(const std::vector<double>& time, std::size_t n) {
+/// Of the snapshots before the n-th, the one whose time is nearest to so much before; nothing if there is none.
+std::optional<std::size_t> earlier(const std::vector<double>& time, std::size_t n, double before) {
   if (n == 0) return std::nullopt;
-  return nearest_point(std::span(time).first(n), time[n] - time_of_mean_speed);
+  return nearest_point(std::span(time).first(n), time[n] - before);
 }
 
 /// The snapshot of the air taken with one of the particles.
@@ -50,7 +50,7 @@ class Reader {
     auto loaded = std::make_shared<Loaded>(setting_, points(n), gate_time_);
     Loaded* kept = loaded.get();
     kept->snapshot.before = [this, kept, n]() -> const Snapshot* {
-      const auto before = earlier(time_, n);
+      const auto before = earlier(time_, n, setting_.averaging_time);
       if (before && !kept->before) {
         kept->before = points(*before);
         kept->earlier = kept->before->view();
@@ -159,13 +159,22 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .level_ground = !p.wedge.half_angle && p.plates.empty() && p.vessel.empty(),
                         .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
   setting.hand_discharge = discharge_by_hand(p);
+  const continuum::TimeScales scales = continuum::time_scales_of(p);
+  setting.averaging_time = scales.averaging_time;
+  setting.time_scale = scales.time;
+  setting.bed_packing = p.bed.packing;
+  setting.outlet_width = continuum::outlet_width(p).value_or(0);
+  setting.outlet_depth = p.box.depth;
   if (!p.vessel.empty()) {
     setting.middle = middle_of_vessel(p);
     setting.section = section_of_vessel(p);
     setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(p);
     setting.bands = bands_of(p);
-    if (const auto outlet = continuum::outlet_of_vessel(p); outlet && !outlet->round)
-      setting.outlet_length = outlet->length;
+    if (const auto outlet = continuum::outlet_of_vessel(p)) {
+      setting.outlet_depth = outlet->depth;
+      setting.outlet_is_round = outlet->round;
+      if (!outlet->round) setting.outlet_length = outlet->length;
+    }
     if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
       for (const continuum::VesselOutlet& outlet : outlets)
         setting.outlets.push_back({outlet.name, discharge_by_hand(p, outlet), outlet.narrow});
@@ -201,8 +210,9 @@ std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folde
   make_folder(folder);
   write_snapshots(folder / "snapshots.csv", run, hopper_measures(), "s");
   if (setting.shape.plate)
-    write_table(folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
-                mean_rates(passed_mass(run), 20e-3, 5e-3, 0, run.end()));
+    write_table(
+        folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
+        mean_rates(passed_mass(run), hopper::averages(run).largest, hopper::averages(run).curve_every, 0, run.end()));
   if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
     if (setting.shape.plate && !setting.section.empty()) write_residence(folder / "residence.csv", run, paths);
     const PointSet last = read_points(paths.back());

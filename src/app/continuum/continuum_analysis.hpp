@@ -24,7 +24,7 @@ HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetti
                       std::size_t snapshot_memory);
 
 /// Writes analysis/snapshots.csv (a column per measure), analysis/surfaces.csv (both free surfaces at the end)
-/// and, with a plate, analysis/discharge.csv (20 ms means, one every 5 ms); with the outlet of a vessel
+/// and, with a plate, analysis/discharge.csv (means over T, one every T/4); with the outlet of a vessel
 /// analysis/residence.csv (when ten layers of the bed leave it); returns the summary's quantities.
 /// \throws FileError
 std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folder, const HopperRun& run);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/hopper_estimators.hpp"
 #include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
 #include "app/case/stopwatch.hpp"
@@ -80,7 +81,7 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
         {"settling", f.settling_steps, f.settling_steps, f.most_settling_steps / f.settling_steps});
   forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
   const double rows = run.series > 0 ? run.end / run.series : f.most_settling_steps + f.flow_steps;
-  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.written + 45 * f.cells + 20e3) +
+  forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
                         2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
   return forecast;
 }
@@ -142,18 +143,14 @@ std::vector<Problem> read_surfaces(const CaseFile& file, Parameters& p) {
   return problems;
 }
 
-/// The same of the particles of bed.file. \returns the faults of the file
+/// The same of the particles of bed.file. \throws InputError with the faults of the file
 std::vector<Problem> read_given_bed(const CaseFile& file, Parameters& p) {
   std::vector<Problem> problems;
   const CaseEntry* entry = file.find("bed.file");
   const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-  if (!name || name->empty()) return problems;
-  try {
+  if (name && !name->empty())
     read_input("bed.file", problems,
                [&] { p.bed.given = std::make_shared<continuum::GivenBed>(read_bed(input_path(file, *name))); });
-  } catch (const InputError& error) {
-    problems = error.problems();
-  }
   return problems;
 }
 
@@ -174,12 +171,12 @@ struct ContinuumCase : ModelCase<Parameters> {
   FilledIn filled;  ///< what follows from other keys
 };
 
-/// \throws InputError with every problem, but for those of bed.file
-ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
+/// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
+ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
-  std::vector<Problem> unreadable = read_surfaces(file, defaults);
+  for (Problem& problem : read_surfaces(file, defaults)) unreadable.push_back(std::move(problem));
   defaults.beds.resize(std::min(file.tables("beds"), most_beds));
   for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
   FilledIn filled = fill_in_material(file, defaults);
@@ -206,14 +203,19 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults) {
 /// \throws InputError with every problem
 ContinuumCase read_continuum(const CaseFile& file) {
   Parameters defaults;
-  std::vector<Problem> problems = read_given_bed(file, defaults);
-  if (problems.empty()) return read_continuum(file, std::move(defaults));
+  std::vector<Problem> unreadable, of_file;
   try {
-    read_continuum(file, std::move(defaults));
-  } catch (const InputError& others) {
-    problems.insert(problems.begin(), others.problems().begin(), others.problems().end());
+    unreadable = read_given_bed(file, defaults);
+  } catch (const InputError& error) {
+    of_file = error.problems();
   }
-  throw InputError(std::move(problems));
+  if (of_file.empty()) return read_continuum(file, std::move(defaults), std::move(unreadable));
+  try {
+    read_continuum(file, std::move(defaults), {});
+  } catch (const InputError& others) {
+    of_file.insert(of_file.begin(), others.problems().begin(), others.problems().end());
+  }
+  throw InputError(std::move(of_file));
 }
 
 /// Lists parameters, those that follow from others without a value of their own.
@@ -298,6 +300,7 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
   const Parameters& p = case_of(resolved, folder, runs).model;
   const HopperRun& run = hopper_run_of(resolved, folder, runs);
   std::vector<NamedValue> quantities = analyze_continuum(folder, run);
+  write_box_walls(folder, run, p);
   if (!p.vessel.empty()) {
     const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
     const auto within = [&](const Vector3& x) {
@@ -312,6 +315,14 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                          const std::vector<NamedValue>& quantities, ReadRuns& runs) {
   return answers_of(case_of(resolved, folder, runs).model, quantities, folder);
+}
+
+std::optional<double> telling_time_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                ReadRuns& runs) {
+  const HopperRun& run = hopper_run_of(resolved, folder, runs);
+  if (!run.setting.shape.plate || hopper::flow_end(run).state == hopper::FlowState::has_not_started)
+    return std::nullopt;
+  return hopper::while_it_flows(run).at;
 }
 
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,

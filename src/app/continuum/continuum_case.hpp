@@ -29,6 +29,9 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 Scene scene_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
 std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                          const std::vector<NamedValue>& quantities, ReadRuns& runs);
+/// The middle of the discharge, from the opening of the gate, s; nothing where there is none.
+std::optional<double> telling_time_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder,
+                                                ReadRuns& runs);
 std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                                       ReadRuns& runs);
 

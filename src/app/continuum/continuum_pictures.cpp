@@ -128,8 +128,11 @@ bool draw_curve(const std::filesystem::path& table, const std::string& column, c
   if (line.x.empty()) return false;
   Chart chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}};
   if (by_hand > 0)
-    chart.series.emplace_back(Line{
-        .x = {0, line.x.back()}, .y = {by_hand, by_hand}, .label = "by hand", .colour = muted, .dash = Dash::dashed});
+    chart.series.emplace_back(Line{.x = {0, line.x.back()},
+                                   .y = {by_hand, by_hand},
+                                   .label = "analytical estimate",
+                                   .colour = muted,
+                                   .dash = Dash::dashed});
   write_png({.panels = {chart}}, path);
   return true;
 }
@@ -178,12 +181,11 @@ void draw_grains(const Frames& frames, const HopperSetting& setting, const std::
 /// The section of a vessel while it flows, by speed: what rests is seen. False without two snapshots to tell.
 bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& title,
                const std::filesystem::path& path) {
-  constexpr double between = 20e-3;  // s, as share_that_moves
   const HopperSetting& setting = run.setting;
   const talus::Window flow = hopper::while_it_flows(run);
   if (frames.time.size() < 2 || !flow.at) return false;
   const std::size_t n = std::max<std::size_t>(1, nearest_point(frames.time, *flow.at));
-  const std::size_t earlier = nearest_point(std::span(frames.time).first(n), frames.time[n] - between);
+  const std::size_t earlier = nearest_point(std::span(frames.time).first(n), frames.time[n] - setting.averaging_time);
   const PointSet now = read_points(frames.paths[n]), before = read_points(frames.paths[earlier]);
   const std::vector<double> speed = mean_speeds(before.view(), now.view());
   const auto positions = now.view().positions();
@@ -194,9 +196,9 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   std::vector<double> over_mean = picked(std::span<const double>(speed), seen);
   for (double& v : over_mean) v /= mean;
   const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
-  ParticlePicture picture =
-      particle_picture(setting, places, radii,
-                       {.values = over_mean, .label = "speed over its mean; at rest below 0.1", .low = 0, .high = 0.2});
+  ParticlePicture picture = particle_picture(
+      setting, places, radii,
+      {.values = over_mean, .label = "speed / mean speed (below 0.1: stagnant)", .low = 0, .high = 0.2});
   picture.title = title_of(frames.time[n]);
   write_png({.title = title, .panels = {picture}}, path);
   return true;

@@ -6,13 +6,14 @@
 #include <limits>
 
 #include "analysis/particle_field.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "models/continuum/vessel_outlets.hpp"
 
 namespace talus::app {
 
 namespace {
 
-constexpr double probe_above_slit = 5e-3;  // m: z = 105 mm in the paper's hopper
+constexpr double share_of_outlet = 0.125;  // height of the probe: z = 105 mm in the paper's hopper, a slit of 40 mm
 
 /// The cubic spline of one dimension, support 2 h: 1/m.
 double spread_along_z(double distance, double h) {
@@ -68,6 +69,7 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
     const Vector3 slit{0.5 * (outlet->left + outlet->right), outlet->middle_y, outlet->height};
+    const double probe_above_slit = share_of_outlet * continuum::outlet_width(p).value_or(0);
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
     // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
     auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);

@@ -16,7 +16,7 @@ namespace talus::app {
 ///   spline lowest_z         m     of the particles' centres mass_near_floor  kg    of the particles within a spacing
 ///   of the floor slit_velocity    m/s   u_z in the middle of the slit probe_density    kg/m3, probe_velocity m/s
 ///   (u_z), probe_stress Pa (the law's, zz), probe_strain 1 (norm of the strain
-///                    that the law remembers; 0 if it remembers none): 5 mm above the middle of the slit
+///                    that the law remembers; 0 if it remembers none): an eighth of the outlet's width above its middle
 /// Values at a place are the kernel's means over the particles around it; nan where there are none.
 /// Of a vessel with several outlets the columns discharge_rate_NAME besides, the flux through each at its own height,
 /// of the particles no farther beside it than a spacing.

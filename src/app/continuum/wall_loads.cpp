@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/wall_loads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
+#include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
 #include "app/case/run_tables.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "io/figure/figure.hpp"
 #include "io/series.hpp"
+#include "models/continuum/layout.hpp"
+#include "models/continuum/state.hpp"
 #include "models/continuum/vessel_loads.hpp"
 
 namespace talus::app {
@@ -32,12 +38,12 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   std::vector<Curve> curves;
   for (const BandOfWall& band : bands) {
     if (!(band.area > 0)) continue;
-    const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to);
+    const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to, run.setting.averaging_time);
     const PressureByHand hand = pressure_by_hand(p, band, ratio, top, 0.5 * (band.low + band.high));
     rows.push_back({static_cast<double>(band.patch + 1), band.low, band.high, band.area, load.pressure_at_rest,
                     load.shear_at_rest, load.pressure_in_flow, load.shear_in_flow, load.pressure_largest,
                     load.time_of_largest, hand.at_rest, hand.in_flow});
-    BandCurves of_band = curves_of(run.series, band, run.gate_time);
+    BandCurves of_band = curves_of(run.series, band, run.gate_time, run.setting.averaging_time);
     for (auto& [name, curve] : {std::pair{"pressure_", &of_band.pressure}, std::pair{"shear_", &of_band.shear}}) {
       if (curve->time.empty()) continue;
       columns.push_back({name + band.name, "Pa"});
@@ -68,6 +74,49 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   write_table(folder / "wall_stress.csv", columns, against_time);
 }
 
+void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Parameters& p) {
+  const bool is_apart = p.bed.left || p.bed.right;
+  if (!p.vessel.empty() || p.wedge.half_angle || !p.plates.empty() || is_apart || run.series.rows() < 2) return;
+  const double t = run.setting.averaging_time, end = run.end(), bottom = continuum::bed_bottom(p);
+  const double side = p.bed.height * p.box.depth, face = p.bed.height * p.box.width, ground = p.box.width * p.box.depth;
+  struct Wall {
+    const char* name;
+    char axis;
+    double area, low, high;
+  };
+  const double low = bottom, high = bottom + p.bed.height;
+  const Wall walls[] = {{"left", 'x', side, low, high},  {"right", 'x', side, low, high},
+                        {"front", 'y', face, low, high}, {"rear", 'y', face, low, high},
+                        {"floor", 'z', ground, 0, 0},    {"plate", 'z', ground, low, low}};
+  const Window flow = hopper::while_it_flows(run);
+  std::vector<std::vector<double>> rows;
+  for (const Wall& wall : walls) {
+    const Curve given = run.curve(fmt::format("impulse_{}_{}", wall.name, wall.axis));
+    if (given.time.empty() || (p.plate.height && wall.low == 0 && wall.axis == 'z')) continue;  // a heap on the floor
+    // Impulses on the left, the front and the ground point out of the box: against the axis.
+    const bool is_low = wall.name != std::string_view("right") && wall.name != std::string_view("rear");
+    const Curve impulse = scaled(given, (is_low ? -1 : 1) / wall.area);
+    const Curve means = mean_rates(impulse, 0.5 * t, 0.05 * t, 0, end);
+    const Extremes peak = means.time.empty() ? Extremes{0, HopperRun::none, HopperRun::none} : extremes(means);
+    const auto number =
+        std::find(continuum::wall_names.begin(), continuum::wall_names.end(), std::string_view(wall.name)) -
+        continuum::wall_names.begin();
+    rows.push_back({static_cast<double>(number + 1), wall.low, wall.high, wall.area, mean_rate(impulse, -t, 0),
+                    mean_rate(impulse, flow.from, flow.to), peak.largest, peak.largest_time});
+  }
+  if (rows.empty()) return;
+  write_table(run_folder / "analysis" / "box_walls.csv",
+              {{"wall", "1"},
+               {"low", "m"},
+               {"high", "m"},
+               {"area", "m2"},
+               {"pressure_at_rest", "Pa"},
+               {"pressure_in_flow", "Pa"},
+               {"pressure_largest", "Pa"},
+               {"time_of_largest", "s"}},
+              rows);
+}
+
 bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const std::string& title,
                      const std::filesystem::path& path) {
   using namespace figure;
@@ -91,11 +140,11 @@ bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const 
     }
   };
   add("pressure_at_rest", "at rest", blue, Dash::solid, true);
-  add("pressure_at_rest_by_hand", "by hand: Janssen, Walker", blue, Dash::dashed, false);
+  add("pressure_at_rest_by_hand", "analytical estimate: Janssen, Walker", blue, Dash::dashed, false);
   if (flows) {
     add("pressure_in_flow", "in flow", vermillion, Dash::solid, true);
-    add("pressure_in_flow_by_hand", "by hand, in flow", vermillion, Dash::dashed, false);
-    add("pressure_largest", "largest 10 ms mean", muted, Dash::dotted, false);
+    add("pressure_in_flow_by_hand", "analytical estimate, in flow", vermillion, Dash::dashed, false);
+    add("pressure_largest", "peak", muted, Dash::dotted, false);
   }
   if (chart.series.empty()) return false;
   write_png({.panels = {chart}}, path);

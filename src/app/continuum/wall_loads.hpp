@@ -19,6 +19,12 @@ std::vector<BandOfWall> bands_of(const continuum::Parameters& parameters);
 void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& run,
                       const continuum::Parameters& parameters);
 
+/// Writes analysis/box_walls.csv: of the faces of the box and a level plate on which the bed lies, the mean pressure
+/// over the area that it covers at the start, at rest, in flow and at its peak. Nothing where the walls of a vessel, a
+/// wedge or plates hold the bed, or where it stands apart from the side faces. \throws FileError
+void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run,
+                     const continuum::Parameters& parameters);
+
 /// pictures/wall_loads.png: pressure against height at rest, in flow and by hand. \param flows whether there is an
 /// outlet \returns false without the table
 bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const std::string& title,

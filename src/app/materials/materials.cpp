@@ -13,6 +13,7 @@
 
 #include "io/convert_value.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "physics/granular/critical_state.hpp"
 
 namespace talus::app {
@@ -168,7 +169,8 @@ namespace {
 
 /// The depth that the bed and what comes in until the end of the run can have, m.
 double depth_that_may_be_reached(const continuum::Parameters& p, double end) {
-  const double depth = continuum::depth_of_grains(p), mass = continuum::mass_to_come(p, end, p.settle.longest);
+  const double depth = continuum::depth_of_grains(p),
+               mass = continuum::mass_to_come(p, end, continuum::time_scales_of(p).settling_limit);
   if (!(mass > 0)) return depth;
   double low = 0, high = 0, area = p.box.width * p.box.depth;
   if (!p.vessel.empty()) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -29,9 +30,11 @@ struct ModelEntry {
   /// Draws the pictures of a run and returns their paths, the most important one first. Null: none.
   std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder,
                                              ReadRuns& runs);
-  /// What a run answers, once it is analysed. Null: nothing. \throws FileError, InputError
+  /// The key results of a run, once it is analysed. Null: none. \throws FileError, InputError
   std::vector<Answer> (*answers)(const CaseFile& resolved, const std::filesystem::path& folder,
                                  const std::vector<NamedValue>& quantities, ReadRuns& runs);
+  /// The time at which a picture says most of a run, in the time of its report. Null, or nothing: the middle of it.
+  std::optional<double> (*telling_time)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// What stands around the particles of a run, for a viewer.
   Scene (*scene)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.

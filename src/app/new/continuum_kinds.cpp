@@ -127,16 +127,30 @@ std::string grains_of_material(const Answers& a, bool rubs_from_start) {
   return a.has("friction") ? text + frictions(a["friction"]) : text;
 }
 
+/// How the bed settles, by the time (D/g)^½ of a length D: the outlet's width, or the height of a bed without one.
+/// \param creeps whether a lattice of particles may go on creeping: along inclined walls, or beside one that goes
+std::string settling(double length, bool creeps) {
+  const double time = std::sqrt(length / gravity), speed = std::sqrt(length * gravity);
+  const auto two_digits = [](double value) {
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return unit * std::round(value / unit);
+  };
+  std::string text = fmt::format("[settle]\ndamping_time = {}\n", written(two_digits(0.08 * time), "ms"));
+  if (creeps)
+    text += fmt::format("speed = {}\nduration = {}\n", written(two_digits(3.2e-3 * speed), "mm/s"),
+                        written(two_digits(0.15 * time), "ms"));
+  return text + "\n";
+}
+
 /// The gate, and how the bed settles before it opens. \param inclined walls, along which particles go on creeping
 std::string opening(const Answers& a, bool inclined) {
   if (a.has("gate"))
-    return fmt::format("[gate]\nopens = \"at-time\"\ntime = {}\n\n[settle]\ndamping_time = \"5 ms\"\n\n",
-                       written(a["gate"], "s"));
+    return fmt::format("[gate]\nopens = \"at-time\"\ntime = {}\n\n", written(a["gate"], "s")) +
+           settling(a["outlet"], false);
   const std::string& opens = a.word("gate");
   std::string text = fmt::format("[gate]\nopens = \"{}\"\n\n", opens);
   if (opens != "when-settled") return text;
-  return text + "[settle]\ndamping_time = \"5 ms\"\n" +
-         (inclined ? "speed = \"2 mm/s\"\nduration = \"10 ms\"\n\n" : "\n");
+  return text + settling(a["outlet"], inclined);
 }
 
 /// The outlet against the vessel above it, and the bed against the particles, a part of the outlet.
@@ -347,10 +361,7 @@ std::string write_column(const Answers& a) {
   text += fmt::format("[bed]\npacking = {}\nspacing = {}\nright = {}\nheight = {}\n\n", packing, written(spacing, "mm"),
                       written(width, "mm"), written(height, "mm"));
   text += frictions(a["friction"]);
-  text += fmt::format(
-      "[settle]\ndamping_time = \"5 ms\"\nspeed = \"2 mm/s\"\nduration = \"10 ms\"\n\n[walls]\ncoefficient = "
-      "{:.5g}\n\n",
-      a["floor-friction"]);
+  text += settling(height, true) + fmt::format("[walls]\ncoefficient = {:.5g}\n\n", a["floor-friction"]);
   return text + ending(rounded_up(7 * std::sqrt(height / gravity)), 25, 1000);
 }
 

@@ -105,6 +105,12 @@ Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& 
   for (const RegimeLine& line : summary.regime)
     run["regime"].push_back(
         {{"quantity", line.quantity}, {"value", line.value}, {"meaning", line.meaning}, {"warning", line.warning}});
+  run["key_results"] = Json::array();
+  for (const Answer& answer : summary.answers)
+    run["key_results"].push_back({{"title", answer.question}, {"value", answer.answer}, {"estimate", answer.by_hand}});
+  if (model.telling_time && series.rows() > 0)
+    if (const auto time = model.telling_time(resolved, entry.folder, runs); time && std::isfinite(*time))
+      run["telling_time"] = *time;
   run["quantities"] = quantities_of(entry, summary);
   if (model.name == "continuum") run["symbols"] = symbols_of_hopper_measures;
   if (model.name == "cloud") run["symbols"] = symbols_of_avalanche_measures;

@@ -22,6 +22,7 @@
 #include "numerics/warning.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
+#include "run/waiting.hpp"
 
 namespace talus::app {
 
@@ -58,13 +59,13 @@ void print_answers(const std::vector<Answer>& answers, RunLog& log) {
     question = std::max(question, line.question.size());
     answer = std::max(answer, line.answer.size());
   }
-  print("Answers:\n");
+  print("Key results:\n");
   for (const Answer& line : answers) {
     std::string text = fmt::format("{:{}}  {:{}}", line.question, question, line.answer, answer);
-    if (!line.by_hand.empty()) text += "  by hand: " + line.by_hand;
+    if (!line.by_hand.empty()) text += "  estimate: " + line.by_hand;
     text.erase(text.find_last_not_of(' ') + 1);
     print("    {}\n", text);
-    log.write("answer {}", text);
+    log.write("result {}", text);
   }
 }
 
@@ -134,7 +135,11 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
     if (warning.id == "disk") print_error("talus: {}\n", warning.text);  // the others stand in the card at the end
   }
 
-  std::unique_ptr<run::AnyModel> model = prepared.make_model();
+  std::unique_ptr<run::AnyModel> model;
+  {
+    const run::Waiting waiting("laying the bed");
+    model = prepared.make_model();
+  }
   ThreadTeam team(request.threads);
   const run::LoopResult loop = run::run_loop(*model, team, folder.path(),
                                              {.end = prepared.run.end,
@@ -152,15 +157,20 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                   .wall_seconds = loop.wall_seconds,
                   .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
-  std::vector<Answer> answers;
   ReadRuns runs;
   if (!loop.interrupted) {
     const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
     const ModelEntry& entry = model_of(resolved);
     runs.keep_case(folder.path(), prepared.read);
-    summary.quantities = entry.analyse(resolved, folder.path(), runs);
-    if (entry.answers) answers = entry.answers(resolved, folder.path(), summary.quantities, runs);
-    if (prepared.run.pictures && entry.draw) pictures = entry.draw(resolved, folder.path(), runs);
+    {
+      const run::Waiting waiting("analysing the run");
+      summary.quantities = entry.analyse(resolved, folder.path(), runs);
+      if (entry.answers) summary.answers = entry.answers(resolved, folder.path(), summary.quantities, runs);
+    }
+    if (prepared.run.pictures && entry.draw) {
+      const run::Waiting waiting("drawing pictures");
+      pictures = entry.draw(resolved, folder.path(), runs);
+    }
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
   summary.warnings = texts_of(regime);
@@ -186,8 +196,9 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   log.write("done: t = {:.6g} s, {} steps, {:.3f} s wall, {:.3f} s of processor", model->time(), loop.steps,
             loop.wall_seconds, loop.cpu_seconds);
   print_regime(regime, log);
-  print_answers(answers, log);
+  print_answers(summary.answers, log);
   if (prepared.run.report && has_report_page()) {
+    const run::Waiting waiting("writing the report");
     write_run_report(folder.path(), runs);
   } else if (prepared.run.report) {
     log.write("no report.html: {}", without_report_page());
@@ -248,6 +259,7 @@ ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request) {
   const RunFolder folder = RunFolder::create(request.folder, request.existing);
   const Manifest manifest = manifest_of(prepared, request.threads);
   if (request.existing == Existing::resume) {
+    const run::Waiting waiting("checking the files of the run");
     check_resumable(prepared, folder, manifest);
     check_resumable_files(folder);
   }

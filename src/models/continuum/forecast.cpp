@@ -11,6 +11,7 @@
 #include "models/continuum/loading.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "models/continuum/vessel_walls.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
@@ -44,15 +45,18 @@ SettlingTime settling_time(const Parameters& p) {
   if (p.gate.opens == GateOpens::from_the_start) return known(0);
   if (p.gate.opens == GateOpens::at_time) return known(p.gate.time);
   constexpr double pi = std::numbers::pi;
+  const TimeScales scales = time_scales_of(p);
   const double frequency = 0.5 * pi * wave_speed(p) / depth_of_grains(p), loading = loading_time(p, wave_speed(p));
   const double periods = loading * frequency / (2 * pi);
   const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
-  const double excess = std::log(std::max(1.0, speed / p.settle.speed)), least = loading + p.settle.duration;
-  if (!(excess > 0)) return known(std::min(p.settle.longest, least));
-  if (!p.settle.damping_time) return {std::min(p.settle.longest, least), p.settle.longest};
+  const double excess = std::log(std::max(1.0, speed / scales.settled_speed)),
+               least = loading + scales.settled_duration;
+  const double most = scales.settling_limit;
+  if (!(excess > 0)) return known(std::min(most, least));
+  if (!p.settle.damping_time) return {std::min(most, least), most};
   const double half_rate = 0.5 / *p.settle.damping_time;
   const double rate = half_rate - std::sqrt(std::max(0.0, half_rate * half_rate - frequency * frequency));
-  return known(std::min(p.settle.longest, least + excess / rate));
+  return known(std::min(most, least + excess / rate));
 }
 
 /// All triangles of the vessel.
@@ -118,11 +122,12 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
     return problems;
   }
   const double settling = settling_time(p).least;
-  const char* const key = p.integration.step                                      ? "integration.step"
-                          : settling <= end                                       ? "run.end"
-                          : p.gate.time > 0                                       ? "gate.time"
-                          : p.settle.loading_time.value_or(0) > p.settle.duration ? "settle.loading_time"
-                                                                                  : "settle.duration";
+  const char* const key = p.integration.step ? "integration.step"
+                          : settling <= end  ? "run.end"
+                          : p.gate.time > 0  ? "gate.time"
+                          : p.settle.loading_time.value_or(0) > time_scales_of(p).settled_duration
+                              ? "settle.loading_time"
+                              : "settle.duration";
   if (!((end + settling) / step <= most_steps))
     problems.push_back(
         {.key = key,

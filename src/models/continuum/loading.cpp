@@ -5,12 +5,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/continuum/time_scale.hpp"
+
 namespace talus::continuum {
 
 double loading_time(const Parameters& p, double sound_speed) {
   constexpr double passages = 20, most = 0.25;
   if (p.gate.opens != GateOpens::when_settled) return 0;
-  return p.settle.loading_time.value_or(std::min(passages * depth_of_grains(p) / sound_speed, most * p.settle.longest));
+  return p.settle.loading_time.value_or(
+      std::min(passages * depth_of_grains(p) / sound_speed, most * time_scales_of(p).settling_limit));
 }
 
 double share_of_gravity(double time, double loading_time) {

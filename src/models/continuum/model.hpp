@@ -50,6 +50,9 @@ class Continuum {
   /// The particles: in a sector those of the whole vessel, as all totals are. Valid until the next step.
   Snapshot snapshot() const;
 
+  /// The same as files hold it: of a sector its particles once (part_of(), sector.hpp). Valid until the next step.
+  Snapshot stored() const;
+
   /// The air's cells as its last step left them: velocity and pressure (against air.pressure), solid_fraction, velocity
   /// of the grains (0 where there are none), drag on the grains in a unit volume (N/m3). Nothing in a vacuum.
   std::optional<GridSnapshot> grid() const;
@@ -62,12 +65,15 @@ class Continuum {
 
  private:
   void make_workspace();
+  /// From when on the packing is that of a bed that has settled, or fallen by a spacing: beside walls and about a
+  /// sector's axis the lattice of the start may lie closer than grains can. s
+  double has_moved_from() const;
 
   Parameters parameters_;
   State state_;
-  std::unique_ptr<Workspace> workspace_;   // made by begin or resume
-  std::optional<Domain> around_whole_;     // of a sector, with its workspace
-  mutable std::optional<PointSet> whole_;  // of the present state, if it was asked for
+  std::unique_ptr<Workspace> workspace_;          // made by begin or resume
+  std::optional<Domain> around_whole_;            // of a sector, with its workspace
+  mutable std::optional<PointSet> part_, whole_;  // of the present state, if they were asked for
 };
 
 static_assert(Model<Continuum>);

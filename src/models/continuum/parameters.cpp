@@ -13,6 +13,7 @@
 #include "models/continuum/filling.hpp"
 #include "models/continuum/given_bed.hpp"
 #include "models/continuum/sector.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "models/continuum/vessel_places.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/sph/cubic_spline.hpp"
@@ -122,6 +123,9 @@ bool check_extent(const Parameters& p, int axis, const Add& add) {
 
 /// Whether the bed begins somewhere.
 void check_inside(const Parameters& p, const Add& add) {
+  // Of a file that cannot be read nothing follows.
+  for (const VesselPart& part : p.vessel)
+    if (part.shape == VesselShape::stl && !part.drawn) return;
   if (p.bed.inside) {
     const auto& x = *p.bed.inside;
     const bool inside =
@@ -322,10 +326,10 @@ std::vector<Problem> check(const Parameters& given) {
     return of_bed;
   });
   check_materials(p, problems);
-  if (p.settle.loading_time && *p.settle.loading_time >= p.settle.longest)
+  if (p.settle.loading_time && *p.settle.loading_time >= time_scales_of(p).settling_limit)
     problems.push_back({.key = "settle.loading_time",
                         .what = fmt::format("{:g} s: the bed could not settle before", *p.settle.loading_time),
-                        .allowed = fmt::format("less than settle.longest, {:g} s", p.settle.longest)});
+                        .allowed = fmt::format("less than settle.longest, {:g} s", time_scales_of(p).settling_limit)});
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   for (const Problem& problem : check_air(p)) problems.push_back(problem);
   if (p.collisions.form != granular::Collisions::none && !(p.gravity.acceleration > 0))

@@ -85,12 +85,13 @@ struct Parameters {
     air::Parameters gas;  ///< of which the grains' size and density stand in `grains`
   } air;
   struct Settle {
-    double speed = 0.5e-3;
-    double duration = 20e-3;
-    double longest = 1;
+    std::optional<double> speed, duration, longest;  ///< left out: time_scale.hpp
     std::optional<double> loading_time;
     std::optional<double> damping_time;
   } settle;
+  struct Analysis {
+    std::optional<double> averaging_time;  ///< left out: time_scale.hpp
+  } analysis;
   struct Integration {
     Method method = Method::leapfrog;
     double courant = default_courant(Method::leapfrog);
@@ -192,12 +193,11 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   "factor of the stress in Eq. 17: balanced (the floor carries the weight) or as printed"},
         p.sph.stress_form);
-  visit(
-      Parameter{
-          "sph.viscosity_alpha", dimension::none, at_least(0),
-          "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a few spacings "
-          "above the head that they came with"},
-      p.sph.viscosity_alpha);
+  visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
+                  "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a "
+                  "few spacings "
+                  "above the head that they came with"},
+        p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
   visit(Parameter{"sph.viscosity_speed",
@@ -256,10 +256,14 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   auto settling = only_if(where("gate.opens", p.gate.opens, GateOpens::when_settled), visit);
   settling(Parameter{"settle.speed", dimension::velocity, above(0),
-                     "the bed has settled when 99 of 100 particles are slower than this"},
+                     "the bed has settled when 99 of 100 particles are slower than this; left out: 0.0008 times (g "
+                     "D)^½, D the narrower side of the outlet, without one the height of the bed"},
            p.settle.speed);
-  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for this long"}, p.settle.duration);
-  settling(Parameter{"settle.longest", dimension::time, above(0), "a bed that has not settled by then is a failure"},
+  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for this long; left out: 0.3 times (D/g)^½"},
+           p.settle.duration);
+  settling(Parameter{"settle.longest", dimension::time, above(0),
+                     "a bed that is still moving then is a failure; left out: 15 times (L/g)^½, L the larger of D and "
+                     "the height of the bed, after the last inlet that fills the vessel has ended"},
            p.settle.longest);
   settling(Parameter{"settle.loading_time", dimension::time, at_least(0),
                      "time over which gravity is raised to its full value while the bed settles, so that no pressure "
@@ -272,6 +276,10 @@ void for_each_parameter(Visit&& visit, P& p) {
                 "time constant of an artificial damping of the velocities until the gate opens; left out: no damping"},
       p.settle.damping_time);
 
+  visit(Parameter{"analysis.averaging_time", dimension::time, above(0),
+                  "averaging time of rates, wall loads and speeds; peaks are averages over half of it; left out: 0.3 "
+                  "times (D/g)^½, D the narrower side of the outlet, without one the height of the bed"},
+        p.analysis.averaging_time);
   visit(Parameter{"integration.method",
                   {},
                   {},

@@ -84,7 +84,7 @@ void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace&
 }
 
 void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const double limit = p.settle.speed * p.settle.speed;
+  const double limit = w.scales.settled_speed * w.scales.settled_speed;
   const auto moving = reduce(
       team, s.velocity.size(), std::size_t{0},
       [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
@@ -93,12 +93,12 @@ void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w)
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);
-  const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= p.settle.duration;
+  const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= w.scales.settled_duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
     begin_flow(s.time, s.wall_loads);
     open_gates(team, p, s, w);
-  } else if (p.gate.opens == GateOpens::when_settled && s.time > p.settle.longest) {
+  } else if (p.gate.opens == GateOpens::when_settled && s.time > w.scales.settling_limit) {
     const std::size_t left = left_vessel(p, s);
     const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";
     const std::string leak = left > 0 ? "first a wall, lid or gate where the vessel is open (talus check names rims of "

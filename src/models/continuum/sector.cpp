@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
-#include <string_view>
+#include <string>
 #include <type_traits>
 
 #include "numerics/cell_grid.hpp"
@@ -34,15 +33,6 @@ bool has_copy(const Surface& surface, const CellGrid& middles, const Sector& sec
     });
   });
   return found;
-}
-
-/// The components of a tensor follow each other in the order of SymmetricTensor3.
-bool begins_tensor(const std::vector<ColumnView>& columns, std::size_t first) {
-  constexpr std::array<std::string_view, 6> endings = {"_xx", "_yy", "_zz", "_xy", "_yz", "_zx"};
-  if (first + endings.size() > columns.size()) return false;
-  for (std::size_t c = 0; c < endings.size(); ++c)
-    if (!columns[first + c].name.ends_with(endings[c])) return false;
-  return true;
 }
 
 }  // namespace
@@ -115,55 +105,26 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
   }
 }
 
-PointSet whole_of(const State& s, const Sector& sector) {
-  Snapshot part = snapshot_of(s);
-  const int copies = sector.copies();
-  const std::size_t own = s.position.size();
-  std::erase_if(part.columns, [&](const ColumnView& column) {  // not yet derived
-    return std::visit([&](const auto& values) { return values.size() != own; }, column.values);
-  });
-  PointSet whole{.time = part.time, .step = part.step, .columns = {}};
-  /// Writes value(i, k) of particle i in copy k.
-  const auto add = [&](const ColumnView& column, const auto& value) {
-    std::vector<std::decay_t<decltype(value(std::size_t{0}, 0))>> values(own * static_cast<std::size_t>(copies));
-    for (int k = 0; k < copies; ++k)
-      for (std::size_t i = 0; i < own; ++i) values[static_cast<std::size_t>(k) * own + i] = value(i, k);
-    whole.columns.push_back({std::string(column.name), std::string(column.unit), std::move(values)});
-  };
+PointSet part_of(const State& s, const Sector& sector) {
+  const Snapshot state = snapshot_of(s);
   const auto number = static_cast<std::int64_t>(s.population.next_identity);
-  for (std::size_t c = 0; c < part.columns.size(); ++c) {
-    const ColumnView& column = part.columns[c];
-    if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values)) {
-      const bool places = column.name == "position";
-      add(column, [&](std::size_t i, int k) {
-        return places ? sector.turned((*vectors)[i], k) : sector.turn(k) * (*vectors)[i];
-      });
-    } else if (const auto* integers = std::get_if<std::span<const std::int64_t>>(&column.values)) {
-      const std::int64_t apart = column.name == "identity" ? number : 0;  // copies of a tag are alike
-      add(column,
-          [&](std::size_t i, int k) { return (*integers)[i] + apart * ((k + copies - s.sector_turns[i]) % copies); });
-    } else if (begins_tensor(part.columns, c)) {
-      std::array<std::span<const double>, 6> of{};
-      for (std::size_t n = 0; n < 6; ++n) of[n] = std::get<std::span<const double>>(part.columns[c + n].values);
-      std::array<std::vector<double>, 6> turned;
-      for (auto& values : turned) values.reserve(own * static_cast<std::size_t>(copies));
-      for (int k = 0; k < copies; ++k)
-        for (std::size_t i = 0; i < own; ++i) {
-          const SymmetricTensor3<> t =
-              transformed({of[0][i], of[1][i], of[2][i], of[3][i], of[4][i], of[5][i]}, sector.turn(k));
-          const double component[6] = {t.xx, t.yy, t.zz, t.xy, t.yz, t.zx};
-          for (std::size_t n = 0; n < 6; ++n) turned[n].push_back(component[n]);
-        }
-      for (std::size_t n = 0; n < 6; ++n)
-        whole.columns.push_back(
-            {std::string(part.columns[c + n].name), std::string(part.columns[c + n].unit), std::move(turned[n])});
-      c += 5;
-    } else {
-      const auto scalars = std::get<std::span<const double>>(column.values);
-      add(column, [&](std::size_t i, int) { return scalars[i]; });
-    }
-  }
-  return whole;
+  const int copies = sector.copies();
+  PointSet part{.time = state.time,
+                .step = state.step,
+                .columns = {},
+                .copies = SectorCopies{.axis = sector.axis(), .count = copies, .identities = number}};
+  for (const ColumnView& column : state.columns)
+    std::visit(
+        [&](const auto& values) {
+          if (values.empty() && !s.position.empty()) return;  // not yet derived
+          std::vector<std::decay_t<decltype(values[0])>> own(values.begin(), values.end());
+          if constexpr (std::is_same_v<decltype(own), std::vector<std::int64_t>>)
+            for (std::size_t i = 0; i < own.size() && column.name == "identity"; ++i)
+              own[i] += number * ((copies - s.sector_turns[i]) % copies);
+          part.columns.push_back({std::string(column.name), std::string(column.unit), std::move(own)});
+        },
+        column.values);
+  return part;
 }
 
 }  // namespace talus::continuum

@@ -22,8 +22,8 @@ std::vector<Problem> check_symmetry(const Parameters& parameters);
 /// Turns particles that have left the sector back into it, with all that they carry.
 void return_to_sector(const Domain& domain, const Material& material, State& state);
 
-/// The particles of all copies of the sector, copy by copy. A particle that has passed a face goes on in the next copy:
-/// identities, that of the particle plus a multiple of their number, follow it.
-PointSet whole_of(const State& state, const Sector& sector);
+/// The sector as snapshots hold it: its particles once, each with the identity of the one that stands there in the
+/// whole (whole_of(), numerics/whole.hpp). A particle that has passed a face goes on in the next copy.
+PointSet part_of(const State& state, const Sector& sector);
 
 }  // namespace talus::continuum

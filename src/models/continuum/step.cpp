@@ -251,7 +251,7 @@ void Step::damping() const {
 
 void Step::clock() const {
   s.time += dt;
-  close_window(w.load_fields, s.time, s.wall_loads);
+  close_window(w.load_fields, s.time, w.scales.peak_time(), s.wall_loads);
   s.last_step = dt;
   ++s.step;
 }

@@ -69,9 +69,9 @@ void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& l
   }
 }
 
-void close_window(const SurfaceFields& fields, double time, WallLoads& w) {
+void close_window(const SurfaceFields& fields, double time, double length, WallLoads& w) {
   const double duration = time - w.window_start;
-  if (duration < load_window) return;
+  if (duration < length) return;
   for (std::size_t n = 0; n < fields.count(); ++n) {
     const double over = 1 / (duration * fields.all()[n].area);
     w.pressure[n] = over * (w.push[n] - w.window_push[n]);

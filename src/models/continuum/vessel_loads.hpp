@@ -14,9 +14,6 @@
 
 namespace talus::continuum {
 
-/// Length of the windows of time over which loads are means, s: as long as a load cell's, and many steps.
-inline constexpr double load_window = 10e-3;
-
 /// The kept columns, one entry per field.
 struct WallLoads {
   // What the field received since the start, N s: pressing on it, whichever side, and altogether with friction.
@@ -49,8 +46,8 @@ WallLoads no_loads(std::size_t fields);
 /// To the field, and in a sector to what it is in all copies: the loads are those of the whole vessel.
 void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads);
 
-/// Closes the window if it is over. \param time at the end of a step, s
-void close_window(const SurfaceFields& fields, double time, WallLoads& loads);
+/// Closes the window if it is over. \param time at the end of a step, s \param length of a window, s: peak_time()
+void close_window(const SurfaceFields& fields, double time, double length, WallLoads& loads);
 
 /// Takes the last window for that at rest, and begins anew with the largest loads. \param time of the opening, s
 void begin_flow(double time, WallLoads& loads);

@@ -24,6 +24,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
     : domain(domain_of(parameters)),
       material(parameters),
       sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
+      scales(time_scales_of(parameters)),
       loading_time(continuum::loading_time(parameters, sound_speed)),
       contact_distance(sph::contact_distance *
                        sph::smoothing_length(state.mass, parameters.bed.packing * parameters.grains.density)),

@@ -12,6 +12,7 @@
 #include "models/continuum/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "models/continuum/sweep.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "models/continuum/vessel_loads.hpp"
 
 namespace talus::continuum {
@@ -21,7 +22,8 @@ namespace talus::continuum {
 struct Workspace {
   Domain domain;
   Material material;
-  double sound_speed;       ///< bound for the time step, m/s
+  double sound_speed;  ///< bound for the time step, m/s
+  TimeScales scales;
   double loading_time;      ///< over which gravity is raised, s
   double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
   double lasting_time;      ///< a shear that turns back sooner draws no density, s

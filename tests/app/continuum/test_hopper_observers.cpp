@@ -10,6 +10,7 @@
 #include "../../models/continuum/vessel_parts.hpp"
 #include "analysis/particle_field.hpp"
 #include "models/continuum/layout.hpp"
+#include "models/continuum/time_scale.hpp"
 #include "run/any_model.hpp"
 
 namespace talus::app {
@@ -54,7 +55,7 @@ void expect_probes_of_all(const continuum::Parameters& p) {
   ASSERT_EQ(outlet->middle_y, slit.y);
   const auto values = observe_hopper(snapshot, p);
   const double velocity = all.value(slit, snapshot.vectors("velocity")).z;
-  const double above = all.value(slit + Vector3{0, 0, 5e-3}, density);
+  const double above = all.value(slit + Vector3{0, 0, 0.125 * continuum::outlet_width(p).value()}, density);
   ASSERT_LT(velocity, 0);
   EXPECT_NEAR(value_of(values, "slit_velocity"), velocity, -1e-12 * velocity);
   EXPECT_NEAR(value_of(values, "probe_density"), above, 1e-12 * above);

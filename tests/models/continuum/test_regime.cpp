@@ -176,6 +176,26 @@ TEST(RegimeOfRun, WarnsOfFlowFasterThanTheRangeOfItsLaw) {
   EXPECT_FALSE(line_of(model, {}, quantity)->warning);
 }
 
+TEST(RegimeOfRun, TheLatticeOfTheStartIsNoLargestPacking) {
+  Parameters p = small_hopper();
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  // Dense beside walls as laid, 0.62 once it has fallen by a spacing: 45 ms.
+  RunRecord record{.series = {.names = {"time", "packing_max"},
+                              .units = {"s", "1"},
+                              .columns = {{0, 0.04, 0.05, 0.1}, {0.8, 0.79, 0.62, 0.61}}}};
+  EXPECT_EQ(line_of(model, record, "largest packing")->value, "0.620");
+  EXPECT_FALSE(line_of(model, record, "largest packing")->warning);
+  record.series.columns[1] = {0.6, 0.6, 0.6, 0.76};
+  EXPECT_TRUE(line_of(model, record, "largest packing")->warning);
+  record.series.columns[1] = {0.77, 0.77, 0.776, 0.77};
+  EXPECT_FALSE(line_of(model, record, "largest packing")->warning) << "as it was laid";
+  // With a bed that settles, from the opening of the gate on.
+  model.mutable_state().gate_time = 0.08;
+  record.series.columns[1] = {0.8, 0.8, 0.8, 0.6};
+  EXPECT_EQ(line_of(model, record, "largest packing")->value, "0.600");
+}
+
 TEST(RegimeOfRun, FrozenAirHasNoPressureAndLacksNothing) {
   const auto lines_of_air = [](air::Motion motion) {
     Parameters p = small_hopper();

@@ -15,6 +15,7 @@
 #include "cases.hpp"
 #include "models/continuum/filling.hpp"
 #include "models/continuum/regime.hpp"
+#include "numerics/whole.hpp"
 #include "vessel_parts.hpp"
 #include "whole_circle.hpp"
 
@@ -98,7 +99,7 @@ TEST(Sector, AParticleThatLeavesItGoesOnInTheNextCopy) {
   const Domain domain = domain_of(p);
   const auto by_identity = [&] {
     std::map<std::int64_t, std::pair<Vector3, Vector3>> all;
-    const PointSet points = whole_of(s, sector);
+    const PointSet points = talus::whole_of(part_of(s, sector).view());
     const Snapshot view = points.view();
     for (std::size_t n = 0; n < view.size(); ++n)
       all[view.integers("identity")[n]] = {view.positions()[n], view.vectors("velocity")[n]};
@@ -216,6 +217,10 @@ TEST(Sector, FlowsTheSameForAnyThreadsAndResumed) {
   const auto identities = whole.integers("identity");
   EXPECT_EQ(std::set(identities.begin(), identities.end()).size(), 12 * count);
   EXPECT_FALSE(whole.domain->sector());
+  const Snapshot stored = model.stored();
+  EXPECT_EQ(stored.size(), count) << "a file holds the sector once";
+  ASSERT_TRUE(stored.copies);
+  EXPECT_EQ(stored.copies->count, 12);
 }
 
 /// Means over a while after the bed has settled, N.

@@ -105,7 +105,7 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   const auto press = [&](double force, int windows) {
     for (int n = 0; n < 10 * windows; ++n) {
       add_load({2, force * 1e-3, {0.25 * force * 1e-3, 0, -force * 1e-3}}, fields, loads);
-      close_window(fields, time += 1.0001e-3, loads);
+      close_window(fields, time += 1.0001e-3, 10e-3, loads);
     }
   };
   press(3, 1), press(1, 2);

@@ -9,6 +9,7 @@
 #include "models/continuum/sector.hpp"
 #include "models/continuum/sweep.hpp"
 #include "models/continuum/vessel.hpp"
+#include "numerics/whole.hpp"
 
 namespace talus::continuum {
 
@@ -51,7 +52,7 @@ inline State disordered(const Parameters& p) {
 
 /// The state of the whole circle, as a case without a sector has it.
 inline State unfolded(const State& s, const Sector& sector) {
-  const PointSet all = whole_of(s, sector);
+  const PointSet all = talus::whole_of(part_of(s, sector).view());
   const Snapshot view = all.view();
   State whole;
   whole.mass = s.mass;

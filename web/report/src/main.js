@@ -4,8 +4,8 @@
 import { mapNames, colours } from "./colour.js";
 import { decode, frames as unpackFrames, header } from "./data.js";
 import { Plots } from "./plots.js";
-import { drawCase, drawPublished, drawRegime, drawSummary } from "./tables.js";
-import { element, name, number, quantity, unit } from "./text.js";
+import { drawCase, drawKeyResults, drawPublished, drawRegime, drawSummary } from "./tables.js";
+import { element, name, number, practicalQuantity, unit } from "./text.js";
 import { Viewer, directions } from "./viewer.js";
 
 const by = (id) => document.getElementById(id);
@@ -57,7 +57,7 @@ class View {
     this.drawNote();
     this.connect();
     await this.setField(preferredFields.find((f) => names.includes(f)) ?? names[0]);
-    this.setFrame(0);
+    this.setTime(this.tellingTime());
     this.viewer.render();
     document.documentElement.dataset.ready = "view";
     await onLayout();
@@ -95,6 +95,13 @@ class View {
       this.drawLabels();
     }).observe(stage);
     this.viewer.onrender = () => this.drawScale();
+  }
+
+  /** When there is most to see: the middle of the discharge, else of what follows the opening of the gate. */
+  tellingTime() {
+    const told = this.runs.find((run) => run.telling_time !== undefined);
+    if (told) return told.telling_time;
+    return (Math.max(0, this.times[0]) + this.times.at(-1)) / 2;
   }
 
   /** Of each run the field's description and codes, unpacked. */
@@ -221,7 +228,7 @@ class View {
       ["x, y, z", `${place.map((v) => number(v * 1e3)).join(", ")} mm`],
       ...fields
         .filter((f) => !components.has(f.name) || f.name === this.field)
-        .map((f) => [name(f.name), quantity(decode(f, f.codes[panel.frame * panel.count + n]), f.unit), f.name === this.field]),
+        .map((f) => [name(f.name), practicalQuantity(decode(f, f.codes[panel.frame * panel.count + n]), f.unit), f.name === this.field]),
     ];
     reading.replaceChildren(element("table", {}, ...rows.map(([term, value, bold]) => element("tr", { className: bold ? "bold" : "" }, element("td", {}, term), element("td", { className: "number" }, String(value))))));
     const [width, height] = [reading.offsetWidth, reading.offsetHeight];
@@ -426,6 +433,7 @@ function drawHead() {
 
 async function start() {
   drawHead();
+  drawKeyResults(by("key-results"), by("key-results-body"));
   drawSummary(by("summary-body"));
   drawRegime(by("regime-body"));
   drawPublished(by("published"), by("published-body"));

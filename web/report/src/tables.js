@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is read: summary, regime cards, published numbers, cases.
 import { header } from "./data.js";
-import { element, markdown, name, number, quantity, unit } from "./text.js";
+import { element, markdown, name, number, practical, practicalQuantity, quantity, unit } from "./text.js";
 
 const { runs, definitions } = header;
 
@@ -23,11 +23,31 @@ const numeric = (...content) => element("td", { className: "number" }, ...conten
 /** One value, or mean ± standard deviation of members. */
 function spread(values, itsUnit) {
   const finite = values.filter((v) => v !== null && Number.isFinite(v));
-  if (finite.length < 2) return quantity(finite.length ? finite[0] : null, itsUnit);
+  if (finite.length < 2) return practicalQuantity(finite.length ? finite[0] : null, itsUnit);
   const mean = finite.reduce((a, b) => a + b) / finite.length;
   const deviation = Math.sqrt(finite.reduce((a, v) => a + (v - mean) ** 2, 0) / (finite.length - 1));
-  const suffix = unit(itsUnit);
-  return `${number(mean)} ± ${number(deviation, 2)}${suffix ? (suffix === "°" ? "°" : ` ${suffix}`) : ""}`;
+  const [factor, practicalUnit] = practical(mean, itsUnit);
+  const suffix = unit(practicalUnit);
+  return `${number(factor * mean)} ± ${number(factor * deviation, 2)}${suffix ? (suffix === "°" ? "°" : ` ${suffix}`) : ""}`;
+}
+
+/** What a reader wants first: a line for each key result, beside its analytical estimate. */
+export function drawKeyResults(section, place) {
+  const titles = [...new Set(runs.flatMap((run) => (run.key_results ?? []).map((line) => line.title)))];
+  if (titles.length === 0) {
+    section.hidden = true;
+    document.querySelector('a[href="#key-results"]').hidden = true;
+    return;
+  }
+  const estimated = runs.some((run) => (run.key_results ?? []).some((line) => line.estimate));
+  const rows = titles.map((title) => {
+    const lines = runs.map((run) => run.key_results?.find((line) => line.title === title));
+    const estimate = lines.find((line) => line?.estimate)?.estimate ?? "";
+    return row(element("th", { scope: "row" }, title), ...lines.map((line) => line?.value ?? "–"), ...(estimated ? [element("td", { className: "quiet" }, estimate)] : []));
+  });
+  place.append(table(["", ...runs.map((run) => (runs.length > 1 || run.members > 1 ? run.name : "Result")), ...(estimated ? ["Analytical estimate"] : [])], rows, "key-results"));
+  const shown = runs.find((run) => run.members > 1);
+  if (shown) place.append(element("p", { className: "quiet" }, "Of ensembles: those of the member that is shown."));
 }
 
 export function drawSummary(place) {

@@ -36,6 +36,26 @@ export function quantity(value, itsUnit) {
   return number(value) + (suffix && value !== null ? (suffix === "°" ? "°" : ` ${suffix}`) : "");
 }
 
+/** The unit that engineers use for a size of this unit, and the factor to it: kPa, t/h, mm, min. */
+export function practical(size, itsUnit) {
+  const choices = {
+    Pa: [[1e6, 1e-6, "MPa"], [100, 1e-3, "kPa"]],
+    "kg/s": [[10, 3.6, "t/h"], [0.1, 1, "kg/s"], [0, 1e3, "g/s"]],
+    kg: [[1e4, 1e-3, "t"], [1, 1, "kg"], [0, 1e3, "g"]],
+    m: [[1, 1, "m"], [1e-4, 1e3, "mm"], [0, 1e6, "µm"]],
+    s: [[7200, 1 / 3600, "h"], [120, 1 / 60, "min"]],
+    B: [[1e9, 1e-9, "GB"], [1e6, 1e-6, "MB"]],
+  }[itsUnit];
+  const choice = size === 0 ? null : choices?.find(([least]) => Math.abs(size) >= least);
+  return choice ? choice.slice(1) : [1, itsUnit];
+}
+
+/** A quantity in the unit that engineers use. */
+export function practicalQuantity(value, itsUnit) {
+  const [factor, name] = practical(value ?? 0, itsUnit);
+  return quantity(value === null || value === undefined ? null : factor === 1 ? value : Number((factor * value).toPrecision(6)), name);
+}
+
 /** "stress_xx" as "stress xx". */
 export function name(text) {
   return text.replaceAll("_", " ");
