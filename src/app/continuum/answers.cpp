@@ -119,7 +119,8 @@ class FlowAnswers {
     const double own = half_angle_of_cone(p_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
     if (std::isfinite(own) && std::isfinite(most))
       answer.by_hand =
-          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike)", regime_of(own <= most), own, most);
+          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike, grains of {:.3g}° in plane strain)",
+                      regime_of(own <= most), own, most, internal_friction_by_hand(p_) * 180 / std::numbers::pi);
     return answer;
   }
 
@@ -218,28 +219,6 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
                                const std::filesystem::path& run_folder) {
   std::vector<Answer> answers = FlowAnswers(p, quantities).all();
   for (Answer& answer : answers_of_outlets(p, quantities)) answers.push_back(std::move(answer));
-<<<<<<< HEAD
-  if (const double left = value("residual_fraction"); std::isfinite(left)) {
-    const double time = value("emptying_time"), hand = value("emptying_time_by_hand");
-    answers.push_back(
-        {"99 % have left", std::isfinite(time) ? fmt::format("after {:.3g} s", time) : "not by the end", {}});
-    if (hand > 0) answers.back().by_hand = fmt::format("{:.3g} s (at the discharge by hand)", hand);
-    answers.push_back({"above the outlet at the end", fmt::format("{:.1f} % of the bed", 100 * std::abs(left)), {}});
-  }
-  if (const double share = value("share_that_moves"); std::isfinite(share)) {
-    answers.push_back(
-        {"kind of flow", fmt::format("{}, {:.0f} % of the bed moves", kind_of(share >= mass_flow), 100 * share), {}});
-    const double own = half_angle_of_cone(p) * 180 / std::numbers::pi, most = value("mass_flow_half_angle_jenike");
-    if (std::isfinite(own) && std::isfinite(most))
-      answers.back().by_hand =
-          fmt::format("{}, {:.3g} degrees of at most {:.0f} (Jenike, grains of {:.3g} degrees in plane strain)",
-                      kind_of(own <= most), own, most, internal_friction_by_hand(p) * 180 / std::numbers::pi);
-  }
-  if (const double error = value("weight_balance_error_at_rest"); std::isfinite(error))
-    answers.push_back({"walls bear at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
-  std::vector<Answer> walls = answers_of_walls(p, run_folder / "analysis" / "wall_loads.csv");
-  answers.insert(answers.end(), walls.begin(), walls.end());
-=======
   const double left = value_of(quantities, "residual_fraction");
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
@@ -257,7 +236,6 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
   add(
       "box_walls.csv", "wall", continuum::wall_names.size(),
       [](std::size_t w) { return std::string(continuum::wall_names[w]); }, [](std::size_t) { return "Janssen"; });
->>>>>>> main
   return answers;
 }
 
