@@ -185,7 +185,7 @@ def table_of_numbers(reference, numbers, digits=3):
     return _lines(lines)
 
 
-def compare(script, text, out, reference, cases, measure, tell, draw, spacing=None):
+def compare(script, text, out, reference, cases, measure, tell, draw, spacing=None, add_options=None):
     """The command line of a study that runs its cases itself; returns the exit status, 1 if a row is not met.
     \\param script its path \\param text its help \\param out folder of its runs if no other is named
     \\param cases function of (options), returns the case, the folder and the settings of each run; those that are done are
@@ -193,7 +193,8 @@ def compare(script, text, out, reference, cases, measure, tell, draw, spacing=No
     \\param measure function of (options), returns the numbers by row of the reference, and all that was found
     \\param tell function of (numbers, found), returns Markdown \\param draw function of (found), returns a figure
     \\param spacing of the
-           particles if --spacing names no other, mm; left out: there is no such option"""
+           particles if --spacing names no other, mm; left out: there is no such option \\param add_options function of (parser),
+           which gives it options of the study's own"""
     parser = argparse.ArgumentParser(prog=Path(script).name, description=text,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", help="left out: as talus.find_program says")
@@ -203,6 +204,8 @@ def compare(script, text, out, reference, cases, measure, tell, draw, spacing=No
     parser.add_argument("--picture", type=Path)
     if spacing:
         parser.add_argument("--spacing", type=float, default=spacing, help="of the particles, mm")
+    if add_options:
+        add_options(parser)
     options = parser.parse_args()
     try:
         for case, folder, settings in cases(options):

@@ -186,7 +186,8 @@ std::vector<Row> hopper_vessel_measures() {
           at(outlet_packing), {{outlet}}),
       Row("mass_flow_half_angle_jenike", "deg",
           "half angle, from the vertical, up to which a cone empties in mass flow by hand: 90° − ½ acos((1 − sin φ)/(2 "
-          "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ of the grains, φ_w = atan μ of the cone's wall",
+          "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ = asin M of the grains' friction M, their angle in "
+          "plane strain, φ_w = atan μ of the cone's wall",
           {[](const Run& r, const Place&, const Window&) {
             return r.setting.mass_flow_half_angle * 180 / std::numbers::pi;
           }},

@@ -29,6 +29,11 @@ ExitStatus print_material(GrainMaterial material) {
     print("\n{}{}{}\n", line.key, line.value.empty() ? "" : " = " + line.value,
           line.range.empty() ? "" : fmt::format("  ({})", line.range));
     if (!line.source.empty()) print("  {}\n", wrapped(line.source, terminal_width(), 2, 2));
+    if (line.test.empty()) continue;
+    const std::string measured = line.angle.empty() ? "" : fmt::format(", {}", line.angle);
+    print("  {}\n", wrapped(fmt::format("test: {}{}; as an angle {}", line.test, measured,
+                                        angles_of_friction(parse_quantity(line.value)->value)),
+                            terminal_width(), 2, 2));
   }
   return ExitStatus::done;
 }

@@ -83,6 +83,9 @@ class Materials(ProgramTest):
         for name in ("glass-beads", "sand", "wheat", "maize"):
             self.assertIn(name, said)
             values = self.talus("materials", name).stdout
+            self.assertRegex(re.sub(r"\s+", " ", values),
+                             r"test: [a-z ]+, \S+ deg; as an angle \S+ degrees on the plane of a shear tester, \S+ in plane "
+                             r"strain, \S+ in triaxial compression")
             self.assertRegex(values, r"walls\.steel = 0\.\d+  \(0\.\d+ to 0\.\d+\)\n  \S")
 
 

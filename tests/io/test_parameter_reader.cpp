@@ -371,12 +371,15 @@ TEST(ParameterReader, ValuesOfATrialAreAllowed) {
     const auto value_of = [&](int trial) { return trial_value(parameter, value_type<T>(), trial); };
     for (int trial = 0; trial < 8; ++trial) {
       const ParameterValue value = value_of(trial);
-      if (const auto* number = std::get_if<double>(&value))
+      if (const auto* number = std::get_if<double>(&value)) {
         EXPECT_TRUE(parameter.range.contains(*number)) << parameter.key;
-      if (const auto* whole = std::get_if<std::int64_t>(&value))
+      }
+      if (const auto* whole = std::get_if<std::int64_t>(&value)) {
         EXPECT_TRUE(parameter.range.contains(static_cast<double>(*whole))) << parameter.key;
-      if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+      }
+      if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
         for (const double number : *numbers) EXPECT_TRUE(parameter.range.contains(number)) << parameter.key;
+      }
       T member{};
       from_value(value, member);
     }

@@ -11,16 +11,18 @@ import tempfile
 import unittest
 from unittest import mock
 
-sys.argv.pop()
+PROGRAM = sys.argv.pop()
 
 import numpy as np  # noqa: E402
 
 VALIDATION = pathlib.Path(__file__).resolve().parents[2] / "validation"
-sys.path[:0] = [str(VALIDATION), *(str(VALIDATION / name) for name in ("orifice", "drum", "long-runs"))]
+sys.path[:0] = [str(VALIDATION), *(str(VALIDATION / name) for name in ("orifice", "drum", "long-runs", "materials"))]
 import drum  # noqa: E402
 import long_runs  # noqa: E402
+import materials  # noqa: E402
 import orifice  # noqa: E402
 import study  # noqa: E402
+import talus  # noqa: E402
 
 
 class Page(unittest.TestCase):
@@ -68,6 +70,59 @@ class Orifice(unittest.TestCase):
         self.assertAlmostEqual(orifice.exponent(rate, diameter), 2.5)
         np.testing.assert_allclose(orifice.constants(rate, diameter), 0.6)
         self.assertAlmostEqual(orifice.lost(rate, diameter), orifice.K * orifice.GRAIN)
+
+
+class Materials(unittest.TestCase):
+    SPACING = 3e-3
+
+    def cone(self, degrees, height=0.036):
+        n = np.arange(-60, 60) * self.SPACING
+        x = np.stack([part.ravel() + 0.5 * self.SPACING for part in np.meshgrid(n, n, n[60:])], axis=1)
+        return x[x[:, 2] + 0.5 * self.SPACING < height - np.hypot(x[:, 0], x[:, 1]) * np.tan(np.radians(degrees))]
+
+    def test_a_heap_has_the_slope_that_it_was_cut_at(self):
+        for degrees in (21.0, 34.0):
+            angle, by_foot, on = materials.slope_of_heap(self.cone(degrees), self.SPACING)
+            self.assertAlmostEqual(angle, degrees, delta=1.5)
+            self.assertAlmostEqual(by_foot, degrees, delta=2.5)
+            self.assertTrue(on.all())
+
+    def test_what_has_left_the_deposit_is_stray_and_does_not_count_for_its_foot(self):
+        cone = self.cone(25, 0.03)
+        foot, height, on = materials.round_deposit(np.vstack([cone, [[0.2, 0, 0.001], [0, -0.3, 0.001]]]), self.SPACING, 0.06)
+        self.assertEqual((~on).sum(), 2)
+        x = np.vstack([cone, [[0.2, 0, 0.001], [0, -0.3, 0.001]]])
+        velocity = np.zeros_like(x)
+        velocity[0] = [0, 0.02, 0]
+        self.assertAlmostEqual(materials.stray_share(x, velocity, on, self.SPACING), 3 / len(x))
+        self.assertAlmostEqual(foot, 0.03 / np.tan(np.radians(25)), delta=2 * self.SPACING)  # the lattice's last layer
+        self.assertAlmostEqual(height, 0.03, delta=self.SPACING)
+
+    def test_every_material_of_the_program_has_its_bands(self):
+        files = {path.stem for path in (VALIDATION.parent / "materials").glob("*.toml")}
+        self.assertEqual(set(materials.MATERIALS), files)
+        for material in files:
+            for kind, ratio, _, settings in materials.runs_of(material):
+                self.assertEqual(settings["grains.material"], material)
+                if kind in ("column", "channel"):
+                    self.assertIn(f"{material} {kind}-runout-{ratio:g}", materials.ROWS)
+                    self.assertIn(f"{material} {kind}-height-{ratio:g}", materials.ROWS)
+            self.assertIn(f"{material} heap", materials.ROWS)
+        row = materials.ROWS["sand heap"]
+        self.assertTrue(study.is_met(row, 31.1) and study.is_met(row, 35.9))
+        self.assertFalse(study.is_met(row, 30.9) or study.is_met(row, 36.1))
+
+    def test_a_small_column_runs_and_is_measured(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(materials.SETUP["spacing"]["column"], {"0.55": 12}):
+            kind, ratio, name, settings = next(r for r in materials.runs_of("sand") if r[:2] == ("column", 0.55))
+            run = talus.simulate(VALIDATION / "materials" / f"{kind}.toml", pathlib.Path(folder) / name,
+                                 settings | {"run.end": "20 ms", "output.snapshots": "20 ms"}, threads=1, program=PROGRAM)
+            numbers, (of, distance, height) = materials.measure_run(run, kind, ratio)
+        self.assertEqual(set(numbers), {"column-runout-0.55", "column-height-0.55", "stray"})
+        self.assertAlmostEqual(numbers["column-height-0.55"], 0.6, delta=0.05)  # three layers of 12 mm
+        self.assertAlmostEqual(numbers["column-runout-0.55"], 0, delta=0.25)
+        self.assertGreater(numbers["stray"], 0.3)  # it still falls
+        self.assertEqual(of, 0.55)
 
 
 class LongRuns(unittest.TestCase):

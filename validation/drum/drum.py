@@ -32,9 +32,9 @@ def turned(x, angle):
     return np.stack([c * x[:, 0] - s * x[:, 1], s * x[:, 0] + c * x[:, 1]], axis=1)
 
 
-def surface_of(x, spacing, angle=0.0):
+def surface_of(x, spacing, angle=0.0, half_chord=REFERENCE["half_chord"]):
     """Angle by which the surface falls to +x, rad, and its distance from the axis, m. \\param x places, from the axis, m"""
-    edges = np.arange(-REFERENCE["half_chord"], REFERENCE["half_chord"] + 1e-9, 2 * spacing)
+    edges = np.arange(-half_chord, half_chord + 1e-9, 2 * spacing)
     middle = 0.5 * (edges[1:] + edges[:-1])
     for _ in range(20):
         t = turned(x, angle)

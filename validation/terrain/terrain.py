@@ -62,21 +62,21 @@ def height_above(x):
 
 
 def heads(snapshot):
-    return snapshot["position"][:, 2] + (snapshot["velocity"] ** 2).sum(axis=1) / (2 * GRAVITY)
+    return snapshot.positions[:, 2] + (snapshot["velocity"] ** 2).sum(axis=1) / (2 * GRAVITY)
 
 
 def measure(options):
     run = talus.Run(options.out / "run")
     shots = [run.snapshots[n] for n in range(len(run.snapshots))]
     start = heads(shots[0]).max()
-    excess = np.array([heads(s).max() - start if len(s["position"]) else -np.inf for s in shots])
+    excess = np.array([heads(s).max() - start if len(s.positions) else -np.inf for s in shots])
     last = shots[-1]
     speed = np.sqrt((last["velocity"] ** 2).sum(axis=1))
     numbers = {"excess": max(0.0, excess.max() / SPACING), "resting": (speed < SLOW).mean(),
-               "lowest": height_above(last["position"]).min() / SPACING,
+               "lowest": height_above(np.asarray(last.positions)).min() / SPACING,
                "mass": 1.0 + float(run.summary["mass_error"])}
     return numbers, {"time": np.array([float(s.time) for s in shots]), "excess": excess / SPACING,
-                     "position": last["position"]}
+                     "position": np.asarray(last.positions)}
 
 
 def tell(numbers, found):

@@ -119,7 +119,8 @@ class FlowAnswers {
     const double own = half_angle_of_cone(p_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
     if (std::isfinite(own) && std::isfinite(most))
       answer.by_hand =
-          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike)", regime_of(own <= most), own, most);
+          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike, grains of {:.3g}° in plane strain)",
+                      regime_of(own <= most), own, most, internal_friction_by_hand(p_) * 180 / std::numbers::pi);
     return answer;
   }
 

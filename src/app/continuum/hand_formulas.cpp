@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/granular/friction_angle.hpp"
 #include "physics/granular/orifice_discharge.hpp"
 #include "physics/granular/silo_pressure.hpp"
 
@@ -17,17 +18,11 @@ using continuum::VesselPart;
 using continuum::VesselShape;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double usual_angle = 30 * std::numbers::pi / 180;  // of internal friction, where the law has none of its own
+constexpr double usual_angle =
+    30 * std::numbers::pi / 180;  // in plane strain, where the law has no friction of its own
 
 double friction_of(const continuum::Parameters& p, const VesselPart& v) {
   return p.walls.friction == continuum::Friction::none ? 0 : v.friction.value_or(p.walls.coefficient);
-}
-
-double internal_friction(const continuum::Parameters& p) {
-  double friction = 0;
-  if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().friction;
-  if (p.law.is<granular::DruckerPrager>()) friction = p.law.of<granular::DruckerPrager>().friction;
-  return friction > 0 ? std::atan(friction) : usual_angle;
 }
 
 double bulk_density(const continuum::Parameters& p) {
@@ -79,7 +74,7 @@ PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart
     return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
   };
   return {pressure(granular::cone_at_rest(angle, mu)),
-          pressure(granular::cone_in_flow(angle, mu, internal_friction(p)))};
+          pressure(granular::cone_in_flow(angle, mu, internal_friction_by_hand(p)))};
 }
 
 /// The cone that ends at an outlet.
@@ -139,9 +134,17 @@ double discharge_by_hand(const continuum::Parameters& p) {
   return rate;
 }
 
+double internal_friction_by_hand(const continuum::Parameters& p) {
+  double friction = 0;
+  if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().friction;
+  if (p.law.is<granular::DruckerPrager>()) friction = p.law.of<granular::DruckerPrager>().friction;
+  return friction > 0 ? granular::angle_of_friction(granular::FrictionTest::plane_strain, std::min(friction, 1.0))
+                      : usual_angle;
+}
+
 double mass_flow_half_angle_by_hand(const continuum::Parameters& p) {
   const VesselPart* cone = emptying_cone(p);
-  return cone ? granular::mass_flow_half_angle(friction_of(p, *cone), internal_friction(p)) : HopperRun::none;
+  return cone ? granular::mass_flow_half_angle(friction_of(p, *cone), internal_friction_by_hand(p)) : HopperRun::none;
 }
 
 double half_angle_of_cone(const continuum::Parameters& p) {

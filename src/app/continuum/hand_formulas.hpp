@@ -15,8 +15,12 @@ double discharge_by_hand(const continuum::Parameters& parameters);
 /// Of one of the outlets of a vessel; discharge_by_hand() adds them up.
 double discharge_by_hand(const continuum::Parameters& parameters, const continuum::VesselOutlet& outlet);
 
+/// The angle of internal friction that Walker's and Jenike's formulas take, rad: that of Mohr's circle in plane strain
+/// (physics/granular/friction_angle.hpp), of the law's friction, which counts up to 1; 30 degrees where it has none.
+double internal_friction_by_hand(const continuum::Parameters& parameters);
+
 /// The largest half angle of mass flow in a cone (physics/granular/silo_pressure.hpp), rad; nan if the vessel empties
-/// through no cone. The friction inside is the law's, 30 degrees where it has none.
+/// through no cone.
 double mass_flow_half_angle_by_hand(const continuum::Parameters& parameters);
 
 /// The half angle that it has, rad; nan without such a cone.

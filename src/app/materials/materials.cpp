@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -119,12 +120,23 @@ std::vector<MaterialLine> lines_of(GrainMaterial material) {
     return entry ? plain(entry->value) : std::string();
   };
   for (const CaseEntry& entry : file.entries()) {
-    MaterialLine line{.key = entry.key, .value = {}, .range = {}, .source = {}};
+    MaterialLine line{.key = entry.key, .value = {}, .range = {}, .source = {}, .test = {}, .angle = {}};
     line.value = text(entry.key + ".value"), line.range = text(entry.key + ".range");
     line.source = text(entry.key + ".source");
+    line.test = text(entry.key + ".test"), line.angle = text(entry.key + ".angle");
     if (!line.value.empty() || !line.range.empty()) lines.push_back(std::move(line));
   }
   return lines;
+}
+
+std::string angles_of_friction(double friction) {
+  const auto degrees = [&](granular::FrictionTest test) {
+    return granular::angle_of_friction(test, friction) * 180 / std::numbers::pi;
+  };
+  return fmt::format(
+      "{:.1f} degrees on the plane of a shear tester, {:.1f} in plane strain, {:.1f} in triaxial compression",
+      degrees(granular::FrictionTest::shear_plane), degrees(granular::FrictionTest::plane_strain),
+      degrees(granular::FrictionTest::triaxial_compression));
 }
 
 FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults) {

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The materials that a case may name: their files stand in the program. A file has a table for each key of a case that
-/// it fills in, with `value`, and `range` and `source` of it; [walls.NAME] of each wall that its friction is known of;
+/// it fills in, with `value`, and `range` and `source` of it, of a friction also `test` and the `angle` that it gave;
+/// [walls.NAME] of each wall that its friction is known of;
 /// [pressure] with the range in which all of it holds.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +18,13 @@
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "models/continuum/parameters.hpp"
+#include "physics/granular/friction_angle.hpp"
+
+namespace talus {
+template <>
+inline constexpr auto choices<granular::FrictionTest> = std::to_array<std::string_view>({"shear plane", "plane strain",
+                                                                                         "triaxial compression"});
+}  // namespace talus
 
 namespace talus::app {
 
@@ -24,12 +34,16 @@ struct MaterialLine {
   std::string value;  ///< empty: there is a range alone
   std::string range;  ///< "2450 kg/m3 to 2600 kg/m3"; empty: none is said
   std::string source;
+  std::string test;   ///< of a friction: which (choices<FrictionTest>); empty: not said
+  std::string angle;  ///< of a friction: what that test gave, "30 deg"
 };
 
 /// What a file says. \throws std::logic_error if it is not among the program's
 const CaseFile& file_of(continuum::GrainMaterial material);
 std::string title_of(continuum::GrainMaterial material);
 std::vector<MaterialLine> lines_of(continuum::GrainMaterial material);
+/// "30.0 degrees on the plane of a shear tester, 35.2 in plane strain, 25.4 in triaxial compression".
+std::string angles_of_friction(double friction);
 
 /// Values that follow from other keys.
 struct FilledIn {

@@ -40,7 +40,8 @@ inline ConeBearing cone_at_rest(double half_angle, double friction) {
 
 /// In flow: F = (1 + sin phi cos eps)/(1 - sin phi cos(2 beta + eps)), eps = phi_w + asin(sin phi_w/sin phi), phi_w =
 /// atan mu. A wall rougher than the grains counts as rough as they. Source: Walker 1966, as in EN 1991-4:2006, 6.3.
-/// \param internal phi, angle of internal friction, rad
+/// \param internal phi, rad, with sin phi the radius of Mohr's circle over its centre: in plane strain
+/// (friction_angle.hpp)
 inline ConeBearing cone_in_flow(double half_angle, double friction, double internal) {
   const double wall = std::min(std::atan(friction), internal);
   const double turned = wall + std::asin(std::clamp(std::sin(wall) / std::sin(internal), 0.0, 1.0));
@@ -53,7 +54,8 @@ inline ConeBearing cone_in_flow(double half_angle, double friction, double inter
 /// acos((1 - sin phi)/(2 sin phi))/2 - (phi_w + asin(sin phi_w/sin phi))/2. Farther from the vertical there is no
 /// stress field of the whole cone in flow, and grains at its wall stay. Source: Jenike, Bull. 108, Univ. of Utah Eng.
 /// Exp. Stn. (1961), in closed form as in Leung et al., J. Pharm. Sci. 108, 464 (2019), Eqs 5 and 6. \param friction of
-/// the wall \param internal phi, rad; the form holds from 19.5 degrees on \returns 0 if there is no such cone
+/// the wall \param internal phi, Jenike's delta, rad, as of cone_in_flow; the form holds from 19.5 degrees on
+/// \returns 0 if there is no such cone
 inline double mass_flow_half_angle(double friction, double internal) {
   const double wall = std::min(std::atan(friction), internal), sine = std::sin(internal);
   const double turned = wall + std::asin(std::clamp(std::sin(wall) / sine, 0.0, 1.0));

@@ -60,7 +60,8 @@ TEST_F(Answers, StandBesideTheAnalyticalEstimates) {
   EXPECT_EQ(find("Emptying time (99 %)").answer, "0.72 s");
   EXPECT_EQ(find("Emptying time (99 %)").by_hand, "0.654 s (at the estimated discharge)");
   EXPECT_EQ(find("Flow regime").answer, "mass flow, stagnant zone 0 %");
-  EXPECT_EQ(find("Flow regime").by_hand, "mass flow, half angle 30° of at most 42° (Jenike)");
+  EXPECT_EQ(find("Flow regime").by_hand,
+            "mass flow, half angle 30° of at most 42° (Jenike, grains of 30° in plane strain)");
   EXPECT_EQ(find("Walls carry at rest").answer, "99.2 % of the weight");
 }
 
@@ -82,7 +83,8 @@ TEST_F(Answers, OfASiloThatKeepsARestSayWhereItIs) {
             "has stopped after 3 min 20 s with 35 kg (20 %) left: stagnant at its angle of repose");
   set("mass_flow_half_angle_jenike", 25);
   EXPECT_EQ(find("Flow regime").answer, "funnel flow, stagnant zone 40 %");
-  EXPECT_EQ(find("Flow regime").by_hand, "funnel flow, half angle 30° of at most 25° (Jenike)");
+  EXPECT_EQ(find("Flow regime").by_hand,
+            "funnel flow, half angle 30° of at most 25° (Jenike, grains of 30° in plane strain)");
 }
 
 TEST_F(Answers, OfAFlowThatGoesOnOrNeverBeganSaySo) {

@@ -91,6 +91,21 @@ TEST(DischargeByHand, OfASlitInAPlateIsThatOfAnEndlessOne) {
   EXPECT_EQ(discharge_by_hand(p), 0);
 }
 
+TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
+  continuum::Parameters p = small_silo();
+  EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 6) << "a law without a friction of its own";
+  p.law = granular::CriticalState::Parameters{.friction = std::tan(std::numbers::pi / 6)};
+  EXPECT_NEAR(internal_friction_by_hand(p) * 180 / std::numbers::pi, 35.26, 0.01);
+  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p),
+                   granular::mass_flow_half_angle(friction, internal_friction_by_hand(p)));
+  const std::vector<BandOfWall> bands = bands_of(p);
+  const double above = granular::janssen_stress(weight, 0.06 / (4 * friction * ratio), top - 0.09);
+  EXPECT_NEAR(pressure_by_hand(p, bands[10], ratio, top, 0.09).in_flow,
+              granular::cone_in_flow(std::numbers::pi / 6, friction, internal_friction_by_hand(p)).ratio * above, 1e-6);
+  p.law = granular::DruckerPrager::Parameters{.friction = 1.5};
+  EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 2);
+}
+
 TEST(MassFlowByHand, IsOfTheConeAndItsWall) {
   continuum::Parameters p = small_silo();
   EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p), granular::mass_flow_half_angle(friction, std::numbers::pi / 6));

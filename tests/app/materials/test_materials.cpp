@@ -51,6 +51,28 @@ TEST(Materials, EveryValueHasASourceAndLiesInItsRange) {
   }
 }
 
+TEST(Materials, EveryFrictionIsThatOfTheTestThatItsFileNames) {
+  for (std::size_t n = 0; n < count; ++n)
+    for (const MaterialLine& line : lines_of(static_cast<GrainMaterial>(n))) {
+      if (line.key != "law.critical-state.friction" && line.key != "law.critical-state.fast_friction") continue;
+      std::size_t test = 0;
+      while (test < choices<granular::FrictionTest>.size() && choices<granular::FrictionTest>[test] != line.test)
+        ++test;
+      ASSERT_LT(test, choices<granular::FrictionTest>.size()) << line.key << ": no test \"" << line.test << '"';
+      EXPECT_TRUE(!line.angle.empty() || line.key.ends_with("fast_friction"));
+      if (line.angle.empty()) continue;
+      EXPECT_NEAR(
+          granular::angle_of_friction(static_cast<granular::FrictionTest>(test), parse_quantity(line.value)->value),
+          parse_quantity(line.angle)->value, 5e-4)
+          << choices<GrainMaterial>[n];
+    }
+}
+
+TEST(Materials, AFrictionIsThreeAngles) {
+  EXPECT_EQ(angles_of_friction(0.577),
+            "30.0 degrees on the plane of a shear tester, 35.2 in plane strain, 25.4 in triaxial compression");
+}
+
 TEST(Materials, EveryEntryOfAFileIsTaken) {
   for (std::size_t n = 0; n < count; ++n) {
     const auto material = static_cast<GrainMaterial>(n);
@@ -93,13 +115,13 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
   FilledIn filled = fill_in_material(file, p);
   p.bed.height = 2;
   p.gravity.acceleration = 10;
-  set_from_bed(file, p, filled);
+  set_from_bed(file, p, 1, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_NEAR(law.bulk_modulus, 1000 * 0.6 * 1350 * 10 * 2, 1e-3);
   EXPECT_NEAR(law.shear_modulus, 0.6 * law.bulk_modulus, 1e-3);
   const CaseFile given = a_case("[grains]\nmaterial = \"wheat\"\n[law.critical-state]\nbulk_modulus = \"1 MPa\"\n");
   p.law.of<granular::CriticalState>().bulk_modulus = 1e6;
-  set_from_bed(given, p, filled);
+  set_from_bed(given, p, 1, filled);
   EXPECT_EQ(law.bulk_modulus, 1e6);
   EXPECT_NEAR(law.shear_modulus, 0.6e6, 1e-6);
 }
@@ -111,7 +133,7 @@ TEST(Materials, TheStiffnessFollowsWithoutAMaterialToo) {
     p.grains.density = 2000;
     p.bed.height = 2, p.bed.packing = packing, p.gravity.acceleration = gravity;
     FilledIn filled;
-    set_from_bed(file, p, filled);
+    set_from_bed(file, p, 1, filled);
     return std::pair{p.law.of<granular::CriticalState>(), filled.keys};
   };
   const auto [law, keys] = taken(0.58, 10);
@@ -131,12 +153,12 @@ TEST(Materials, TheBedBearsNoPressureBeforeItsWeight) {
   p.grains.material = GrainMaterial::maize;
   FilledIn filled = fill_in_material(file, p);
   p.bed.packing = 0.64;
-  set_from_bed(file, p, filled);
+  set_from_bed(file, p, 1, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_EQ(law.reference_packing, 0.64);
   const CaseFile given = a_case("[grains]\nmaterial = \"maize\"\n[law.critical-state]\nreference_packing = 0.6\n");
   p.law.of<granular::CriticalState>().reference_packing = 0.6;
-  set_from_bed(given, p, filled);
+  set_from_bed(given, p, 1, filled);
   EXPECT_EQ(law.reference_packing, 0.6);
 }
 

@@ -181,9 +181,10 @@ TEST(RegimeOfRun, TheLatticeOfTheStartIsNoLargestPacking) {
   ThreadTeam team(1);
   Continuum model = started(p, team);
   // Dense beside walls as laid, 0.62 once it has fallen by a spacing: 45 ms.
-  RunRecord record{.series = {.names = {"time", "packing_max"},
-                              .units = {"s", "1"},
-                              .columns = {{0, 0.04, 0.05, 0.1}, {0.8, 0.79, 0.62, 0.61}}}};
+  RunRecord record{};
+  record.series = {.names = {"time", "packing_max"},
+                   .units = {"s", "1"},
+                   .columns = {{0, 0.04, 0.05, 0.1}, {0.8, 0.79, 0.62, 0.61}}};
   EXPECT_EQ(line_of(model, record, "largest packing")->value, "0.620");
   EXPECT_FALSE(line_of(model, record, "largest packing")->warning);
   record.series.columns[1] = {0.6, 0.6, 0.6, 0.76};
