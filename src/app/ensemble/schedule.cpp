@@ -29,11 +29,13 @@ run::Job job_of(const ScheduledRun& run, const std::filesystem::path& output) {
   return job;
 }
 
+/// The last line of what a program wrote, of its errors where there are any: errors and the rest come in either order.
 std::string last_line(const std::filesystem::path& path) {
+  constexpr std::string_view error = "talus: ";
   std::ifstream file(path);
   std::string line, last;
   while (std::getline(file, line))
-    if (!line.empty()) last = line;
+    if (!line.empty() && (line.starts_with(error) || !last.starts_with(error))) last = line;
   return last;
 }
 

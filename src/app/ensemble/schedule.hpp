@@ -22,7 +22,7 @@ struct ScheduledRun {
 struct FailedRun {
   std::filesystem::path folder;
   std::optional<int> status = {};  ///< exit status, where this process has seen it
-  std::string reason;              ///< the last line it wrote
+  std::string reason;              ///< the last line of its errors, or of what it wrote
 };
 
 struct ScheduleResult {

@@ -32,7 +32,8 @@ struct Limits {
   bool allow_density(double value) const { return value > least_density && std::isfinite(value); }
   /// What has left the box falls on, and meets nobody.
   bool allow_velocity(const Vector3& v, const Vector3& x) const {
-    return norm(v) <= (box.contains(x) ? most_speed : std::numeric_limits<double>::max());
+    const double speed = norm(v);
+    return speed <= most_speed || (std::isfinite(speed) && !box.contains(x));
   }
 };
 

@@ -107,15 +107,20 @@ struct GrainLimits {
 };
 
 GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& w) {
-  return reduce(
-      team, w.smoothing_length.size(), GrainLimits{std::numeric_limits<double>::infinity(), 0},
-      [&](std::size_t i) {
-        return GrainLimits{w.smoothing_length[i], w.domain.box().contains(s.position[i]) ? norm(s.velocity[i]) : 0};
+  struct Extremes {
+    double min_length = std::numeric_limits<double>::infinity(), max_square = 0;
+  };
+  const Extremes found = accumulate(
+      team, w.smoothing_length.size(), Extremes{},
+      [&](std::size_t i, Extremes& e) {
+        e.min_length = std::min(e.min_length, w.smoothing_length[i]);
+        const double square = dot(s.velocity[i], s.velocity[i]);
+        if (square > e.max_square && w.domain.box().contains(s.position[i])) e.max_square = square;
       },
-      [](const GrainLimits& a, const GrainLimits& b) {
-        return GrainLimits{std::min(a.min_smoothing_length, b.min_smoothing_length),
-                           std::max(a.max_speed, b.max_speed)};
+      [](const Extremes& a, const Extremes& b) {
+        return Extremes{std::min(a.min_length, b.min_length), std::max(a.max_square, b.max_square)};
       });
+  return {found.min_length, std::sqrt(found.max_square)};
 }
 
 /// The step that pressure waves and the speed of the grains allow, s, or the fixed one; without particles that of the

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/vessel_contact.hpp"
 
-#include <limits>
 #include <vector>
 
 #include "models/continuum/vessel_motion.hpp"
@@ -58,7 +57,6 @@ struct Rubbing {
 void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFields& fields, const Rates& rates,
                           const ContactStep& step, Sweep& sweep, State& state) {
   if (state.vessel_impulse.empty()) return;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Noted noted = none_noted(rates.at_vessel.size());
   const Rubbing rubbing(p, state);
   VesselWalls& walls = sweep.vessel_walls();
@@ -80,25 +78,22 @@ void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFi
       if (!rubbing.rough) continue;
       become(wall.patch,
              sph::after_contact(state.velocity[i],
-                                {wall.normal, rubbing.velocity_of(wall.patch, x, wall.normal), infinity,
+                                {wall.normal, rubbing.velocity_of(wall.patch, x, wall.normal),
                                  step.duration * dot(wall.acceleration, wall.normal), rubbing.coefficient(wall.patch)},
-                                step.step)
-                 .velocity);
+                                0));
     }
     for (int contact = 0; contact < max_contacts; ++contact) {
       const auto touched = walls.touched(place, x, x + step.step * state.velocity[i], step.distance);
       if (!touched) break;
       const Vector3& n = touched->normal;
       const std::uint32_t patch = walls.surface().triangles()[touched->triangle].patch;
-      const sph::AfterContact after =
-          sph::after_contact(state.velocity[i],
-                             {n, rubbing.velocity_of(patch, touched->place, n),
-                              dot(n, x - touched->place) - step.distance, 0, rubbing.coefficient(patch)},
-                             step.step);
-      if (!(after.contact_push > 0)) break;
-      of_chunk.push_back(
-          {fields.at(walls.surface().part(touched->triangle), touched->place), state.mass * after.contact_push, {}});
-      become(patch, after.velocity);
+      const double push =
+          sph::contact_push(dot(state.velocity[i], n), dot(n, x - touched->place) - step.distance, step.step);
+      if (!(push > 0)) break;
+      of_chunk.push_back({fields.at(walls.surface().part(touched->triangle), touched->place), state.mass * push, {}});
+      become(patch, sph::after_contact(
+                        state.velocity[i],
+                        {n, rubbing.velocity_of(patch, touched->place, n), 0, rubbing.coefficient(patch)}, push));
     }
   };
   state.vessel_impulse = sum(
@@ -140,14 +135,13 @@ void reflect_at_vessel(ThreadTeam& team, const Parameters& p, const Surface& ves
       const Vector3& normal = vessel.normal(met->triangle);
       const double beyond = dot(normal, x - triangle.corner[0]);  // of the other sign than where it came from
       const Vector3 n = beyond > 0 ? -1.0 * normal : normal, place = before[i] + met->at * (x - before[i]);
-      const sph::AfterContact after = sph::after_contact(
-          u, {n, rubbing.velocity_of(triangle.patch, place, n), 0, 0, rubbing.coefficient(triangle.patch)}, 1);
-      if (after.contact_push > 0) {
-        const Vector3 impulse = state.mass * (u - after.velocity);
+      if (const double push = sph::contact_push(dot(u, n), 0, 1); push > 0) {
+        const Vector3 after = sph::after_contact(
+            u, {n, rubbing.velocity_of(triangle.patch, place, n), 0, rubbing.coefficient(triangle.patch)}, push);
+        const Vector3 impulse = state.mass * (u - after);
         received[triangle.patch] += impulse;
-        noted[i / chunk_size].push_back(
-            {fields.at(vessel.part(met->triangle), place), state.mass * after.contact_push, impulse});
-        u = after.velocity;
+        noted[i / chunk_size].push_back({fields.at(vessel.part(met->triangle), place), state.mass * push, impulse});
+        u = after;
       }
       x -= (2 * beyond) * normal;
       if (bounces == most_bounces) x = before[i];  // in a narrow corner: back to where it was

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
@@ -38,9 +37,9 @@ Vector3 velocity_after_printed_friction(const Parameters& p, const Domain& domai
          sph::printed_friction(velocity - through, norm(traction - normal * n), normal, p.walls.coefficient, duration);
 }
 
-/// WallContact::gap; infinite beyond the ends of a wall and in its openings. \param side on which the particle is
+/// How far a particle is from its contact distance of a wall's plane, m. \param side on which the particle is
 double gap_of(const Domain& domain, int wall, double side, const Vector3& x, double distance) {
-  return domain.is_beside(wall, x) ? side * domain.above(wall, x) - distance : std::numeric_limits<double>::infinity();
+  return side * domain.above(wall, x) - distance;
 }
 
 double coefficient_of_walls(const Parameters& p, const State& state) {
@@ -74,15 +73,14 @@ void apply_wall_contact(ThreadTeam& team, const Parameters& p, const Domain& dom
     const auto touch = [&](int wall, double acceleration) {
       if (!domain.is_solid(wall)) return false;
       const double side = domain.side(wall, position[i]);
-      const sph::AfterContact after = sph::after_contact(state.velocity[i],
-                                                         {side * normal[static_cast<std::size_t>(wall)],
-                                                          {},
-                                                          gap_of(domain, wall, side, state.position[i], step.distance),
-                                                          side * acceleration * step.duration,
-                                                          coefficient},
-                                                         step.step);
-      become(wall, after.velocity);
-      return after.contact_push > 0;
+      const sph::WallContact contact{
+          side * normal[static_cast<std::size_t>(wall)], {}, side * acceleration * step.duration, coefficient};
+      const double push = sph::contact_push(dot(state.velocity[i], contact.normal),
+                                            gap_of(domain, wall, side, state.position[i], step.distance), step.step);
+      const bool touches = push > 0 && domain.is_beside(wall, state.position[i]);
+      if (touches || contact.stress_push * coefficient > 0)
+        become(wall, sph::after_contact(state.velocity[i], contact, touches ? push : 0));
+      return touches;
     };
     bool held = false;
     int walls = 0;
@@ -117,8 +115,9 @@ void hold_off_walls(ThreadTeam& team, const Domain& domain, const Rates& rates, 
         const Vector3 n = side * domain.normal(wall);
         const double push =
             sph::contact_push(dot(velocity[i], n), gap_of(domain, wall, side, position[i], step.distance), step.step);
+        if (!(push > 0) || !domain.is_beside(wall, position[i])) return;
         velocity[i] += push * n;
-        held = held || push > 0;
+        held = true;
       });
     }
   });
@@ -150,7 +149,9 @@ void reflect_at_walls(ThreadTeam& team, const Parameters& p, const Material& mat
                                         : place - bounce->image.vector(state.position[i] - state.reset_position[i]);
       if (solid) {
         const Vector3 n = domain.side(bounce->wall, before[i]) * domain.normal(bounce->wall);
-        become(bounce->wall, place, sph::after_contact(state.velocity[i], {n, {}, 0, 0, coefficient}, 1).velocity);
+        become(bounce->wall, place,
+               sph::after_contact(state.velocity[i], {n, {}, 0, coefficient},
+                                  sph::contact_push(dot(state.velocity[i], n), 0, 1)));
       } else {
         become(bounce->wall, place, bounce->image.vector(state.velocity[i]));
         material.mirror(state.material, i, bounce->image);

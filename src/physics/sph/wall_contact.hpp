@@ -38,35 +38,30 @@ inline constexpr double contact_distance = 0.47;
 struct WallContact {
   Vector3 normal;         ///< unit, towards the particle
   Vector3 wall_velocity;  ///< along the wall, m/s
-  double gap;             ///< of the particle from its contact distance, m; below 0: it is nearer
   double stress_push;     ///< normal impulse over mass that the stress of the step has given already, m/s
   double coefficient;     ///< mu
-};
-
-struct AfterContact {
-  Vector3 velocity;     ///< of the particle, m/s
-  double contact_push;  ///< normal impulse over mass of the contact, >= 0, m/s
 };
 
 /// Signorini's condition on the velocity: what a wall adds to the velocity along its normal, m/s, so that the particle
 /// comes no nearer within the step than its contact distance. The approach in excess is lost (restitution 0). A
 /// particle that is nearer already is held where it is: pushed out, the first layer of a bed that a lattice laid too
-/// near to a wall would press on the rest for ever. So a contact takes energy only. Source: Moreau, in Nonsmooth
-/// Mechanics and Applications (1988), 1; Jean, Comput. Methods Appl. Mech. Eng. 177, 235 (1999). \param along_normal
-/// velocity towards the particle's side, m/s; \param gap WallContact::gap, m; \param step over which it will move with
-/// that velocity, s
+/// near to a wall would press on the rest for ever. So a contact takes energy only.
+/// Source: Moreau, in Nonsmooth Mechanics and Applications (1988), 1; Jean, Comput. Methods Appl. Mech. Eng. 177, 235
+/// (1999).
+/// \param along_normal velocity towards the particle's side, m/s; \param gap of the particle from its contact distance,
+/// m, below 0 where it is nearer; \param step over which it will move with that velocity, s
 inline double contact_push(double along_normal, double gap, double step) {
   return std::max(0.0, std::min(0.0, -gap / step) - along_normal);
 }
 
-/// Contact, and Coulomb's friction with all that the contact and the stress push together. \param velocity of the
-/// particle, m/s; \param step over which it will move with it, s
-inline AfterContact after_contact(const Vector3& velocity, const WallContact& wall, double step) {
-  const double along_normal = dot(velocity, wall.normal), push = contact_push(along_normal, wall.gap, step);
+/// The velocity of a particle after contact, and Coulomb's friction with all that contact and stress push together,
+/// m/s.
+/// \param velocity of the particle, m/s; \param push contact_push() of it, m/s
+inline Vector3 after_contact(const Vector3& velocity, const WallContact& wall, double push) {
+  const double along_normal = dot(velocity, wall.normal);
   const Vector3 tangential = velocity - along_normal * wall.normal - wall.wall_velocity;
-  return {(along_normal + push) * wall.normal + wall.wall_velocity +
-              coulomb_friction(tangential, wall.stress_push + push, wall.coefficient),
-          push};
+  return (along_normal + push) * wall.normal + wall.wall_velocity +
+         coulomb_friction(tangential, wall.stress_push + push, wall.coefficient);
 }
 
 }  // namespace talus::sph

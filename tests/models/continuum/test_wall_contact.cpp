@@ -23,19 +23,18 @@ namespace talus::continuum {
 namespace {
 
 TEST(WallContact, StopsWhatComesNearerAndTakesNoMoreThanTheApproach) {
-  const sph::WallContact wall{{0, 0, 1}, {}, 0, 0, 0.5};
-  const sph::AfterContact held = sph::after_contact({1, 0, -0.1}, wall, 1e-3);
-  EXPECT_NEAR(held.velocity.z, 0, 1e-16);
-  EXPECT_NEAR(held.velocity.x, 0.95, 1e-15);
-  EXPECT_NEAR(held.contact_push, 0.1, 1e-16);
-  // As far as it may still go within the step.
-  EXPECT_NEAR(sph::after_contact({0, 0, -0.1}, {{0, 0, 1}, {}, 2e-5, 0, 0.5}, 1e-3).velocity.z, -0.02, 1e-15);
-  EXPECT_EQ(sph::after_contact({0, 0, -0.1}, {{0, 0, 1}, {}, 1, 0, 0.5}, 1e-3).velocity.z, -0.1);
-  // One that leaves is let go, one that is too near is not thrown out.
-  EXPECT_EQ(sph::after_contact({0, 0, 0.1}, wall, 1e-3).velocity.z, 0.1);
-  EXPECT_EQ(sph::after_contact({0, 0, -0.1}, {{0, 0, 1}, {}, -1e-3, 0, 0.5}, 1e-3).velocity.z, 0);
+  EXPECT_NEAR(sph::contact_push(-0.1, 0, 1e-3), 0.1, 1e-16);
+  EXPECT_NEAR(sph::contact_push(-0.1, 2e-5, 1e-3), 0.08, 1e-16) << "as far as it may still go within the step";
+  EXPECT_EQ(sph::contact_push(-0.1, 1, 1e-3), 0);
+  EXPECT_EQ(sph::contact_push(0.1, 0, 1e-3), 0) << "what leaves is let go";
+  EXPECT_NEAR(sph::contact_push(-0.1, -1e-3, 1e-3), 0.1, 1e-16) << "what is too near is not thrown out";
+  const sph::WallContact wall{{0, 0, 1}, {}, 0, 0.5};
+  const Vector3 held = sph::after_contact({1, 0, -0.1}, wall, 0.1);
+  EXPECT_NEAR(held.z, 0, 1e-16);
+  EXPECT_NEAR(held.x, 0.95, 1e-15);
+  EXPECT_NEAR(sph::after_contact({1, 0, -0.1}, {{0, 0, 1}, {}, 0.3, 0.5}, 0.1).x, 0.8, 1e-15) << "with the stress";
   // A wall that moves along itself takes it along.
-  EXPECT_NEAR(sph::after_contact({0, 0, -0.1}, {{0, 0, 1}, {0.02, 0, 0}, 0, 0, 0.5}, 1e-3).velocity.x, 0.02, 1e-16);
+  EXPECT_NEAR(sph::after_contact({0, 0, -0.1}, {{0, 0, 1}, {0.02, 0, 0}, 0, 0.5}, 0.1).x, 0.02, 1e-16);
 }
 
 TEST(WallContact, FewParticlesStopAfterTheDistanceOfCoulomb) {
