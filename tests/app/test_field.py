@@ -119,6 +119,22 @@ class Surfaces(FieldTest):
         move = problem[problem.index("move = ") + 7:problem.index("]") + 1]
         self.assertIn("lies at", self.check("centred.toml", f"vessel.1.move={move}"))
 
+    def test_a_body_half_outside_the_box_is_filled_within_it(self):
+        """A closed cube of 40 mm about a place on the left face: no particle where there is no box."""
+        corners = [(x, y, z) for z in (20, 60) for y in (20, 60) for x in (-20, 20)]
+        sides = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        facets = [[corners[n] for n in three] for a, b, c, d in sides for three in ((a, b, c), (a, c, d))]
+        lines = ["solid cube"]
+        for facet in facets:
+            lines += ["facet normal 0 0 0", "outer loop", *("vertex %g %g %g" % corner for corner in facet), "endloop", "endfacet"]
+        (self.folder / "cube.stl").write_text("\n".join([*lines, "endsolid cube", ""]))
+        bed = ("vessel.1.file=cube.stl", "bed.bottom=20 mm", "bed.height=20 mm")
+        start = self.run_case("centred.toml", *bed)[0].position
+        self.assertEqual(len(start), 5 * 10 * 5)
+        self.assertTrue((start > [0, 0.02, 0.02]).all() and (start < [0.02, 0.06, 0.04]).all())
+        moved = self.problems("check", "centred.toml", *settings(*bed, 'vessel.1.move=["-30 mm", "0 mm", "0 mm"]'))
+        self.assertIn("tray spans -50..-10 x 20..60 x 20..60 mm, the box 0..80 x 0..80 x 0..80 mm", moved[0])
+
     def test_a_wrong_unit_is_told_with_the_right_one(self):
         problem, = self.problems("check", "funnel.toml", *settings("vessel.1.unit=m"))
         self.assertIn("funnel spans 15..55 x 15..55 x 30..90 m, the box 0..70 x 0..70 x 0..100 mm", problem)
