@@ -105,10 +105,10 @@ double outlet_packing(const HopperSnapshot& s, const Place&) {
   const Vector3 middle{shape.plate->slit_left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
   double inside = 0;
   for (const Vector3& x : s.now.positions()) {
-    const double across = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y), up = x.z - shape.plate->height;
+    const double sideways = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y), up = x.z - shape.plate->height;
     if (up < 0 || up > height) continue;
-    inside += of.outlet_is_round ? std::hypot(across, along) <= half_width
-                                 : across <= half_width && along <= 0.5 * of.outlet_depth;
+    inside += of.outlet_is_round ? std::hypot(sideways, along) <= half_width
+                                 : sideways <= half_width && along <= 0.5 * of.outlet_depth;
   }
   const double area =
       of.outlet_is_round ? std::numbers::pi * half_width * half_width : 2 * half_width * of.outlet_depth;
