@@ -218,7 +218,7 @@ void VesselWalls::find(ThreadTeam& team, const Neighbourhood& neighbourhood, std
   }
   clearance_.resize(particles_.size());
   for (std::size_t n = 0; n < particles_.size(); ++n)
-    clearance_[n] = {position[particles_[n]], neighbourhood.distance_from_vessel(particles_[n])};
+    clearance_[n] = {position[particles_[n]], neighbourhood.distance_from_vessel(particles_[n]), 0, {}};
   met_.resize(stands_.size());
   met_count_.assign(particles_.size(), 0);
   find_pairs(team, neighbourhood, position, smoothing_length, margin);

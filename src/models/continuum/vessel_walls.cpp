@@ -113,15 +113,38 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     seats_[wall.stand] = {{wall.normal.x, wall.normal.y, wall.normal.z}, wall.distance, wall.share, {}};
 }
 
+/// The place of the surface nearest to y, if it is nearer than `within`. \param clear what is known, and is known then
+std::optional<Surface::Foot> VesselWalls::foot_near(Clearance& clear, const Vector3& y, double within) const {
+  const double looked_beyond = 0.3 * spacing_, moved = norm(y - clear.around);
+  if (moved + within < clear.distance) return std::nullopt;
+  std::optional<Surface::Foot> foot;
+  const bool searched = clear.triangles == 0 || !(moved < looked_beyond);
+  if (searched) {
+    thread_local std::vector<std::uint32_t> near;
+    clear = {y, within + looked_beyond, 0, {}};
+    if (surface_.near(y, clear.distance, Clearance::max_triangles, near)) {
+      if (near.empty()) return std::nullopt;
+      clear.triangles = static_cast<std::uint32_t>(near.size());
+      std::copy(near.begin(), near.end(), clear.triangle.begin());
+    } else {
+      foot = surface_.nearest(y, clear.distance);
+    }
+  }
+  for (std::uint32_t n = 0; n < clear.triangles; ++n) {
+    const std::uint32_t t = clear.triangle[n];
+    const Vector3 place = nearest_place(surface_.triangles()[t], y);
+    const double distance = norm(place - y);
+    if (!foot || distance < foot->distance || (distance == foot->distance && t < foot->triangle))
+      foot = Surface::Foot{t, place, distance};
+  }
+  if (searched && foot) clear.distance = std::min(clear.distance, foot->distance);
+  return foot && foot->distance < within ? foot : std::nullopt;
+}
+
 std::optional<VesselWalls::Touch> VesselWalls::touched(std::size_t place, const Vector3& x, const Vector3& y,
                                                        double within) {
-  constexpr double looked_beyond = 0.3;  // spacings
-  Clearance& clear = clearance_[place];
-  if (norm(y - clear.around) + within < clear.distance) return std::nullopt;
-  const double reach = within + looked_beyond * spacing_;
-  const auto foot = surface_.nearest(y, reach, clear.triangle);
-  clear = {y, foot ? foot->distance : reach, foot ? foot->triangle : Surface::no_triangle};
-  if (!foot || !(foot->distance < within)) return std::nullopt;
+  const auto foot = foot_near(clearance_[place], y, within);
+  if (!foot) return std::nullopt;
   const Vector3 out = y - foot->place;
   Touch touch{foot->triangle, foot->place, (1 / foot->distance) * out};
   if (dot(out, x - foot->place) > 0) return touch;

@@ -157,12 +157,16 @@ class VesselWalls {
   std::vector<std::uint32_t> pair_record_, pair_seat_;
   std::vector<NearWall> met_;            // by stand; of a particle those that it meets come first
   std::vector<std::uint8_t> met_count_;  // by slot
-  /// No part of the surface is nearer to a place than that distance.
+  /// What is known of the surface around a place: that none of it is nearer than a distance and, where triangles are
+  /// named, that no others lie within the reach of the search.
   struct Clearance {
+    static constexpr std::size_t max_triangles = 4;
     Vector3 around;
     double distance = 0;
-    std::size_t triangle = Surface::no_triangle;
+    std::uint32_t triangles = 0;  // 0: not known
+    std::array<std::uint32_t, max_triangles> triangle{};
   };
+  std::optional<Surface::Foot> foot_near(Clearance& clear, const Vector3& y, double within) const;
   std::vector<Clearance> clearance_;  // by slot
   bool is_met_ = false;
   std::vector<double> plane_;  // weight of a plane by its distance, in steps of h/64
