@@ -160,7 +160,7 @@ class VesselWalls {
   /// What is known of the surface around a place: that none of it is nearer than a distance and, where triangles are
   /// named, that no others lie within the reach of the search.
   struct Clearance {
-    static constexpr std::size_t max_triangles = 4;
+    static constexpr std::size_t max_triangles = 10;
     Vector3 around;
     double distance = 0;
     std::uint32_t triangles = 0;  // 0: not known
