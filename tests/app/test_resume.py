@@ -88,7 +88,7 @@ class Hopper(ProgramTest):
         self.assertEqual(state(self.folder / "2"), state(self.folder / "1"))
         resume = ()
         for _ in range(3):
-            self.talus("run", self.case, "--out", "r", "--walltime", "0.2", *resume, *self.settings, status=130)
+            self.talus("run", self.case, "--out", "r", "--walltime", "0.05", *resume, *self.settings, status=130)
             resume = ("--resume",)
         self.talus("run", self.case, "--out", "r", "--threads", 2, "--resume", *self.settings)
         self.assertEqual(bits(self.folder / "r"), bits(self.folder / "1"))
