@@ -31,10 +31,10 @@ Forecast forecast(const Parameters& parameters, double end);
 /// comes to run.end.
 std::vector<Problem> check_steps(const Parameters& parameters, double end);
 
-/// Bytes that a run takes, the program itself among them.
 /// Of the particles' time step: sound speed times step over smoothing length, in the bed as it is laid.
 double courant_number(const Parameters& parameters);
 
+/// Bytes that a run takes, the program itself among them.
 double memory_of(const Forecast& forecast);
 
 /// The same vessel and bed with about so many, larger particles. The share of them beside the walls is that of the case

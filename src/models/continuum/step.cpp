@@ -102,25 +102,28 @@ constexpr double max_advance = 0.25;
 
 /// What limits the step of the grains.
 struct GrainLimits {
-  double min_smoothing_length;  ///< m
-  double max_speed;             ///< of the particles within the box, m/s
+  double min_smoothing_length = std::numeric_limits<double>::infinity();  ///< m
+  double max_square_speed = 0;                                            ///< of the particles within the box, m^2/s^2
 };
 
 GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& w) {
-  struct Extremes {
-    double min_length = std::numeric_limits<double>::infinity(), max_square = 0;
-  };
-  const Extremes found = accumulate(
-      team, w.smoothing_length.size(), Extremes{},
-      [&](std::size_t i, Extremes& e) {
-        e.min_length = std::min(e.min_length, w.smoothing_length[i]);
+  return accumulate(
+      team, w.smoothing_length.size(), GrainLimits{},
+      [&](std::size_t i, GrainLimits& limits) {
+        limits.min_smoothing_length = std::min(limits.min_smoothing_length, w.smoothing_length[i]);
         const double square = dot(s.velocity[i], s.velocity[i]);
-        if (square > e.max_square && w.domain.box().contains(s.position[i])) e.max_square = square;
+        if (square > limits.max_square_speed && w.domain.box().contains(s.position[i]))
+          limits.max_square_speed = square;
       },
-      [](const Extremes& a, const Extremes& b) {
-        return Extremes{std::min(a.min_length, b.min_length), std::max(a.max_square, b.max_square)};
+      [](const GrainLimits& a, const GrainLimits& b) {
+        return GrainLimits{std::min(a.min_smoothing_length, b.min_smoothing_length),
+                           std::max(a.max_square_speed, b.max_square_speed)};
       });
-  return {found.min_length, std::sqrt(found.max_square)};
+}
+
+/// The longest step in which nothing moves farther than max_advance, s.
+double step_of_speed(const Parameters& p, const GrainLimits& limits) {
+  return max_advance * p.bed.spacing / std::sqrt(limits.max_square_speed);
 }
 
 /// The step that pressure waves and the speed of the grains allow, s, or the fixed one; without particles that of the
@@ -129,8 +132,7 @@ double step_of_grains(const Parameters& p, const GrainLimits& limits, const Work
   if (p.integration.step) return *p.integration.step;
   if (w.smoothing_length.empty())
     return p.integration.courant * w.sweep.smoothing_length(p.bed.packing * p.grains.density) / w.sound_speed;
-  return std::min(p.integration.courant * limits.min_smoothing_length / w.sound_speed,
-                  max_advance * p.bed.spacing / limits.max_speed);
+  return std::min(p.integration.courant * limits.min_smoothing_length / w.sound_speed, step_of_speed(p, limits));
 }
 
 /// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
@@ -294,22 +296,24 @@ NumericalError::Report step_limit(const Parameters& p, const State& s, const Wor
   }
   // That of the densest particle, or of the fastest within the box.
   std::size_t densest = 0, fastest = 0;
-  const auto speed = [&](std::size_t i) { return w.domain.box().contains(s.position[i]) ? norm(s.velocity[i]) : 0; };
-  for (std::size_t i = 1; i < s.position.size(); ++i) {
-    if (w.smoothing_length[i] < w.smoothing_length[densest]) densest = i;
-    if (speed(i) > speed(fastest)) fastest = i;
+  GrainLimits limits;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const double square = dot(s.velocity[i], s.velocity[i]);
+    if (w.smoothing_length[i] < limits.min_smoothing_length)
+      limits.min_smoothing_length = w.smoothing_length[densest = i];
+    if (square > limits.max_square_speed && w.domain.box().contains(s.position[i]))
+      limits.max_square_speed = square, fastest = i;
   }
-  const GrainLimits limits{w.smoothing_length[densest], speed(fastest)};
   const double of_grains = step_of_grains(p, limits, w);
   if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
-  const bool by_speed = !(of_grains < max_advance * p.bed.spacing / limits.max_speed);
+  const bool by_speed = !(of_grains < step_of_speed(p, limits));
   const std::size_t i = by_speed ? fastest : densest;
   const Vector3& x = s.position[i];
   if (p.integration.step) {
     report.term = "integration.step";
   } else if (by_speed) {
     report.term = fmt::format("a particle moves {:g} of bed.spacing in a step at most: the fastest has {:.4g} m/s",
-                              max_advance, limits.max_speed);
+                              max_advance, std::sqrt(limits.max_square_speed));
   } else {
     report.term = fmt::format("Courant number of the grains, where they are densest, at {:.4g} kg/m3", s.density[i]);
   }
