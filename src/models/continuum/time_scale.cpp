@@ -14,10 +14,6 @@ namespace {
 constexpr double standard_gravity = 9.80665;
 constexpr double share_of_speed = 8e-4, share_of_time = 0.3, share_of_limit = 15;
 
-bool is_mirrored(FaceKind face) {
-  return face == FaceKind::symmetry || face == FaceKind::periodic;
-}
-
 /// Until when inlets fill the vessel before the gate opens, s.
 double end_of_filling(const Parameters& p) {
   double end = 0;
@@ -29,13 +25,12 @@ double end_of_filling(const Parameters& p) {
 }  // namespace
 
 std::optional<double> outlet_width(const Parameters& p) {
-  if (const auto outlet = outlet_of_vessel(p)) return outlet->narrow;
   const auto outlet = outlet_of(p);
   if (!outlet || !(outlet->right > outlet->left)) return std::nullopt;
-  const bool halved = (p.box.left == FaceKind::symmetry && outlet->left <= 0) ||
-                      (p.box.right == FaceKind::symmetry && outlet->right >= p.box.width);
-  const double width = (halved ? 2 : 1) * (outlet->right - outlet->left);
-  return is_mirrored(p.box.front) && is_mirrored(p.box.rear) ? width : std::min(width, p.box.depth);
+  const bool halved = p.vessel.empty() && ((p.box.left == FaceKind::symmetry && outlet->left <= 0) ||
+                                           (p.box.right == FaceKind::symmetry && outlet->right >= p.box.width));
+  if (!halved) return outlet->across;
+  return std::min(2 * (outlet->right - outlet->left), distance_of_walls(p.box.front, p.box.rear, p.box.depth));
 }
 
 TimeScales time_scales_of(const Parameters& p) {
