@@ -66,8 +66,7 @@ void for_each_parameter_of_region(Visit&& visit, Key&& key, Region& bed, bool op
   constexpr std::string_view whole = "height of the bed at the start, where its mass is not given";
   constexpr std::string_view or_none =
       "height of the bed at the start, where neither its mass nor a file is given; left out with an [[inlet]] or "
-      "[[beds]]: "
-      "no bed, else required";
+      "[[beds]]: no bed, else required";
   filled(Parameter{key("height"), dimension::length, optional ? at_least(0) : above(0), optional ? or_none : whole,
                    !optional},
          bed.height);

@@ -195,8 +195,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.sph.stress_form);
   visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
                   "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a "
-                  "few spacings "
-                  "above the head that they came with"},
+                  "few spacings above the head that they came with"},
         p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);

@@ -192,7 +192,7 @@ VesselBounds bounds_of_vessel(const Parameters& p) {
   VesselBounds all = no_bounds();
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselBounds own = bounds_of(p, n);
-    add(all, own.low), add(all, own.high);
+    if (own.low.x <= own.high.x) add(all, own.low), add(all, own.high);  // a file that cannot be read has none
   }
   return all;
 }
