@@ -103,7 +103,11 @@ std::vector<Vector3> bed_behind(const Parameters& p, const std::vector<Candidate
 std::vector<OpenRim> rims_below_bed(const Parameters& given) {
   Parameters p = given;
   while (places_of(lattice_of(p)) > most_places) p.bed.spacing *= 2, p.surface = std::make_shared<VesselSurface>();
-  const double top = bed_bottom(p) + p.bed.height;
+  double top = 0;
+  for (const std::size_t n : beds_of(p)) {
+    const Parameters one = with_bed_alone(p, n);
+    top = std::max(top, bed_bottom(one) + one.bed.height);
+  }
   const Surface surface = surface_of(p);
   const Domain domain = domain_of(p);
   std::vector<Candidate> candidates;
