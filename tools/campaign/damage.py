@@ -43,7 +43,11 @@ class Damage(Attack):
         self.talus(RUN, self.folder)
         self.expected = bits(self.folder / "r")
         # The same stopped on its way, as a kill leaves it, and stopped at its end.
-        self.talus([*RUN[:3], "half", *RUN[4:], "--walltime", "0.02"], self.folder, (130,))
+        status, limit = 0, 0.02  # s
+        while status == 0:
+            half = (*RUN[:3], "half", *RUN[4:], "--overwrite", "--walltime", limit)
+            status, _ = self.talus(half, self.folder, (0, 130))
+            limit /= 2
 
     def trial(self, random, folder, most):
         (folder / "case.toml").write_text(self.text)

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/continuum/engineering_units.hpp"
+#include "io/scratch_folder.hpp"
 #include "io/series.hpp"
 #include "small_silo.hpp"
 
@@ -31,11 +32,7 @@ const std::vector<NamedValue> emptied = {{"discharge_steady", "kg/s", 0.4791},
 
 class Answers : public ::testing::Test {
  protected:
-  Answers() : folder(std::filesystem::path(::testing::TempDir()) / "answers"), quantities(emptied) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder / "analysis");
-  }
-  ~Answers() override { std::filesystem::remove_all(folder); }
+  Answers() { std::filesystem::create_directories(scratch / "analysis"); }
 
   void set(std::string_view name, double value) {
     for (NamedValue& q : quantities)
@@ -48,8 +45,9 @@ class Answers : public ::testing::Test {
     return {"", "no such answer", ""};
   }
 
-  std::filesystem::path folder;
-  std::vector<NamedValue> quantities;
+  ScratchFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
+  std::vector<NamedValue> quantities = emptied;
 };
 
 TEST_F(Answers, StandBesideTheAnalyticalEstimates) {
