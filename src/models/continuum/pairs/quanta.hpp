@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Places as whole numbers of a quantum, modulo 2^32: what two that are near each other differ by is exact, and as good
-/// as a float wherever they are (docs/decisions/0037-pairs-in-single-precision.md).
+/// as a float wherever they are (docs/design/lists-and-precision.md).
 #pragma once
 
 #include <array>

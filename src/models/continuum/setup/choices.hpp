@@ -19,7 +19,7 @@ enum class FrictionFrom { gate, start };
 enum class Method { runge_kutta, leapfrog };
 
 /// Two thirds of what the leapfrog bears, and what the midpoint rule does
-/// (docs/decisions/0027-the-step-of-the-leapfrog.md).
+/// (docs/design/time-steps.md).
 constexpr double default_courant(Method method) {
   return method == Method::leapfrog ? 1.2 : 0.3;
 }

@@ -2,7 +2,7 @@
 /// How the weight of a bed that settles comes on. Laid at the packing at which it just touches, a bed that got its
 /// weight at once would be pressed by up to twice of it before it came to rest: overconsolidated, with up to half as
 /// much horizontal stress again. So the weight comes on as half a cosine, slower than a wave passes; a bed whose gate
-/// goes by the clock, or that has none, has it all. docs/decisions/0020-a-bed-takes-up-its-weight-slowly.md
+/// goes by the clock, or that has none, has it all. docs/design/time-steps.md
 #pragma once
 
 #include "models/continuum/setup/parameters.hpp"
