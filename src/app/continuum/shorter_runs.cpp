@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/materials/materials.hpp"
-#include "models/continuum/layout.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 

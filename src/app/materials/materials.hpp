@@ -17,7 +17,7 @@
 #include "base/error.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "physics/granular/friction_angle.hpp"
 
 namespace talus {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cases.hpp"
+#include "models/continuum/cases.hpp"
 #include "models/continuum/step.hpp"
 
 namespace talus::continuum {
