@@ -254,6 +254,8 @@ def law(folder):
     axes[0].set(title="friction", xlabel=r"$|e_{dev}|$", ylabel=r"$|\tau_{dev}| / \sqrt{2}\,p$")
     axes[1].plot(path["packing"], path["pressure"])
     axes[1].set(title="pressure", xlabel="packing", ylabel="$p$ (Pa)")
+    for letter, drawn_on in zip("abcd", figure.axes):
+        drawn_on.set_title(f"({letter}) {drawn_on.get_title(loc='left')}")
     drawn = [save(figure, folder / "path.png")]
     if (folder / "functions.csv").is_file():
         drawn.append(_fitted_functions(Table(folder / "functions.csv"), folder / "functions.png"))
