@@ -90,6 +90,8 @@ def drift(cumulative, length, start, end):
 def about_running_mean(of, length, start, end):
     """The curve less its own centred mean over `length`, at the data within start..end whose mean the curve covers before
     its first value that is not a number."""
+    if len(of.time) == 0:
+        return EMPTY
     sums, time = integral(of), of.time
     inside = (time > start) & (time <= end) & covers(sums, time - 0.5 * length, time + 0.5 * length)
     time = time[inside]
