@@ -19,7 +19,7 @@
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
 #include "io/vtkhdf_grid.hpp"
-#include "models/continuum/time_scale.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/surface/section.hpp"

@@ -15,9 +15,9 @@
 #include "app/continuum/hand_formulas.hpp"
 #include "io/figure/figure.hpp"
 #include "io/series.hpp"
-#include "models/continuum/layout.hpp"
+#include "models/continuum/boundary/vessel_loads.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/state.hpp"
-#include "models/continuum/vessel_loads.hpp"
 
 namespace talus::app {
 
