@@ -46,12 +46,6 @@ Curve mean_rates(const Curve& cumulative, double length, double every, double fr
   }
 }
 
-double drift(const Curve& cumulative, double length, double from, double to) {
-  if (!covers(cumulative, from, to)) return none;
-  const Curve means = mean_rates(cumulative, length, length, from, to);
-  return fit_line(means.time, means.value).slope * (to - from) / mean(means.value);
-}
-
 double first_maximum_time(const Curve& values, double reach) {
   for (std::size_t n = 1; n < values.time.size(); ++n) {
     if (!covers(values, values.time[n], values.time[n] + reach)) break;
@@ -71,16 +65,10 @@ Curve about_running_mean(const Curve& curve, double length, double from, double 
   for (std::size_t n = 0; n < curve.time.size(); ++n) {
     const double t = curve.time[n];
     if (t <= from || t > to || !covers(sums, t - 0.5 * length, t + 0.5 * length)) continue;
-    const double difference = curve.value[n] - mean_rate(sums, t - 0.5 * length, t + 0.5 * length);
-    if (!std::isfinite(difference)) break;  // the curve has ended within the mean
     left.time.push_back(t);
-    left.value.push_back(difference);
+    left.value.push_back(curve.value[n] - mean_rate(sums, t - 0.5 * length, t + 0.5 * length));
   }
   return left;
-}
-
-double fluctuation(const Curve& curve, double length, double from, double to) {
-  return standard_deviation(about_running_mean(curve, length, from, to).value);
 }
 
 }  // namespace talus

@@ -23,20 +23,12 @@ double mean_rate(const Curve& cumulative, double from, double to);
 /// Means over `length`, one every `every`, each whole within from..to; their times are their centres.
 Curve mean_rates(const Curve& cumulative, double length, double every, double from, double to);
 
-/// Slope of the line through the consecutive means over `length` within from..to, times (to - from), over their mean:
-/// by how much of itself the rate changes.
-double drift(const Curve& cumulative, double length, double from, double to);
-
 /// Time of the first value that is larger than all within `reach` before it and not smaller than any within `reach`
 /// after it; nan if there is none. The curve has to cover the reach after it; before, it may begin later, as a rate
 /// does that begins from nothing. The first value of a curve is no maximum.
 double first_maximum_time(const Curve& values, double reach);
 
-/// What is left of a curve when its own centred mean over `length` is taken off, of the data within from..to whose mean
-/// the curve covers before its first value that is not a number.
+/// The curve less its own centred mean over `length`, of the data within from..to whose mean the curve covers.
 Curve about_running_mean(const Curve& curve, double length, double from, double to);
-
-/// Standard deviation of that.
-double fluctuation(const Curve& curve, double length, double from, double to);
 
 }  // namespace talus

@@ -60,13 +60,6 @@ double FreeSurface::height(double at) const {
   return none;
 }
 
-double FreeSurface::mean_height(double from, double to) const {
-  std::vector<double> heights;
-  for (std::size_t n = 0; n < x.size(); ++n)
-    if (x[n] >= from && x[n] <= to && std::isfinite(z[n])) heights.push_back(z[n]);
-  return mean(heights);
-}
-
 FreeSurface free_surface(const Section& packing, const Vessel& vessel, double level) {
   std::size_t first = 0, last = packing.rows;
   while (first < packing.rows && packing.z(first) < vessel.bottom) ++first;
@@ -84,32 +77,6 @@ double surface_angle(const FreeSurface& surface, double middle) {
   const auto left = line(surface, -far, middle), right = line(surface, middle, far);
   if (!left && !right) return none;
   return std::atan(0.5 * (std::abs((left ? left : right)->slope) + std::abs((right ? right : left)->slope)));
-}
-
-double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width) {
-  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
-  if (!left || !right) return none;
-  const double prolonged = 0.5 * (left->intercept + right->intercept + (left->slope + right->slope) * middle);
-  return surface.mean_height(middle - 0.5 * width, middle + 0.5 * width) - prolonged;
-}
-
-double height_beside(const FreeSurface& surface, double middle, double from, double to) {
-  std::vector<double> heights;
-  for (std::size_t n = 0; n < surface.x.size(); ++n)
-    if (const double away = std::abs(surface.x[n] - middle); away >= from && away <= to && std::isfinite(surface.z[n]))
-      heights.push_back(surface.z[n]);
-  return mean(heights);
-}
-
-double outward_angle(const FreeSurface& surface, double middle, double from, double to) {
-  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
-  if (!left && !right) return none;
-  return std::atan(0.5 * ((left ? left->slope : -right->slope) - (right ? right->slope : -left->slope)));
-}
-
-double surface_swelling(const FreeSurface& surface, double middle, double beside, double width) {
-  const auto around = [&](double x) { return surface.mean_height(x - 0.5 * width, x + 0.5 * width); };
-  return around(middle) - 0.5 * (around(middle - beside) + around(middle + beside));
 }
 
 }  // namespace talus

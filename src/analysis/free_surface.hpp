@@ -17,8 +17,6 @@ struct FreeSurface {
 
   /// Height at x, linear between finite neighbours; nan beyond them.
   double height(double at) const;
-  /// Mean of the finite heights with from <= x <= to; nan if there are none.
-  double mean_height(double from, double to) const;
 };
 
 /// Where a vessel is in a section, and from where its surface is looked for.
@@ -37,20 +35,5 @@ FreeSurface free_surface(const Section& packing, const Vessel& vessel, double le
 /// lines, through the heights left and right of `middle`; rad. Of one half alone if the other has fewer than three
 /// heights; nan if both have.
 double surface_angle(const FreeSurface& surface, double middle);
-
-/// Mean of the heights between two distances from the middle, left and right of it together; nan if there are none.
-double height_beside(const FreeSurface& surface, double middle, double from, double to);
-
-/// Angle at which the surface falls outwards between two distances from the middle: that of the mean of the slopes of
-/// the least-squares lines left and right, rad; below 0 where it rises outwards. Of one side alone if the other has
-/// fewer than three heights; nan if both have.
-double outward_angle(const FreeSurface& surface, double middle, double from, double to);
-
-/// How much higher the middle is than the places `beside` to its left and right: means over `width` each. m
-double surface_swelling(const FreeSurface& surface, double middle, double beside, double width);
-
-/// How much higher the middle is, mean over `width`, than where the lines through the flanks, which lie between two
-/// distances from it, prolonged, have it; their mean. m; nan unless each flank has three heights
-double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width);
 
 }  // namespace talus
