@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from talus.curves import curve
+from talus.curves import Curve, curve, mean, nearest_point, part, quantile
 from talus.fields import Box, Field, Grains, Plate, packing_section
 from talus.measures import NotEvaluated, once
 from talus.surfaces import Surface, free_surface
@@ -167,3 +167,63 @@ class ContinuumSnapshot:
 
 
 NO_SURFACE = Surface(np.empty(0), np.empty(0))
+
+
+# A number of a snapshot is a function(ContinuumSnapshot, **place) -> float, nan where it has no meaning.
+@once
+def number_of_snapshot(run, n, number, place):
+    return float(number(continuum(run).snapshot(n), **dict(place)))
+
+
+def value_at_window(number, run, window, place):
+    """In the snapshot nearest the window's time; nan if the run ended more than half an interval before."""
+    times, time = continuum(run).times, np.inf if window.at is None else window.at
+    if len(times) == 0:
+        return np.nan
+    if np.isinf(time):
+        return number_of_snapshot(run, len(times) - 1, number, _key(place))
+    interval = times[-1] - times[-2] if len(times) > 1 else 0
+    if time > times[-1] + 0.5 * interval:
+        return np.nan
+    return number_of_snapshot(run, nearest_point(times, time), number, _key(place))
+
+
+def _key(place):
+    return tuple(sorted(place.items()))
+
+
+def values_of_snapshots(run, value):
+    """Curve of value(n) of the snapshots from the gate's opening on, those that have one."""
+    times = continuum(run).times
+    after = np.flatnonzero(times >= 0)
+    values = np.array([value(int(n)) for n in after], dtype=float)
+    known = np.isfinite(values)
+    return Curve(times[after][known], values[known])
+
+
+def values_within(run, window, value):
+    return part(values_of_snapshots(run, value), window.begin, window.end).value
+
+
+def curve_of(number, run, place):
+    return values_of_snapshots(run, lambda n: number_of_snapshot(run, n, number, _key(place)))
+
+
+def numbers_within(number, run, window, place):
+    return part(curve_of(number, run, place), window.begin, window.end).value
+
+
+def at(number):
+    return lambda run, window, **place: value_at_window(number, run, window, place)
+
+
+def mean_of(number):
+    return lambda run, window, **place: mean(numbers_within(number, run, window, place))
+
+
+def largest(values):
+    return quantile(values, 1)
+
+
+def largest_of(number):
+    return lambda run, window, **place: largest(numbers_within(number, run, window, place))

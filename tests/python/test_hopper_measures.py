@@ -9,29 +9,17 @@ from math import erf
 from pathlib import Path
 
 sys.argv.pop()
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(Path(__file__).resolve().parent), str(ROOT / "python")]
+sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[2] / "python")]
 
 import numpy as np  # noqa: E402
-from runs_in_memory import Air, Frame, RunInMemory, Series, case, lattice  # noqa: E402
+from paper_hopper import DEPTH, GATE, H, HEIGHT, MASS, MEASURES, PLATE, WIDTH, measure, paper_case, snapshot  # noqa: E402
+from runs_in_memory import Frame, RunInMemory, Series, case, lattice  # noqa: E402
+from talus import curves, surfaces  # noqa: E402
 from talus.continuum import continuum  # noqa: E402
-from talus.measures import NotEvaluated, Window, measures_of  # noqa: E402
+from talus.measures import NotEvaluated, Window  # noqa: E402
 
-MEASURES = measures_of(ROOT / "validation" / "yuu2011")
-M = MEASURES.module
+M, NUMBERS = MEASURES.module, MEASURES.module.grains
 PI = np.pi
-# The paper's box: 100 x 5 x 250 mm, the plate at 100 mm, its slit from 30 to 70 mm; h = 5/3 mm.
-WIDTH, DEPTH, HEIGHT, PLATE, H = 0.1, 5e-3, 0.25, 0.1, 5e-3 / 3
-GATE = 0.25  # s, in the run's time
-MASS = 0.6 * 2500 * WIDTH * DEPTH * 50 * H
-
-
-def paper_case(**tables):
-    return case(WIDTH, DEPTH, HEIGHT, H, PLATE, (0.03, 0.07), bed_height=50 * H, **tables)
-
-
-def measure(name, run, begin=0.0, end=np.inf, at=None, **place):
-    return MEASURES.quantities[name].of(run, Window(at, begin, end), **place)
 
 
 def steady_flow(factor=1.0, empty_from=np.inf):
@@ -120,14 +108,9 @@ class Discharge(unittest.TestCase):
             of("discharge_rate_share_larger", [[fast]])
 
     def test_the_largest_fall_is_that_below_an_earlier_mean(self):
-        curve = M.curves.curve(np.arange(8) * 0.1, [0.5, 5, 4, 9, 6, 8, 7, 8.5])
+        curve = curves.curve(np.arange(8) * 0.1, [0.5, 5, 4, 9, 6, 8, 7, 8.5])
         self.assertAlmostEqual(M.largest_fall(curve, 0.1), 3)
-        self.assertTrue(np.isnan(M.largest_fall(M.curves.curve([0, 1], [0.2, 0.9]), 0.1)), "it never inclines")
-
-
-def snapshot(frame, of_case=None, gate=GATE, air=()):
-    """The only snapshot of a run."""
-    return continuum(RunInMemory(of_case or paper_case(), [frame], gate_time=gate, air=air)).snapshot(0)
+        self.assertTrue(np.isnan(M.largest_fall(curves.curve([0, 1], [0.2, 0.9]), 0.1)), "it never inclines")
 
 
 def heaps():
@@ -159,7 +142,7 @@ class Heaps(unittest.TestCase):
         self.assertEqual(self.of("surface_inward_angle_largest_fall", **inward), 0)
 
     def test_the_foot_reaches_the_walls(self):
-        self.assertAlmostEqual(M.foot_reach(continuum(self.run_).snapshot(0), 5e-3), 0.05, places=12)
+        self.assertAlmostEqual(NUMBERS.foot_reach(continuum(self.run_).snapshot(0), 5e-3), 0.05, places=12)
 
     def test_corners_of_a_lattice_are_as_dense_as_the_rest(self):
         for name in ("corner_packing_ratio_bin", "corner_packing_over_middle_bin"):
@@ -179,10 +162,10 @@ class Corners(unittest.TestCase):
             value = np.full((250, 100), 0.6)
         Section.value[:10, :10] = Section.value[:10, 90:] = 0.66
         Section.value[:1] = Section.value[:, :1] = Section.value[:, 99:] = 7
-        s.section, s.bin_surface = Section, M.surfaces.Surface(Section.x, np.full(100, 0.05))
+        s.section, s.bin_surface = Section, surfaces.Surface(Section.x, np.full(100, 0.05))
         layer = (9 * 18 * 0.66 + 9 * 80 * 0.6) / (9 * 98)
-        self.assertAlmostEqual(M.CORNER_RATIOS["bin"](s, 0.01), 0.66 / layer, places=12)
-        self.assertAlmostEqual(M.corner_packing_over_middle_bin(s, 0.01), 1.1, places=12)
+        self.assertAlmostEqual(NUMBERS.CORNER_RATIOS["bin"](s, 0.01), 0.66 / layer, places=12)
+        self.assertAlmostEqual(NUMBERS.corner_packing_over_middle_bin(s, 0.01), 1.1, places=12)
 
 
 class Stream(unittest.TestCase):
@@ -243,8 +226,8 @@ class Stream(unittest.TestCase):
 class Impact(unittest.TestCase):
     def of(self, level, points):
         s = snapshot(Frame(points, GATE + 0.2, packing=np.arange(1, len(points) + 1) / 10))
-        s.bin_surface = M.surfaces.Surface((np.arange(50) + 0.5) * 2e-3, np.full(50, level))
-        return M.packing_max_outside_impact(s, 0.02)
+        s.bin_surface = surfaces.Surface((np.arange(50) + 0.5) * 2e-3, np.full(50, level))
+        return NUMBERS.packing_max_outside_impact(s, 0.02)
 
     def test_it_is_the_bins_surface_below_the_slit(self):
         inside, above = (0.05, 0, 0.035), (0.05, 0, 0.041)
@@ -266,8 +249,8 @@ class Foot(unittest.TestCase):
         return Frame(points, GATE + 0.16)
 
     def test_the_reach(self):
-        self.assertAlmostEqual(M.foot_reach(snapshot(self.reach(12 * H, 18 * H)), 5e-3), 15 * H, delta=0.4 * H)
-        self.assertTrue(np.isnan(M.foot_reach(snapshot(self.reach(0, 18 * H)), 5e-3)))
+        self.assertAlmostEqual(NUMBERS.foot_reach(snapshot(self.reach(12 * H, 18 * H)), 5e-3), 15 * H, delta=0.4 * H)
+        self.assertTrue(np.isnan(NUMBERS.foot_reach(snapshot(self.reach(0, 18 * H)), 5e-3)))
 
     def test_the_speed(self):
         frames = []
@@ -293,8 +276,8 @@ class SlowFlow(unittest.TestCase):
         x, z, pressure, rate = np.array(grains).T
         frame = Frame(np.column_stack([x, 0 * x, z]), GATE + 0.2, shear_rate=rate,
                       **{f"stress_{axis}": pressure for axis in ("xx", "yy", "zz")})
-        self.assertEqual(M.inertial_share_of_bearing(snapshot(frame)), 3 / 4)
-        self.assertEqual(M.inertial_share_of_bearing(snapshot(frame, case(WIDTH, DEPTH, HEIGHT, H))), 4 / 6)
+        self.assertEqual(NUMBERS.inertial_share_of_bearing(snapshot(frame)), 3 / 4)
+        self.assertEqual(NUMBERS.inertial_share_of_bearing(snapshot(frame, case(WIDTH, DEPTH, HEIGHT, H))), 4 / 6)
 
     def test_in_shear_the_largest_rate_across_axes_counts(self):
         """Rates of 0.2, 0.9 and 2 times the limit: in simple shear, in stretching, which is none, and in shear by two
@@ -344,83 +327,6 @@ class Gradients(unittest.TestCase):
         self.assertLessEqual(measure("cell_gradient_normal_percentile", run), measure("cell_gradient_normal_max", run))
         velocity[len(self.points) // 2, 2] += 1
         self.assertLess(measure("cell_gradient_shear_max", self.run_of(velocity)), self.UNIT / h)
-
-
-class OfTheAir(unittest.TestCase):
-    def setUp(self):
-        self.air = Air((80, 2, 200), (1.25e-3, 2.5e-3, 1.25e-3), GATE + 0.2)
-        self.x, self.z = self.air.centres
-        self.run_ = RunInMemory(paper_case(), [Frame(np.zeros((1, 3)), GATE + 0.2)], gate_time=GATE, air=[self.air])
-
-    def of(self, name, **place):
-        return measure(name, self.run_, **place)
-
-    def test_without_air_there_are_no_numbers(self):
-        run = RunInMemory(paper_case(), [Frame(np.zeros((1, 3)), GATE + 0.2)], gate_time=GATE)
-        self.assertTrue(np.isnan(measure("air_pressure_outside_inside", run, height=0.05)))
-        self.assertTrue(np.isnan(measure("air_vortex_product_bin", run)))
-
-    def test_drag_over_the_weight_of_the_same_cells(self):
-        counts = (self.x > 20e-3) & (self.x < 80e-3)
-        self.air["solid_fraction"][:] = np.where(counts, 0.6, 0.1)
-        self.air["drag"][..., 2] = np.where(counts, 0.5 * 1500 * 9.8, 1e6)
-        self.assertAlmostEqual(self.of("drag_to_weight", height=0.12, left=0.02, right=0.08), 0.5, places=12)
-
-    def test_where_the_pressure_drops_and_where_it_is_higher(self):
-        stream = abs(self.x - 0.05) < 0.015
-        self.air["pressure"][:] = -10 * np.tanh((self.z - 103e-3) / 5e-3) - np.where(stream, 3, 0)
-        self.air["solid_fraction"][:] = np.where(stream, 0.4, 0)
-        place = {"x": 0.031, "from": 0.02, "to": 0.19}
-        self.assertAlmostEqual(self.of("air_pressure_drop_height", **place), 103e-3, delta=1.25e-3)
-        self.assertAlmostEqual(self.of("air_pressure_gradient_at_drop", **place), -10 / 5e-3, delta=0.03 * 10 / 5e-3)
-        self.assertAlmostEqual(self.of("air_pressure_outside_inside", height=0.05), 3, places=12)
-
-    def test_the_plug_and_what_is_beside_it(self):
-        plug, creeps = abs(self.x - 0.05) < 0.02, abs(self.x - 0.05) < 0.03
-        self.air["solid_fraction"][:] = 0.6
-        self.air["grain_velocity"][..., 2] = np.where(plug, -0.2, np.where(creeps, -0.05, 0))
-        self.air["velocity"][..., 2] = np.where(plug, -0.08, np.where(creeps, 0.01, 0.02))
-        self.assertAlmostEqual(self.of("air_velocity_within_plug", height=0.12), -0.08, places=12)
-        self.assertAlmostEqual(self.of("air_velocity_beside_plug", height=0.12), 0.02, places=12)
-        self.assertAlmostEqual(self.of("air_velocity_slowness", height=0.12), 0.4, places=12)
-
-    def test_where_nothing_falls_there_is_no_plug(self):
-        self.air["grain_velocity"][..., 2] = 0.1
-        for name in ("air_velocity_within_plug", "air_velocity_beside_plug", "air_velocity_slowness"):
-            self.assertTrue(np.isnan(self.of(name, height=0.12)), name)
-
-    def vortices(self, bottom=0.0, sign=1.0):
-        """One in each half of a vessel 100 mm high, without flow through their rims; their circulation."""
-        width, height, u = 0.05, 0.1, 0.3 * sign
-        a, b = PI * self.x / width, PI * (self.z - bottom) / height
-        inside = (self.z > bottom) & (self.z < bottom + height)
-        self.air["velocity"][..., 0] += np.where(inside, u * np.sin(a) * np.cos(b), 0)
-        self.air["velocity"][..., 2] += np.where(inside, -u * height / width * np.cos(a) * np.sin(b), 0)
-        # du_x/dz - du_z/dx = -u pi (1/h + h/w^2) sin a sin b; the integral of sin a sin b is 4 w h/pi^2.
-        return -u * PI * (1 / height + height / width**2) * 4 * width * height / PI**2
-
-    def test_the_circulation_of_a_vortex_is_the_line_integral_around_it(self):
-        exact, layer = self.vortices(), M.AirLayer(self.air)
-        for left, sign in ((0, 1), (0.05, -1)):
-            self.assertAlmostEqual(M.circulation(layer, left, left + 0.05, 0, 0.1), sign * exact, delta=0.01 * abs(exact))
-        self.assertEqual(M.circulation(layer, 0, 0.05, 0, 0.1, filled=True), 0)
-        self.air["solid_fraction"][:] = 0.5
-        self.assertEqual(M.circulation(layer, 0, 0.05, 0, 0.1), 0)
-        self.assertAlmostEqual(M.circulation(layer, 0, 0.05, 0, 0.1, filled=True), exact, delta=0.01 * abs(exact))
-
-    def test_products_of_pairs_and_their_reversal(self):
-        self.vortices(), self.vortices(bottom=PLATE)
-        for name in ("air_vortex_product_bin", "air_vortex_product_hopper"):
-            self.assertAlmostEqual(self.of(name), -0.5, delta=1e-3)
-        later = Air((80, 2, 200), (1.25e-3, 2.5e-3, 1.25e-3), GATE + 0.6)
-        first, self.air = self.air, later
-        self.vortices(bottom=PLATE, sign=-1)
-        run = RunInMemory(paper_case(), [Frame(np.zeros((1, 3)), GATE + t) for t in (0.2, 0.6)], gate_time=GATE,
-                          air=[first, later])
-        self.assertEqual(measure("air_vortex_reversal_hopper", run, 0.2, 0.6), -1)
-        first["solid_fraction"][:] = 0.5
-        self.assertAlmostEqual(measure("air_vortex_product_bed", run, at=0.2), -0.5, delta=1e-3)
-        self.assertEqual(measure("air_vortex_reversal_bed", run, 0.2, 0.6), -1)
 
 
 class Cases(unittest.TestCase):
