@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "analysis/discharge.hpp"
-#include "analysis/spectrum.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 

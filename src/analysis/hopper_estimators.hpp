@@ -2,8 +2,8 @@
 /// How the measures of grains in a vessel are made from a run: of its series, or of the numbers of its snapshots.
 #pragma once
 
+#include "analysis/discharge.hpp"
 #include "analysis/hopper_numbers.hpp"
-#include "analysis/plateau.hpp"
 
 namespace talus::hopper {
 

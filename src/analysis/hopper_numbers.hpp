@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "analysis/heap_slopes.hpp"
+#include "analysis/free_surface.hpp"
 #include "analysis/hopper.hpp"
 
 namespace talus::hopper {

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "analysis/depth_mean.hpp"
 #include "analysis/free_surface.hpp"
 #include "base/vector.hpp"
 

@@ -6,7 +6,6 @@
 #include "analysis/discharge.hpp"
 #include "analysis/displacement.hpp"
 #include "analysis/hopper_estimators.hpp"
-#include "analysis/plateau.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 

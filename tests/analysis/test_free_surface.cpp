@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/heap_slopes.hpp"
 #include "analysis/particles.hpp"
 
 namespace talus {
