@@ -130,14 +130,15 @@ class Box:
         return found
 
     def visible(self, start, end, in_plate):
-        """Whether images at `end`, made by the plate where `in_plate`, are visible from `start`; (n, 3) each."""
+        """Whether images at `end`, made by the plate where `in_plate`, are visible from `start`: places (x, z), each a pair
+        of arrays."""
         if self.plate is None:
-            return np.ones(len(start), dtype=bool)
+            return np.ones(len(start[0]), dtype=bool)
         height = self.plate.height
-        meets = (start[:, 2] >= height) != (end[:, 2] >= height)
+        meets = (start[1] >= height) != (end[1] >= height)
         n = np.flatnonzero(meets)
-        share = (height - start[n, 2]) / (end[n, 2] - start[n, 2])
-        meets[n] = self._is_solid(start[n, 0] + share * (end[n, 0] - start[n, 0]))
+        x, z = start[0][n], start[1][n]
+        meets[n] = self._is_solid(x + (height - z) / (end[1][n] - z) * (end[0][n] - x))
         return meets == in_plate
 
     def _is_solid(self, x):
@@ -192,8 +193,7 @@ def packing_section(grains, box, width, height):
             near = distance < support[n]
             n, row, column, distance = n[near], row[near], column[near], distance[near]
             if box.plate is not None:
-                cell = np.column_stack([section.x[column], np.zeros(len(n)), section.z[row]])
-                seen = box.visible(cell, place[n], image.in_plate)
+                seen = box.visible((section.x[column], section.z[row]), (place[n, 0], place[n, 2]), image.in_plate)
                 n, row, column, distance = n[seen], row[seen], column[seen], distance[seen]
             section.value += np.bincount(row * columns + column, cubic_spline_line(distance, h[n]),
                                          rows * columns).reshape(rows, columns)
@@ -218,7 +218,7 @@ class Field:
             places.append(place[near])
             sources.append(np.flatnonzero(near))
             numbers.append(np.full(near.sum(), number))
-        self._place = np.concatenate(places) if places else np.empty((0, 3))
+        self._place = np.ascontiguousarray(np.concatenate(places).T) if places else np.empty((3, 0))
         self._source = np.concatenate(sources) if sources else np.empty(0, dtype=int)
         self._number = np.concatenate(numbers) if numbers else np.empty(0, dtype=int)
         self._in_plate = np.array([image.in_plate for image in self._images], dtype=bool)[self._number]
@@ -228,34 +228,39 @@ class Field:
         self._groups = [group for group in (np.flatnonzero(~wide), np.flatnonzero(wide)) if len(group)]
 
     def _pairs(self, points, own=None):
-        """Chunks of (points, entries): entries whose kernel reaches the points and that are visible from there.
-        \\param own smoothing lengths of the points, which reach out too; None: the entries' alone count"""
-        for first in range(0, len(points), POINTS_AT_ONCE):
-            some = points[first:first + POINTS_AT_ONCE]
+        """Chunks of (points, entries, differences of their places (3, n), distances): entries whose kernel reaches the points
+        and that are visible from there. \\param own smoothing lengths of the points, which reach out too; None: the
+        entries' alone count"""
+        points = np.ascontiguousarray(points.T)
+        for first in range(0, points.shape[1], POINTS_AT_ONCE):
+            some = points[:, first:first + POINTS_AT_ONCE]
             found = []
             for group in self._groups:
                 reach = SUPPORT * self._h[group].max()
                 if own is not None:
                     reach = 0.5 * reach + own[first:first + POINTS_AT_ONCE].max()
-                n, k = _candidates(some, self._place[group], reach)
+                n, k = _candidates(some, self._place[:, group], reach)
                 k = group[k]
                 length = SUPPORT * self._h[k] if own is None else own[first + n] + self._h[k]
-                near = ((self._place[k] - some[n])**2).sum(axis=1) < length**2
+                difference = np.stack([self._place[axis, k] - some[axis, n] for axis in range(3)])
+                squared = (difference**2).sum(axis=0)
+                near = squared < length**2
                 n, k = n[near], k[near]
-                seen = self.box.visible(some[n], self._place[k], self._in_plate[k])
-                found.append((n[seen] + first, k[seen]))
+                seen = self.box.visible(some[::2, n], self._place[::2, k], self._in_plate[k])
+                near = np.flatnonzero(near)[seen]
+                found.append((n[seen] + first, k[seen], difference[:, near], np.sqrt(squared[near])))
             if found:
-                yield tuple(np.concatenate(arrays) for arrays in zip(*found))
+                yield tuple(np.concatenate(arrays, axis=-1) for arrays in zip(*found))
 
     def _vectors(self, column, entries):
         signs = np.array([image.vector_sign for image in self._images])
-        return signs[self._number[entries]] * column[self._source[entries]]
+        number, source = self._number[entries], self._source[entries]
+        return np.stack([signs[:, axis][number] * column[:, axis][source] for axis in range(3)])
 
     def packing(self, points):
         """At places (n, 3): the sum of solid volume times kernel."""
         total = np.zeros(len(points))
-        for n, k in self._pairs(points):
-            distance = np.linalg.norm(self._place[k] - points[n], axis=1)
+        for n, k, _, distance in self._pairs(points):
             total += np.bincount(n, cubic_spline(distance, self._h[k]), len(points))
         return self.grains.solid_volume * total
 
@@ -264,14 +269,14 @@ class Field:
         there are no particles."""
         column = np.asarray(column, dtype=float)
         kernels, weights, sums = np.zeros(len(points)), np.zeros(len(points)), np.zeros((len(points), 3))
-        for n, k in self._pairs(points):
-            kernel = cubic_spline(np.linalg.norm(self._place[k] - points[n], axis=1), self._h[k])
+        for n, k, _, distance in self._pairs(points):
+            kernel = cubic_spline(distance, self._h[k])
             weight = self.grains.volume[self._source[k]] * kernel
-            vectors = weight[:, None] * self._vectors(column, k)
+            vectors = weight * self._vectors(column, k)
             kernels += np.bincount(n, kernel, len(points))
             weights += np.bincount(n, weight, len(points))
             for axis in range(3):
-                sums[:, axis] += np.bincount(n, vectors[:, axis], len(points))
+                sums[:, axis] += np.bincount(n, vectors[axis], len(points))
         with np.errstate(invalid="ignore", divide="ignore"):
             return self.grains.solid_volume * kernels, np.where(weights > 0, 1 / weights, np.nan)[:, None] * sums
 
@@ -281,34 +286,35 @@ class Field:
         velocity, x = np.asarray(velocity, dtype=float), self.grains.position
         h, count = self.grains.smoothing_length, len(x)
         moment, sums = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
-        for n, k in self._pairs(x, own=h):
-            d = self._place[k] - x[n]
-            mean_h = 0.5 * (h[n] + self._h[k])
-            weight = -self.grains.volume[self._source[k]] * cubic_spline_slope(np.linalg.norm(d, axis=1), mean_h)
-            change = self._vectors(velocity, k) - velocity[n]
+        for n, k, d, distance in self._pairs(x, own=h):
+            weight = -self.grains.volume[self._source[k]] * cubic_spline_slope(distance, 0.5 * (h[n] + self._h[k]))
+            change = self._vectors(velocity, k) - velocity.T[:, n]
             for i, j in product(range(3), range(3)):
-                moment[:, i, j] += np.bincount(n, weight * d[:, i] * d[:, j], count)
-                sums[:, i, j] += np.bincount(n, weight * change[:, i] * d[:, j], count)
+                sums[:, i, j] += np.bincount(n, weight * change[i] * d[j], count)
+                if i <= j:
+                    moment[:, i, j] += np.bincount(n, weight * d[i] * d[j], count)
+        for i, j in ((1, 0), (2, 0), (2, 1)):
+            moment[:, i, j] = moment[:, j, i]
         spanned = np.linalg.det(moment) > LEAST_MOMENT
         sums[spanned] = sums[spanned] @ np.linalg.inv(moment[spanned])
         return sums
 
 
 def _candidates(points, places, reach):
-    """Numbers of points and of places that may lie within `reach` of each other in x and z, by cells of that edge."""
-    low = np.minimum(points.min(axis=0), places.min(axis=0))[::2]
-    cell_of_point = np.floor((points[:, ::2] - low) / reach).astype(int)
-    cell_of_place = np.floor((places[:, ::2] - low) / reach).astype(int)
-    columns = max(cell_of_point[:, 0].max(), cell_of_place[:, 0].max()) + 3
-    key = (cell_of_place[:, 0] + 1) + columns * (cell_of_place[:, 1] + 1)
+    """Numbers of points and of places, (3, n) each, that may lie within `reach` of each other in x and z, by cells of that
+    edge."""
+    low = np.minimum(points[::2].min(axis=1), places[::2].min(axis=1))[:, None]
+    cell_of_point, cell_of_place = (np.floor((of[::2] - low) / reach).astype(int) + 1 for of in (points, places))
+    columns = max(cell_of_point[0].max(), cell_of_place[0].max()) + 2
+    key = cell_of_place[0] + columns * cell_of_place[1]
     order = np.argsort(key, kind="stable")
     key = key[order]
     numbers, found = [], []
     for up in (-1, 0, 1):  # three cells in a row follow each other
-        middle = (cell_of_point[:, 0] + 1) + columns * (cell_of_point[:, 1] + 1 + up)
+        middle = cell_of_point[0] + columns * (cell_of_point[1] + up)
         first, last = np.searchsorted(key, middle - 1, "left"), np.searchsorted(key, middle + 1, "right")
         length = last - first
-        number = np.repeat(np.arange(len(points)), length)
+        number = np.repeat(np.arange(len(length)), length)
         within = np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
         numbers.append(number)
         found.append(order[first[number] + within])
