@@ -6,20 +6,14 @@ D and ρ_p the diameter and density of the grains, Q the mass that passes the ou
 above the plate, the *bin* below it. Surfaces, angles and packing are defined in docs/quantities.md; a value at a place is
 interpolated by the kernel to the centre of the cell, three quarters of a spacing wide, that contains it.
 """
-import sys
-from pathlib import Path
-
+import air_numbers as air
+import hopper_numbers as grains
 import numpy as np
 from talus import curves
 from talus.continuum import (at, continuum, curve_of, largest, largest_of, mean_of, numbers_within, value_at_window,
                              values_within)
 from talus.curves import mean, quantile, ratio
 from talus.measures import NotEvaluated, Quantity, Window
-
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-import air_numbers as air  # noqa: E402
-import hopper_numbers as grains  # noqa: E402
 
 REPOSE_PRINTED = 30    # deg
 BEGINS_TO_INCLINE = 1  # deg
