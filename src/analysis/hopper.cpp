@@ -78,12 +78,12 @@ Curve HopperRun::curve(std::string_view column) const {
   return result;
 }
 
-Curve HopperRun::curve(Numbers::Number number, const Place& place) const {
+Curve HopperRun::curve(Numbers::Number number) const {
   Curve result;
   for (std::size_t n = 0; n < snapshots.time().size(); ++n) {
     const double time = snapshots.time()[n];
     if (time < 0) continue;
-    const double value = snapshots.value(n, number, place);
+    const double value = snapshots.value(n, number);
     if (!std::isfinite(value)) continue;
     result.time.push_back(time);
     result.value.push_back(value);

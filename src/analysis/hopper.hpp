@@ -110,7 +110,7 @@ struct HopperRun {
   /// A column of the series against the time from the gate's opening; without points if there is none.
   Curve curve(std::string_view column) const;
   /// A number of the snapshots from the gate's opening on; those without one are left out.
-  Curve curve(Numbers::Number number, const Place& place = {}) const;
+  Curve curve(Numbers::Number number) const;
 };
 
 /// When the gate opened: the column gate_time of a series is below 0 until then. The series' last time if it never did.

@@ -30,8 +30,8 @@ double time_of(const Window& window, const HopperRun& run) {
   return at > end + averages(run).trend && !std::isinf(at) ? none : std::min(at, end);
 }
 
-std::vector<double> within(Number number, const HopperRun& run, const Place& place, const Window& window) {
-  return part(run.curve(number, place), window.from, window.to).value;
+std::vector<double> within(Number number, const HopperRun& run, const Window& window) {
+  return part(run.curve(number), window.from, window.to).value;
 }
 
 /// A hundred data of the discharge in T over the window, or as much of it as the run covers; none if that is not half.
@@ -104,37 +104,34 @@ Plateau steady_discharge(const HopperRun& run) {
   return found.value * (found.to - found.from) >= steady_least * mass_at_end(run) ? found : Plateau{};
 }
 
-double value_at_window(Number number, const HopperRun& run, const Place& place, const Window& window) {
+double value_at_window(Number number, const HopperRun& run, const Window& window) {
   const std::vector<double>& time = run.snapshots.time();
   if (time.empty()) return none;
   const double at = window.at.value_or(Window::end_of_run), last = time.back();
-  if (std::isinf(at)) return run.snapshots.value(time.size() - 1, number, place);
+  if (std::isinf(at)) return run.snapshots.value(time.size() - 1, number);
   const double interval = time.size() > 1 ? last - time[time.size() - 2] : 0;
-  return at > last + 0.5 * interval ? none : run.snapshots.value(nearest_point(time, at), number, place);
+  return at > last + 0.5 * interval ? none : run.snapshots.value(nearest_point(time, at), number);
 }
 
 Estimator<HopperRun> at(Number number) {
-  return {[=](const HopperRun& run, const Place& p, const Window& w) { return value_at_window(number, run, p, w); },
-          number};
+  return {[=](const HopperRun& run, const Window& w) { return value_at_window(number, run, w); }, number};
 }
 
 Estimator<HopperRun> largest_of(Number number) {
-  return {[=](const HopperRun& run, const Place& p, const Window& w) { return quantile(within(number, run, p, w), 1); },
-          number};
+  return {[=](const HopperRun& run, const Window& w) { return quantile(within(number, run, w), 1); }, number};
 }
 
 Estimator<HopperRun> mean_of(Number number) {
-  return {[=](const HopperRun& run, const Place& p, const Window& w) { return mean(within(number, run, p, w)); },
-          number};
+  return {[=](const HopperRun& run, const Window& w) { return mean(within(number, run, w)); }, number};
 }
 
-double period_of_discharge(const HopperRun& run, const Place&, const Window& window) {
+double period_of_discharge(const HopperRun& run, const Window& window) {
   const Curve part = fluctuating_discharge(run, window);
   const double longest = run.setting.averaging_time;
   return part.time.empty() ? none : dominant_period(part, shortest_period * longest, longest);
 }
 
-double crossing_period_of_discharge(const HopperRun& run, const Place&, const Window& window) {
+double crossing_period_of_discharge(const HopperRun& run, const Window& window) {
   return crossing_period(
       about_running_mean(fluctuating_discharge(run, window), averages(run).largest, window.from, window.to));
 }
@@ -152,13 +149,13 @@ double extreme_time(const Curve& cumulative, const HopperRun& run, const Window&
   return first_maximum_time(mean_rates(cumulative, length, every, window.from, end_of(window, run)), length);
 }
 
-double share_at(const HopperRun& run, const Place&, const Window& window) {
+double share_at(const HopperRun& run, const Window& window) {
   const Curve share = discharged_share(run);
   const double at = time_of(window, run);
   return covers(share, at, at) ? value_at(share, at) : none;
 }
 
-double floor_arrival(const HopperRun& run, const Place&, const Window&) {
+double floor_arrival(const HopperRun& run, const Window&) {
   return first_time_at_or_above(run.curve("mass_near_floor"), 1e-3 * run.setting.mass());
 }
 
@@ -170,16 +167,15 @@ double settled_force(const HopperRun& run) {
   return force;
 }
 
-double settled_stress_ratio(const HopperRun& run, const Place& place, const Window&) {
+double settled_stress_ratio(const HopperRun& run, const Window&) {
   const std::vector<double>& time = run.snapshots.time();
   std::size_t settled = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) settled = n;
-  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio, place)
-                                                              : none;
+  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio) : none;
 }
 
-double balance_error(const HopperRun& run, const Place&, const Window& window) {
+double balance_error(const HopperRun& run, const Window& window) {
   const double to = run.gate_time + time_of(window, run);
   return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - averages(run).load, to);
 }

@@ -55,15 +55,15 @@ inline constexpr double steady_from = 0.1, steady_to = 0.7, steady_least = 0.05;
 
 /// The number in the snapshot nearest the window's time, of two the earlier; nan if the run ended more than half an
 /// interval before.
-double value_at_window(Number number, const HopperRun& run, const Place& place, const Window& window);
+double value_at_window(Number number, const HopperRun& run, const Window& window);
 
 Estimator<HopperRun> at(Number number);          ///< value_at_window()
 Estimator<HopperRun> largest_of(Number number);  ///< over the snapshots in the window
 Estimator<HopperRun> mean_of(Number number);     ///< the same
 /// Of the discharge, over the window or as much of it as the run covers, at least half.
-double period_of_discharge(const HopperRun& run, const Place& place, const Window& window);
+double period_of_discharge(const HopperRun& run, const Window& window);
 /// The mean time between the up-crossings of its centred mean over T, of the same.
-double crossing_period_of_discharge(const HopperRun& run, const Place& place, const Window& window);
+double crossing_period_of_discharge(const HopperRun& run, const Window& window);
 
 struct LargestMean {
   double value = HopperRun::none, time = HopperRun::none;
@@ -72,13 +72,13 @@ struct LargestMean {
 LargestMean largest_discharge(const HopperRun& run, const Window& window);
 /// First maximum of the means over 0.3 T of what the curve is the integral of.
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window);
-double share_at(const HopperRun& run, const Place& place, const Window& window);
-double floor_arrival(const HopperRun& run, const Place& place, const Window& window);
+double share_at(const HopperRun& run, const Window& window);
+double floor_arrival(const HopperRun& run, const Window& window);
 /// Force on the bed's ground, plate and floor together, over T before the gate opened; upwards on the grains, N.
 double settled_force(const HopperRun& run);
 /// Of the last snapshot before the gate opened, or at its opening.
-double settled_stress_ratio(const HopperRun& run, const Place& place, const Window& window);
-double balance_error(const HopperRun& run, const Place& place, const Window& window);
+double settled_stress_ratio(const HopperRun& run, const Window& window);
+double balance_error(const HopperRun& run, const Window& window);
 /// Those measures of hopper_measures() that are of a vessel in space.
 std::vector<Measure<HopperRun>> hopper_vessel_measures();
 
@@ -87,14 +87,14 @@ std::vector<Measure<HopperRun>> hopper_vessel_measures();
 double mean_speed_above(double height, std::span<const Vector3> positions, std::span<const double> speed);
 /// The stress across the upright walls of the settled bed over its vertical stress there, of the bands that it fills;
 /// nan without such walls, or without a snapshot of it.
-double wall_pressure_ratio(const HopperRun& run, const Place& place, const Window& window);
+double wall_pressure_ratio(const HopperRun& run, const Window& window);
 /// Height of the settled bed: half a spacing above its 99.5th percentile, m; nan without a snapshot of it.
 double settled_top(const HopperRun& run);
 /// Share of the particles above the outlet that move; nan without a snapshot before.
-double share_that_moves(const HopperSnapshot& s, const Place& place);
+double share_that_moves(const HopperSnapshot& s);
 /// The same at the time of the window, but not before `share_of_regime` has left; nan where the flow had stopped then.
-double share_in_motion(const HopperRun& run, const Place& place, const Window& window);
+double share_in_motion(const HopperRun& run, const Window& window);
 /// Packing of the space of the outlet's width and as high above it.
-double outlet_packing(const HopperSnapshot& s, const Place& place);
+double outlet_packing(const HopperSnapshot& s);
 
 }  // namespace talus::hopper

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The list of measures of grains in a vessel; those of a vessel in space stand in hopper_vessel_measures.cpp. A row:
-/// name, unit, what it means, how it is made; the lengths that it takes from a place; where a summary lists it.
+/// name, unit, what it means, how it is made; where a summary lists it.
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
 #include "analysis/statistics.hpp"
@@ -59,14 +59,12 @@ const std::vector<Row> of_grains = {
         "opens; "
         "with `sph.stress_form = \"printed\"`, where the grains feel 1 - Φ of their stress (Eq. 17), that over the "
         "bed's packing: the stress itself",
-        {[](const Run& r, const Place&, const Window&) {
+        {[](const Run& r, const Window&) {
           return settled_force(r) / (r.setting.shape.width * r.setting.shape.depth * r.setting.stress_share);
         }},
         {{level_ground}}),
     Row("floor_stress_error", "1", "force on the floor as in floor_stress_settled, over M g, less 1",
-        {[](const Run& r, const Place&, const Window&) {
-          return settled_force(r) / (r.setting.mass() * r.setting.gravity) - 1;
-        }},
+        {[](const Run& r, const Window&) { return settled_force(r) / (r.setting.mass() * r.setting.gravity) - 1; }},
         {{level_ground}}),
     Row("stress_ratio_settled", "1",
         "Σ τ_xx over Σ τ_zz of the particles with packing above 0.55, inertial number below 10⁻³ and τ_zz above 50 Pa, "
@@ -74,23 +72,23 @@ const std::vector<Row> of_grains = {
         {settled_stress_ratio}, {{always}}),
     Row("stress_ratio_flow", "1", "the same while it flows", at(stress_ratio), {{always, while_it_flows}}),
     Row("discharge_rate_plateau", "kg/s", "mean of Q over the window",
-        {[](const Run& r, const Place&, const Window& w) { return mean_rate(passed_mass(r), w.from, w.to); }},
+        {[](const Run& r, const Window& w) { return mean_rate(passed_mass(r), w.from, w.to); }},
         {{outlet, while_it_flows}}),
     Row("discharge_rate_beverloo", "kg/s",
         "discharge through an outlet of the case's size in a flat bottom by hand. Round: C ρ_b g^½ (D − k d)^(5/2) "
         "(Beverloo et al. 1961), C = 0.58, k = 1.5, times (tan θ)^(−0.35) in a cone of half angle θ below 45 degrees "
         "(Rose & Tanaka 1959). Rectangular: (4 C/π) ρ_b A (g D_h)^½, D_h the hydraulic diameter (Nedderman et al. "
         "1982); of a slit in a plate 1.04 ρ_b g^½ (W − k d)^(3/2) for each length",
-        {[](const Run& r, const Place&, const Window&) { return r.setting.hand_discharge; }}, {{hand_formula}}),
+        {[](const Run& r, const Window&) { return r.setting.hand_discharge; }}, {{hand_formula}}),
     Row("discharge_rate_extreme_time", "s",
         "centre of the first mean of Q over 0.3 T (one every T/100) that is the largest within 0.3 T before and after",
-        {[](const Run& r, const Place&, const Window& w) { return extreme_time(passed_mass(r), r, w); }}, {{outlet}}),
+        {[](const Run& r, const Window& w) { return extreme_time(passed_mass(r), r, w); }}, {{outlet}}),
     Row("discharge_rate_max", "kg/s", "largest mean of Q over T, one every T/20",
-        {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).value; }}, {{outlet}}),
+        {[](const Run& r, const Window& w) { return largest_discharge(r, w).value; }}, {{outlet}}),
     Row("discharge_rate_max_time", "s", "its centre",
-        {[](const Run& r, const Place&, const Window& w) { return largest_discharge(r, w).time; }}, {{outlet}}),
+        {[](const Run& r, const Window& w) { return largest_discharge(r, w).time; }}, {{outlet}}),
     Row("slit_velocity_extreme_time", "s", "as discharge_rate_extreme_time, of −u_z in the middle of the outlet",
-        {[](const Run& r, const Place&, const Window& w) {
+        {[](const Run& r, const Window& w) {
           return extreme_time(integral(scaled(r.curve("slit_velocity"), -1)), r, w);
         }},
         {{outlet}}),
@@ -98,7 +96,7 @@ const std::vector<Row> of_grains = {
         {{outlet_and_bin}}),
     Row("discharged_fraction", "1", "share of M below the outlet", {share_at}, {{outlet}}),
     Row("residual_fraction", "1", "share of M above the outlet",
-        {[](const Run& r, const Place& p, const Window& w) { return 1 - share_at(r, p, w); }}, {{outlet}}),
+        {[](const Run& r, const Window& w) { return 1 - share_at(r, w); }}, {{outlet}}),
     Row("left_right_imbalance", "1", "difference of the masses left and right in the bin, over M",
         at(left_right_imbalance), {{bin}}),
     Row("repose_angle_bin", "deg",
@@ -152,22 +150,20 @@ const std::vector<Row> of_grains = {
     Row("momentum_error", "1",
         "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
         "gravity's impulse; settling included",
-        {[](const Run& r, const Place&, const Window&) { return momentum_error(r.series); }}, {{always}}),
+        {[](const Run& r, const Window&) { return momentum_error(r.series); }}, {{always}}),
     Row("mass", "kg", "mass of all particles", at(mass)),
     Row("mass_error", "1", "|mass of all particles over M, and what inlets fed less what was removed, − 1|",
-        {[](const Run& r, const Place& p, const Window& w) {
-          return std::abs(value_at_window(mass, r, p, w) / mass_expected(r) - 1);
-        }},
+        {[](const Run& r, const Window& w) { return std::abs(value_at_window(mass, r, w) / mass_expected(r) - 1); }},
         {{always}}),
     Row("fed_mass", "kg", "mass that came in through inlets, to the end of the run",
-        {[](const Run& r, const Place&, const Window&) { return last(r, "fed_mass"); }}, {{comes_or_goes}}),
+        {[](const Run& r, const Window&) { return last(r, "fed_mass"); }}, {{comes_or_goes}}),
     Row("removed_mass", "kg", "mass that was taken away, to the end of the run",
-        {[](const Run& r, const Place&, const Window&) { return last(r, "removed_mass"); }}, {{comes_or_goes}}),
+        {[](const Run& r, const Window&) { return last(r, "removed_mass"); }}, {{comes_or_goes}}),
     Row("particle_reynolds_max", "1",
         "largest D |u − u_p| ρ/μ of a grain at any step of the air since the start; the slip of a particle is the "
         "mean "
         "of the cells that it overlaps",
-        {[](const Run& r, const Place&, const Window& w) {
+        {[](const Run& r, const Window& w) {
           return quantile(part(r.curve("particle_reynolds_max"), w.from, w.to).value, 1);
         }},
         {{air}}),
@@ -185,7 +181,7 @@ std::span<const Measure<Run>> hopper_measures() {
 }
 
 std::vector<MeasureText> texts_of_hopper_measures() {
-  return texts_of(hopper_measures(), std::span<const GroupMeasure<Run>>{});
+  return texts_of(hopper_measures());
 }
 
 }  // namespace talus

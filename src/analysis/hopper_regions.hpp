@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where particles are in a hopper above a bin: deep below a free surface, in the stream below the slit, in a corner,
-/// near the place where the stream strikes. x across, z up from the bin's floor.
+/// Where particles are in a hopper above a bin: deep below a free surface. x across, z up from the bin's floor.
 #pragma once
 
 #include <optional>

@@ -21,7 +21,7 @@ using namespace paper_hopper;
 using std::numbers::pi;
 
 /// Numbers of 21 snapshots, one every 50 ms.
-double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number, const Place&) {
+double number_by_hand(std::size_t snapshot, HopperRun::Numbers::Number number) {
   const auto n = static_cast<int>(snapshot);
   const std::map<HopperRun::Numbers::Number, double> numbers = {
       {hopper::surface_angle_in<hopper::Where::hopper>, n < 2     ? 0.5
@@ -81,8 +81,8 @@ HopperRun run_of_a_steady_flow() {
   return run;
 }
 
-double measure(std::string_view name, const HopperRun& run, const Window& window, const Place& place = {}) {
-  return find_row(hopper_measures(), name)->estimator.of(run, place, window);
+double measure(std::string_view name, const HopperRun& run, const Window& window) {
+  return find_row(hopper_measures(), name)->estimator.of(run, window);
 }
 
 TEST(Hopper, QuantitiesOfARun) {
@@ -119,8 +119,8 @@ HopperRun faster(const HopperRun& slow) {
   HopperRun fast = slow;
   for (const std::size_t column : {2, 3})
     for (double& value : fast.series.columns[column]) value *= 1.5;
-  fast.snapshots = {slow.snapshots.time(), [](std::size_t n, HopperRun::Numbers::Number number, const Place& place) {
-                      return number_by_hand(n, number, place) +
+  fast.snapshots = {slow.snapshots.time(), [](std::size_t n, HopperRun::Numbers::Number number) {
+                      return number_by_hand(n, number) +
                              (number == hopper::surface_angle_in<hopper::Where::bin> ? 5 : 0);
                     }};
   return fast;
@@ -129,12 +129,11 @@ HopperRun faster(const HopperRun& slow) {
 TEST(Hopper, RowsOfTwoRuns) {
   const HopperRun slow = run_of_a_steady_flow();
   const std::vector<HopperRun> first = {faster(slow)}, second = {slow};
-  const MeasuresOfModel<HopperRun> measures{hopper_measures(), {}};
   const auto of = [&](std::string quantity, Statistic statistic = Statistic::mean,
                       Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
     const ComparisonRow row{
         .quantity = std::move(quantity), .from = From::variants, .statistic = statistic, .window = window};
-    return RowValues<HopperRun>(row, {&first, &second}, measures).values().at(0);
+    return RowValues<HopperRun>(row, {&first, &second}, hopper_measures()).values().at(0);
   };
   EXPECT_NEAR(*of("discharge_rate_max", Statistic::ratio), 1.5, 1e-9);
   EXPECT_NEAR(*of("surface_angle_bin", Statistic::difference, {.at = 0.5}), 5, 1e-12);
@@ -144,11 +143,10 @@ TEST(Hopper, RowsOfTwoRuns) {
 TEST(Hopper, RowsOfTwoVariantsAreMeansOverTheirMembers) {
   const HopperRun slow = run_of_a_steady_flow();
   const std::vector<HopperRun> first = {faster(slow), slow}, second = {slow};
-  const MeasuresOfModel<HopperRun> measures{hopper_measures(), {}};
   const auto of = [&](std::string quantity, Statistic statistic, Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
     const ComparisonRow row{
         .quantity = std::move(quantity), .from = From::variants, .statistic = statistic, .window = window};
-    return *RowValues<HopperRun>(row, {&first, &second}, measures).values().at(0);
+    return *RowValues<HopperRun>(row, {&first, &second}, hopper_measures()).values().at(0);
   };
   EXPECT_NEAR(of("discharge_rate_max", Statistic::ratio), 1.25, 1e-9);
   EXPECT_NEAR(of("surface_angle_bin", Statistic::difference, {.at = 0.5}), 2.5, 1e-12);
@@ -165,7 +163,6 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 TEST(Hopper, ASummaryHoldsWhatTheCaseItselfDefines) {
-  for (const auto& m : hopper_measures()) EXPECT_FALSE(m.in_summary && !m.place.empty()) << m.name;
   HopperRun run = run_of_a_steady_flow();
   std::vector<std::string> names = names_in_summary(run);
   EXPECT_TRUE(contains(names, "discharge_rate_plateau"));

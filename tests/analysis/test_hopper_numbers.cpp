@@ -38,10 +38,10 @@ TEST(HopperNumbers, FrameOfTwoHeaps) {
   now.density.assign(now.density.size(), 1.02 * bulk_density);
   const HopperSetting paper = setting();
   HopperSnapshot snapshot(paper, now.view(), gate);
-  EXPECT_TRUE(std::isnan(hopper::quiescent_speed(snapshot, {}))) << "there is no snapshot before";
+  EXPECT_TRUE(std::isnan(hopper::quiescent_speed(snapshot))) << "there is no snapshot before";
   const Snapshot earlier = before.view();
   snapshot.before = [&] { return &earlier; };
-  const auto is = [&](HopperRun::Numbers::Number number, const Place& place = {}) { return number(snapshot, place); };
+  const auto is = [&](HopperRun::Numbers::Number number) { return number(snapshot); };
   EXPECT_NEAR(snapshot.time, 1, 1e-12);
   EXPECT_NEAR(is(hopper::repose_angle_in<hopper::Where::bin, &ReposeAngle::mean>), 25, 1);
   EXPECT_NEAR(is(hopper::repose_angle_in<hopper::Where::bin, &ReposeAngle::steepest>), 25, 1.5);
@@ -63,9 +63,9 @@ TEST(HopperNumbers, ASnapshotWithoutParticlesHasNoNumbers) {
   const HopperSetting paper = setting();
   const HopperSnapshot snapshot(paper, none.view(), gate);
   for (const auto& m : columns_of_snapshots(hopper_measures()))
-    EXPECT_TRUE(m.name == "mass" || m.name == "left_right_imbalance" || std::isnan(m.estimator.number(snapshot, {})))
+    EXPECT_TRUE(m.name == "mass" || m.name == "left_right_imbalance" || std::isnan(m.estimator.number(snapshot)))
         << m.name;
-  EXPECT_EQ(hopper::mass(snapshot, {}), 0);
+  EXPECT_EQ(hopper::mass(snapshot), 0);
 }
 
 /// A full hopper over an empty bin with a stream of half the slit's width, that narrows to a quarter half-way down.
@@ -82,7 +82,7 @@ TEST(HopperNumbers, FrameOfAStream) {
   now.packing[bed - 1] = 0.9;  // one particle is no percentile
   const HopperSetting paper = setting();
   const HopperSnapshot snapshot(paper, now.view(), gate);
-  const auto is = [&](HopperRun::Numbers::Number number, const Place& place = {}) { return number(snapshot, place); };
+  const auto is = [&](HopperRun::Numbers::Number number) { return number(snapshot); };
   EXPECT_NEAR(is(hopper::packing_max), 0.6, 1e-12);
   EXPECT_NEAR(is(hopper::surface_angle_in<hopper::Where::hopper>), 0, 0.01);
   EXPECT_TRUE(std::isnan(is(hopper::repose_angle_in<hopper::Where::hopper, &ReposeAngle::mean>)));
@@ -109,12 +109,11 @@ TEST(HopperNumbers, TheShareOfSlowFlow) {
   }
   const HopperSetting paper = setting();
   const HopperSnapshot snapshot(paper, now.view(), gate);
-  EXPECT_DOUBLE_EQ(hopper::inertial_share(snapshot, {}), 2.0 / 4)
-      << "above the outlet; those that bear nothing as fast";
+  EXPECT_DOUBLE_EQ(hopper::inertial_share(snapshot), 2.0 / 4) << "above the outlet; those that bear nothing as fast";
   HopperSetting box = setting();
   box.shape.plate.reset();
   const HopperSnapshot whole(box, now.view(), gate);
-  EXPECT_DOUBLE_EQ(hopper::inertial_share(whole, {}), 4.0 / 8) << "without an outlet, of all";
+  EXPECT_DOUBLE_EQ(hopper::inertial_share(whole), 4.0 / 8) << "without an outlet, of all";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found, ReadRuns& run
   const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
     return hopper_run_of(file, folder, runs);
   };
-  return studied<HopperRun>(found, {hopper_measures(), {}}, read);
+  return studied<HopperRun>(found, hopper_measures(), read);
 }
 
 }  // namespace talus::app
