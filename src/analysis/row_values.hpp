@@ -15,15 +15,11 @@
 
 namespace talus {
 
-/// Numbers of the members of an ensemble without those that are nan, as long as these are the fewer; else none at all.
-std::vector<double> finite_values(std::vector<double> numbers);
-
 /// The measures of one model.
 template <class Run>
 struct MeasuresOfModel {
   std::span<const Measure<Run>> of_run;
   std::span<const GroupMeasure<Run>> of_group;
-  std::function<Run(std::span<const Run> members)> mean;  ///< the members' mean curves, as a run
 };
 
 template <class Run>
@@ -46,6 +42,13 @@ class RowValues {
     return values;
   }
 
+  /// Whether the members of each variant are there and go on to the end of the window.
+  std::vector<bool> are_there() const {
+    std::vector<bool> there;
+    for (const auto* members : groups_) there.push_back(is_there(members));
+    return there;
+  }
+
  private:
   bool is_there(const std::vector<Run>* members) const {
     const Window& window = row_.window;
@@ -66,17 +69,7 @@ class RowValues {
   }
 
   std::optional<double> of_members(const std::vector<Run>& members) const {
-    switch (row_.from) {
-      case From::curves:
-        return group_measure_ ? of_group({&members, 1}) : of_run(measures_.mean(members));
-      case From::values:
-        return of_group({&members, 1});
-      case From::parameters:
-        return of_run(members.front());
-      case From::each:
-      case From::variants:
-        break;
-    }
+    if (row_.from == From::parameters) return of_run(members.front());
     if (row_.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
     return of_each(members, row_.statistic);
   }
@@ -84,8 +77,7 @@ class RowValues {
   double of_each(const std::vector<Run>& members, Statistic statistic) const {
     std::vector<double> numbers;
     for (const Run& member : members) numbers.push_back(of_run(member));
-    if (measure_->may_be_missing) numbers = finite_values(std::move(numbers));
-    return numbers.empty() ? std::nan("") : evaluate(statistic, numbers);
+    return evaluate_members(statistic, std::move(numbers), measure_->may_be_missing);
   }
 
   std::optional<double> of_variants() const {

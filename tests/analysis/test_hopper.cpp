@@ -170,7 +170,7 @@ HopperRun faster(const HopperRun& slow) {
 TEST(Hopper, RowsOfTwoRuns) {
   const HopperRun slow = run_of_a_steady_flow();
   const std::vector<HopperRun> first = {faster(slow)}, second = {slow};
-  const MeasuresOfModel<HopperRun> measures{hopper_measures(), hopper_pair_measures(), {}};
+  const MeasuresOfModel<HopperRun> measures{hopper_measures(), hopper_pair_measures()};
   const auto of = [&](std::string quantity, Statistic statistic = Statistic::mean,
                       Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
     const ComparisonRow row{
@@ -193,7 +193,7 @@ TEST(Hopper, RowsOfTwoRuns) {
 TEST(Hopper, RowsOfTwoVariantsAreMeansOverTheirMembers) {
   const HopperRun slow = run_of_a_steady_flow();
   const std::vector<HopperRun> first = {faster(slow), slow}, second = {slow};
-  const MeasuresOfModel<HopperRun> measures{hopper_measures(), hopper_pair_measures(), {}};
+  const MeasuresOfModel<HopperRun> measures{hopper_measures(), hopper_pair_measures()};
   const auto of = [&](std::string quantity, Statistic statistic, Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
     const ComparisonRow row{
         .quantity = std::move(quantity), .from = From::variants, .statistic = statistic, .window = window};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_studies.hpp"
 
-#include <stdexcept>
-
 #include "app/continuum/continuum_case.hpp"
 #include "io/run_folder.hpp"
 #include "io/summary.hpp"
@@ -17,19 +15,13 @@ HopperRun hopper_run(const std::filesystem::path& folder, const CaseFile& file, 
   return run;
 }
 
-/// Nothing is random in such a run.
-HopperRun only_one(std::span<const HopperRun> runs) {
-  if (runs.size() != 1) throw std::invalid_argument("runs of a hopper have no mean");
-  return runs.front();
-}
-
 }  // namespace
 
 StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
   const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
     return hopper_run(folder, file, runs);
   };
-  return studied<HopperRun>(found, {hopper_measures(), hopper_pair_measures(), only_one}, read);
+  return studied<HopperRun>(found, {hopper_measures(), hopper_pair_measures()}, read);
 }
 
 }  // namespace talus::app
