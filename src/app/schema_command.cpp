@@ -49,8 +49,8 @@ std::string page_of_quantities() {
       "# Quantities\n\nThe numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in "
       "the\nrows of `validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A\nsummary "
       "lists those that apply to the case. The time window is that of a row; in a summary it is the\nwhole run, its "
-      "end, or what the definition says. Quantities that only one study needs are measured by\nits "
-      "`validation/STUDY/measures.py`; `python3 -m talus.measures --table validation/STUDY` lists them.\nThis page is "
+      "end, or what the definition says. Quantities that only one study needs are measured\nby its "
+      "`validation/STUDY/measures.py`; `python3 -m talus.measures --table validation/STUDY` lists\nthem. This page is "
       "the output of `talus schema --quantities`; the texts are in the lists\n`src/analysis/hopper_measures.cpp` and "
       "`src/analysis/avalanche_measures.cpp`.\n";
   const auto add = [&page](const char* title, const char* symbols, const std::vector<MeasureText>& measures) {
