@@ -25,24 +25,24 @@ double value_at_window(Number number, const Run& run, const Window& window) {
   const double at = window.at.value_or(Window::end_of_run);
   const std::size_t first = std::min<std::size_t>(1, time.size() - 1);
   const std::size_t n = std::isinf(at) ? time.size() - 1 : first + nearest_point(std::span(time).subspan(first), at);
-  return run.snapshots.value(n, number, {});
+  return run.snapshots.value(n, number);
 }
 
 Estimator<Run> at(Number number) {
-  return {[=](const Run& run, const Place&, const Window& w) { return value_at_window(number, run, w); }, number};
+  return {[=](const Run& run, const Window& w) { return value_at_window(number, run, w); }, number};
 }
 
 Estimator<Run> of_front_speed(double (*of)(const Curve& within)) {
-  return {[=](const Run& run, const Place&, const Window& w) {
+  return {[=](const Run& run, const Window& w) {
     const Curve speed = part(run.front_speed, w.from, w.to);
     return speed.time.empty() ? none : of(speed);
   }};
 }
 
 /// Width over thickness of the largest head, mean over the snapshots after the start.
-double head_aspect_ratio(const Run& run, const Place&, const Window& window) {
-  Curve ratio = run.snapshots.curve(head<&HeadSize::width>, {}, 1);
-  const Curve thickness = run.snapshots.curve(head<&HeadSize::thickness>, {}, 1);
+double head_aspect_ratio(const Run& run, const Window& window) {
+  Curve ratio = run.snapshots.curve(head<&HeadSize::width>, 1);
+  const Curve thickness = run.snapshots.curve(head<&HeadSize::thickness>, 1);
   for (std::size_t n = 0; n < ratio.value.size(); ++n) ratio.value[n] /= thickness.value[n];
   return mean(part(ratio, window.from, window.to).value);
 }
@@ -90,15 +90,15 @@ const std::vector<Row> list = {
     Row("frontal_angle", "deg",
         "seen from the side: angle between the slope behind the front and the line through the surface grains from the "
         "foremost up to the top; below 90 the front leans back",
-        at(frontal_angle), {{from_the_side}}, {}, true),
+        at(frontal_angle), {{from_the_side}}, true),
     Row("fall_speed_start", "1",
         "mean velocity along gravity over v_s at the start, of the grains that have not leaked",
-        {[](const Run& r, const Place&, const Window&) {
-          return r.snapshots.time().empty() ? none : r.snapshots.value(0, fall_speed, {});
+        {[](const Run& r, const Window&) {
+          return r.snapshots.time().empty() ? none : r.snapshots.value(0, fall_speed);
         }},
         {{falling}}),
     Row("fall_speed_end", "1", "mean velocity along gravity over v_s at the end, of the grains that have not leaked",
-        {[](const Run& r, const Place&, const Window& w) { return value_at_window(fall_speed, r, w); }}, {{falling}}),
+        {[](const Run& r, const Window& w) { return value_at_window(fall_speed, r, w); }}, {{falling}}),
     Row("leaked_fraction", "1", "share of the grains more than two initial radii behind the median of all",
         at(of_fall<&FallingCloud::leaked_fraction>), {{falling}}),
     Row("axial_density", "1",
@@ -108,7 +108,7 @@ const std::vector<Row> list = {
     Row("flatness", "1", "root mean square lateral distance over √2 times that along gravity: 1 for a sphere",
         at(of_fall<&FallingCloud::flatness>), {{falling}}),
     Row("overlap_max", "1", "largest overlap of two grains, or of a grain and the slope, over a, at any step",
-        {[](const Run& r, const Place&, const Window&) { return r.overlap_max; }}, {{always}}),
+        {[](const Run& r, const Window&) { return r.overlap_max; }}, {{always}}),
 };
 
 }  // namespace
@@ -118,7 +118,7 @@ std::span<const Measure<Run>> avalanche_measures() {
 }
 
 std::vector<MeasureText> texts_of_avalanche_measures() {
-  return texts_of(avalanche_measures(), std::span<const GroupMeasure<Run>>());
+  return texts_of(avalanche_measures());
 }
 
 }  // namespace talus

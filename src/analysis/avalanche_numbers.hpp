@@ -7,22 +7,22 @@
 
 namespace talus::avalanche {
 
-double head_count(const AvalancheSnapshot& s, const Place& place);
-double head_particles(const AvalancheSnapshot& s, const Place& place);  ///< of the largest head
-double frontal_angle(const AvalancheSnapshot& s, const Place& place);
+double head_count(const AvalancheSnapshot& s);
+double head_particles(const AvalancheSnapshot& s);  ///< of the largest head
+double frontal_angle(const AvalancheSnapshot& s);
 
 /// Of the largest head.
 template <double HeadSize::*size>
-double head(const AvalancheSnapshot& s, const Place&) {
+double head(const AvalancheSnapshot& s) {
   return s.view == AvalancheView::from_above && s.head_size() ? (*s.head_size()).*size : AvalancheRun::none;
 }
 /// Of a cloud in free space.
 template <double FallingCloud::*number>
-double of_fall(const AvalancheSnapshot& s, const Place&) {
+double of_fall(const AvalancheSnapshot& s) {
   return s.view == AvalancheView::falling ? s.fall().*number : AvalancheRun::none;
 }
-inline double fall_speed(const AvalancheSnapshot& s, const Place& place) {
-  return of_fall<&FallingCloud::fall_speed>(s, place) / s.scales.stokes_speed;
+inline double fall_speed(const AvalancheSnapshot& s) {
+  return of_fall<&FallingCloud::fall_speed>(s) / s.scales.stokes_speed;
 }
 
 }  // namespace talus::avalanche

@@ -114,10 +114,4 @@ std::vector<double> finite_values(std::vector<double> numbers) {
   return numbers;
 }
 
-double length_of(const Place& place, std::string_view name) {
-  const auto found = place.find(name);
-  if (found == place.end()) throw std::out_of_range("the place has no length '" + std::string(name) + "'");
-  return found->second;
-}
-
 }  // namespace talus

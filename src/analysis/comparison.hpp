@@ -56,8 +56,6 @@ struct Window {
 
 /// Where a measure is taken: lengths by name, m. A row of a reference brings them: place = { height = "120 mm" }.
 using Place = std::map<std::string, double, std::less<>>;
-/// \throws std::out_of_range if the place has no such length
-double length_of(const Place& place, std::string_view name);
 
 /// From what a number is made.
 enum class From {

@@ -47,7 +47,7 @@ TEST(AvalancheSnapshot, OfABowFromAboveWhateverTheScales) {
   for (const AvalancheScales scales : {AvalancheScales{1, 1}, AvalancheScales{0.005, 39.8}}) {
     const Grains grains = bow(scales);
     const AvalancheSnapshot s(scales, AvalancheView::from_above, grains.view());
-    const auto is = [&](Number number) { return number(s, {}); };
+    const auto is = [&](Number number) { return number(s); };
     EXPECT_EQ(is(avalanche::head_count), 1);
     EXPECT_EQ(is(avalanche::head_particles), static_cast<double>(test::grains_of_bow(31)));
     EXPECT_NEAR(is(avalanche::head<&HeadSize::width>), 62 * scales.mean_radius, 1e-12);
@@ -63,8 +63,8 @@ TEST(AvalancheSnapshot, CountsHeadsOfFiveGrainsAndMore) {
   test::append(points, test::block({0, 90, 0}, 2, 2, 2));
   const Grains grains{0, points, std::vector<Vector3>(points.size()), Radii(points.size(), 1.0)};
   const AvalancheSnapshot s({1, 1}, AvalancheView::from_above, grains.view());
-  EXPECT_EQ(avalanche::head_count(s, {}), 2);
-  EXPECT_EQ(avalanche::head_particles(s, {}), 25);
+  EXPECT_EQ(avalanche::head_count(s), 2);
+  EXPECT_EQ(avalanche::head_particles(s), 25);
 }
 
 TEST(AvalancheSnapshot, FromTheSide) {
@@ -75,16 +75,16 @@ TEST(AvalancheSnapshot, FromTheSide) {
   for (int n = 12; n < 60; ++n) position.push_back({-2.0 * n, 0, 1});
   const Grains grains{5, position, std::vector<Vector3>(position.size()), Radii(position.size(), 1.0)};
   const AvalancheSnapshot s({1, 2}, AvalancheView::from_the_side, grains.view());
-  EXPECT_NEAR(avalanche::frontal_angle(s, {}), 60, 1e-9) << "y does not count";
-  EXPECT_TRUE(std::isnan(avalanche::head_count(s, {})));
+  EXPECT_NEAR(avalanche::frontal_angle(s), 60, 1e-9) << "y does not count";
+  EXPECT_TRUE(std::isnan(avalanche::head_count(s)));
 }
 
 TEST(AvalancheSnapshot, OfOneGrain) {
   const Grains one{0.2, {{0, 0, 0}}, {{}}, {1}};
   const AvalancheSnapshot s({1, 1}, AvalancheView::from_above, one.view());
-  EXPECT_EQ(avalanche::head_count(s, {}), 0);
-  EXPECT_EQ(avalanche::head_particles(s, {}), 0);
-  EXPECT_TRUE(std::isnan(avalanche::head<&HeadSize::width>(s, {})));
+  EXPECT_EQ(avalanche::head_count(s), 0);
+  EXPECT_EQ(avalanche::head_particles(s), 0);
+  EXPECT_TRUE(std::isnan(avalanche::head<&HeadSize::width>(s)));
 }
 
 TEST(AvalancheRun, FromTheRecordsOfTheFront) {

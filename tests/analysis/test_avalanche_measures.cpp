@@ -18,7 +18,7 @@ using Number = AvalancheRun::Numbers::Number;
 /// Numbers of snapshots by hand: `of` makes them all, from the number of the snapshot.
 using ByHand = std::map<Number, double>;
 AvalancheRun::Numbers numbers(std::vector<double> time, std::function<ByHand(std::size_t)> of) {
-  return {std::move(time), [of](std::size_t n, Number number, const Place&) {
+  return {std::move(time), [of](std::size_t n, Number number) {
             const ByHand all = of(n);
             const auto found = all.find(number);
             return found == all.end() ? AvalancheRun::none : found->second;
@@ -52,20 +52,15 @@ AvalancheRun synthetic(double shift, double radius) {
 }
 
 double measure(std::string_view name, const AvalancheRun& run, const Window& window) {
-  return find_row(avalanche_measures(), name)->estimator.of(run, {}, window);
+  return find_row(avalanche_measures(), name)->estimator.of(run, window);
 }
 
 double of_run(std::string_view name, Window window = {}) {
   return measure(name, synthetic(0, 1), window);
 }
 
-const MeasuresOfModel<AvalancheRun>& measures_of_model() {
-  static const MeasuresOfModel<AvalancheRun> measures{avalanche_measures(), {}};
-  return measures;
-}
-
 std::optional<double> of_row(const ComparisonRow& row, const std::vector<AvalancheRun>& members) {
-  return RowValues<AvalancheRun>(row, {&members}, measures_of_model()).values().at(0);
+  return RowValues<AvalancheRun>(row, {&members}, avalanche_measures()).values().at(0);
 }
 
 TEST(AvalancheMeasures, OfAKnownRun) {
@@ -103,9 +98,9 @@ TEST(EnsembleQuantity, MembersWithoutAnAngleAreLeftOutWhileTheyAreTheFewer) {
   const ComparisonRow at_first{.quantity = "frontal_angle", .from = From::each, .window = {.at = 2}};
   const auto lose_first_angle = [](AvalancheRun& run) {
     const AvalancheRun::Numbers whole = run.snapshots;
-    run.snapshots = {whole.time(), [whole](std::size_t n, Number number, const Place& place) {
+    run.snapshots = {whole.time(), [whole](std::size_t n, Number number) {
                        return n == 1 && number == avalanche::frontal_angle ? AvalancheRun::none
-                                                                           : whole.value(n, number, place);
+                                                                           : whole.value(n, number);
                      }};
   };
   lose_first_angle(members[2]);

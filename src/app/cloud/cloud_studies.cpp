@@ -21,7 +21,7 @@ StudiedRuns study_avalanches(const std::vector<FoundEnsemble>& found, ReadRuns& 
   const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
     return cloud_run(folder, file, runs);
   };
-  return studied<AvalancheRun>(found, {avalanche_measures(), {}}, read);
+  return studied<AvalancheRun>(found, avalanche_measures(), read);
 }
 
 }  // namespace talus::app

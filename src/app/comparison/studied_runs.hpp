@@ -32,7 +32,7 @@ struct StudiedEnsemble {
 
 /// The runs of one model with its measures. \param read makes a run from its folder and its resolved case
 template <class Run, class Read>
-StudiedRuns studied(const std::vector<FoundEnsemble>& found, MeasuresOfModel<Run> measures, Read&& read) {
+StudiedRuns studied(const std::vector<FoundEnsemble>& found, std::span<const Measure<Run>> measures, Read&& read) {
   const auto ensembles = std::make_shared<std::vector<StudiedEnsemble<Run>>>();
   for (const FoundEnsemble& e : found) {
     ensembles->push_back({e.case_name, e.variant, {}});
