@@ -95,7 +95,6 @@ TEST_F(LawCommand, TableHoldsHookesAnswer) {
   EXPECT_NEAR(table.column("collision_stress_zz")[4], 1.67 * std::sqrt(2e-4 / 9.81) * 2e-4 * 800 / 3, 1e-8);
   EXPECT_EQ(table.column("collision_stress_zz")[8], 0);
   EXPECT_TRUE(std::isnan(table.column("friction")[0]));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "path.png"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "functions.csv"));
 }
 

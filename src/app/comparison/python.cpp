@@ -17,14 +17,6 @@ namespace talus::app {
 
 namespace {
 
-bool has_modules(const std::filesystem::path& python, const std::vector<std::string>& modules) {
-  constexpr const char* ask =
-      "import sys; from importlib.util import find_spec; sys.exit(not all(map(find_spec, sys.argv[1:])))";
-  std::vector<std::string> command = {python.string(), "-c", ask};
-  command.insert(command.end(), modules.begin(), modules.end());
-  return run::run_program(command, {}, run::signal_has_come).status == 0;
-}
-
 /// So that it finds the package talus: of the project, or where it is installed.
 std::vector<std::string> with_package(std::vector<std::string> command) {
   const auto project = find_project("python/talus/measures.py");
@@ -34,6 +26,14 @@ std::vector<std::string> with_package(std::vector<std::string> command) {
   if (const char* others = std::getenv("PYTHONPATH"); others && *others) path += std::string(":") + others;
   command.insert(command.begin(), {env->string(), path});
   return command;
+}
+
+bool has_modules(const std::filesystem::path& python, const std::vector<std::string>& modules) {
+  constexpr const char* ask =
+      "import sys; from importlib.util import find_spec; sys.exit(not all(map(find_spec, sys.argv[1:])))";
+  std::vector<std::string> command = {python.string(), "-c", ask, "talus"};
+  command.insert(command.end(), modules.begin(), modules.end());
+  return run::run_program(with_package(std::move(command)), {}, run::signal_has_come).status == 0;
 }
 
 /// Of a traceback, the error itself.
@@ -68,8 +68,8 @@ std::vector<std::filesystem::path> draw_charts(const std::vector<std::string>& a
   const auto python = find_python({"h5py", "matplotlib"});
   if (!python) {
     print(
-        "No pictures of curves: they take python3 with h5py and matplotlib (Debian: python3-h5py, "
-        "python3-matplotlib).\n");
+        "No pictures of curves: they take python3 with h5py, matplotlib and the package talus (Debian: python3-h5py, "
+        "python3-matplotlib, python3-talus).\n");
     return {};
   }
   std::istringstream said(said_by_package(*python, "talus.charts", arguments, {}, about));

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 using Values = std::vector<std::optional<double>>;
 
-constexpr const char* needed = "needs python3-numpy, python3-h5py";
+constexpr const char* needed = "needs python3-numpy, python3-h5py, python3-talus";
 
 /// How the numbers of a row are asked for: "each" member's, one of the "curves" of the members or of their "values", or
 /// one of all variants "together".

@@ -115,17 +115,17 @@ TEST(Figure, RefusesWhatCannotBeDrawn) {
 TEST(WritePng, WritesTheFileWhole) {
   const ScratchFolder folder;
   const Figure figure{.panels = {with_grains(blue)}};
-  put_content(folder / "grains.png", "an older file");
-  write_png(figure, folder / "grains.png");
-  EXPECT_EQ(content_of(folder / "grains.png"), png(figure));
-  EXPECT_THAT(names_in(folder.path()), ElementsAre("grains.png"));
+  put_content(folder / "drawn.png", "an older file");
+  write_png(figure, folder / "drawn.png");
+  EXPECT_EQ(content_of(folder / "drawn.png"), png(figure));
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("drawn.png"));
 }
 
 TEST(WritePng, FailsWithTheNameAndLeavesNothing) {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "taken.png");  // a folder stands where the file should
   const Figure figure{.panels = {with_grains(blue)}};
-  for (const auto& path : {folder / "taken.png", folder / "missing/grains.png"}) {
+  for (const auto& path : {folder / "taken.png", folder / "missing/drawn.png"}) {
     EXPECT_THAT(message_of<FileError>([&] { write_png(figure, path); }), HasSubstr(path.string()));
   }
   EXPECT_THAT(names_in(folder.path()), ElementsAre("taken.png"));
@@ -136,11 +136,11 @@ TEST(WritePng, KeepsTheOlderPictureWhenTheDiskIsFull) {
   const SmallDisk disk;
   if (!disk.mounted()) GTEST_SKIP() << "needs the right to mount a small disk";
   put_content(disk / "filling", std::string(1'036'000, 'x'));
-  put_content(disk / "grains.png", "old");
-  EXPECT_THAT(message_of<FileError>([&] { write_png({.panels = {with_grains(blue)}}, disk / "grains.png"); }),
+  put_content(disk / "drawn.png", "old");
+  EXPECT_THAT(message_of<FileError>([&] { write_png({.panels = {with_grains(blue)}}, disk / "drawn.png"); }),
               HasSubstr("No space left"));
-  EXPECT_EQ(content_of(disk / "grains.png"), "old");
-  EXPECT_THAT(names_in(disk.path()), ElementsAre("grains.png", "filling"));
+  EXPECT_EQ(content_of(disk / "drawn.png"), "old");
+  EXPECT_THAT(names_in(disk.path()), ElementsAre("drawn.png", "filling"));
 }
 
 }  // namespace
