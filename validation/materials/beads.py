@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A round column of discrete beads (beads_column.in), measured as materials.py measures the law's columns.
 
-usage: beads.py run FOLDER [--radius N] [--floor bumps]   with LAMMPS, one run for each rolling friction of reference.toml
+usage: beads.py run FOLDER [--radius N] [--floor bumps]   with LAMMPS, each rolling friction of reference.toml
+       beads.py law FOLDER                                column.toml with the law's numbers for these beads
        beads.py measure FOLDER                            the runs in it, to data/beads_column.csv
        beads.py table                                     data/beads_column.csv in Markdown, with the bands
 
@@ -10,27 +11,36 @@ A run that is done is not made again. About a quarter of an hour a run on one co
 import argparse
 import csv
 import json
+import os
 import subprocess
 from pathlib import Path
 
 import materials
 import numpy as np
+import talus
 
 TABLE = materials.HERE / "data" / "beads_column.csv"
 DIAMETER = 1.25e-3  # m, as in beads_column.in
-COLUMNS = ("radius", "seed", "rolling", "floor", "beads", "aspect", "packing", "runout", "height", "runout_99", "stray")
+BEADS = materials.REFERENCE["beads"]
+#: Columns of the table by what they are called in Markdown; those of the settings first.
+COLUMNS = {"radius": "r0/d", "rolling": "rolling friction", "floor": "floor", "settled_with": "friction in filling",
+           "seed": "seed", "beads": "beads", "aspect": "a", "packing": "packing", "runout": "run-out",
+           "height": "height", "runout_99": "of 99 % of the mass", "stray": "stray"}
 FLOORS = {"flat": 0, "bumps": 1}
 
 
 def lammps(folder, settings):
     """Runs beads_column.in in a folder of its own, unless that was done."""
-    if (folder / "settings.json").exists():
+    done = folder / "settings.json"
+    if done.exists():
         return
     (folder / "frames").mkdir(parents=True, exist_ok=True)
-    words = [word for name, value in settings.items() for word in ("-var", name, f"{value:g}")]
-    subprocess.run(["lmp", "-in", materials.HERE / "beads_column.in", "-log", "lammps.log", "-screen", "none", *words],
-                   cwd=folder, check=True)
-    (folder / "settings.json").write_text(json.dumps(settings) + "\n", encoding="utf-8")
+    command = ["lmp", "-in", materials.HERE / "beads_column.in", "-log", "lammps.log", "-screen", "none"]
+    for name in ("radius", "rolling", "seed"):
+        command += ["-var", name, f"{settings[name]:g}"]
+    command += ["-var", "musettle", f"{settings['settled_with']:g}", "-var", "bumps", str(FLOORS[settings["floor"]])]
+    subprocess.run(command, cwd=folder, env={**os.environ, "OMP_NUM_THREADS": "1"}, check=True)
+    done.write_text(json.dumps(settings) + "\n", encoding="utf-8")
 
 
 def frames(folder):
@@ -45,7 +55,7 @@ def read(path):
 
 
 def measure(first, last, radius):
-    """Numbers of a column by the names in COLUMNS. \\param first, last what read() gives, at the removal of the tube and at
+    """Numbers of a column by their names in COLUMNS. \\param first, last what read() gives, when the tube goes and at
     rest \\param radius of the column, m"""
     r, x, _ = first
     height = 2 * np.average(x[:, 2], weights=r ** 3)
@@ -61,40 +71,49 @@ def measure(first, last, radius):
 
 
 def run(options):
-    for rolling in materials.REFERENCE["beads"]["rolling"]:
-        name = f"r{rolling:g}-{options.radius:g}-{options.floor}-s{options.seed}"
-        lammps(options.folder / name, {"rolling": rolling, "radius": options.radius, "bumps": FLOORS[options.floor],
-                                       "seed": options.seed})
+    for rolling in options.rolling:
+        settings = {"radius": options.radius, "rolling": rolling, "floor": options.floor,
+                    "settled_with": options.settled_with, "seed": options.seed}
+        lammps(options.folder / "-".join(f"{name}-{value}" for name, value in settings.items()), settings)
+
+
+def law(options):
+    """Prints run-out, height and strays of the law's columns."""
+    for rolling, numbers in BEADS["law"].items():
+        settings = {"grains.material": "glass-beads", "bed.spacing": f"{materials.spacing_of('column', 1.0):g} mm",
+                    "bed.height": "60 mm", "bed.packing": options.packing,
+                    "grains.diameter": f"{1e3 * materials.SETUP['column_radius'] / BEADS['radius']:.6g} mm"}
+        settings |= {f"law.critical-state.{name}": value for name, value in numbers.items()}
+        run_ = talus.simulate(materials.HERE / "column.toml", options.folder / f"law-{rolling}", settings, threads=1,
+                              existing="resume", program=options.program)
+        of, _ = materials.measure_run(run_, "column", 1.0)
+        print(f"| {rolling} | {of['column-runout-1']:.3f} | {of['column-height-1']:.3f} | {of['stray']:.3g} |")
 
 
 def measure_all(options):
     rows = []
-    for path in sorted(options.folder.glob("*/settings.json")):
+    for path in options.folder.glob("*/settings.json"):
         settings = json.loads(path.read_text(encoding="utf-8"))
         of = frames(path.parent)
         numbers = measure(read(of[0]), read(of[-1]), settings["radius"] * DIAMETER)
-        rows.append({**settings, "floor": "bumps" if settings["bumps"] else "flat", **numbers})
+        rows.append(settings | {name: f"{value:.4g}" for name, value in numbers.items()})
     TABLE.parent.mkdir(exist_ok=True)
     with open(TABLE, "w", encoding="utf-8", newline="") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(COLUMNS)
-        for row in sorted(rows, key=lambda row: [row[name] for name in COLUMNS[:4]]):
-            writer.writerow([value if isinstance(value, str) else f"{value:.4g}" for value in (row[name] for name in COLUMNS)])
+        writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(sorted(rows, key=lambda row: [row[name] for name in list(COLUMNS)[:5]]))
 
 
 def table(_):
     """In bold: outside of the band."""
-    def cell(name, value):
-        low, high = materials.BANDS[f"column-{name}-1"]
-        return f"{value:.3f}" if low <= value <= high else f"**{value:.3f}**"
-
-    print("| rolling friction | r0/d | floor | seed | beads | a | packing | run-out | of 99 % of the mass | height | stray |")
-    print("|" + "---|" * 11)
+    print("| " + " | ".join(COLUMNS.values()) + " |\n|" + "---|" * len(COLUMNS))
     with open(TABLE, encoding="utf-8") as file:
         for row in csv.DictReader(file):
-            print(f"| {row['rolling']} | {row['radius']} | {row['floor']} | {row['seed']} | {row['beads']} | "
-                  f"{float(row['aspect']):.3f} | {float(row['packing']):.3f} | {cell('runout', float(row['runout']))} | "
-                  f"{float(row['runout_99']):.3f} | {cell('height', float(row['height']))} | {row['stray']} |")
+            for name in ("runout", "height"):
+                low, high = materials.BANDS[f"column-{name}-1"]
+                if not low <= float(row[name]) <= high:
+                    row[name] = f"**{row[name]}**"
+            print("| " + " | ".join(row.values()) + " |")
 
 
 if __name__ == "__main__":
@@ -102,10 +121,17 @@ if __name__ == "__main__":
     parts = parser.add_subparsers(required=True)
     part = parts.add_parser("run")
     part.add_argument("folder", type=Path)
-    part.add_argument("--radius", type=float, default=materials.REFERENCE["beads"]["radius"], help="in diameters")
+    part.add_argument("--radius", type=float, default=BEADS["radius"], help="in diameters")
+    part.add_argument("--rolling", type=float, nargs="+", default=BEADS["rolling"], help="friction")
+    part.add_argument("--settled-with", type=float, default=0.15, help="friction while the tube is filled")
     part.add_argument("--seed", type=int, default=1)
     part.add_argument("--floor", choices=FLOORS, default="flat")
     part.set_defaults(do=run)
+    part = parts.add_parser("law")
+    part.add_argument("folder", type=Path)
+    part.add_argument("--packing", type=float, default=0.585, help="of the bed, as the beads in the tube have it")
+    part.add_argument("--program", help="left out: as talus.find_program says")
+    part.set_defaults(do=law)
     part = parts.add_parser("measure")
     part.add_argument("folder", type=Path)
     part.set_defaults(do=measure_all)
