@@ -79,15 +79,15 @@ def run(options):
 
 def law(options):
     """Prints run-out, height and strays of the law's columns."""
-    for rolling, numbers in BEADS["law"].items():
+    for name, numbers in BEADS["law"].items():
         settings = {"grains.material": "glass-beads", "bed.spacing": f"{materials.spacing_of('column', 1.0):g} mm",
-                    "bed.height": "60 mm", "bed.packing": options.packing,
+                    "bed.height": "60 mm", "bed.packing": BEADS["packing"],
                     "grains.diameter": f"{1e3 * materials.SETUP['column_radius'] / BEADS['radius']:.6g} mm"}
-        settings |= {f"law.critical-state.{name}": value for name, value in numbers.items()}
-        run_ = talus.simulate(materials.HERE / "column.toml", options.folder / f"law-{rolling}", settings, threads=1,
+        settings |= {f"law.critical-state.{key}": value for key, value in numbers.items()}
+        run_ = talus.simulate(materials.HERE / "column.toml", options.folder / f"law-{name}", settings, threads=1,
                               existing="resume", program=options.program)
         of, _ = materials.measure_run(run_, "column", 1.0)
-        print(f"| {rolling} | {of['column-runout-1']:.3f} | {of['column-height-1']:.3f} | {of['stray']:.3g} |")
+        print(f"| {name} | {of['column-runout-1']:.3f} | {of['column-height-1']:.3f} | {of['stray']:.3g} |")
 
 
 def measure_all(options):
@@ -129,7 +129,6 @@ if __name__ == "__main__":
     part.set_defaults(do=run)
     part = parts.add_parser("law")
     part.add_argument("folder", type=Path)
-    part.add_argument("--packing", type=float, default=0.585, help="of the bed, as the beads in the tube have it")
     part.add_argument("--program", help="left out: as talus.find_program says")
     part.set_defaults(do=law)
     part = parts.add_parser("measure")
