@@ -121,7 +121,7 @@ if __name__ == "__main__":
     parts = parser.add_subparsers(required=True)
     part = parts.add_parser("run")
     part.add_argument("folder", type=Path)
-    part.add_argument("--radius", type=float, default=BEADS["radius"], help="in diameters")
+    part.add_argument("--radius", type=int, default=BEADS["radius"], help="in diameters")
     part.add_argument("--rolling", type=float, nargs="+", default=BEADS["rolling"], help="friction")
     part.add_argument("--settled-with", type=float, default=0.15, help="friction while the tube is filled")
     part.add_argument("--seed", type=int, default=1)
