@@ -62,7 +62,7 @@ struct Falling {
   }
 };
 
-/// As the paper's cases have it (docs/decisions/0007, 0012).
+/// As the paper's cases have it (docs/design/coupling.md).
 Parameters paper() {
   Parameters p;
   p.continuity = Continuity::air_alone;

@@ -6,8 +6,8 @@
 #include <benchmark/benchmark.h>
 
 #include "base/random.hpp"
-#include "models/continuum/initial.hpp"
 #include "models/continuum/model.hpp"
+#include "models/continuum/setup/initial.hpp"
 #include "models/continuum/sort.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 

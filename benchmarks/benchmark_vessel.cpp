@@ -13,9 +13,9 @@
 #include <memory>
 #include <numbers>
 
-#include "models/continuum/initial.hpp"
 #include "models/continuum/model.hpp"
-#include "models/continuum/vessel.hpp"
+#include "models/continuum/setup/initial.hpp"
+#include "models/continuum/setup/vessel.hpp"
 #include "models/continuum/workspace.hpp"
 
 namespace talus::continuum {

@@ -29,7 +29,7 @@ from check_documents import tracked  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGES = ("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/tutorials/*.md", "docs/how-to/*.md", "docs/theory/*.md",
-         "docs/reproduction/*.md", "docs/decisions/*.md")
+         "docs/reproduction/*.md", "docs/design/*.md")
 SHORT = {"cloud": {"particles.count": "40", "run.end": "200 us", "output.snapshots": "50 us"},
          "continuum": {"gate.opens": "from-the-start", "run.end": "1 ms", "output.snapshots": "0.5 ms"},
          "air": {"run.end": "1 ms", "output.snapshots": "0.5 ms"}}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The load of a part of a wall, from the impulses that it received: the columns "normal_impulse_NAME" and
-/// "shear_impulse_NAME" of a series (models/continuum/vessel_loads.hpp).
+/// "shear_impulse_NAME" of a series (models/continuum/boundary/vessel_loads.hpp).
 #pragma once
 
 #include <string>

@@ -102,10 +102,16 @@ double evaluate(Statistic statistic, std::span<const double> numbers) {
   return statistic == Statistic::ratio ? numbers[0] / numbers[1] : numbers[0] - numbers[1];
 }
 
-double length_of(const Place& place, std::string_view name) {
-  const auto found = place.find(name);
-  if (found == place.end()) throw std::out_of_range("the place has no length '" + std::string(name) + "'");
-  return found->second;
+double evaluate_members(Statistic statistic, std::vector<double> numbers, bool may_be_missing) {
+  if (may_be_missing) numbers = finite_values(std::move(numbers));
+  return numbers.empty() ? std::nan("") : evaluate(statistic, numbers);
+}
+
+std::vector<double> finite_values(std::vector<double> numbers) {
+  const std::size_t members = numbers.size();
+  std::erase_if(numbers, [](double number) { return std::isnan(number); });
+  if (2 * numbers.size() < members) numbers.clear();
+  return numbers;
 }
 
 }  // namespace talus

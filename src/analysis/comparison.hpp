@@ -56,8 +56,6 @@ struct Window {
 
 /// Where a measure is taken: lengths by name, m. A row of a reference brings them: place = { height = "120 mm" }.
 using Place = std::map<std::string, double, std::less<>>;
-/// \throws std::out_of_range if the place has no such length
-double length_of(const Place& place, std::string_view name);
 
 /// From what a number is made.
 enum class From {
@@ -80,9 +78,18 @@ enum class Statistic {
 /// variant.
 double evaluate(Statistic statistic, std::span<const double> numbers);
 
+/// Numbers of the members of an ensemble without those that are nan, as long as these are the fewer; else none at all.
+std::vector<double> finite_values(std::vector<double> numbers);
+
+/// The statistic of the numbers of members. \param may_be_missing take their finite_values() alone; nan where
+/// there is none
+double evaluate_members(Statistic statistic, std::vector<double> numbers, bool may_be_missing);
+
 struct ComparisonRow {
   std::string id = {};
-  int number = 0;  ///< the group of rows it belongs to
+  int line = 0;           ///< in the file
+  bool of_study = false;  ///< the quantity is one of the study's measures.py, not of the program's list
+  int number = 0;         ///< the group of rows it belongs to
   std::string quantity = {};
   std::string case_name = {};
   std::vector<std::string> variants = {};

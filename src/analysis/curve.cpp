@@ -76,34 +76,4 @@ double first_time_at_or_below(const Curve& curve, double level) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<Curve> common_part(std::vector<Curve> curves) {
-  std::size_t points = std::numeric_limits<std::size_t>::max();
-  for (const Curve& curve : curves) points = std::min(points, curve.time.size());
-  for (Curve& curve : curves) {
-    curve.time.resize(points);
-    curve.value.resize(points);
-  }
-  return curves;
-}
-
-CurveSpread spread(std::span<const Curve> curves) {
-  CurveSpread result;
-  if (curves.empty()) return result;
-  for (const Curve& curve : curves) {
-    require_points(curve);
-    if (curve.time.size() != curves[0].time.size()) throw std::invalid_argument("the curves differ in length");
-    for (std::size_t n = 0; n < curve.time.size(); ++n)
-      if (!(std::abs(curve.time[n] - curves[0].time[n]) <= 1e-6 * std::abs(curves[0].time.back())))
-        throw std::invalid_argument("the curves differ in their times");
-  }
-  std::vector<double> values(curves.size());
-  for (std::size_t n = 0; n < curves[0].time.size(); ++n) {
-    for (std::size_t member = 0; member < curves.size(); ++member) values[member] = curves[member].value[n];
-    result.mean.time.push_back(curves[0].time[n]);
-    result.mean.value.push_back(mean(values));
-    result.deviation.push_back(standard_deviation(values));
-  }
-  return result;
-}
-
 }  // namespace talus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Numbers that change with time: a curve, what is read off it, and the mean of many.
+/// Numbers that change with time: a curve, and what is read off it.
 #pragma once
 
 #include <span>
@@ -32,17 +32,5 @@ Extremes extremes(const Curve& curve);
 
 /// The first time at which the curve, linear between its points, is at or below the level; nan if it never is.
 double first_time_at_or_below(const Curve& curve, double level);
-
-/// The curves cut to as many points as the shortest has. Runs end with the step that passes their end, which may just
-/// complete a window in one and not in another.
-std::vector<Curve> common_part(std::vector<Curve> curves);
-
-/// Mean and standard deviation (n - 1; nan for one curve) of several curves at each time.
-struct CurveSpread {
-  Curve mean;
-  std::vector<double> deviation;
-};
-/// \throws std::invalid_argument if the curves differ in length, or their times by more than 1e-6 of the last time
-CurveSpread spread(std::span<const Curve> curves);
 
 }  // namespace talus

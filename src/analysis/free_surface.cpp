@@ -1,17 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/free_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "analysis/statistics.hpp"
+#include "numerics/sph/cubic_spline_line.hpp"
 
 namespace talus {
 
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Cells along an axis that a disc may touch: [first, last).
+struct Cells {
+  std::size_t first, last;
+};
+Cells cells_within(double centre, double reach, double origin, double cell, std::size_t count) {
+  const auto bounded = [&](double n) {
+    return static_cast<std::size_t>(std::clamp(n, 0.0, static_cast<double>(count)));
+  };
+  return {bounded(std::floor((centre - reach - origin) / cell)), bounded(std::ceil((centre + reach - origin) / cell))};
+}
+
+Section empty_section(const Box& box, double width, double height) {
+  Section s;
+  s.x0 = box.low.x;
+  s.z0 = box.low.z;
+  s.columns = static_cast<std::size_t>(std::max(1.0, std::round(box.extent(0) / width)));
+  s.rows = static_cast<std::size_t>(std::max(1.0, std::round(box.extent(2) / height)));
+  s.width = box.extent(0) / static_cast<double>(s.columns);
+  s.height = box.extent(2) / static_cast<double>(s.rows);
+  s.value.assign(s.columns * s.rows, 0.0);
+  return s;
+}
+
+}  // namespace
+
+Section packing_section(const Particles& particles, const Domain& domain, double width, double height) {
+  const Box& box = domain.box();
+  Section section = empty_section(box, width, height);
+  double reach = 0;
+  for (const double h : particles.smoothing_length) reach = std::max(reach, sph::support * h);
+  // Images along y are in the line's integral already.
+  std::vector<Image> images = domain.images(reach);
+  std::erase_if(images, [](const Image& image) { return image.copy[1] != 0; });
+  images.insert(images.begin(), Image{});
+
+  const double middle = 0.5 * (box.low.y + box.high.y), depth = box.extent(1);
+  for (std::size_t i = 0; i < particles.position.size(); ++i) {
+    const double h = particles.smoothing_length[i], support = sph::support * h;
+    const Vector3 source{particles.position[i].x, middle, particles.position[i].z};
+    for (const Image& image : images) {
+      if (!domain.is_near(image, image.position(source), support)) continue;
+      const Vector3 particle = image.position(source);
+      const Cells along_x = cells_within(particle.x, support, section.x0, section.width, section.columns);
+      const Cells along_z = cells_within(particle.z, support, section.z0, section.height, section.rows);
+      for (std::size_t row = along_z.first; row < along_z.last; ++row)
+        for (std::size_t column = along_x.first; column < along_x.last; ++column) {
+          const Vector3 cell{section.x(column), middle, section.z(row)};
+          const double dx = cell.x - particle.x, dz = cell.z - particle.z;
+          const double distance = std::sqrt(dx * dx + dz * dz);
+          if (distance < support && domain.is_visible(cell, particle, image))
+            section.value[row * section.columns + column] +=
+                particles.solid_volume / depth * sph::cubic_spline_line(distance, h);
+        }
+    }
+  }
+  return section;
+}
+
+namespace {
 
 /// The height between a row that is at or above the level and the next higher one, which is below it.
 double crossing(const Section& packing, std::size_t column, std::size_t row, double level) {
@@ -60,13 +122,6 @@ double FreeSurface::height(double at) const {
   return none;
 }
 
-double FreeSurface::mean_height(double from, double to) const {
-  std::vector<double> heights;
-  for (std::size_t n = 0; n < x.size(); ++n)
-    if (x[n] >= from && x[n] <= to && std::isfinite(z[n])) heights.push_back(z[n]);
-  return mean(heights);
-}
-
 FreeSurface free_surface(const Section& packing, const Vessel& vessel, double level) {
   std::size_t first = 0, last = packing.rows;
   while (first < packing.rows && packing.z(first) < vessel.bottom) ++first;
@@ -86,30 +141,74 @@ double surface_angle(const FreeSurface& surface, double middle) {
   return std::atan(0.5 * (std::abs((left ? left : right)->slope) + std::abs((right ? right : left)->slope)));
 }
 
-double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width) {
-  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
-  if (!left || !right) return none;
-  const double prolonged = 0.5 * (left->intercept + right->intercept + (left->slope + right->slope) * middle);
-  return surface.mean_height(middle - 0.5 * width, middle + 0.5 * width) - prolonged;
+namespace {
+
+/// Mean over up to two neighbours on each side, as many on one as on the other, none of them beyond a gap.
+std::vector<double> smoothed(const std::vector<double>& z) {
+  std::vector<double> means(z.size(), none);
+  for (std::size_t n = 0; n < z.size(); ++n) {
+    if (!std::isfinite(z[n])) continue;
+    double sum = z[n];
+    std::size_t wide = 0;
+    while (wide < 2 && n > wide && n + wide + 1 < z.size() && std::isfinite(z[n - wide - 1]) &&
+           std::isfinite(z[n + wide + 1])) {
+      ++wide;
+      sum += z[n - wide] + z[n + wide];
+    }
+    means[n] = sum / static_cast<double>(2 * wide + 1);
+  }
+  return means;
 }
 
-double height_beside(const FreeSurface& surface, double middle, double from, double to) {
-  std::vector<double> heights;
-  for (std::size_t n = 0; n < surface.x.size(); ++n)
-    if (const double away = std::abs(surface.x[n] - middle); away >= from && away <= to && std::isfinite(surface.z[n]))
-      heights.push_back(surface.z[n]);
-  return mean(heights);
+HeapSlope fitted(const FreeSurface& surface, std::size_t first, std::size_t last) {
+  HeapSlope slope{.from = surface.x[first], .to = surface.x[last]};
+  const double margin = 0.1 * slope.length();
+  std::vector<double> x, z;
+  for (std::size_t n = first; n <= last; ++n)
+    if (surface.x[n] >= slope.from + margin && surface.x[n] <= slope.to - margin) {
+      x.push_back(surface.x[n]);
+      z.push_back(surface.z[n]);
+    }
+  slope.slope = fit_line(x, z).slope;
+  return slope;
 }
 
-double outward_angle(const FreeSurface& surface, double middle, double from, double to) {
-  const auto left = line(surface, middle - to, middle - from), right = line(surface, middle + from, middle + to);
-  if (!left && !right) return none;
-  return std::atan(0.5 * ((left ? left->slope : -right->slope) - (right ? right->slope : -left->slope)));
+}  // namespace
+
+double HeapSlope::angle() const {
+  return std::atan(std::abs(slope));
 }
 
-double surface_swelling(const FreeSurface& surface, double middle, double beside, double width) {
-  const auto around = [&](double x) { return surface.mean_height(x - 0.5 * width, x + 0.5 * width); };
-  return around(middle) - 0.5 * (around(middle - beside) + around(middle + beside));
+std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double least_length) {
+  const std::vector<double> z = smoothed(surface.z);
+  std::vector<HeapSlope> slopes;
+  for (std::size_t first = 0; first + 1 < z.size();) {
+    const double direction = z[first + 1] - z[first];
+    std::size_t last = first;
+    // A comparison with nan is false: gaps end a stretch.
+    while (last + 1 < z.size() && (z[last + 1] - z[last]) * direction > 0) ++last;
+    if (surface.x[last] - surface.x[first] > least_length) slopes.push_back(fitted(surface, first, last));
+    first = std::max(last, first + 1);
+  }
+  return slopes;
+}
+
+ReposeAngle repose_angle(std::span<const HeapSlope> slopes, double middle) {
+  ReposeAngle found{none, none, none, none};
+  double longest_left = 0, longest_right = 0;
+  for (const HeapSlope& slope : slopes) {
+    const bool is_left = 0.5 * (slope.from + slope.to) < middle;
+    double& longest = is_left ? longest_left : longest_right;
+    if (slope.length() > longest) {
+      longest = slope.length();
+      (is_left ? found.left : found.right) = slope.angle();
+    }
+    found.steepest = std::fmax(found.steepest, slope.angle());
+  }
+  found.mean = std::isnan(found.left)    ? found.right
+               : std::isnan(found.right) ? found.left
+                                         : 0.5 * (found.left + found.right);
+  return found;
 }
 
 }  // namespace talus

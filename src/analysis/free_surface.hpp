@@ -1,12 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The free surface of grains in a vessel: the height Z(x) at which the packing passes a level, and how it slopes.
+/// The free surface of grains in a vessel: packing in the plane x, z as the mean over the depth y, the height Z(x) at
+/// which it passes a level, the slopes of heaps and their angle of repose.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
-#include "analysis/depth_mean.hpp"
+#include "analysis/particle_field.hpp"
 
 namespace talus {
+
+/// Values on the cells of a grid in x, z: row by row, x fastest.
+struct Section {
+  double x0 = 0, z0 = 0;         ///< lower left corner, m
+  double width = 0, height = 0;  ///< of a cell, m
+  std::size_t columns = 0, rows = 0;
+  std::vector<double> value;
+
+  double x(std::size_t column) const { return x0 + (static_cast<double>(column) + 0.5) * width; }
+  double z(std::size_t row) const { return z0 + (static_cast<double>(row) + 0.5) * height; }
+  double at(std::size_t column, std::size_t row) const { return value[row * columns + column]; }
+};
+
+/// Packing at the centres of cells that fill the domain's box, about `width` wide and `height` high: whole numbers of
+/// them. Each particle is spread by its kernel, integrated along y: between mirror or periodic faces the exact mean
+/// over the depth; beyond open front and rear faces it counts as if it lay between them. Images at the side walls, the
+/// floor and plates count as in ParticleField. \param width, height > 0, m
+Section packing_section(const Particles& particles, const Domain& domain, double width, double height);
 
 /// Packing on the free surface: half of a loose bed's.
 inline constexpr double surface_packing = 0.3;
@@ -17,8 +38,6 @@ struct FreeSurface {
 
   /// Height at x, linear between finite neighbours; nan beyond them.
   double height(double at) const;
-  /// Mean of the finite heights with from <= x <= to; nan if there are none.
-  double mean_height(double from, double to) const;
 };
 
 /// Where a vessel is in a section, and from where its surface is looked for.
@@ -38,19 +57,25 @@ FreeSurface free_surface(const Section& packing, const Vessel& vessel, double le
 /// heights; nan if both have.
 double surface_angle(const FreeSurface& surface, double middle);
 
-/// Mean of the heights between two distances from the middle, left and right of it together; nan if there are none.
-double height_beside(const FreeSurface& surface, double middle, double from, double to);
+/// A stretch of a surface that rises or falls all along.
+struct HeapSlope {
+  double from = 0, to = 0;  ///< x, m
+  double slope = 0;         ///< dZ/dx of the least-squares line through its middle 80 % in x
 
-/// Angle at which the surface falls outwards between two distances from the middle: that of the mean of the slopes of
-/// the least-squares lines left and right, rad; below 0 where it rises outwards. Of one side alone if the other has
-/// fewer than three heights; nan if both have.
-double outward_angle(const FreeSurface& surface, double middle, double from, double to);
+  double length() const { return to - from; }
+  double angle() const;  ///< against the horizontal, rad, >= 0
+};
 
-/// How much higher the middle is than the places `beside` to its left and right: means over `width` each. m
-double surface_swelling(const FreeSurface& surface, double middle, double beside, double width);
+/// The slopes longer than `least_length` along x. Where they begin and end is decided on the 5-point mean of the
+/// heights (shorter near gaps and ends); the lines go through the heights themselves. \param least_length m
+std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double least_length);
 
-/// How much higher the middle is, mean over `width`, than where the lines through the flanks, which lie between two
-/// distances from it, prolonged, have it; their mean. m; nan unless each flank has three heights
-double swelling_above_flanks(const FreeSurface& surface, double middle, double from, double to, double width);
+/// Angles of repose, rad; nan where there is no slope.
+struct ReposeAngle {
+  double left = 0, right = 0;  ///< of the longest slope whose middle is left and right of the vessel's middle
+  double mean = 0;             ///< of both, or of the one there is
+  double steepest = 0;         ///< of all slopes
+};
+ReposeAngle repose_angle(std::span<const HeapSlope> slopes, double middle);
 
 }  // namespace talus

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "analysis/statistics.hpp"
 
@@ -14,7 +13,6 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double quasistatic = 1e-2;  // Yuu & Umekage 2011, section 2.1
 constexpr double dense = 0.5;         // packing from which stresses act, section 5.1
-constexpr double nearly_all = 0.999;
 }  // namespace
 
 double inertial_number(double shear_rate, double pressure, double diameter, double grain_density) {
@@ -40,21 +38,6 @@ std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, 
       snapshot, [&](std::size_t i) { return rate[i]; }, diameter, grain_density);
 }
 
-std::vector<double> inertial_numbers_of_shear(const Snapshot& snapshot, std::span<const Tensor3<>> gradients,
-                                              double diameter, double grain_density) {
-  const auto rate = [&](std::size_t i) {
-    const Tensor3<>& l = gradients[i];
-    return std::max({std::abs(l.xy + l.yx), std::abs(l.yz + l.zy), std::abs(l.zx + l.xz)});
-  };
-  return inertial_numbers_of(snapshot, rate, diameter, grain_density);
-}
-
-std::vector<bool> bearing_particles(std::span<const double> inertial) {
-  std::vector<bool> bearing;
-  for (const double number : inertial) bearing.push_back(std::isfinite(number));
-  return bearing;
-}
-
 double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken) {
   double all = 0, slow = 0;
   for (std::size_t i = 0; i < inertial.size(); ++i) {
@@ -63,12 +46,6 @@ double inertial_share(std::span<const double> inertial, const std::vector<bool>&
     slow += inertial[i] < quasistatic;
   }
   return all > 0 ? slow / all : none;
-}
-
-std::vector<bool> dense_particles(const Snapshot& snapshot) {
-  std::vector<bool> chosen;
-  for (const double packing : snapshot.scalars("packing")) chosen.push_back(packing > dense);
-  return chosen;
 }
 
 std::vector<bool> quasistatic_particles(const Snapshot& snapshot, std::span<const double> inertial,
@@ -106,33 +83,7 @@ GradientSizes velocity_gradient_sizes(std::span<const Tensor3<>> gradients, std:
     shear.push_back(largest({l.xy, l.xz, l.yx, l.yz, l.zx, l.zy}));
     normal.push_back(largest({l.xx, l.yy, l.zz}));
   }
-  return {quantile(shear, 1), quantile(normal, 1), quantile(shear, nearly_all), quantile(normal, nearly_all)};
-}
-
-GradientSizes cell_gradient_sizes(const ParticleField& field, std::span<const Vector3> velocity, double cell,
-                                  double width, double depth, double bottom, double top, double diameter,
-                                  double gravity) {
-  const auto columns = static_cast<std::size_t>(width / cell + 0.5);
-  const auto rows = static_cast<std::size_t>((top - bottom) / cell + 0.5);
-  std::vector<std::optional<Vector3>> mean(columns * rows);
-  for (std::size_t k = 0; k < rows; ++k)
-    for (std::size_t i = 0; i < columns; ++i) {
-      const Vector3 x{(static_cast<double>(i) + 0.5) * cell, 0.5 * depth,
-                      bottom + (static_cast<double>(k) + 0.5) * cell};
-      if (const auto [packing, u] = field.packing_and_value(x, velocity); packing > dense) mean[k * columns + i] = u;
-    }
-  std::vector<double> shear, normal;
-  const double unit = std::sqrt(diameter / gravity) / (2 * cell);
-  for (std::size_t k = 1; k + 1 < rows; ++k)
-    for (std::size_t i = 1; i + 1 < columns; ++i) {
-      const std::size_t c = k * columns + i;
-      const auto &west = mean[c - 1], &east = mean[c + 1], &below = mean[c - columns], &above = mean[c + columns];
-      if (!mean[c] || !west || !east || !below || !above) continue;
-      const Vector3 dx = *east - *west, dz = *above - *below;
-      shear.push_back(unit * std::max(std::abs(dx.z), std::abs(dz.x)));
-      normal.push_back(unit * std::max(std::abs(dx.x), std::abs(dz.z)));
-    }
-  return {quantile(shear, 1), quantile(normal, 1), quantile(shear, nearly_all), quantile(normal, nearly_all)};
+  return {quantile(shear, 1), quantile(normal, 1)};
 }
 
 double density_drift(std::span<const double> density, std::span<const double> packing, double grain_density,

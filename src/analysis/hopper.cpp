@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "analysis/discharge.hpp"
-#include "analysis/hopper_numbers.hpp"
 
 namespace talus {
 
@@ -60,24 +59,10 @@ const std::vector<Tensor3<>>& HopperSnapshot::velocity_gradients() const {
 const GradientSizes& HopperSnapshot::gradient_sizes() const {
   return made_once(gradient_sizes_, [&] {
     constexpr double none = HopperRun::none;
-    if (now.size() == 0) return GradientSizes{none, none, none, none};
+    if (now.size() == 0) return GradientSizes{none, none};
     return velocity_gradient_sizes(velocity_gradients(), now.scalars("packing"), setting.grain_diameter,
                                    setting.gravity);
   });
-}
-
-const GradientSizes& HopperSnapshot::cell_gradient_sizes() const {
-  return made_once(cell_gradient_sizes_, [&] {
-    constexpr double none = HopperRun::none;
-    if (now.size() == 0) return GradientSizes{none, none, none, none};
-    const double bottom = shape().plate ? shape().plate->height : 0;
-    return talus::cell_gradient_sizes(field(), now.vectors("velocity"), shape().cell(), shape().width, shape().depth,
-                                      bottom, shape().height, setting.grain_diameter, setting.gravity);
-  });
-}
-
-const ParticleField& HopperSnapshot::field() const {
-  return made_once(field_, [&] { return ParticleField(particles(), domain(), ParticleField::Places::many); });
 }
 
 double HopperRun::end() const {
@@ -93,12 +78,12 @@ Curve HopperRun::curve(std::string_view column) const {
   return result;
 }
 
-Curve HopperRun::curve(Numbers::Number number, const Place& place) const {
+Curve HopperRun::curve(Numbers::Number number) const {
   Curve result;
   for (std::size_t n = 0; n < snapshots.time().size(); ++n) {
     const double time = snapshots.time()[n];
     if (time < 0) continue;
-    const double value = snapshots.value(n, number, place);
+    const double value = snapshots.value(n, number);
     if (!std::isfinite(value)) continue;
     result.time.push_back(time);
     result.value.push_back(value);

@@ -16,7 +16,6 @@
 #include "analysis/hopper_regions.hpp"
 #include "analysis/measure.hpp"
 #include "numerics/geometry/domain.hpp"
-#include "numerics/grid_snapshot.hpp"
 #include "numerics/series.hpp"
 #include "numerics/snapshot.hpp"
 
@@ -73,8 +72,6 @@ class HopperSnapshot {
   const double time;  ///< from the opening of the gate, s
   /// An earlier snapshot, about T before, over which speeds are means; null if there is none. Not set: none.
   std::function<const Snapshot*()> before = {};
-  /// Cells with the columns velocity, pressure, solid_fraction, grain_velocity, drag; null if there are none.
-  std::function<const GridSnapshot*()> air = {};
 
   const HopperShape& shape() const { return setting.shape; }
   const Section& packing_section() const;  ///< cells of h by h/2
@@ -83,10 +80,6 @@ class HopperSnapshot {
   const std::vector<double>& inertial() const;               ///< inertial_numbers()
   const std::vector<Tensor3<>>& velocity_gradients() const;  ///< of each particle, 1/s
   const GradientSizes& gradient_sizes() const;
-  /// Of velocities averaged over cells (HopperShape::cell), above the outlet, or wherever there are grains if there is
-  /// none.
-  const GradientSizes& cell_gradient_sizes() const;
-  const ParticleField& field() const;
 
  private:
   Domain domain() const;
@@ -97,8 +90,7 @@ class HopperSnapshot {
   mutable std::optional<std::vector<bool>> deep_;
   mutable std::optional<std::vector<double>> inertial_;
   mutable std::optional<std::vector<Tensor3<>>> velocity_gradients_;
-  mutable std::optional<GradientSizes> gradient_sizes_, cell_gradient_sizes_;
-  mutable std::optional<ParticleField> field_;
+  mutable std::optional<GradientSizes> gradient_sizes_;
 };
 
 struct HopperRun {
@@ -109,9 +101,8 @@ struct HopperRun {
   HopperSetting setting;
   /// In the run's time: the columns of app/continuum/hopper_observers.hpp and the model's impulses.
   Series series;
-  double gate_time = 0;        ///< in the run's time, s; its end if the gate never opened
-  Numbers snapshots = {};      ///< against the time from the opening of the gate
-  double wall_seconds = none;  ///< of the whole run
+  double gate_time = 0;    ///< in the run's time, s; its end if the gate never opened
+  Numbers snapshots = {};  ///< against the time from the opening of the gate
 
   double end() const;  ///< from the opening of the gate, s
   /// Whether the run went on to that time, but for a few steps: it ends with the step that reaches its end.
@@ -119,7 +110,7 @@ struct HopperRun {
   /// A column of the series against the time from the gate's opening; without points if there is none.
   Curve curve(std::string_view column) const;
   /// A number of the snapshots from the gate's opening on; those without one are left out.
-  Curve curve(Numbers::Number number, const Place& place = {}) const;
+  Curve curve(Numbers::Number number) const;
 };
 
 /// When the gate opened: the column gate_time of a series is below 0 until then. The series' last time if it never did.
@@ -128,9 +119,6 @@ double gate_time_of(const Series& series);
 /// Every measure of one run, each once. Definitions in full: validation/yuu2011/reference.toml. A number that a run
 /// does not have, or a window that it does not cover, is nan.
 std::span<const Measure<HopperRun>> hopper_measures();
-/// Of two runs, the first against the second.
-std::span<const GroupMeasure<HopperRun>> hopper_pair_measures();
-
 /// Mass of the particles below the outlet, and of those that were taken away, against the time from the gate's opening,
 /// kg. Without points if the series lacks the column.
 Curve discharged_mass(const HopperRun& run);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "analysis/discharge.hpp"
-#include "analysis/spectrum.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 
@@ -18,8 +17,6 @@ constexpr double none = HopperRun::none;
 // Of the averaging time: length and interval of the means whose maximum is sought, interval of data of which periods
 // are, and the periods (the paper's: 6 ms, 0.2 ms; 5000 a second; 2 to 20 ms).
 constexpr double extreme_mean = 0.3, extreme_every = 0.01, interval_of_data = 0.01, shortest_period = 0.1;
-constexpr double begins_to_incline = 1;             // deg
-constexpr double repose_printed = 30;               // deg
 constexpr double begins_to_flow = 0.1, half = 0.5;  // of what passes the outlet
 constexpr double plateau_spread = 0.1;
 
@@ -33,23 +30,13 @@ double time_of(const Window& window, const HopperRun& run) {
   return at > end + averages(run).trend && !std::isinf(at) ? none : std::min(at, end);
 }
 
-std::vector<double> within(Number number, const HopperRun& run, const Place& place, const Window& window) {
-  return part(run.curve(number, place), window.from, window.to).value;
+std::vector<double> within(Number number, const HopperRun& run, const Window& window) {
+  return part(run.curve(number), window.from, window.to).value;
 }
 
-/// The curve up to its first value after `from` that is not finite: the place has run empty.
-Curve while_there_are_grains(Curve curve, double from) {
-  std::size_t n = 0;
-  while (n < curve.time.size() && (curve.time[n] <= from || std::isfinite(curve.value[n]))) ++n;
-  curve.time.resize(n);
-  curve.value.resize(n);
-  return curve;
-}
-
-/// A hundred data in T over the window, or as much of it as there are grains at the place; none if that is not half.
-Curve swinging_part(const HopperRun& run, std::string_view column, const Window& window) {
-  const Curve whole = run.curve(column);
-  const Curve curve = while_there_are_grains(whole, window.from);
+/// A hundred data of the discharge in T over the window, or as much of it as the run covers; none if that is not half.
+Curve fluctuating_discharge(const HopperRun& run, const Window& window) {
+  const Curve curve = run.curve("discharge_rate");
   if (!covers(curve, window.from, 0.5 * (window.from + window.to))) return {};
   return at_equal_times(curve, 1 / (interval_of_data * run.setting.averaging_time), window.from,
                         std::min(window.to, curve.time.back()));
@@ -57,16 +44,6 @@ Curve swinging_part(const HopperRun& run, std::string_view column, const Window&
 
 double first_time_at_or_above(const Curve& curve, double level) {
   return first_time_at_or_below(scaled(curve, -1), -level);
-}
-
-/// Means over a length of time of a curve that has data now and then.
-std::vector<double> coarse_means(const Curve& curve, double length) {
-  std::map<long, std::vector<double>> groups;
-  for (std::size_t n = 0; n < curve.time.size(); ++n)
-    groups[std::lround(std::floor(curve.time[n] / length))].push_back(curve.value[n]);
-  std::vector<double> means;
-  for (const auto& [group, values] : groups) means.push_back(mean(values));
-  return means;
 }
 
 }  // namespace
@@ -127,63 +104,36 @@ Plateau steady_discharge(const HopperRun& run) {
   return found.value * (found.to - found.from) >= steady_least * mass_at_end(run) ? found : Plateau{};
 }
 
-double value_at_window(Number number, const HopperRun& run, const Place& place, const Window& window) {
+double value_at_window(Number number, const HopperRun& run, const Window& window) {
   const std::vector<double>& time = run.snapshots.time();
   if (time.empty()) return none;
   const double at = window.at.value_or(Window::end_of_run), last = time.back();
-  if (std::isinf(at)) return run.snapshots.value(time.size() - 1, number, place);
+  if (std::isinf(at)) return run.snapshots.value(time.size() - 1, number);
   const double interval = time.size() > 1 ? last - time[time.size() - 2] : 0;
-  return at > last + 0.5 * interval ? none : run.snapshots.value(nearest_point(time, at), number, place);
+  return at > last + 0.5 * interval ? none : run.snapshots.value(nearest_point(time, at), number);
 }
 
 Estimator<HopperRun> at(Number number) {
-  return {[=](const HopperRun& run, const Place& p, const Window& w) { return value_at_window(number, run, p, w); },
-          number};
+  return {[=](const HopperRun& run, const Window& w) { return value_at_window(number, run, w); }, number};
 }
 
 Estimator<HopperRun> largest_of(Number number) {
-  return {[=](const HopperRun& run, const Place& p, const Window& w) { return quantile(within(number, run, p, w), 1); },
-          number};
+  return {[=](const HopperRun& run, const Window& w) { return quantile(within(number, run, w), 1); }, number};
 }
 
 Estimator<HopperRun> mean_of(Number number) {
-  return {[=](const HopperRun& run, const Place& p, const Window& w) { return mean(within(number, run, p, w)); },
-          number};
+  return {[=](const HopperRun& run, const Window& w) { return mean(within(number, run, w)); }, number};
 }
 
-Estimator<HopperRun> period_of(std::string_view column) {
-  return {[=](const HopperRun& run, const Place&, const Window& window) {
-    const Curve part = swinging_part(run, column, window);
-    const double longest = run.setting.averaging_time;
-    return part.time.empty() ? none : dominant_period(part, shortest_period * longest, longest);
-  }};
+double period_of_discharge(const HopperRun& run, const Window& window) {
+  const Curve part = fluctuating_discharge(run, window);
+  const double longest = run.setting.averaging_time;
+  return part.time.empty() ? none : dominant_period(part, shortest_period * longest, longest);
 }
 
-Estimator<HopperRun> crossing_period_of(std::string_view column) {
-  return {[=](const HopperRun& run, const Place&, const Window& window) {
-    const Curve part = swinging_part(run, column, window);
-    return crossing_period(about_running_mean(part, averages(run).largest, window.from, window.to));
-  }};
-}
-
-double narrowing(const HopperRun& run, const Place& place, const Window& window) {
-  const double free = length_of(place, "below_from");
-  const auto width = [&](const char* from, const char* to) {
-    return mean(within(stream_width, run,
-                       {{"from", length_of(place, from)}, {"to", length_of(place, to)}, {"free", free}}, window));
-  };
-  return width("below_from", "below_to") / width("above_from", "above_to");
-}
-
-double foot_speed(const HopperRun& run, const Place& place, const Window& window) {
-  const Curve reach = part(run.curve(foot_reach, place), window.from, window.to);
-  Curve between;
-  for (std::size_t n = 0; n < reach.time.size(); ++n)
-    if (reach.value[n] >= length_of(place, "from") && reach.value[n] <= length_of(place, "to")) {
-      between.time.push_back(reach.time[n]);
-      between.value.push_back(reach.value[n]);
-    }
-  return between.time.size() < 3 ? none : fit_line(between.time, between.value).slope;
+double crossing_period_of_discharge(const HopperRun& run, const Window& window) {
+  return crossing_period(
+      about_running_mean(fluctuating_discharge(run, window), averages(run).largest, window.from, window.to));
 }
 
 LargestMean largest_discharge(const HopperRun& run, const Window& window) {
@@ -194,29 +144,18 @@ LargestMean largest_discharge(const HopperRun& run, const Window& window) {
   return {found.largest, found.largest_time};
 }
 
-double discharge_share_of_largest(const HopperRun& run, const Place&, const Window& window) {
-  const Curve passed = passed_mass(run),
-              means = mean_rates(passed, window.to - window.from, averages(run).largest_every, 0, run.end());
-  return means.time.empty() ? none : mean_rate(passed, window.from, window.to) / extremes(means).largest;
-}
-
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window) {
   const double length = extreme_mean * run.setting.averaging_time, every = extreme_every * run.setting.averaging_time;
   return first_maximum_time(mean_rates(cumulative, length, every, window.from, end_of(window, run)), length);
 }
 
-double discharge_fall(const HopperRun& run, const Place&, const Window& window) {
-  const Curve passed = passed_mass(run);
-  return mean_rate(passed, window.from, window.to) - mean_rate(passed, 2 * window.from - window.to, window.from);
-}
-
-double share_at(const HopperRun& run, const Place&, const Window& window) {
+double share_at(const HopperRun& run, const Window& window) {
   const Curve share = discharged_share(run);
   const double at = time_of(window, run);
   return covers(share, at, at) ? value_at(share, at) : none;
 }
 
-double floor_arrival(const HopperRun& run, const Place&, const Window&) {
+double floor_arrival(const HopperRun& run, const Window&) {
   return first_time_at_or_above(run.curve("mass_near_floor"), 1e-3 * run.setting.mass());
 }
 
@@ -228,94 +167,17 @@ double settled_force(const HopperRun& run) {
   return force;
 }
 
-double settled_stress_ratio(const HopperRun& run, const Place& place, const Window&) {
+double settled_stress_ratio(const HopperRun& run, const Window&) {
   const std::vector<double>& time = run.snapshots.time();
   std::size_t settled = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) settled = n;
-  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio, place)
-                                                              : none;
+  return !time.empty() && time[settled] <= averages(run).load ? run.snapshots.value(settled, stress_ratio) : none;
 }
 
-double balance_error(const HopperRun& run, const Place&, const Window& window) {
+double balance_error(const HopperRun& run, const Window& window) {
   const double to = run.gate_time + time_of(window, run);
   return weight_balance_error(run.series, run.setting.mass() * run.setting.gravity, to - averages(run).load, to);
-}
-
-double largest_fall(const Curve& angle, double length) {
-  std::size_t first = 0;
-  while (first < angle.value.size() && angle.value[first] <= begins_to_incline) ++first;
-  if (first == angle.value.size()) return none;
-  double largest = angle.value[first], fall = 0;
-  for (const double mean : coarse_means(part(angle, angle.time[first], Window::end_of_run), length)) {
-    largest = std::max(largest, mean);
-    fall = std::max(fall, largest - mean);
-  }
-  return fall;
-}
-
-double repose(const HopperRun& run, const Window& window, bool nearer) {
-  const double bin = value_at_window(repose_angle_in<Where::bin, &ReposeAngle::mean>, run, {}, window);
-  const double hopper = value_at_window(repose_angle_in<Where::hopper, &ReposeAngle::mean>, run, {}, window);
-  if (std::isnan(bin) || std::isnan(hopper)) return nearer ? std::fmax(bin, hopper) : none;
-  const bool bin_is_nearer = std::abs(bin - repose_printed) <= std::abs(hopper - repose_printed);
-  return bin_is_nearer == nearer ? bin : hopper;
-}
-
-namespace {
-
-/// Mean over the members, of which the kth of one group stands beside the kth of the other, the fewer again from the
-/// first on.
-template <class Number>
-double mean_over_members(Pair runs, const Number& of) {
-  const std::size_t count = std::max(runs[0].size(), runs[1].size());
-  double sum = 0;
-  for (std::size_t k = 0; k < count; ++k) sum += of(runs[0][k % runs[0].size()], runs[1][k % runs[1].size()]);
-  return sum / static_cast<double>(count);
-}
-
-double ratio_of_rates(const HopperRun& first, const HopperRun& second, const Window& window) {
-  const LargestMean largest = largest_discharge(first, window);
-  const double half_mean = 0.5 * averages(first).largest;
-  const double from = largest.time - half_mean, to = largest.time + half_mean;
-  return largest.value / mean_rate(passed_mass(second), from, to);
-}
-
-double share_in_which_larger(const HopperRun& first, const HopperRun& second, const Window& window) {
-  const double to = std::min({window.to, first.end(), second.end()});
-  const Averages of = averages(first);
-  const Curve a = mean_rates(passed_mass(first), of.largest, of.largest_every, window.from, to);
-  const Curve b = mean_rates(passed_mass(second), of.largest, of.largest_every, window.from, to);
-  if (a.value.empty() || a.value.size() != b.value.size()) return none;
-  double larger = 0;
-  for (std::size_t n = 0; n < a.value.size(); ++n) larger += a.value[n] > b.value[n];
-  return larger / static_cast<double>(a.value.size());
-}
-
-double largest_difference_of_shares(const HopperRun& first, const HopperRun& second, const Window& window) {
-  const Curve a = discharged_share(first), b = discharged_share(second);
-  const double to = std::min({window.to, first.end(), second.end()});
-  double largest = none;
-  for (std::size_t n = 0;; ++n) {
-    const double t = window.from + static_cast<double>(n) * averages(first).largest_every;
-    if (t > to) return largest;
-    if (covers(a, t, t) && covers(b, t, t)) largest = std::fmax(largest, std::abs(value_at(a, t) - value_at(b, t)));
-  }
-}
-
-}  // namespace
-
-std::optional<double> ratio_at_largest(Pair runs, const Window& window) {
-  return mean_over_members(runs, [&](const auto& a, const auto& b) { return ratio_of_rates(a, b, window); });
-}
-
-std::optional<double> share_of_larger(Pair runs, const Window& window) {
-  return mean_over_members(runs, [&](const auto& a, const auto& b) { return share_in_which_larger(a, b, window); });
-}
-
-std::optional<double> largest_share_difference(Pair runs, const Window& window) {
-  return mean_over_members(runs,
-                           [&](const auto& a, const auto& b) { return largest_difference_of_shares(a, b, window); });
 }
 
 }  // namespace talus::hopper

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where particles are in a hopper above a bin: deep below a free surface, in the stream below the slit, in a corner,
-/// near the place where the stream strikes. x across, z up from the bin's floor.
+/// Where particles are in a hopper above a bin: deep below a free surface. x across, z up from the bin's floor.
 #pragma once
 
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "analysis/depth_mean.hpp"
 #include "analysis/free_surface.hpp"
 #include "base/vector.hpp"
 
@@ -24,9 +22,6 @@ struct HopperShape {
   double spacing = 0;  ///< h, of the particles at the start, m
 
   double middle() const { return 0.5 * width; }
-  /// Edge of the cells in which values at places are taken: three quarters of a spacing, or so that a whole number of
-  /// cells fills the width, m. In the hopper of Yuu & Umekage (2011) with its 9000 particles they are those of its air.
-  double cell() const;
   Vessel bin() const;
   /// \throws std::bad_optional_access without a plate
   Vessel hopper() const;
@@ -42,31 +37,10 @@ HopperSurfaces hopper_surfaces(const Section& packing, const HopperShape& shape)
 std::vector<bool> deep_particles(std::span<const Vector3> position, const HopperSurfaces& surfaces,
                                  const HopperShape& shape);
 
-/// The particles farther than `distance` from where the stream strikes: the stretch below the slit, as high as the
-/// bin's surface there (the median; of the whole surface where the stream hides it; the floor before there is one).
-std::vector<bool> outside_impact(std::span<const Vector3> position, const FreeSurface& bin, const HopperShape& shape,
-                                 double distance);
-
-/// Distance in x between the 5th and the 95th percentile of the particles with from <= z < to; nan if there are none.
-double stream_width(std::span<const Vector3> position, double from, double to);
-
 /// Mean of a column over the particles with from < z < to; nan if there are none.
 double mean_between(std::span<const Vector3> position, std::span<const double> values, double from, double to);
 
-/// The particles that are neither below the outlet nor in it: beside its slit, or above the plate.
-std::vector<bool> outside_outlet(std::span<const Vector3> position, const HopperShape& shape);
-
 /// The particles at or above the plate; without one, above the floor.
 std::vector<bool> above_outlet(std::span<const Vector3> position, const HopperShape& shape);
-
-/// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the middle
-/// third of the layer of that height, both without the outermost h/2 at walls and bottom. nan if either is empty.
-double corner_packing_over_middle(const Section& packing, const Vessel& vessel, const HopperShape& shape, double size);
-
-/// Mean packing of the two squares of `size` at the bottom of a vessel beside the side walls, over that of the layer of
-/// that height deeper than 3 h below the surface, both without the outermost h/2 at walls and bottom. From the cells of
-/// a section, so that the arrangement of particles at the wall does not matter. nan if either is empty.
-double corner_packing_ratio(const Section& packing, const FreeSurface& surface, const Vessel& vessel,
-                            const HopperShape& shape, double size);
 
 }  // namespace talus

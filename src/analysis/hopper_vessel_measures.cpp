@@ -6,7 +6,6 @@
 #include "analysis/discharge.hpp"
 #include "analysis/displacement.hpp"
 #include "analysis/hopper_estimators.hpp"
-#include "analysis/plateau.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 
@@ -48,45 +47,56 @@ bool hand_formula(const Run& run) {
 }
 
 /// Upward force of all walls on the settled bed over its weight, less 1.
-double balance_at_rest(const Run& run, const Place&, const Window&) {
+double balance_at_rest(const Run& run, const Window&) {
   const double weight = run.setting.mass() * run.setting.gravity;
   return weight_balance_error(run.series, weight, run.gate_time - averages(run).load, run.gate_time);
 }
 
 /// A number of the last snapshot before the gate opened.
-double settled(const Run& run, Number number, const Place& place) {
+double settled(const Run& run, Number number) {
   const std::vector<double>& time = run.snapshots.time();
   if (time.empty() || time.front() > averages(run).load) return none;
   std::size_t last = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) last = n;
-  return run.snapshots.value(last, number, place);
+  return run.snapshots.value(last, number);
 }
 
-double vertical_stress(const HopperSnapshot& s, const Place& place) {
-  return mean_between(s.now.positions(), s.now.scalars("stress_zz"), length_of(place, "from"), length_of(place, "to"));
-}
-
-double top_of_bed(const HopperSnapshot& s, const Place&) {
+double top_of_bed(const HopperSnapshot& s) {
   std::vector<double> heights;
   for (const Vector3& x : s.now.positions()) heights.push_back(x.z);
   return heights.empty() ? none : quantile(heights, 0.995) + 0.5 * s.shape().spacing;
 }
 
+/// Whether a band of the walls is upright and the bed reaches its top.
+bool is_filled(const BandOfWall& band, double top) {
+  return band.is_upright() && band.high <= top && band.area > 0;
+}
+
+/// Sum over the filled bands of their area times the mean vertical stress of the bed at their heights, N.
+double vertical_force_beside_walls(const HopperSnapshot& s) {
+  const double top = top_of_bed(s);
+  double force = 0;
+  for (const BandOfWall& band : s.setting.bands)
+    if (is_filled(band, top))
+      force += band.area * mean_between(s.now.positions(), s.now.scalars("stress_zz"), band.low, band.high);
+  return force;
+}
+
 }  // namespace
 
 double settled_top(const HopperRun& run) {
-  return settled(run, top_of_bed, {});
+  return settled(run, top_of_bed);
 }
 
-double wall_pressure_ratio(const HopperRun& run, const Place&, const Window&) {
+double wall_pressure_ratio(const HopperRun& run, const Window&) {
   const double top = settled_top(run);
-  double of_walls = 0, of_bed = 0;
-  for (const BandOfWall& band : run.setting.bands) {
-    if (!band.is_upright() || !(band.high <= top) || !(band.area > 0)) continue;
-    of_walls += band.area * load_of(run.series, band, run.gate_time, 0, 0, run.setting.averaging_time).pressure_at_rest;
-    of_bed += band.area * settled(run, vertical_stress, {{"from", band.low}, {"to", band.high}});
-  }
+  double of_walls = 0;
+  for (const BandOfWall& band : run.setting.bands)
+    if (is_filled(band, top))
+      of_walls +=
+          band.area * load_of(run.series, band, run.gate_time, 0, 0, run.setting.averaging_time).pressure_at_rest;
+  const double of_bed = settled(run, vertical_force_beside_walls);
   return of_bed > 0 ? of_walls / of_bed : none;
 }
 
@@ -97,7 +107,7 @@ double mean_speed_above(double height, std::span<const Vector3> positions, std::
   return sum / count;
 }
 
-double outlet_packing(const HopperSnapshot& s, const Place&) {
+double outlet_packing(const HopperSnapshot& s) {
   const HopperShape& shape = s.shape();
   const HopperSetting& of = s.setting;
   if (!shape.plate || !(of.outlet_width > 0)) return none;
@@ -115,17 +125,17 @@ double outlet_packing(const HopperSnapshot& s, const Place&) {
   return inside * of.particle_mass / (of.grain_density * area * height);
 }
 
-double share_in_motion(const HopperRun& run, const Place& place, const Window& window) {
+double share_in_motion(const HopperRun& run, const Window& window) {
   const Curve share = discharged_share(run);
   const double from = first_time_at_or_below(scaled(share, -1), -share_of_regime);
   const std::vector<double>& time = run.snapshots.time();
   if (!std::isfinite(from) || time.empty()) return none;
   const double at = std::max(from, window.at.value_or(run.end()));
   const std::size_t nearest = nearest_point(time, std::min(at, run.end()));
-  return time[nearest] > flow_end(run).stop_time ? none : run.snapshots.value(nearest, share_that_moves, place);
+  return time[nearest] > flow_end(run).stop_time ? none : run.snapshots.value(nearest, share_that_moves);
 }
 
-double share_that_moves(const HopperSnapshot& s, const Place&) {
+double share_that_moves(const HopperSnapshot& s) {
   const Snapshot* before = s.before ? s.before() : nullptr;
   if (!before || !s.shape().plate) return none;
   const std::vector<double> speed = mean_speeds(*before, s.now);
@@ -142,31 +152,27 @@ std::vector<Row> hopper_vessel_measures() {
       Row("discharge_steady", "kg/s",
           "mean of Q over the longest stretch of means over T, five at least, that lie within 10 % of their own mean, "
           "between 10 % and 70 % discharged; none where less than 5 % of the bed leaves within it",
-          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).value; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).value; }}, {{outlet}}),
       Row("discharge_steady_error", "kg/s",
           "half width of the 95 % interval of that mean, by Student's t of the means of blocks, five at least, each "
           "longer than the correlation time; none where the stretch is too short for that",
-          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).error; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).error; }}, {{outlet}}),
       Row("discharge_steady_from", "s", "where that stretch begins",
-          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).from; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).from; }}, {{outlet}}),
       Row("discharge_steady_to", "s", "where it ends",
-          {[](const Run& r, const Place&, const Window&) { return steady_discharge(r).to; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).to; }}, {{outlet}}),
       Row("discharge_steady_per_length", "kg/(s m)", "discharge_steady over the length of the slit",
-          {[](const Run& r, const Place&, const Window&) {
-            return steady_discharge(r).value / r.setting.outlet_length;
-          }},
+          {[](const Run& r, const Window&) { return steady_discharge(r).value / r.setting.outlet_length; }},
           {{vessel_with_slit}}),
       Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
-          {[](const Run& r, const Place&, const Window&) {
+          {[](const Run& r, const Window&) {
             Curve left = discharged_share(r);
             for (double& share : left.value) share = 1 - share;
             return first_time_at_or_below(left, 0.01);
           }},
           {{outlet}}),
       Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
-          {[](const Run& r, const Place&, const Window&) {
-            return 0.99 * r.setting.mass() / r.setting.hand_discharge;
-          }},
+          {[](const Run& r, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
           {{hand_formula}}),
       Row("share_that_moves", "1",
           "share of the particles above the outlet that are faster than a tenth of their mean; speed: displacement "
@@ -174,12 +180,12 @@ std::vector<Row> hopper_vessel_measures() {
           "flow; none before 10 % have been discharged, or where the flow had stopped",
           {share_in_motion, share_that_moves}, {{vessel_with_outlet, while_it_flows}}),
       Row("residual_mass", "kg", "mass above the outlet at the end",
-          {[](const Run& r, const Place&, const Window&) { return flow_end(r).left; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return flow_end(r).left; }}, {{outlet}}),
       Row("flow_stop_time", "s",
           "time of the last outflow from the opening of the gate on, where over three (D/g)^½ before the end of the "
           "run "
           "less than a hundredth of the discharge passed; none where it flows at the end, or nothing has passed",
-          {[](const Run& r, const Place&, const Window&) { return flow_end(r).stop_time; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return flow_end(r).stop_time; }}, {{outlet}}),
       Row("outlet_packing", "1",
           "packing in the space of the outlet's width and as high above it, at the end: of an arch that stands there, "
           "0.3 of the bed's at least",
@@ -188,9 +194,7 @@ std::vector<Row> hopper_vessel_measures() {
           "half angle, from the vertical, up to which a cone empties in mass flow by hand: 90° − ½ acos((1 − sin φ)/(2 "
           "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ = asin M of the grains' friction M, their angle in "
           "plane strain, φ_w = atan μ of the cone's wall",
-          {[](const Run& r, const Place&, const Window&) {
-            return r.setting.mass_flow_half_angle * 180 / std::numbers::pi;
-          }},
+          {[](const Run& r, const Window&) { return r.setting.mass_flow_half_angle * 180 / std::numbers::pi; }},
           {{cone}}),
       Row("wall_pressure_ratio", "1",
           "K: stress across the upright walls, from their impulses over T before the gate opened, over the mean "

@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/measure.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "analysis/row_values.hpp"
-
 namespace talus {
-
-std::vector<double> finite_values(std::vector<double> numbers) {
-  const std::size_t members = numbers.size();
-  std::erase_if(numbers, [](double number) { return std::isnan(number); });
-  if (2 * numbers.size() < members) numbers.clear();
-  return numbers;
-}
 
 std::vector<MeasureText> all_measures() {
   std::vector<MeasureText> texts = texts_of_hopper_measures();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A measure: a name, a unit, what it means, and the function that makes the number from a run, a place and a window of
+/// A measure: a name, a unit, what it means, and the function that makes the number from a run and a window of
 /// time. Each is one row of one list, hopper_measures() or avalanche_measures(); the summary of a run, its table of
 /// snapshots, the rows of a reference and docs/quantities.md follow from the lists.
 #pragma once
@@ -27,9 +27,9 @@ namespace talus {
 template <class Snapshot>
 class SnapshotNumbers {
  public:
-  /// A number of one snapshot at a place; nan where it has no meaning.
-  using Number = double (*)(const Snapshot& snapshot, const Place& place);
-  using Value = std::function<double(std::size_t n, Number number, const Place& place)>;
+  /// A number of one snapshot; nan where it has no meaning.
+  using Number = double (*)(const Snapshot& snapshot);
+  using Value = std::function<double(std::size_t n, Number number)>;
 
   SnapshotNumbers() = default;
   /// \param time of each snapshot, rising \param value the number of the n-th
@@ -40,29 +40,29 @@ class SnapshotNumbers {
   static SnapshotNumbers of(std::vector<double> time,
                             std::function<std::shared_ptr<const Snapshot>(std::size_t n)> load, std::size_t kept) {
     auto loaded = std::make_shared<std::map<std::size_t, std::shared_ptr<const Snapshot>>>();
-    return {std::move(time), [=](std::size_t n, Number number, const Place& place) {
+    return {std::move(time), [=](std::size_t n, Number number) {
               if (!loaded->contains(n)) {
                 if (loaded->size() >= kept) loaded->erase(loaded->begin());
                 loaded->emplace(n, load(n));
               }
-              return number(*loaded->at(n), place);
+              return number(*loaded->at(n));
             }};
   }
 
   const std::vector<double>& time() const { return time_; }
 
-  double value(std::size_t n, Number number, const Place& place) const {
-    const auto [found, is_new] = memory_->numbers.try_emplace({n, number, place});
-    if (is_new) found->second = memory_->value(n, number, place);
+  double value(std::size_t n, Number number) const {
+    const auto [found, is_new] = memory_->numbers.try_emplace({n, number});
+    if (is_new) found->second = memory_->value(n, number);
     return found->second;
   }
 
   /// The number against time, from snapshot `first` on.
-  Curve curve(Number number, const Place& place, std::size_t first = 0) const {
+  Curve curve(Number number, std::size_t first = 0) const {
     Curve curve;
     for (std::size_t n = first; n < time_.size(); ++n) {
       curve.time.push_back(time_[n]);
-      curve.value.push_back(value(n, number, place));
+      curve.value.push_back(value(n, number));
     }
     return curve;
   }
@@ -70,7 +70,7 @@ class SnapshotNumbers {
  private:
   struct Memory {
     Value value;
-    std::map<std::tuple<std::size_t, Number, Place>, double> numbers;
+    std::map<std::pair<std::size_t, Number>, double> numbers;
   };
   std::vector<double> time_;
   std::shared_ptr<Memory> memory_;
@@ -80,12 +80,11 @@ class SnapshotNumbers {
 template <class Run>
 struct Estimator {
   using Number = typename SnapshotNumbers<typename Run::Snapshot>::Number;
-  std::function<double(const Run& run, const Place& place, const Window& window)> of;
+  std::function<double(const Run& run, const Window& window)> of;
   Number number = nullptr;  ///< of a snapshot, if the measure is one number of a snapshot, or a mean or extreme of it
 };
 
-/// Where a summary lists a measure: in runs to which it applies, over that window. Measures that need a place have
-/// none: a summary holds what is defined by the case's own outlet, vessel and bed.
+/// Where a summary lists a measure: in runs to which it applies, over that window.
 template <class Run>
 struct InSummary {
   bool (*applies)(const Run& run) = nullptr;
@@ -95,14 +94,12 @@ struct InSummary {
 template <class Run>
 struct Measure {
   Measure(std::string_view its_name, std::string_view its_unit, std::string_view its_text, Estimator<Run> its_estimator,
-          std::optional<InSummary<Run>> listed = {}, std::vector<std::string_view> lengths = {},
-          bool can_be_missing = false)
+          std::optional<InSummary<Run>> listed = {}, bool can_be_missing = false)
       : name(its_name),
         unit(its_unit),
         text(its_text),
         estimator(std::move(its_estimator)),
         in_summary(listed),
-        place(std::move(lengths)),
         may_be_missing(can_be_missing) {}
 
   std::string_view name;
@@ -110,25 +107,15 @@ struct Measure {
   std::string_view text;
   Estimator<Run> estimator;
   std::optional<InSummary<Run>> in_summary;
-  std::vector<std::string_view> place;  ///< names of the lengths that a row has to bring
   bool may_be_missing;  ///< members of an ensemble that have no such number are left out while they are the fewer
-};
-
-/// A measure of several runs against each other or together.
-template <class Run>
-struct GroupMeasure {
-  std::string_view name, unit, text;
-  /// \param groups the members of each variant; nothing if there are too few of them
-  std::optional<double> (*of)(std::span<const std::vector<Run>> groups, const Window& window);
 };
 
 /// What a table or a document says of a measure.
 struct MeasureText {
   std::string_view name, unit, text;
-  std::vector<std::string_view> place;
   bool in_summary;
 };
-/// All measures of a model, those of several runs last.
+/// All measures of a model.
 std::vector<MeasureText> texts_of_hopper_measures();
 std::vector<MeasureText> texts_of_avalanche_measures();
 std::vector<MeasureText> all_measures();
@@ -136,10 +123,9 @@ std::vector<MeasureText> all_measures();
 std::optional<MeasureText> find_measure(std::string_view name);
 
 template <class Run>
-std::vector<MeasureText> texts_of(std::span<const Measure<Run>> measures, std::span<const GroupMeasure<Run>> groups) {
+std::vector<MeasureText> texts_of(std::span<const Measure<Run>> measures) {
   std::vector<MeasureText> texts;
-  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text, m.place, m.in_summary.has_value()});
-  for (const auto& m : groups) texts.push_back({m.name, m.unit, m.text, {}, false});
+  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text, m.in_summary.has_value()});
   return texts;
 }
 
@@ -150,16 +136,16 @@ std::vector<NamedValue> summary_of(const Run& run, std::span<const Measure<Run>>
   for (const Measure<Run>& m : measures)
     if (m.in_summary && m.in_summary->applies(run))
       summary.push_back({std::string(m.name), std::string(m.unit),
-                         m.estimator.of(run, {}, m.in_summary->window ? m.in_summary->window(run) : Window{})});
+                         m.estimator.of(run, m.in_summary->window ? m.in_summary->window(run) : Window{})});
   return summary;
 }
 
-/// The measures that are numbers of a snapshot and need no place: the columns of a run's table of snapshots.
+/// The measures that are numbers of a snapshot: the columns of a run's table of snapshots.
 template <class Run>
 std::vector<Measure<Run>> columns_of_snapshots(std::span<const Measure<Run>> measures) {
   std::vector<Measure<Run>> columns;
   for (const Measure<Run>& m : measures)
-    if (m.estimator.number && m.place.empty()) columns.push_back(m);
+    if (m.estimator.number) columns.push_back(m);
   return columns;
 }
 

@@ -130,7 +130,7 @@ ParticleField::List ParticleField::list_of(double above, double most) const {
 /// In the order in which they are found without lists: image by image, and cell by cell in each. Those that are too far
 /// away to count are left out: they would add zeros.
 template <class Visit>
-void ParticleField::for_each_listed(const Vector3& x, std::optional<double> own, Visit&& visit) const {
+void ParticleField::for_each_listed(const Vector3& x, Visit&& visit) const {
   struct Near {
     std::uint64_t rank;
     const Listed* entry;
@@ -143,7 +143,7 @@ void ParticleField::for_each_listed(const Vector3& x, std::optional<double> own,
     list.grid->for_each_candidate(x, [&](std::uint32_t n) {
       const Listed& entry = list.entries[n];
       const Vector3 d = entry.place - x;
-      const double reach = rounding * (own.value_or(entry.smoothing_length) + entry.smoothing_length);
+      const double reach = rounding * sph::support * entry.smoothing_length;
       if (dot(d, d) < reach * reach) near.push_back({entry.rank, &entry});
     });
   }
@@ -155,13 +155,9 @@ void ParticleField::for_each_listed(const Vector3& x, std::optional<double> own,
 }
 
 template <class Visit>
-void ParticleField::for_each_near(const Vector3& x, std::optional<double> own, Visit&& visit) const {
+void ParticleField::for_each_near(const Vector3& x, Visit&& visit) const {
   if (particles_.position.empty()) return;
-  // The lists of a narrower support than this place's own hold too little.
-  const bool listed = !lists_.empty() && (!own || std::all_of(lists_.begin(), lists_.end(), [&](const List& list) {
-    return !list.grid || *own <= list.smoothing_length;
-  }));
-  if (listed) return for_each_listed(x, own, visit);
+  if (!lists_.empty()) return for_each_listed(x, visit);
   for (const Image& image : images_) {
     const Vector3 source = image.source(x);
     bool within = true;
@@ -177,7 +173,7 @@ void ParticleField::for_each_near(const Vector3& x, std::optional<double> own, V
 
 double ParticleField::packing(const Vector3& x) const {
   double sum = 0;
-  for_each_near(x, {}, [&](std::uint32_t j, const Image&, const Vector3& d) {
+  for_each_near(x, [&](std::uint32_t j, const Image&, const Vector3& d) {
     sum += sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
   });
   return particles_.solid_volume * sum;
@@ -185,7 +181,7 @@ double ParticleField::packing(const Vector3& x) const {
 
 double ParticleField::value(const Vector3& x, std::span<const double> column) const {
   double sum = 0, weights = 0;
-  for_each_near(x, {}, [&](std::uint32_t j, const Image&, const Vector3& d) {
+  for_each_near(x, [&](std::uint32_t j, const Image&, const Vector3& d) {
     const double weight = particles_.volume[j] * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
     sum += weight * column[j];
     weights += weight;
@@ -194,34 +190,15 @@ double ParticleField::value(const Vector3& x, std::span<const double> column) co
 }
 
 Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) const {
-  return packing_and_value(x, column).vector;
-}
-
-ParticleField::PackingAndVector ParticleField::packing_and_value(const Vector3& x,
-                                                                 std::span<const Vector3> column) const {
   Vector3 sum;
-  double kernels = 0, weights = 0;
-  for_each_near(x, {}, [&](std::uint32_t j, const Image& image, const Vector3& d) {
-    const double kernel = sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
-    const double weight = particles_.volume[j] * kernel;
-    kernels += kernel;
+  double weights = 0;
+  for_each_near(x, [&](std::uint32_t j, const Image& image, const Vector3& d) {
+    const double weight = particles_.volume[j] * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
     sum += weight * image.vector(column[j]);
     weights += weight;
   });
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {particles_.solid_volume * kernels, weights > 0 ? (1 / weights) * sum : Vector3{none, none, none}};
-}
-
-Tensor3<> ParticleField::velocity_gradient(std::size_t particle, std::span<const Vector3> velocity) const {
-  const Vector3& x = particles_.position[particle];
-  sph::GradientSums<> sums;
-  for_each_near(x, particles_.smoothing_length[particle], [&](std::uint32_t j, const Image& image, const Vector3& d) {
-    const double h = 0.5 * (particles_.smoothing_length[particle] + particles_.smoothing_length[j]);
-    const double r = norm(d);
-    if (r < sph::support * h)
-      sums.add(particles_.volume[j], sph::cubic_spline_slope(r, h), d, image.vector(velocity[j]) - velocity[particle]);
-  });
-  return sph::velocity_gradient(sums);
+  return weights > 0 ? (1 / weights) * sum : Vector3{none, none, none};
 }
 
 std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& place, double reach) {
@@ -229,12 +206,6 @@ std::vector<std::size_t> particles_around(std::span<const Vector3> position, con
   for (std::size_t i = 0; i < position.size(); ++i)
     if (std::abs(position[i].x - place.x) < reach && std::abs(position[i].z - place.z) < reach) near.push_back(i);
   return near;
-}
-
-Vector3 cell_centre(const Vector3& place, double cell) {
-  // A place on a cell's face, but for rounding, belongs to the cell above it.
-  const auto centre = [cell](double x) { return (std::floor(x / cell + 1e-9) + 0.5) * cell; };
-  return {centre(place.x), centre(place.y), centre(place.z)};
 }
 
 }  // namespace talus

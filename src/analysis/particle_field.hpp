@@ -54,17 +54,6 @@ class ParticleField {
   double value(const Vector3& x, std::span<const double> column) const;
   Vector3 value(const Vector3& x, std::span<const Vector3> column) const;
 
-  /// Both at once, of a column of vectors.
-  struct PackingAndVector {
-    double packing = 0;
-    Vector3 vector;
-  };
-  PackingAndVector packing_and_value(const Vector3& x, std::span<const Vector3> column) const;
-
-  /// du_i/dx_j at a particle, corrected so that it is exact for linear fields. \param velocity one entry per particle,
-  /// m/s
-  Tensor3<> velocity_gradient(std::size_t particle, std::span<const Vector3> velocity) const;
-
   /// Largest support of a particle, m.
   double reach() const { return reach_; }
 
@@ -83,12 +72,12 @@ class ParticleField {
     std::optional<CellGrid> grid;  ///< of their places; none where there are none
   };
 
-  /// Calls visit(j, image, d) for each particle j and each of its images whose place x + d is seen from x and that
-  /// counts there. \param own smoothing length of what is at x; none: the particles' own alone say how far they count
+  /// Calls visit(j, image, d) for each particle j and each of its images whose place x + d is seen from x and whose
+  /// kernel reaches it.
   template <class Visit>
-  void for_each_near(const Vector3& x, std::optional<double> own, Visit&& visit) const;
+  void for_each_near(const Vector3& x, Visit&& visit) const;
   template <class Visit>
-  void for_each_listed(const Vector3& x, std::optional<double> own, Visit&& visit) const;
+  void for_each_listed(const Vector3& x, Visit&& visit) const;
   void list_images();
   List list_of(double above, double most) const;
 
@@ -101,16 +90,13 @@ class ParticleField {
   std::vector<List> lists_;  // for many places
 };
 
-/// ParticleField::velocity_gradient of many particles, in the order of `taken`, but for rounding: by lists of all
-/// neighbours, which is three times as quick. \pre positions within the box, but for open faces
+/// du_i/dx_j at particles, in the order of `taken`, corrected so that it is exact for linear fields.
+/// \param velocity one entry per particle, m/s \pre positions within the box, but for open faces
 std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Domain& domain,
                                           std::span<const std::uint32_t> taken, std::span<const Vector3> velocity);
 
 /// The particles whose x and z are within `reach` of a place, by index: enough of them for what a ParticleField says
 /// there, if the box is not periodic along x and z.
 std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& place, double reach);
-
-/// The centre of the cubic cell that holds a place; cells are numbered from the origin.
-Vector3 cell_centre(const Vector3& place, double cell);
 
 }  // namespace talus

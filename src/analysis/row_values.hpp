@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -15,35 +14,28 @@
 
 namespace talus {
 
-/// Numbers of the members of an ensemble without those that are nan, as long as these are the fewer; else none at all.
-std::vector<double> finite_values(std::vector<double> numbers);
-
-/// The measures of one model.
-template <class Run>
-struct MeasuresOfModel {
-  std::span<const Measure<Run>> of_run;
-  std::span<const GroupMeasure<Run>> of_group;
-  std::function<Run(std::span<const Run> members)> mean;  ///< the members' mean curves, as a run
-};
-
 template <class Run>
 class RowValues {
  public:
   /// \param groups the members of each of the row's variants; null where there are none
-  RowValues(const ComparisonRow& row, std::vector<const std::vector<Run>*> groups, const MeasuresOfModel<Run>& measures)
-      : row_(row),
-        groups_(std::move(groups)),
-        measures_(measures),
-        measure_(find_row(measures.of_run, row.quantity)),
-        group_measure_(find_row(measures.of_group, row.quantity)) {}
+  RowValues(const ComparisonRow& row, std::vector<const std::vector<Run>*> groups,
+            std::span<const Measure<Run>> measures)
+      : row_(row), groups_(std::move(groups)), measure_(find_row(measures, row.quantity)) {}
 
-  /// One a variant, or one of all variants together; nothing where the runs are not there, end before the window does,
-  /// or are too few. \throws std::out_of_range if there is no such measure or it needs another place
+  /// One a variant, or one of two variants together; nothing where the runs are not there, end before the window does,
+  /// or are too few. \throws std::out_of_range if there is no such measure, or none of several variants
   std::vector<std::optional<double>> values() const {
     if (row_.from == From::variants) return {of_variants()};
     std::vector<std::optional<double>> values;
     for (const auto* members : groups_) values.push_back(is_there(members) ? of_members(*members) : std::nullopt);
     return values;
+  }
+
+  /// Whether the members of each variant are there and go on to the end of the window.
+  std::vector<bool> are_there() const {
+    std::vector<bool> there;
+    for (const auto* members : groups_) there.push_back(is_there(members));
+    return there;
   }
 
  private:
@@ -57,26 +49,11 @@ class RowValues {
 
   double of_run(const Run& run) const {
     if (!measure_) throw std::out_of_range("'" + row_.quantity + "' is no measure of such a run");
-    return measure_->estimator.of(run, row_.place, row_.window);
-  }
-
-  std::optional<double> of_group(std::span<const std::vector<Run>> groups) const {
-    if (!group_measure_) throw std::out_of_range("'" + row_.quantity + "' is no measure of such runs together");
-    return group_measure_->of(groups, row_.window);
+    return measure_->estimator.of(run, row_.window);
   }
 
   std::optional<double> of_members(const std::vector<Run>& members) const {
-    switch (row_.from) {
-      case From::curves:
-        return group_measure_ ? of_group({&members, 1}) : of_run(measures_.mean(members));
-      case From::values:
-        return of_group({&members, 1});
-      case From::parameters:
-        return of_run(members.front());
-      case From::each:
-      case From::variants:
-        break;
-    }
+    if (row_.from == From::parameters) return of_run(members.front());
     if (row_.statistic == Statistic::standard_deviation && members.size() < 2) return std::nullopt;
     return of_each(members, row_.statistic);
   }
@@ -84,28 +61,22 @@ class RowValues {
   double of_each(const std::vector<Run>& members, Statistic statistic) const {
     std::vector<double> numbers;
     for (const Run& member : members) numbers.push_back(of_run(member));
-    if (measure_->may_be_missing) numbers = finite_values(std::move(numbers));
-    return numbers.empty() ? std::nan("") : evaluate(statistic, numbers);
+    return evaluate_members(statistic, std::move(numbers), measure_->may_be_missing);
   }
 
   std::optional<double> of_variants() const {
     if (!std::all_of(groups_.begin(), groups_.end(), [&](const auto* members) { return is_there(members); }))
       return std::nullopt;
-    if (row_.statistic == Statistic::ratio || row_.statistic == Statistic::difference) {
-      std::vector<double> numbers;
-      for (const auto* members : groups_) numbers.push_back(of_each(*members, Statistic::mean));
-      return evaluate(row_.statistic, numbers);
-    }
-    std::vector<std::vector<Run>> groups;
-    for (const auto* members : groups_) groups.push_back(*members);
-    return of_group(groups);
+    if (row_.statistic != Statistic::ratio && row_.statistic != Statistic::difference)
+      throw std::out_of_range("'" + row_.quantity + "' is a measure of one run: of variants, its ratio or difference");
+    std::vector<double> numbers;
+    for (const auto* members : groups_) numbers.push_back(of_each(*members, Statistic::mean));
+    return evaluate(row_.statistic, numbers);
   }
 
   const ComparisonRow& row_;
   std::vector<const std::vector<Run>*> groups_;
-  const MeasuresOfModel<Run>& measures_;
   const Measure<Run>* measure_;
-  const GroupMeasure<Run>* group_measure_;
 };
 
 }  // namespace talus

@@ -26,27 +26,6 @@ void require_pairs(std::span<const double> x, std::span<const double> y) {
   if (x.size() != y.size()) throw std::invalid_argument("x and y differ in length");
 }
 
-std::vector<double> ranks(std::span<const double> sample) {
-  std::vector<std::size_t> order(sample.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sample[a] < sample[b]; });
-  std::vector<double> rank(sample.size());
-  for (std::size_t begin = 0; begin < order.size();) {
-    std::size_t end = begin + 1;
-    while (end < order.size() && sample[order[end]] == sample[order[begin]]) ++end;
-    for (std::size_t n = begin; n < end; ++n) rank[order[n]] = 0.5 * static_cast<double>(begin + end + 1);
-    begin = end;
-  }
-  return rank;
-}
-
-double r_squared(std::span<const double> x, std::span<const double> y, double intercept, double slope) {
-  double residual = 0;
-  for (std::size_t n = 0; n < x.size(); ++n) residual += std::pow(y[n] - intercept - slope * x[n], 2);
-  const double total = cross_sum(y, y);
-  return total > 0 ? 1 - residual / total : nan;
-}
-
 }  // namespace
 
 double mean(std::span<const double> sample) {
@@ -104,28 +83,13 @@ double student_t(double freedom) {
          (3 * x7 + 19 * x5 + 17 * x3 - 15 * x) / (384 * std::pow(freedom, 3));
 }
 
-double spearman_correlation(std::span<const double> x, std::span<const double> y) {
-  require_pairs(x, y);
-  const std::vector<double> x_rank = ranks(x), y_rank = ranks(y);
-  const double scatter = cross_sum(x_rank, x_rank) * cross_sum(y_rank, y_rank);
-  return scatter > 0 ? cross_sum(x_rank, y_rank) / std::sqrt(scatter) : nan;
-}
-
 Line fit_line(std::span<const double> x, std::span<const double> y) {
   require_pairs(x, y);
   const double scatter = cross_sum(x, x);
-  if (!(scatter > 0)) return {nan, nan, nan};
+  if (!(scatter > 0)) return {nan, nan};
   const double slope = cross_sum(x, y) / scatter;
   const double intercept = mean(y) - slope * mean(x);
-  return {intercept, slope, r_squared(x, y, intercept, slope)};
-}
-
-Line fit_line_through_origin(std::span<const double> x, std::span<const double> y) {
-  require_pairs(x, y);
-  const double squares = std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
-  if (!(squares > 0)) return {0, nan, nan};
-  const double slope = std::inner_product(x.begin(), x.end(), y.begin(), 0.0) / squares;
-  return {0, slope, r_squared(x, y, 0, slope)};
+  return {intercept, slope};
 }
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Statistics of samples: moments, quantiles, histograms, a Gaussian and its test, rank correlation, lines. A result
+/// Statistics of samples: moments, quantiles, histograms, a Gaussian and its test, lines. A result
 /// that a sample is too small for, or that divides by a spread of zero, is nan.
 #pragma once
 
@@ -63,20 +63,12 @@ double anderson_darling_p_value(double adjusted);
 /// of freedom on. \param freedom > 0
 double student_t(double freedom);
 
-/// Rank correlation (Spearman 1904): the correlation of the ranks, equal values sharing their mean rank.
-/// \throws std::invalid_argument if x and y differ in length
-double spearman_correlation(std::span<const double> x, std::span<const double> y);
-
 /// y = intercept + slope x with the least sum of squared distances along y.
 struct Line {
   double intercept = 0;
   double slope = 0;
-  /// 1 - sum of squared residuals / sum of squares about the mean of y, also for a line through the origin, where it
-  /// can be negative.
-  double r_squared = 0;
 };
 /// \throws std::invalid_argument if x and y differ in length
 Line fit_line(std::span<const double> x, std::span<const double> y);
-Line fit_line_through_origin(std::span<const double> x, std::span<const double> y);
 
 }  // namespace talus

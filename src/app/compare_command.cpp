@@ -24,7 +24,7 @@ ExitStatus compare_with_reference(const CompareOptions& options) {
   const Reference reference = read_reference(options.other);
   const std::vector<FoundEnsemble> found = find_ensembles(options.folder, reference);
   ReadRuns runs(ReadRuns::many_times);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found, runs));
+  const std::vector<EvaluatedRow> rows = evaluate(reference, found, read_studied_runs(found, runs));
   print("{}\n{}{}\n", reference.source, to_text(rows), counts_text(rows));
   if (!options.json.empty()) write_atomically(options.json, to_json(reference, rows, found, options.folder));
   return count(rows, Verdict::not_met) ? ExitStatus::not_met : ExitStatus::done;

@@ -34,12 +34,12 @@ std::string page_head(const std::string& model) {
 
 /// One row per measure, those that a summary lists first.
 std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) {
-  std::string table = "| name | unit | definition | place |\n|---|---|---|---|\n";
+  std::string table = "| name | unit | definition |\n|---|---|---|\n";
   for (const MeasureText& m : measures) {
     if (m.in_summary != in_summary) continue;
     std::string text(m.text);
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-    table += fmt::format("| `{}` | {} | {} | {} |\n", m.name, m.unit, text, fmt::join(m.place, ", "));
+    table += fmt::format("| `{}` | {} | {} |\n", m.name, m.unit, text);
   }
   return table;
 }
@@ -48,14 +48,15 @@ std::string page_of_quantities() {
   std::string page =
       "# Quantities\n\nThe numbers that describe a run: in its `summary.json`, in `analysis/snapshots.csv`, and in "
       "the\nrows of `validation/*/reference.toml`. Units are SI, angles in degrees; `1` marks a number. A\nsummary "
-      "lists those that are defined by the case's own outlet, vessel and bed and apply to it. The\nothers, and the "
-      "lengths that they need (*place*), are in the rows of a reference, as is the time\nwindow; in a summary the "
-      "window is the whole run, its end, or what the definition says.\nThis page is the output of `talus schema "
-      "--quantities`; the texts are in the lists\n`src/analysis/hopper_measures.cpp` and "
+      "lists those that apply to the case. The time window is that of a row; in a summary it is the\nwhole run, its "
+      "end, or what the definition says. Quantities that only one study needs are measured\nby its "
+      "`validation/STUDY/measures.py`; `python3 -m talus.measures --table validation/STUDY` lists\nthem. This page is "
+      "the output of `talus schema --quantities`; the texts are in the lists\n`src/analysis/hopper_measures.cpp` and "
       "`src/analysis/avalanche_measures.cpp`.\n";
   const auto add = [&page](const char* title, const char* symbols, const std::vector<MeasureText>& measures) {
-    page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}\n### In comparisons\n\n{3}", title, symbols,
-                        table_of(measures, true), table_of(measures, false));
+    page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}", title, symbols, table_of(measures, true));
+    if (std::any_of(measures.begin(), measures.end(), [](const MeasureText& m) { return !m.in_summary; }))
+      page += "\n### In comparisons\n\n" + table_of(measures, false);
   };
   add("Grains in a vessel: continuum", symbols_of_hopper_measures, texts_of_hopper_measures());
   add("Avalanches and falling clouds: cloud", symbols_of_avalanche_measures, texts_of_avalanche_measures());

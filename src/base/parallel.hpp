@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The parallel loop: the only code that deals with threads. Each index writes only its own data, so the result does
 /// not depend on the number of threads; a reduction sums chunks of fixed size in a fixed order, for the same reason.
-/// Why not OpenMP or oneTBB: docs/decisions/0001-own-team-of-threads.md.
+/// Why not OpenMP or oneTBB: docs/design/build.md.
 #pragma once
 
 #include <cstddef>

@@ -2,6 +2,7 @@
 #include "run/jobs.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <cstring>
 #include <map>
+#include <string_view>
 #include <thread>
 
 #include "base/error.hpp"
@@ -27,12 +29,10 @@ struct Running {
   Clock::time_point start;
 };
 
-pid_t start(const Job& job) {
-  claim_file(job.output);
-  const int output = open(job.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (output < 0) throw FileError(job.output.string(), std::string("cannot be opened: ") + std::strerror(errno));
+/// \param input, output, errors descriptors of the new process's stdin, stdout and stderr; 0: its parent's stdin
+pid_t start(const std::vector<std::string>& words, int input, int output, int errors) {
   std::vector<char*> arguments;
-  for (const std::string& argument : job.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
 
   const pid_t parent = getpid();
@@ -43,16 +43,65 @@ pid_t start(const Job& job) {
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(126);
+    if (input != STDIN_FILENO) dup2(input, STDIN_FILENO);
     dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
+    dup2(errors, STDERR_FILENO);
     execv(arguments[0], arguments.data());
     _exit(127);
   }
-  const int error = errno;
-  close(output);
-  if (child < 0) throw FileError(job.arguments[0], std::string("cannot be started: ") + std::strerror(error));
+  if (child < 0) throw FileError(words[0], std::string("cannot be started: ") + std::strerror(errno));
   return child;
 }
+
+/// A descriptor that is closed at its end.
+class Descriptor {
+ public:
+  Descriptor(int number, const std::string& name) : number_(number) {
+    if (number < 0) throw FileError(name, std::string("cannot be opened: ") + std::strerror(errno));
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(number_); }
+  operator int() const { return number_; }
+
+ private:
+  int number_;
+};
+
+pid_t start(const Job& job) {
+  claim_file(job.output);
+  const Descriptor output(open(job.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666),
+                          job.output.string());
+  return start(job.arguments, STDIN_FILENO, output, output);
+}
+
+/// A file in memory alone.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const char* name) : descriptor_(memfd_create(name, MFD_CLOEXEC), name) {}
+  int descriptor() const { return descriptor_; }
+
+  /// From here on it is read from its beginning.
+  void write_all(std::string_view text) const {
+    while (!text.empty()) {
+      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      if (written < 0) throw FileError("memory", std::string("cannot be written: ") + std::strerror(errno));
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    lseek(descriptor_, 0, SEEK_SET);
+  }
+  std::string read_all() const {
+    lseek(descriptor_, 0, SEEK_SET);
+    std::string text;
+    char part[4096];
+    for (ssize_t n = 0; (n = ::read(descriptor_, part, sizeof part)) > 0;)
+      text.append(part, static_cast<std::size_t>(n));
+    return text;
+  }
+
+ private:
+  Descriptor descriptor_;
+};
 
 int exit_status(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
@@ -101,6 +150,23 @@ bool run_jobs(const std::vector<Job>& jobs, int at_once, const std::function<voi
     }
   }
   return !stopping;
+}
+
+ProgramEnd run_program(const std::vector<std::string>& arguments, const std::string& input,
+                       const std::function<bool()>& interrupted) {
+  const MemoryFile given("input"), output("output"), errors("errors");
+  given.write_all(input);
+  const pid_t child = start(arguments, given.descriptor(), output.descriptor(), errors.descriptor());
+  int status = 0;
+  bool stopped = false;
+  for (pid_t ended = 0; ended != child;) {
+    ended = waitpid(child, &status, WNOHANG);
+    if (ended < 0) throw FileError(arguments[0], std::string("cannot be waited for: ") + std::strerror(errno));
+    if (ended == child) break;
+    if (!stopped && interrupted()) kill(child, SIGTERM), stopped = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return {exit_status(status), output.read_all(), errors.read_all()};
 }
 
 std::string own_program() {

@@ -30,6 +30,16 @@ struct JobEnd {
 bool run_jobs(const std::vector<Job>& jobs, int at_once, const std::function<void(const JobEnd&)>& on_end,
               const std::function<void()>& on_wait, const std::function<bool()>& interrupted);
 
+struct ProgramEnd {
+  int status = 0;              ///< as of a job
+  std::string output, errors;  ///< stdout and stderr
+};
+
+/// Runs a program with `input` as its stdin. When `interrupted` becomes true it gets SIGTERM, and its end is waited
+/// for. \param arguments the program's path first \throws FileError if the process cannot be made
+ProgramEnd run_program(const std::vector<std::string>& arguments, const std::string& input,
+                       const std::function<bool()>& interrupted);
+
 /// The path of the running program, to start it again.
 std::string own_program();
 

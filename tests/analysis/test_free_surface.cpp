@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "analysis/heap_slopes.hpp"
 #include "analysis/particles.hpp"
 
 namespace talus {
@@ -66,11 +65,10 @@ TEST(FreeSurface, OfAWedgeHasItsSlope) {
   }
 }
 
-TEST(FreeSurface, OfAParabolaSwells) {
+TEST(FreeSurface, OfAParabola) {
   const auto parabola = [](double x) { return 0.12 - 4 * (x - 0.1) * (x - 0.1); };
   const FreeSurface surface = surface_of(parabola);
   for (std::size_t n = 5; n < 95; ++n) EXPECT_NEAR(surface.z[n], parabola(surface.x[n]), 0.5 * h) << n;
-  EXPECT_NEAR(surface_swelling(surface, 0.1, 0.05, 0.02), 4 * 0.05 * 0.05, 0.2 * h);
   const auto slopes = heap_slopes(surface, 10 * h);
   ASSERT_EQ(slopes.size(), 2u);
   // The line through a stretch of a parabola has the slope in its middle.
@@ -99,7 +97,6 @@ TEST(FreeSurface, AStreamThatFallsIsNoSurface) {
                    {0, 0.15, Vessel::Search::from_below});
   EXPECT_TRUE(std::isnan(hidden.height(0.1)));
   EXPECT_NEAR(hidden.height(0.05), 0.04, 0.1 * h);
-  EXPECT_NEAR(hidden.mean_height(0, width), 0.04, 0.1 * h);
 }
 
 TEST(HeapSlopes, OfLinesWithANoisyPlateauBetween) {
@@ -136,19 +133,6 @@ TEST(HeapSlopes, EndAtGaps) {
   EXPECT_EQ(slopes[1].from, 40);
   EXPECT_NEAR(slopes[0].slope, -1, 1e-12);
   EXPECT_NEAR(surface_angle(surface, 30) / degree, 45, 1e-9);
-}
-
-TEST(FreeSurface, FlanksLeaveOutWhatFallsOnTheMiddle) {
-  const double slope = std::tan(20 * degree);
-  FreeSurface surface;
-  for (int n = 0; n < 100; ++n) {
-    const double x = n + 0.5, from_middle = std::abs(x - 50);
-    surface.x.push_back(x);
-    surface.z.push_back(x < 5 || x > 95 ? 99 : from_middle < 20 ? 60 : 50 - slope * from_middle);
-  }
-  EXPECT_NEAR(outward_angle(surface, 50, 22, 45) / degree, 20, 1e-9);
-  EXPECT_NEAR(swelling_above_flanks(surface, 50, 22, 45, 10), 10, 1e-9);
-  EXPECT_TRUE(std::isnan(swelling_above_flanks(surface, 50, 44, 45, 10))) << "two heights are no line";
 }
 
 }  // namespace

@@ -88,15 +88,5 @@ TEST(Curve, NearestPointIsTheEarlierOfTwo) {
   EXPECT_EQ(nearest_point(time, 99), 3u);
 }
 
-TEST(Curve, SpreadOfMembers) {
-  const std::vector<Curve> members = {{{1, 2}, {2, 5}}, {{1, 2}, {4, 5}}, {{1, 2}, {6, 5}}};
-  const CurveSpread result = spread(members);
-  EXPECT_EQ(result.mean.value, (std::vector<double>{4, 5}));
-  EXPECT_EQ(result.deviation, (std::vector<double>{2, 0}));
-  EXPECT_TRUE(std::isnan(spread(std::span(members).first(1)).deviation[0]));
-  EXPECT_THROW(spread(std::vector<Curve>{{{1, 2}, {0, 0}}, {{1, 2.1}, {0, 0}}}), std::invalid_argument);
-  EXPECT_THROW(spread(std::vector<Curve>{{{1, 2}, {0, 0}}, {{1}, {0}}}), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace talus

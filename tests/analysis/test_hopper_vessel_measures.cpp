@@ -40,12 +40,12 @@ TEST(HopperVessel, TheShareThatMovesIsAgainstTheMeanAboveTheOutlet) {
     if (std::abs(now.position[i].x - 0.5 * width) < 0.02) before.position[i].z += 1e-3, ++middle;
   const HopperSetting s = setting();
   HopperSnapshot snapshot(s, now.view(), gate);
-  EXPECT_TRUE(std::isnan(hopper::share_that_moves(snapshot, {})));
+  EXPECT_TRUE(std::isnan(hopper::share_that_moves(snapshot)));
   const Snapshot earlier = before.view();
   snapshot.before = [&] { return &earlier; };
-  EXPECT_NEAR(hopper::share_that_moves(snapshot, {}), middle / double(now.position.size()), 1e-12);
+  EXPECT_NEAR(hopper::share_that_moves(snapshot), middle / double(now.position.size()), 1e-12);
   for (Vector3& x : before.position) x.z += 0.5e-3;
-  EXPECT_EQ(hopper::share_that_moves(snapshot, {}), 1) << "also what is slow, but not ten times slower than the mean";
+  EXPECT_EQ(hopper::share_that_moves(snapshot), 1) << "also what is slow, but not ten times slower than the mean";
 }
 
 /// 0.1 s at rest, then 2 kg/s for 0.3 s; the walls bear 600 Pa across, the bed 1000 Pa, all walls 4 N.
@@ -82,7 +82,7 @@ HopperRun run() {
 
 double value(const HopperRun& of, std::string_view name) {
   const auto* row = find_row(hopper_measures(), name);
-  return row ? row->estimator.of(of, {}, {}) : HopperRun::none;
+  return row ? row->estimator.of(of, {}) : HopperRun::none;
 }
 
 TEST(HopperVessel, TheSteadyDischargeIsFoundAndGoesByTheLengthOfASlit) {
@@ -175,16 +175,16 @@ TEST(HopperVessel, AnArchIsThePackingAboveTheOutlet) {
   HopperSetting s = setting();
   s.outlet_width = 0.02, s.outlet_depth = 0.02, s.middle = 0.5 * width;
   test::GrainColumns now = bed(gate + 0.2);
-  EXPECT_NEAR(hopper::outlet_packing(HopperSnapshot(s, now.view(), gate), {}), 0.6, 0.25);
+  EXPECT_NEAR(hopper::outlet_packing(HopperSnapshot(s, now.view(), gate)), 0.6, 0.25);
   std::erase_if(now.position, [](const Vector3& x) { return std::abs(x.x - 0.5 * width) < 0.02; });
   const Snapshot places{.time = 1, .columns = {{"position", "m", std::span<const Vector3>(now.position)}}};
-  EXPECT_EQ(hopper::outlet_packing(HopperSnapshot(s, places, gate), {}), 0);
+  EXPECT_EQ(hopper::outlet_packing(HopperSnapshot(s, places, gate)), 0);
 }
 
 TEST(HopperVessel, TheRatioOfPressuresIsOfTheBandsThatTheBedFills) {
   const HopperRun of = run();
   EXPECT_NEAR(hopper::settled_top(of), 0.175, 1e-9);
-  EXPECT_NEAR(hopper::wall_pressure_ratio(of, {}, {}), 0.6, 1e-9) << "the upper band is half empty";
+  EXPECT_NEAR(hopper::wall_pressure_ratio(of, {}), 0.6, 1e-9) << "the upper band is half empty";
   EXPECT_NEAR(value(of, "weight_balance_error_at_rest"), 4 / (4000 * 1500 * h * h * h * 10) - 1, 1e-9);
 }
 

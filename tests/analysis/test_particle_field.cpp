@@ -63,7 +63,8 @@ TEST(ParticleField, GradientsAreExactForLinearVelocities) {
   for (const Vector3& x : points) velocity.push_back({2 * x.x - 3 * x.z, 0.5 * x.x + x.y, 4 * x.x - x.y + 6 * x.z});
   std::size_t inner = 0;
   while (std::abs(points[inner].x - 0.05) > 0.01 || points[inner].y != 0.025 || points[inner].z != 0.055) ++inner;
-  const Tensor3<> l = field.velocity_gradient(inner, velocity);
+  const std::vector<std::uint32_t> taken{static_cast<std::uint32_t>(inner)};
+  const Tensor3<> l = velocity_gradients(field.particles(), field.domain(), taken, velocity).front();
   const Tensor3<> exact{2, 0, -3, 0.5, 1, 0, 4, -1, 6};
   for (const auto& [found, true_value] : {std::pair{l.xx, exact.xx},
                                           {l.xy, exact.xy},
@@ -90,6 +91,21 @@ TEST(ParticleField, SeesThroughOpenGatesOnly) {
   EXPECT_EQ(open.packing({0.01, 0.015, 0.105}), 0);
 }
 
+/// The gradient at a particle of a lattice, summed over all particles and images.
+Tensor3<> gradient_at(std::size_t i, const std::vector<Vector3>& points, const std::vector<Vector3>& velocity,
+                      const Domain& domain) {
+  std::vector<Image> images = domain.images(sph::support * h);
+  images.emplace_back();
+  sph::GradientSums<> sums;
+  for (const Image& image : images)
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const Vector3 place = image.position(points[j]), d = place - points[i];
+      if (norm(d) < sph::support * h && domain.is_visible(points[i], place, image))
+        sums.add(h * h * h, sph::cubic_spline_slope(norm(d), h), d, image.vector(velocity[j]) - velocity[i]);
+    }
+  return sph::velocity_gradient(sums);
+}
+
 TEST(ParticleField, ForManyPlacesItHasTheSameBits) {
   auto points = lattice(0.1, 0.02, 0, 0.15, h);  // thin: images of images
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -110,14 +126,12 @@ TEST(ParticleField, ForManyPlacesItHasTheSameBits) {
           EXPECT_EQ(few.value(place, velocity), many.value(place, velocity));
         }
       }
-    for (std::size_t i = 0; i < points.size(); i += 11)
-      EXPECT_EQ(few.velocity_gradient(i, velocity).xz, many.velocity_gradient(i, velocity).xz);
     std::vector<std::uint32_t> taken;
-    for (std::uint32_t i = 3; i < points.size(); i += 2) taken.push_back(i);
+    for (std::uint32_t i = 3; i < points.size(); i += 5) taken.push_back(i);
     const auto gradients = velocity_gradients(many.particles(), domain, taken, velocity);
     ASSERT_EQ(gradients.size(), taken.size());
     for (std::size_t n = 0; n < taken.size(); ++n) {
-      const Tensor3<> a = gradients[n], b = few.velocity_gradient(taken[n], velocity);
+      const Tensor3<> a = gradients[n], b = gradient_at(taken[n], points, velocity, domain);
       const double difference = std::abs(a.xx - b.xx) + std::abs(a.xy - b.xy) + std::abs(a.xz - b.xz) +
                                 std::abs(a.yx - b.yx) + std::abs(a.yy - b.yy) + std::abs(a.yz - b.yz) +
                                 std::abs(a.zx - b.zx) + std::abs(a.zy - b.zy) + std::abs(a.zz - b.zz);
@@ -150,13 +164,6 @@ TEST(ParticleField, TheParticlesAroundAPlaceAreEnoughThere) {
   for (const std::size_t i : particles_around(points, place, 2 * h)) near.push_back(points[i]);
   EXPECT_LT(near.size(), points.size() / 4);
   EXPECT_DOUBLE_EQ(ParticleField(test::particles(near, h), box(0.1, 0.03, 0.2)).packing(place), all.packing(place));
-}
-
-TEST(CellCentre, OfThePapersCells) {
-  const Vector3 c = cell_centre({0.05, 0.0025, 0.105}, 1.25e-3);
-  EXPECT_NEAR(c.x, 50.625e-3, 1e-15);
-  EXPECT_NEAR(c.y, 3.125e-3, 1e-15);
-  EXPECT_NEAR(c.z, 105.625e-3, 1e-15);
 }
 
 }  // namespace

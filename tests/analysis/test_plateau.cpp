@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/plateau.hpp"
+#include "analysis/discharge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,6 @@ from program import PROJECT, ProgramTest, rows
 
 COARSE = [option for setting in ("bed.spacing=5mm", "box.depth=5mm", "bed.height=80mm", "run.end=0.2s",
                                  "output.snapshots=20ms", "output.pictures=false") for option in ("--set", setting)]
-# Measured at the places of a paper: they stand in its reference, not in a summary.
-OF_PLACES = {"stream_narrowing", "stream_packing", "packing_max_outside_impact", "floor_arrival_first_time",
-             "drag_to_weight", "hopper_velocity", "corner_packing_ratio_bin", "surface_swelling"}
 
 
 class Measures(ProgramTest):
@@ -44,7 +41,6 @@ class Measures(ProgramTest):
         table = rows(self.folder / "r/analysis/snapshots.csv")
         largest = max(float(row["packing_max [1]"]) for row in table if float(row["time [s]"]) > 0)
         self.assertAlmostEqual(largest, numbers["packing_max"], delta=1e-9)
-        self.assertFalse(OF_PLACES & set(numbers))
         self.assertIn(f"share of slow flow = {numbers['inertial_share']:.3f}", self.card(said))
         again = self.talus("run", case, *COARSE, "--out", "r", "--resume").stdout
         self.assertEqual(self.card(again), self.card(said))
@@ -61,7 +57,6 @@ class Measures(ProgramTest):
                    "--set", "settle.speed=50mm/s", "--set", "settle.duration=1ms", "--set", "run.end=0.2s",
                    "--set", "output.pictures=false", "--out", "r")
         numbers = self.summary()
-        self.assertFalse(OF_PLACES & set(numbers))
         self.assertNotIn("floor_stress_settled", numbers, "the bed stands on the walls of the wedge")
         self.assertGreater(numbers["discharge_rate_plateau"], 0)
 

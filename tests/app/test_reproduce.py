@@ -98,7 +98,7 @@ class Hopper(Study):
         stand_in.write_text("#!/bin/sh\nexit 1\n")
         stand_in.chmod(0o755)
         arguments = ("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum")
-        said = self.talus(*arguments, status=1, env={**os.environ, "PATH": str(stand_in.parent)}).stdout
+        said = self.talus(*arguments, env={**os.environ, "PATH": str(stand_in.parent)}).stdout
         self.assertIn("python3-matplotlib", said)
         self.assertTrue((self.folder / "r/comparison.json").exists())
         self.assertFalse((self.folder / "r/figures").exists())
@@ -109,7 +109,7 @@ class Hopper(Study):
         stand_in = self.folder / "python3"
         stand_in.write_text("#!/bin/sh\necho run > was_run\nexit 1\n")
         stand_in.chmod(0o755)
-        self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", status=1, env={**os.environ, "PATH": ":"})
+        self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", env={**os.environ, "PATH": ":"})
         self.assertFalse((self.folder / "was_run").exists())
 
     def test_a_script_that_fails(self):

@@ -37,12 +37,12 @@ TEST(SnapshotTable, LoadsEachSnapshotOnceHoweverFewAreKept) {
     return std::make_shared<const double>(static_cast<double>(n));
   };
   const Sample run{SnapshotNumbers<double>::of({0.0, 0.1, 0.2, 0.3, 0.4}, load, 2)};
-  const auto row = [](const char* name, double (*number)(const double&, const Place&)) {
+  const auto row = [](const char* name, double (*number)(const double&)) {
     return Measure<Sample>(name, "1", "a number of a snapshot", Estimator<Sample>{.of = {}, .number = number});
   };
-  const std::vector<Measure<Sample>> measures{row("same", [](const double& n, const Place&) { return n; }),
-                                              row("twice", [](const double& n, const Place&) { return 2 * n; }),
-                                              row("square", [](const double& n, const Place&) { return n * n; })};
+  const std::vector<Measure<Sample>> measures{row("same", [](const double& n) { return n; }),
+                                              row("twice", [](const double& n) { return 2 * n; }),
+                                              row("square", [](const double& n) { return n * n; })};
   const ScratchFolder folder;
   write_snapshots(folder / "snapshots.csv", run, std::span<const Measure<Sample>>(measures), "s");
   EXPECT_THAT(loaded, ElementsAre(0, 1, 2, 3, 4));

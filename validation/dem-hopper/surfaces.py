@@ -79,7 +79,7 @@ def foot_speed(time, reach, start=0.025, stop=0.045):
 
 def heap_slopes(x, heights, least):
     """The stretches longer than `least` along which the 5-point mean rises or falls all along, as (from, to, angle in
-    degrees of the line through their middle 80 %): src/analysis/heap_slopes.hpp."""
+    degrees of the line through their middle 80 %): src/analysis/free_surface.hpp."""
     means = np.full(len(x), np.nan)
     for n in range(len(x)):
         for wide in (2, 1, 0):

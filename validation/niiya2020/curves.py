@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The curves of the figures: means and standard deviations over the members of an ensemble, from the tables that the
-program leaves in analysis/. Lengths in radii a, speeds in v_s, times in a/v_s. `radii`: the ensembles of one case, in
+program leaves in analysis/ and the numbers of measures.py. Lengths in radii a, speeds in v_s, times in a/v_s. `radii`: the ensembles of one case, in
 the order of the radius."""
 import numpy as np
+from measures import avalanche
 from talus.draw import INK, MUTED, PALETTE
 
 TIME = r"time $\tilde{t} = t\,v_s/a_p$"
@@ -13,11 +14,11 @@ BIN = 2  # radii, Figure 10b
 
 def of_members(ensemble, number, first=1):
     """Times, mean and standard deviation (n - 1) of a number of the snapshots from the `first` on; of those members that
-    have it. \\param number a column, or a function of a table"""
-    tables = [run.table("snapshots") for run in ensemble.runs]
-    rows = min(len(table) for table in tables)
-    values = np.array([(number(table) if callable(number) else table[number])[first:rows] for table in tables])
-    times = np.mean([table["time"][first:rows] for table in tables], axis=0)
+    have it. \\param number its name, or a function of an avalanche"""
+    members = [avalanche(run) for run in ensemble.runs]
+    rows = min(len(member.time) for member in members)
+    values = np.array([(number(member) if callable(number) else member.column(number))[first:rows] for member in members])
+    times = np.mean([member.time[first:rows] for member in members], axis=0)
     return times, *mean_and_deviation(values)
 
 
@@ -30,8 +31,8 @@ def mean_and_deviation(values):
         return mean, np.where(count > 1, np.sqrt(squares / (count - 1)), 0)
 
 
-def aspect_ratio(table):
-    return table["head_width"] / table["head_thickness"]
+def aspect_ratio(member):
+    return member.column("head_width") / member.column("head_thickness")
 
 
 def radius_of(ensemble):

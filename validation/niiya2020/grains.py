@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which grains the pictures mark: heads (section 4.1 of the paper) and the surface of the front (section 4.3), as
-estimator.heads, estimator.head_size and estimator.frontal_angle of reference.toml define them. The numbers of the
-rows are the program's; tests/python/test_niiya2020.py holds these against them."""
+estimator.heads, estimator.head_size and estimator.frontal_angle of reference.toml define them. tests/python/
+test_niiya2020.py holds them against the numbers of the program on the same runs."""
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,6 +3,7 @@
 import numpy as np
 import talus.draw
 from grains import angle_of_line, find_heads, head_size, surface_walk
+from measures import avalanche
 from talus.draw import INK, PALE
 
 HEAD, LIGHT_HEAD, SURFACE, MEASURED, MEASURE = "#0072b2", "#6fb1dd", "#d55e00", "#009e73", "#d55e00"
@@ -14,12 +15,12 @@ def radius_of(run):
 
 
 def at(run, time):
-    """The snapshot nearest to a time, with its row of analysis/snapshots.csv and the unit of speed v_s."""
-    table = run.table("snapshots")
-    n = int(np.abs(table["time"] - min(time, table["time"][-1])).argmin())
+    """The snapshot nearest to a time, with its time and the front's speed then, and the unit of speed v_s."""
+    seen = avalanche(run)
+    n = int(np.abs(seen.time - min(time, seen.time[-1])).argmin())
     snapshot = run.snapshots[run.snapshots.numbers[n]]
-    scale = run.snapshots.times[-1] / table["time"][-1]  # a/v_s, s
-    return snapshot, {name: float(table[name][n]) for name in table}, radius_of(run) / scale
+    row = {"time": seen.time[n], "front_speed": seen.front_speed_at(float(snapshot.time))}
+    return snapshot, row, seen.speed
 
 
 def draw(ax, run, snapshot, row, view, colours=GRAIN, column=None, **options):

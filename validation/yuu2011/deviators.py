@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the deviatoric stresses of a heap agree with those around them (docs/decisions/0051).
+"""Whether the deviatoric stresses of a heap agree with those around them (docs/design/stabilisation.md).
 
 usage: deviators.py RUN [TIME ...]     times from the opening of the gate, s; 0.2, 0.46, 0.72 and 0.98 if none are given
 

@@ -28,8 +28,8 @@ using talus::write_table;
 /// A row per point of the curve. \throws FileError
 void write_table(const std::filesystem::path& path, const std::vector<SeriesColumn>& columns, const Curve& curve);
 
-/// A row per snapshot, a column per measure that is a number of a snapshot and needs no place; without the columns that
-/// have no number in any snapshot. \throws FileError
+/// A row per snapshot, a column per measure that is a number of a snapshot; without the columns that have no number in
+/// any snapshot. \throws FileError
 template <class Run>
 void write_snapshots(const std::filesystem::path& path, const Run& run, std::span<const Measure<Run>> measures,
                      const std::string& time_unit) {
@@ -38,9 +38,9 @@ void write_snapshots(const std::filesystem::path& path, const Run& run, std::spa
   for (const double time : run.snapshots.time()) rows.push_back({time});
   const std::vector<Measure<Run>> numbers_of_snapshots = columns_of_snapshots(measures);
   for (std::size_t n = 0; n < rows.size(); ++n)  // all numbers of a snapshot while it is in memory; they are remembered
-    for (const Measure<Run>& m : numbers_of_snapshots) run.snapshots.value(n, m.estimator.number, {});
+    for (const Measure<Run>& m : numbers_of_snapshots) run.snapshots.value(n, m.estimator.number);
   for (const Measure<Run>& m : numbers_of_snapshots) {
-    const Curve numbers = run.snapshots.curve(m.estimator.number, {});
+    const Curve numbers = run.snapshots.curve(m.estimator.number);
     if (std::all_of(numbers.value.begin(), numbers.value.end(), [](double v) { return std::isnan(v); })) continue;
     columns.push_back({std::string(m.name), std::string(m.unit)});
     for (std::size_t n = 0; n < rows.size(); ++n) rows[n].push_back(numbers.value[n]);

@@ -30,9 +30,8 @@ Curve front_of(const Series& series, const CloudFrame& frame) {
 }
 
 struct Loaded {
-  Loaded(PointSet read, const CloudFrame& frame, const Curve& front)
-      : points(std::move(read)),
-        snapshot(frame.scales, frame.view(), points.view(), front_speed_at(front, points.time, frame.scales)) {}
+  Loaded(PointSet read, const CloudFrame& frame)
+      : points(std::move(read)), snapshot(frame.scales, frame.view(), points.view()) {}
   PointSet points;
   AvalancheSnapshot snapshot;
 };
@@ -56,7 +55,7 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
   std::vector<double> time;
   for (const auto& path : paths) time.push_back(read_points_time(path) / frame.scales.time());
   const auto read = [=](std::size_t n) -> std::shared_ptr<const AvalancheSnapshot> {
-    auto loaded = std::make_shared<Loaded>(read_points(paths[n]), frame, front);
+    auto loaded = std::make_shared<Loaded>(read_points(paths[n]), frame);
     loaded->snapshot.start = start->view().positions();
     loaded->snapshot.gravity = frame.gravity;
     return {loaded, &loaded->snapshot};

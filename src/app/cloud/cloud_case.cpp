@@ -182,7 +182,7 @@ CloudFrame frame_of(const Parameters& p) {
 CloudStudy study_of(const CaseFile& file) {
   ParameterReader reader(file);
   const auto [run, p] = read_case<Parameters>(reader);
-  return {run.title, frame_of(p), cloud::scales(p).contact_ratio};
+  return {run.title, frame_of(p)};
 }
 
 Scene scene_of_cloud(const CaseFile& resolved) {

@@ -29,7 +29,6 @@ std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, cons
 struct CloudStudy {
   std::string title;
   CloudFrame frame;
-  double contact_weight_ratio = 0;  ///< gamma of Eq. 9
 };
 /// \param file a resolved case, as manifests hold it; \throws InputError
 CloudStudy study_of(const CaseFile& file);

@@ -12,7 +12,6 @@ AvalancheRun cloud_run(const std::filesystem::path& folder, const CaseFile& file
   const CloudStudy study = study_of(file);
   AvalancheRun run =
       runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, study.frame, runs.snapshot_memory()); });
-  run.contact_weight_ratio = study.contact_weight_ratio;
   return run;
 }
 
@@ -22,7 +21,7 @@ StudiedRuns study_avalanches(const std::vector<FoundEnsemble>& found, ReadRuns& 
   const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
     return cloud_run(folder, file, runs);
   };
-  return studied<AvalancheRun>(found, {avalanche_measures(), avalanche_group_measures(), mean_run}, read);
+  return studied<AvalancheRun>(found, avalanche_measures(), read);
 }
 
 }  // namespace talus::app

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
 
+#include "app/comparison/study_measures.hpp"
 #include "base/error.hpp"
 
 namespace talus::app {
@@ -66,22 +68,25 @@ std::string missing_text(const EvaluatedRow& row, const std::vector<FoundEnsembl
 
 }  // namespace
 
-std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs, Faults faults) {
+std::vector<EvaluatedRow> evaluate(const Reference& reference, const std::vector<FoundEnsemble>& found,
+                                   const StudiedRuns& runs, Faults faults, int jobs) {
   std::vector<EvaluatedRow> rows;
   for (const ComparisonRow& row : reference.rows) {
     EvaluatedRow evaluated{.row = &row, .values = {}, .verdict = Verdict::reported};
-    try {
-      evaluated.values = runs(row);
-    } catch (const std::logic_error& error) {
-      if (faults == Faults::refuse)
-        throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
-      evaluated.missing = error.what();
-      evaluated.values.assign(row.from == From::variants ? 1 : row.variants.size(), std::nullopt);
-    }
-    if (row.criterion.kind != Criterion::Kind::reported)
-      evaluated.verdict = judge(row.criterion, std::span<const std::optional<double>>(evaluated.values));
+    if (!row.of_study) try {
+        evaluated.values = runs.values(row);
+      } catch (const std::logic_error& error) {
+        if (faults == Faults::refuse)
+          throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});
+        evaluated.missing = error.what();
+        evaluated.values.assign(row.from == From::variants ? 1 : row.variants.size(), std::nullopt);
+      }
     rows.push_back(std::move(evaluated));
   }
+  evaluate_by_study(reference, found, runs, faults, jobs, rows);
+  for (EvaluatedRow& row : rows)
+    if (row.row->criterion.kind != Criterion::Kind::reported)
+      row.verdict = judge(row.row->criterion, std::span<const std::optional<double>>(row.values));
   return rows;
 }
 
@@ -94,6 +99,11 @@ std::string to_text(const std::vector<EvaluatedRow>& rows) {
                         e.row->quantity + (statistic.empty() ? "" : ", " + statistic), to_string(e.row->criterion),
                         values_text(e), to_string(e.verdict), e.row->case_name + " (" + variants_text(*e.row) + ")");
   }
+  std::map<std::string, std::size_t> missing;
+  for (const EvaluatedRow& e : rows)
+    if (!e.missing.empty()) ++missing[e.missing];
+  for (const auto& [reason, count] : missing)
+    text += fmt::format("{} row{} not evaluated: {}\n", count, count == 1 ? "" : "s", reason);
   return text;
 }
 

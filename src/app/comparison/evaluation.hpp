@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/comparison/found_runs.hpp"
 #include "app/comparison/reference.hpp"
 #include "app/comparison/studied_runs.hpp"
 
@@ -15,16 +16,19 @@ struct EvaluatedRow {
   const ComparisonRow* row = nullptr;
   std::vector<std::optional<double>> values;  ///< one per variant of the row; one alone for From::variants
   Verdict verdict = Verdict::not_evaluated;
-  std::string missing = {};  ///< why a measure failed, with Faults::note
+  std::string missing = {};  ///< why there is no value: a measure failed, with Faults::note, or could not be evaluated
 };
 
 /// What to do with a row whose measure fails: one that no such runs have, or one that a short run has no data for.
 enum class Faults { refuse, note };
 
-/// \throws InputError if a measure fails and faults are refused
-std::vector<EvaluatedRow> evaluate(const Reference& reference, const StudiedRuns& runs, Faults faults = Faults::refuse);
+/// Rows of the program's quantities, and those of the study's measures.py, which Python evaluates (study_measures.hpp).
+/// \param found the runs' folders \param jobs processes of Python at a time
+/// \throws InputError if a measure fails and faults are refused, or if there is no such quantity
+std::vector<EvaluatedRow> evaluate(const Reference& reference, const std::vector<FoundEnsemble>& found,
+                                   const StudiedRuns& runs, Faults faults = Faults::refuse, int jobs = 1);
 
-/// As lines for a terminal.
+/// As lines for a terminal; last why rows have no value.
 std::string to_text(const std::vector<EvaluatedRow>& rows);
 /// As JSON: {"study", "title", "source", "rows": [{"id", "number", "quantity", "case", "variants", "statistic",
 /// "printed", "source", "criterion", "unit", "values": [...], "verdicts": [...], "verdict", "missing"}], "runs":

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "analysis/measure.hpp"
+#include "app/comparison/project.hpp"
 #include "base/error.hpp"
 #include "base/nearest.hpp"
 #include "base/unit.hpp"
@@ -213,9 +214,15 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
   return row;
 }
 
-/// The measure of a row, its unit and the lengths of its place.
-void check_measure(Reader& reader, const toml::node& node, const ComparisonRow& row) {
+/// The measure of a row and its unit; those of a study are checked by it.
+void check_measure(Reader& reader, const toml::node& node, bool has_study_measures, ComparisonRow& row) {
   const std::optional<MeasureText> measure = find_measure(row.quantity);
+  const bool of_several = row.from == From::curves || row.from == From::values;
+  if (of_several && !has_study_measures)
+    reader.fault(node, "from", "takes several runs together, which only a study measures",
+                 "a measures.py beside the file");
+  row.of_study = has_study_measures && (!measure || of_several);
+  if (row.of_study) return;
   if (!measure) {
     const std::vector<MeasureText> known = all_measures();
     std::vector<std::string_view> names;
@@ -226,13 +233,18 @@ void check_measure(Reader& reader, const toml::node& node, const ComparisonRow& 
   }
   const std::string_view unit = row.statistic == Statistic::ratio ? "1" : measure->unit;
   if (row.unit != unit) reader.fault(node, "unit", "is not that of " + row.quantity, std::string(unit));
-  for (const std::string_view length : measure->place)
-    if (!row.place.contains(length))
-      reader.fault(node, "place", fmt::format("{} needs {}", row.quantity, length), "lengths, such as \"120 mm\"");
   for (const auto& [length, value] : row.place)
-    if (std::find(measure->place.begin(), measure->place.end(), length) == measure->place.end())
-      reader.fault(node, "place", fmt::format("{} takes no {}", row.quantity, length),
-                   measure->place.empty() ? "no place" : fmt::format("{}", fmt::join(measure->place, ", ")));
+    reader.fault(node, "place", row.quantity + " takes no " + length, "no place");
+}
+
+/// The folder of the study's measures.py: the reference's, or that of the study in validation/; empty if there is none.
+std::filesystem::path measures_of(const std::filesystem::path& reference, const std::string& study) {
+  static constexpr const char* name = "measures.py";
+  const std::filesystem::path folder = reference.has_parent_path() ? reference.parent_path() : ".";
+  if (std::filesystem::exists(folder / name)) return folder;
+  const auto of_study = std::filesystem::path("validation") / std::filesystem::path(study).filename() / name;
+  const auto project = find_project(of_study);
+  return project ? (*project / of_study).parent_path() : std::filesystem::path();
 }
 
 }  // namespace
@@ -264,14 +276,16 @@ Reference read_reference(const std::string& path) {
   if (const toml::table* cases = file["case"].as_table())
     for (const auto& [name, table] : *cases)
       if (table.is_table()) reference.cases.push_back(read_case(reader, std::string(name.str()), *table.as_table()));
+  reference.measures = measures_of(path, reference.study);
   std::set<std::string> ids;
   if (const toml::array* rows = file["row"].as_array())
     for (const toml::node& node : *rows) {
       if (!node.is_table()) continue;
       reference.rows.push_back(read_row(reader, *node.as_table()));
-      const ComparisonRow& row = reference.rows.back();
+      ComparisonRow& row = reference.rows.back();
       if (!ids.insert(row.id).second) reader.fault(node, "id", "\"" + row.id + "\" stands twice");
-      check_measure(reader, node, row);
+      row.line = static_cast<int>(node.source().begin.line);
+      check_measure(reader, node, !reference.measures.empty(), row);
       const ReferenceCase* c = reference.find_case(row.case_name);
       if (!c) reader.fault(node, "case", "there is no [case." + row.case_name + "]");
       for (const std::string& label : row.variants)

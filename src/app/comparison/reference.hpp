@@ -3,6 +3,7 @@
 /// and criterion before anything is compared with it.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -42,12 +43,14 @@ struct Reference {
   QuickStudy quick = {};
   std::vector<ReferenceCase> cases = {};
   std::vector<ComparisonRow> rows = {};
+  std::filesystem::path measures = {};  ///< folder of the study's measures.py, empty if it has none
 
   /// \returns null if there is none
   const ReferenceCase* find_case(const std::string& name) const;
 };
 
-/// \throws FileError if it cannot be read; \throws InputError with every problem
+/// Rows of quantities that the program does not know are left to measures.py beside the file, or in the study's folder
+/// in validation/, if there is one. \throws FileError if it cannot be read; \throws InputError with every problem
 Reference read_reference(const std::string& path);
 
 }  // namespace talus::app

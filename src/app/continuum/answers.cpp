@@ -15,9 +15,9 @@
 #include "app/continuum/engineering_units.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
+#include "models/continuum/boundary/vessel_outlets.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "models/continuum/state.hpp"
-#include "models/continuum/time_scale.hpp"
-#include "models/continuum/vessel_outlets.hpp"
 
 namespace talus::app {
 

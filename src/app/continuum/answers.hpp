@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "numerics/named_value.hpp"
 
 namespace talus::app {

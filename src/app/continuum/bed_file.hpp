@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "models/continuum/bed.hpp"
+#include "models/continuum/setup/bed.hpp"
 
 namespace talus::app {
 

@@ -9,7 +9,7 @@
 
 #include "app/case/scene.hpp"
 #include "io/figure/figure.hpp"
-#include "models/continuum/bed_report.hpp"
+#include "models/continuum/setup/bed_report.hpp"
 #include "numerics/surface/section.hpp"
 
 namespace talus::app {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 
 namespace talus::app {
 

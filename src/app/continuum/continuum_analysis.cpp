@@ -18,8 +18,7 @@
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
-#include "models/continuum/time_scale.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/surface/section.hpp"
@@ -32,12 +31,6 @@ namespace {
 std::optional<std::size_t> earlier(const std::vector<double>& time, std::size_t n, double before) {
   if (n == 0) return std::nullopt;
   return nearest_point(std::span(time).first(n), time[n] - before);
-}
-
-/// The snapshot of the air taken with one of the particles.
-std::filesystem::path air_beside(const std::filesystem::path& particles) {
-  std::string name = particles.filename();
-  return particles.parent_path() / name.replace(0, name.find('_'), "air");
 }
 
 /// Reads snapshots when they are asked for; one that is in use is not read again.
@@ -57,11 +50,6 @@ class Reader {
       }
       return before ? &kept->earlier : nullptr;
     };
-    kept->snapshot.air = [this, kept, n]() -> const GridSnapshot* {
-      if (const auto path = air_beside(paths_[n]); !kept->air && std::filesystem::exists(path))
-        kept->air = read_grid(path);
-      return kept->air ? &*kept->air : nullptr;
-    };
     return {loaded, &loaded->snapshot};
   }
 
@@ -71,7 +59,6 @@ class Reader {
         : now(std::move(read)), snapshot(setting, now->view(), gate_time) {}
     std::shared_ptr<const PointSet> now, before;
     Snapshot earlier;
-    std::optional<GridSnapshot> air;
     HopperSnapshot snapshot;
   };
 

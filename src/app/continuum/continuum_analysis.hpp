@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "numerics/named_value.hpp"
 
 namespace talus::app {

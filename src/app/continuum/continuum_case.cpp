@@ -25,12 +25,12 @@
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/stl.hpp"
-#include "models/continuum/filling.hpp"
-#include "models/continuum/forecast.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
 #include "models/continuum/regime.hpp"
-#include "models/continuum/renamed_keys.hpp"
+#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/forecast.hpp"
+#include "models/continuum/setup/renamed_keys.hpp"
 
 namespace talus::app {
 

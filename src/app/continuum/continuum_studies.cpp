@@ -1,35 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_studies.hpp"
 
-#include <stdexcept>
-
 #include "app/continuum/continuum_case.hpp"
-#include "io/run_folder.hpp"
-#include "io/summary.hpp"
 
 namespace talus::app {
 
-namespace {
-
-HopperRun hopper_run(const std::filesystem::path& folder, const CaseFile& file, ReadRuns& runs) {
-  HopperRun run = hopper_run_of(file, folder, runs);
-  run.wall_seconds = read_summary(RunFolder(folder).summary()).wall_seconds;
-  return run;
-}
-
-/// Nothing is random in such a run.
-HopperRun only_one(std::span<const HopperRun> runs) {
-  if (runs.size() != 1) throw std::invalid_argument("runs of a hopper have no mean");
-  return runs.front();
-}
-
-}  // namespace
-
 StudiedRuns study_hoppers(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
   const auto read = [&](const std::filesystem::path& folder, const CaseFile& file) {
-    return hopper_run(folder, file, runs);
+    return hopper_run_of(file, folder, runs);
   };
-  return studied<HopperRun>(found, {hopper_measures(), hopper_pair_measures(), only_one}, read);
+  return studied<HopperRun>(found, hopper_measures(), read);
 }
 
 }  // namespace talus::app

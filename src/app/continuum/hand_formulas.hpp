@@ -3,8 +3,8 @@
 #pragma once
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/parameters.hpp"
-#include "models/continuum/vessel_outlets.hpp"
+#include "models/continuum/boundary/vessel_outlets.hpp"
+#include "models/continuum/setup/parameters.hpp"
 
 namespace talus::app {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "analysis/particle_field.hpp"
-#include "models/continuum/time_scale.hpp"
-#include "models/continuum/vessel_outlets.hpp"
+#include "models/continuum/boundary/vessel_outlets.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 
 namespace talus::app {
 

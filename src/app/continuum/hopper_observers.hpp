@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "numerics/named_value.hpp"
 #include "numerics/snapshot.hpp"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/materials/materials.hpp"
-#include "models/continuum/layout.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 
@@ -34,7 +34,7 @@ Shortening softer_grains(double modulus) {
   return {
       .alternatives = {{fmt::format("law.critical-state.bulk_modulus={:.4g} MPa", 1e-6 * modulus),
                         fmt::format("law.critical-state.shear_modulus={:.4g} MPa", 1e-6 * shear_over_bulk * modulus)}},
-      .text = "grains as soft as discharge and loads allow (decision 23)"};
+      .text = "grains as soft as discharge and loads allow (docs/design/time-steps.md)"};
 }
 
 Shortening larger_particles(const continuum::Parameters& p) {

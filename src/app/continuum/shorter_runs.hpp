@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/case/prepared_case.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 
 namespace talus::app {
 

@@ -15,9 +15,9 @@
 #include "app/continuum/hand_formulas.hpp"
 #include "io/figure/figure.hpp"
 #include "io/series.hpp"
-#include "models/continuum/layout.hpp"
+#include "models/continuum/boundary/vessel_loads.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/state.hpp"
-#include "models/continuum/vessel_loads.hpp"
 
 namespace talus::app {
 
@@ -32,7 +32,7 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   const std::vector<BandOfWall>& bands = run.setting.bands;
   if (bands.empty()) return;
   const Window flow = hopper::while_it_flows(run);
-  const double ratio = hopper::wall_pressure_ratio(run, {}, {}), top = hopper::settled_top(run);
+  const double ratio = hopper::wall_pressure_ratio(run, {}), top = hopper::settled_top(run);
   std::vector<std::vector<double>> rows;
   std::vector<SeriesColumn> columns = {{"time", "s"}};
   std::vector<Curve> curves;

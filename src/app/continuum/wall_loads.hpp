@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 
 namespace talus::app {
 
-/// The bands of a vessel's walls, as the series names them (models/continuum/vessel_loads.hpp).
+/// The bands of a vessel's walls, as the series names them (models/continuum/boundary/vessel_loads.hpp).
 std::vector<BandOfWall> bands_of(const continuum::Parameters& parameters);
 
 /// Writes analysis/wall_loads.csv (a row per band: patch, from 1, heights, area, BandLoad, by hand) and

@@ -13,7 +13,7 @@
 
 #include "io/convert_value.hpp"
 #include "models/continuum/population.hpp"
-#include "models/continuum/time_scale.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "physics/granular/critical_state.hpp"
 
 namespace talus::app {

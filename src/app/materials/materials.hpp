@@ -17,7 +17,7 @@
 #include "base/error.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "physics/granular/friction_angle.hpp"
 
 namespace talus {
@@ -58,7 +58,7 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 template <class P>
 std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
 
-/// Pa; discharge, surfaces and heaps are then those of stiff grains (docs/decisions/0023-softer-grains.md): a thousand
+/// Pa; discharge, surfaces and heaps are then those of stiff grains (docs/design/time-steps.md): a thousand
 /// times the weight over its area of as deep a bed as the grains at the start and those that come in can make, and so
 /// much that what falls from where it begins to the lowest place has a Mach number of 0.1 at most. \param end of the
 /// run, s

@@ -13,8 +13,7 @@ inline constexpr const char* symbols_of_hopper_measures =
     "mass that passes the outlet's plane per time, of particles smoothed along z by the kernel. *While it\n"
     "flows*: from when a tenth of the mass that passes the outlet in total has passed until half of it\n"
     "has, or half-way between the two; where nothing passes, half of the run. Packing is the kernel sum,\n"
-    "including images behind the walls; a value at a place is interpolated by the kernel to the centre of\n"
-    "the cell, three quarters of a spacing wide, that contains it.";
+    "including images behind the walls.";
 
 inline constexpr const char* symbols_of_avalanche_measures =
     "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "app/new/kind.hpp"
-#include "models/continuum/material_names.hpp"
+#include "models/continuum/setup/material_names.hpp"
 
 namespace talus::app {
 
@@ -107,7 +107,7 @@ std::string grains(const Answers& a) {
 /// A friction of slow flow; fast flow has half as much again.
 std::string frictions(double slow_friction) {
   return fmt::format(
-      "# Fast flow has half as much friction again as slow flow (docs/critical-state.md).\n"
+      "# Fast flow has half as much friction again as slow flow (docs/theory/critical-state.md).\n"
       "[law.critical-state]\nfriction = {:.5g}\nfast_friction = {:.5g}\n\n",
       slow_friction, std::min(2.0, 1.52 * slow_friction));
 }

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "analysis/free_surface.hpp"
-#include "analysis/heap_slopes.hpp"
 #include "analysis/statistics.hpp"
 #include "app/points/measures.hpp"
 

@@ -204,7 +204,7 @@ std::vector<std::string> published_comparisons(const std::filesystem::path& fold
     const Reference reference = read_reference((*project / file).string());
     const std::vector<FoundEnsemble> found = ensembles_of(folder, reference);
     if (found.empty()) continue;
-    const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found, runs), Faults::note);
+    const std::vector<EvaluatedRow> rows = evaluate(reference, found, read_studied_runs(found, runs), Faults::note);
     comparisons.push_back(to_json(reference, rows, found, folder));
   }
   return comparisons;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "base/program.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 
@@ -22,12 +21,6 @@ bool succeeds(std::vector<std::string> arguments, const std::filesystem::path& o
 }
 
 }  // namespace
-
-std::optional<std::filesystem::path> find_python() {
-  for (const std::filesystem::path& python : find_programs("python3"))
-    if (succeeds({python.string(), "-c", "import h5py, matplotlib"}, "/dev/null")) return python;
-  return std::nullopt;
-}
 
 bool run_figures_script(const std::filesystem::path& python, const std::filesystem::path& script,
                         const std::filesystem::path& folder) {

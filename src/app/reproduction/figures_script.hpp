@@ -4,12 +4,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 namespace talus::app {
-
-/// The first python3 of the PATH that has h5py and matplotlib; nothing if none has.
-std::optional<std::filesystem::path> find_python();
 
 /// Runs the script on a reproduction's folder, which holds comparison.json: it leaves figures/ and the page there, and
 /// what it says in figures.txt. \returns whether it got through \throws FileError

@@ -7,6 +7,7 @@
 
 #include "app/comparison/evaluation.hpp"
 #include "app/comparison/project.hpp"
+#include "app/comparison/python.hpp"
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/report_entries.hpp"
 #include "app/ensemble/schedule.hpp"
@@ -97,7 +98,7 @@ StudyRuns all_runs(const Reference& reference, const StudyRequest& request, cons
 /// The figures and the page, or a word on what they need. \returns false if the script failed
 bool draw_page(const std::filesystem::path& project, const StudyRequest& request) {
   const std::filesystem::path script = project / "validation" / request.study / "figures.py";
-  const std::optional<std::filesystem::path> python = find_python();
+  const std::optional<std::filesystem::path> python = find_python("h5py, matplotlib");
   if (!python) {
     fmt::print(
         "No figures: they take python3 with h5py and matplotlib (Debian: python3-h5py, python3-matplotlib).\n"
@@ -137,7 +138,8 @@ ExitStatus reproduce(const StudyRequest& request) {
 
   const std::vector<FoundEnsemble> found = find_ensembles(request.folder, reference);
   ReadRuns read;
-  const std::vector<EvaluatedRow> rows = evaluate(reference, read_studied_runs(found, read));
+  const std::vector<EvaluatedRow> rows =
+      evaluate(reference, found, read_studied_runs(found, read), Faults::refuse, request.jobs);
   const std::string text = to_text(rows) + counts_text(rows) + "\n";
   write_atomically(request.folder / "comparison.txt", text);
   const std::string json = to_json(reference, rows, found, request.folder);

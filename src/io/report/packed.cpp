@@ -18,7 +18,7 @@ namespace talus {
 namespace {
 
 /// A zlib stream that knows runs of the same byte but no other repetition: changes of fields have none, and a search
-/// for some takes six times as long for 2 % of the size (decision 0026).
+/// for some takes six times as long for 2 % of the size (docs/design/report.md).
 std::string compressed(std::string_view bytes) {
   constexpr int window_bits = 15, memory = 9;
   z_stream stream{};

@@ -19,7 +19,7 @@ struct Forecast {
 /// contacts that form within a step. A cloud that gravity presses against a slope first collapses onto it, in steps
 /// limited by the growth of overlaps; its contacts relax faster, the more so the more grains interact: the layer on the
 /// slope moves collectively, with a mobility that grows with its extent (a sum of 1/r over it). Measured:
-/// docs/decisions/0015-forecast.md.
+/// docs/design/forecast.md.
 /// \param end s; \param grains how many
 Forecast forecast(const Parameters& parameters, double end, double grains);
 

@@ -8,7 +8,8 @@ namespace talus::cloud {
 namespace {
 
 // The spectral sum is cheaper from about 1000 grains on in a plane and 2500 in space; smaller clouds, the papers' 2000
-// and the 10,000 of cases/avalanche-3d.toml among them, keep the sum that errs by rounding alone. Decisions 0024, 0031.
+// and the 10,000 of cases/avalanche-3d.toml among them, keep the sum that errs by rounding alone
+// (docs/design/cloud-sums.md).
 constexpr double least_in_plane = 5000, least_in_space = 20000;
 
 }  // namespace

@@ -7,8 +7,8 @@
 /// every place of the spheres and all forces,
 ///     |error of velocity i| <= k/(8 pi mu) sum over j of |F_j| / max(r_ij, r_c),   j = i included,
 /// with k the `pair_error` of the accuracy and r_c the cut-off, and the rounding of near pairs, `pair_rounding`. Errors
-/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums. Decisions
-/// 0024 (in a plane) and 0031 (in space).
+/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums:
+/// docs/design/cloud-sums.md.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/parallel.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/geometry/domain.hpp"
 

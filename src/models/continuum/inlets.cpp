@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "models/continuum/parameters.hpp"
 #include "models/continuum/phase.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
 

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "models/continuum/air_totals.hpp"
+#include "models/continuum/gas/air_totals.hpp"
 #include "models/continuum/population.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"
-#include "models/continuum/time_scale.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "numerics/snapshot_of.hpp"
 #include "numerics/whole.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "models/continuum/initial.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/initial.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "models/continuum/step.hpp"
 #include "models/model.hpp"

@@ -14,12 +14,12 @@ bool is_loose_where_free(const Parameters& parameters);
 
 /// sph.density_relaxation where it holds, else 0: what a shear strain of 1 takes back of the difference between the
 /// kernel's sum and the density. Eq. 16 is the rate of the kernel's sum for a constant smoothing length and between
-/// mirrors; what else there is adds up with the strain (docs/decisions/0043-the-density-is-that-of-the-places.md).
+/// mirrors; what else there is adds up with the strain (docs/design/stabilisation.md).
 double density_relaxation(const Parameters& parameters);
 
 /// Whether they are drawn by the shear that lasts (State::lasting_rate) and not by each step's. Particles beside a
 /// round wall of a vessel jitter: a shear to and fro, by which a density loses nothing that would have to be taken
-/// back, and beside walls the kernel's sum is some per cent off (docs/decisions/0047-a-jitter-draws-no-density.md).
+/// back, and beside walls the kernel's sum is some per cent off (docs/design/stabilisation.md).
 bool draws_by_lasting_rate(const Parameters& parameters);
 
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a

@@ -3,7 +3,7 @@
 /// is resumed goes on with the same.
 #pragma once
 
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "models/continuum/workspace.hpp"
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/continuum/bed_report.hpp"
-#include "models/continuum/forecast.hpp"
+#include "models/continuum/boundary/vessel_outlets.hpp"
+#include "models/continuum/boundary/vessel_rims.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/vessel_outlets.hpp"
-#include "models/continuum/vessel_rims.hpp"
+#include "models/continuum/setup/bed_report.hpp"
+#include "models/continuum/setup/forecast.hpp"
 
 namespace talus::continuum {
 

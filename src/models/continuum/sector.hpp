@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/snapshot.hpp"

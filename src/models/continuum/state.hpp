@@ -9,7 +9,7 @@
 
 #include "base/vector.hpp"
 #include "models/air/state.hpp"
-#include "models/continuum/vessel_loads.hpp"
+#include "models/continuum/boundary/vessel_loads.hpp"
 #include "numerics/field.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/material_point.hpp"

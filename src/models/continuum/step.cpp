@@ -7,14 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "models/continuum/boundary/vessel_contact.hpp"
+#include "models/continuum/boundary/walls.hpp"
 #include "models/continuum/check_state.hpp"
-#include "models/continuum/displacement.hpp"
-#include "models/continuum/loading.hpp"
+#include "models/continuum/pairs/displacement.hpp"
+#include "models/continuum/pairs/stress_regularisation.hpp"
 #include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
-#include "models/continuum/stress_regularisation.hpp"
-#include "models/continuum/vessel_contact.hpp"
-#include "models/continuum/walls.hpp"
+#include "models/continuum/setup/loading.hpp"
 #include "physics/sph/pair_terms.hpp"
 
 namespace talus::continuum {

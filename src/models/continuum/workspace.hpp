@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "models/continuum/atmosphere.hpp"
+#include "models/continuum/boundary/vessel_loads.hpp"
+#include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "models/continuum/state.hpp"
-#include "models/continuum/sweep.hpp"
-#include "models/continuum/time_scale.hpp"
-#include "models/continuum/vessel_loads.hpp"
 
 namespace talus::continuum {
 

@@ -5,7 +5,7 @@
 /// (images, is_near), which places see each other (sees, blocks, end_of_line), where a particle goes that would pass a
 /// boundary (bounce), which boundaries an image loads (loads), and of each boundary its number, its normal, whether a
 /// place is beside it and on which side. Walls of any shape have no images: they are a Surface, and act by integrals of
-/// the kernel (models/continuum/vessel_walls.hpp).
+/// the kernel (models/continuum/boundary/vessel_walls.hpp).
 ///
 /// Images. A face that mirrors makes of each particle near it an image behind it; two parallel faces make images of
 /// images without end, of which all within reach are listed: in a box thinner than the reach a particle meets several

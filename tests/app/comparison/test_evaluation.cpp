@@ -44,12 +44,13 @@ TEST(Evaluation, ARowThatFailsIsRefusedOrNotedAndTheOthersAreEvaluated) {
   reference.path = "reference.toml";
   reference.rows = {row({"a"}), row({"a", "b"}), row({"a"})};
   reference.rows[1].id = "fails";
-  const StudiedRuns runs = [](const ComparisonRow& asked) -> std::vector<std::optional<double>> {
-    if (asked.id == "fails") throw std::invalid_argument("a spectrum needs four data");
-    return {1.5};
-  };
-  EXPECT_THROW(evaluate(reference, runs), InputError);
-  const std::vector<EvaluatedRow> rows = evaluate(reference, runs, Faults::note);
+  const StudiedRuns runs{[](const ComparisonRow& asked) -> std::vector<std::optional<double>> {
+                           if (asked.id == "fails") throw std::invalid_argument("a spectrum needs four data");
+                           return {1.5};
+                         },
+                         {}};
+  EXPECT_THROW(evaluate(reference, {}, runs), InputError);
+  const std::vector<EvaluatedRow> rows = evaluate(reference, {}, runs, Faults::note);
   ASSERT_EQ(rows.size(), 3);
   EXPECT_EQ(rows[0].verdict, Verdict::met);
   EXPECT_EQ(rows[1].verdict, Verdict::not_evaluated);

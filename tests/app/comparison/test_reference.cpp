@@ -10,6 +10,7 @@
 
 #include "app/models/models.hpp"
 #include "base/error.hpp"
+#include "io/atomic_file.hpp"
 #include "io/case_file.hpp"
 #include "io/scratch_folder.hpp"
 
@@ -105,21 +106,24 @@ TEST(Reference, EveryFaultIsReportedAtOnce) {
                     HasSubstr("sorce"), HasSubstr("source")));
 }
 
-TEST(Reference, ARowBringsThePlaceThatItsMeasureNeeds) {
+TEST(Reference, APlaceIsOfTheMeasuresOfAStudy) {
   const auto with = [](const std::string& quantity, const std::string& place) {
     std::string text = std::string(head) + row;
     text.replace(text.find("packing_max"), 11, quantity);
-    return place.empty() ? text : text + "place = { " + place + " }\n";
+    return text + "place = { " + place + " }\n";
   };
-  const Reference reference = read(with("packing_max_outside_impact", "distance = \"20 mm\""));
-  EXPECT_EQ(reference.rows.at(0).place, (Place{{"distance", 0.02}}));
+  const ScratchFolder folder;
+  write_atomically(folder / "measures.py", "");
+  write_atomically(folder / "reference.toml", with("packing_at_a_height", "height = \"20 mm\""));
+  const ComparisonRow row_of_study = read_reference((folder / "reference.toml").string()).rows.at(0);
+  EXPECT_TRUE(row_of_study.of_study);
+  EXPECT_EQ(row_of_study.place, (Place{{"height", 0.02}}));
   const auto fault = [&](const std::string& quantity, const std::string& place) {
     return message_of<InputError>([&] { read(with(quantity, place)); });
   };
-  EXPECT_THAT(fault("packing_max_outside_impact", ""), HasSubstr("needs distance"));
-  EXPECT_THAT(fault("packing_max_outside_impact", "distance = 20"), HasSubstr("is not a length (unit missing?)"));
+  EXPECT_THAT(fault("packing_max", "distance = 20"), HasSubstr("is not a length (unit missing?)"));
   EXPECT_THAT(fault("packing_max", "distance = \"20 mm\""), HasSubstr("takes no distance"));
-  EXPECT_THAT(fault("mass", ""), HasSubstr("kg")) << "another unit than the row's";
+  EXPECT_THAT(fault("mass", "distance = \"20 mm\""), HasSubstr("kg")) << "another unit than the row's";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "models/continuum/parameters.hpp"
+#include "models/continuum/setup/parameters.hpp"
 
 namespace talus::app {
 

@@ -9,8 +9,8 @@
 #include "../../models/continuum/cases.hpp"
 #include "../../models/continuum/vessel_parts.hpp"
 #include "analysis/particle_field.hpp"
-#include "models/continuum/layout.hpp"
-#include "models/continuum/time_scale.hpp"
+#include "models/continuum/setup/layout.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "run/any_model.hpp"
 
 namespace talus::app {

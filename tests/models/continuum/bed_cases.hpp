@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "models/continuum/bed_report.hpp"
-#include "vessel_parts.hpp"
+#include "models/continuum/setup/bed_report.hpp"
+#include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cases.hpp"
+#include "models/continuum/cases.hpp"
 
 namespace talus::continuum {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "vessel_parts.hpp"
+#include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {
 

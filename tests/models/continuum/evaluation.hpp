@@ -10,7 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "models/continuum/cases.hpp"
-#include "models/continuum/sweep.hpp"
+#include "models/continuum/pairs/sweep.hpp"
 
 namespace talus::continuum {
 

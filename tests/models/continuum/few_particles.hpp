@@ -6,7 +6,7 @@
 #include <span>
 #include <type_traits>
 
-#include "cases.hpp"
+#include "models/continuum/cases.hpp"
 
 namespace talus::continuum {
 

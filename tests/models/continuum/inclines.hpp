@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "drawn_parts.hpp"
-#include "few_particles.hpp"
+#include "models/continuum/drawn_parts.hpp"
+#include "models/continuum/few_particles.hpp"
+#include "models/continuum/vessel_parts.hpp"
 #include "physics/sph/wall_contact.hpp"
-#include "vessel_parts.hpp"
 
 namespace talus::continuum {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Densities where a bed faces nothing (docs/decisions/0013-density-at-a-free-surface.md).
+/// Densities where a bed faces nothing (docs/design/stabilisation.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "cases.hpp"
+#include "models/continuum/cases.hpp"
 #include "models/continuum/step.hpp"
 
 namespace talus::continuum {

@@ -2,11 +2,11 @@
 /// The shear by which densities in a vessel are drawn to the kernel's sum.
 #include <gtest/gtest.h>
 
-#include "cases.hpp"
-#include "models/continuum/initial.hpp"
+#include "models/continuum/cases.hpp"
 #include "models/continuum/phase.hpp"
+#include "models/continuum/setup/initial.hpp"
 #include "models/continuum/step.hpp"
-#include "vessel_parts.hpp"
+#include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {
 namespace {

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <set>
 
-#include "cases.hpp"
-#include "models/continuum/filling.hpp"
-#include "vessel_parts.hpp"
+#include "models/continuum/cases.hpp"
+#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {
 namespace {

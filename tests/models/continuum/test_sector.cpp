@@ -12,12 +12,12 @@
 #include <numbers>
 #include <set>
 
-#include "cases.hpp"
-#include "models/continuum/filling.hpp"
+#include "models/continuum/cases.hpp"
 #include "models/continuum/regime.hpp"
+#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/vessel_parts.hpp"
+#include "models/continuum/whole_circle.hpp"
 #include "numerics/whole.hpp"
-#include "vessel_parts.hpp"
-#include "whole_circle.hpp"
 
 namespace talus::continuum {
 namespace {

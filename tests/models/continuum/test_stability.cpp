@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "cases.hpp"
+#include "models/continuum/cases.hpp"
 
 namespace talus::continuum {
 namespace {

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "cases.hpp"
+#include "models/continuum/cases.hpp"
 
 namespace talus::continuum {
 namespace {

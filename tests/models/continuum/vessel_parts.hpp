@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "cases.hpp"
-#include "models/continuum/vessel.hpp"
+#include "models/continuum/cases.hpp"
+#include "models/continuum/setup/vessel.hpp"
 
 namespace talus::continuum {
 

@@ -6,9 +6,9 @@
 
 #include "base/random.hpp"
 #include "models/continuum/cases.hpp"
+#include "models/continuum/pairs/sweep.hpp"
 #include "models/continuum/sector.hpp"
-#include "models/continuum/sweep.hpp"
-#include "models/continuum/vessel.hpp"
+#include "models/continuum/setup/vessel.hpp"
 #include "numerics/whole.hpp"
 
 namespace talus::continuum {

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/boundary/vessel_loads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "models/continuum/setup/layout.hpp"
+#include "models/continuum/setup/vessel.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double size_of_field = 2, height_of_band = 4;  // spacings
+constexpr long most_bands = 12;
+constexpr double level = 0.999;
+
+/// Unit vector down along a wall; none on a level one.
+Vector3 downwards(const Vector3& normal) {
+  const Vector3 down = Vector3{0, 0, -1} + normal.z * normal;
+  const double size = norm(down);
+  return size > 0 ? (1 / size) * down : Vector3{};
+}
+
+Vector3 along(const Vector3& traction, const Vector3& normal) {
+  return traction - dot(traction, normal) * normal;
+}
+
+bool is_inside(const Parameters& p, const Vector3& x) {
+  return x.x >= 0 && x.x <= p.box.width && x.y >= 0 && x.y <= p.box.depth;
+}
+
+}  // namespace
+
+SurfaceFields load_fields(const Parameters& p, const Surface& surface) {
+  return {surface, size_of_field * p.bed.spacing, sector_of(p)};
+}
+
+WallLoads no_loads(std::size_t fields) {
+  const std::vector<double> none(fields, 0.0);
+  const std::vector<Vector3> nothing(fields);
+  return {.push = none,
+          .received = nothing,
+          .window_push = none,
+          .gate_push = none,
+          .window_received = nothing,
+          .gate_received = nothing,
+          .pressure = none,
+          .rest_pressure = none,
+          .traction = nothing,
+          .rest_traction = nothing,
+          .largest = none,
+          .largest_time = none,
+          .window_start = 0};
+}
+
+void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads) {
+  loads.push[load.field] += load.push;
+  loads.received[load.field] += load.received;
+  const std::optional<Sector>& sector = fields.sector();
+  for (int k = 1; sector && k < sector->copies(); ++k) {
+    const std::uint32_t copy = fields.in_copy(load.field, k);
+    loads.push[copy] += load.push;
+    loads.received[copy] += sector->turn(k) * load.received;
+  }
+}
+
+void close_window(const SurfaceFields& fields, double time, double length, WallLoads& w) {
+  const double duration = time - w.window_start;
+  if (duration < length) return;
+  for (std::size_t n = 0; n < fields.count(); ++n) {
+    const double over = 1 / (duration * fields.all()[n].area);
+    w.pressure[n] = over * (w.push[n] - w.window_push[n]);
+    w.traction[n] = over * (w.received[n] - w.window_received[n]);
+    if (w.pressure[n] > w.largest[n]) {
+      w.largest[n] = w.pressure[n];
+      w.largest_time[n] = time - 0.5 * duration;
+    }
+  }
+  w.window_push = w.push;
+  w.window_received = w.received;
+  w.window_start = time;
+}
+
+void begin_flow(double time, WallLoads& w) {
+  w.rest_pressure = w.pressure;
+  w.rest_traction = w.traction;
+  w.gate_push = w.window_push = w.push;
+  w.gate_received = w.window_received = w.received;
+  w.window_start = time;
+  std::fill(w.largest.begin(), w.largest.end(), 0.0);
+  std::fill(w.largest_time.begin(), w.largest_time.end(), 0.0);
+}
+
+bool LoadBand::is_level() const {
+  return sine > level;
+}
+
+std::vector<LoadBand> load_bands(const Parameters& p, const SurfaceFields& fields) {
+  struct Heights {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+  };
+  std::map<std::uint32_t, Heights> extent;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    for (const Triangle& t : triangles_of(p, n))
+      for (const Vector3& x : t.corner) {
+        Heights& e = extent[static_cast<std::uint32_t>(n)];
+        e.low = std::min(e.low, x.z), e.high = std::max(e.high, x.z);
+      }
+  std::vector<LoadBand> bands;
+  std::vector<std::size_t> first;
+  for (const auto& [patch, heights] : extent) {
+    const double low = heights.low, extent_up = heights.high - low;
+    const long count =
+        std::clamp(std::lround(std::floor(extent_up / (height_of_band * p.bed.spacing))), 1L, most_bands);
+    first.push_back(bands.size());
+    for (long k = 0; k < count; ++k) {
+      const auto height = [&](long border) {
+        return low + extent_up * static_cast<double>(border) / static_cast<double>(count);
+      };
+      const std::string name = name_of(p, patch);
+      bands.push_back({.name = count == 1 ? name : fmt::format("{}.{}", name, k + 1),
+                       .patch = patch,
+                       .low = height(k),
+                       .high = height(k + 1),
+                       .fields = {}});
+    }
+  }
+  first.push_back(bands.size());
+  for (std::uint32_t n = 0; n < fields.count(); ++n) {
+    const SurfacePoint& field = fields.all()[n];
+    const std::size_t begin = first[field.patch], count = first[field.patch + 1] - begin;
+    const Heights& e = extent[field.patch];
+    const double place = e.high > e.low ? (field.place.z - e.low) / (e.high - e.low) : 0;
+    const auto k = std::min(count - 1, static_cast<std::size_t>(std::max(0.0, place * static_cast<double>(count))));
+    LoadBand& band = bands[begin + k];
+    band.fields.push_back(n);
+    if (is_inside(p, field.place)) band.area += field.area;
+    band.sine += field.area * std::abs(field.normal.z);
+  }
+  for (LoadBand& band : bands) {
+    double area = 0;
+    for (const std::uint32_t n : band.fields) area += fields.all()[n].area;
+    if (area > 0) band.sine /= area;
+  }
+  return bands;
+}
+
+std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const SurfaceFields& fields,
+                                  const WallLoads& loads) {
+  std::vector<NamedValue> values;
+  for (const LoadBand& band : bands) {
+    double push = 0, shear = 0;
+    for (const std::uint32_t n : band.fields) {
+      push += loads.push[n];
+      shear += dot(loads.received[n], downwards(fields.all()[n].normal));
+    }
+    values.push_back({"normal_impulse_" + band.name, "N s", push});
+    if (!band.is_level()) values.push_back({"shear_impulse_" + band.name, "N s", shear});
+  }
+  return values;
+}
+
+SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, const WallLoads& w, double time,
+                         double gate_time) {
+  SurfaceSnapshot snapshot{.time = time, .points = mesh.points, .triangles = mesh.corners, .columns = {}};
+  const auto add = [&](const char* name, const char* unit, auto&& value_of) {
+    std::vector<std::decay_t<decltype(value_of(std::size_t{0}))>> values;
+    values.reserve(mesh.field.size());
+    for (const std::uint32_t n : mesh.field) values.push_back(value_of(n));
+    snapshot.columns.push_back({name, unit, std::move(values)});
+  };
+  const double flow = gate_time >= 0 ? time - gate_time : 0;
+  const auto normal = [&](std::size_t n) { return fields.all()[n].normal; };
+  const auto since_gate = [&](std::size_t n) { return flow > 0 ? 1 / (flow * fields.all()[n].area) : 0.0; };
+  add("pressure", "Pa", [&](std::size_t n) { return w.pressure[n]; });
+  add("shear", "Pa", [&](std::size_t n) { return along(w.traction[n], normal(n)); });
+  add("pressure_at_rest", "Pa", [&](std::size_t n) { return w.rest_pressure[n]; });
+  add("shear_at_rest", "Pa", [&](std::size_t n) { return along(w.rest_traction[n], normal(n)); });
+  add("pressure_in_flow", "Pa", [&](std::size_t n) { return since_gate(n) * (w.push[n] - w.gate_push[n]); });
+  add("shear_in_flow", "Pa",
+      [&](std::size_t n) { return along(since_gate(n) * (w.received[n] - w.gate_received[n]), normal(n)); });
+  add("pressure_largest", "Pa", [&](std::size_t n) { return w.largest[n]; });
+  add("time_of_largest", "s", [&](std::size_t n) { return w.largest_time[n]; });
+  add("patch", "1", [&](std::size_t n) { return static_cast<double>(fields.all()[n].patch); });
+  return snapshot;
+}
+
+}  // namespace talus::continuum

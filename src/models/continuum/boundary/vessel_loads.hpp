@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the walls of a vessel bear, by field of their surface and by band of their height: sums of what the steps gave
+/// them, means over windows of time, and the largest of these.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/vector.hpp"
+#include "models/continuum/setup/parameters.hpp"
+#include "numerics/named_value.hpp"
+#include "numerics/surface/surface_fields.hpp"
+#include "numerics/surface_snapshot.hpp"
+
+namespace talus::continuum {
+
+/// The kept columns, one entry per field.
+struct WallLoads {
+  // What the field received since the start, N s: pressing on it, whichever side, and altogether with friction.
+  std::vector<double> push;
+  std::vector<Vector3> received;
+  // The same at the start of the present window, and at the opening of the gate.
+  std::vector<double> window_push, gate_push;
+  std::vector<Vector3> window_received, gate_received;
+  // Means over the last whole window, and over the last one before the gate opened, Pa.
+  std::vector<double> pressure, rest_pressure;
+  std::vector<Vector3> traction, rest_traction;
+  // The largest mean of a window since the gate opened (until then: since the start), Pa, and the window's middle, s.
+  std::vector<double> largest, largest_time;
+  double window_start = 0;  ///< s
+};
+
+/// A force that a field received.
+struct LoadOfField {
+  std::uint32_t field;
+  double push;       ///< N s, >= 0
+  Vector3 received;  ///< N s
+};
+
+/// The fields of a vessel's walls: twice the spacing of the particles wide.
+SurfaceFields load_fields(const Parameters& parameters, const Surface& surface);
+
+/// Without load. \param fields their number
+WallLoads no_loads(std::size_t fields);
+
+/// To the field, and in a sector to what it is in all copies: the loads are those of the whole vessel.
+void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads);
+
+/// Closes the window if it is over. \param time at the end of a step, s \param length of a window, s: peak_time()
+void close_window(const SurfaceFields& fields, double time, double length, WallLoads& loads);
+
+/// Takes the last window for that at rest, and begins anew with the largest loads. \param time of the opening, s
+void begin_flow(double time, WallLoads& loads);
+
+/// A part of a patch between two heights.
+struct LoadBand {
+  std::string name;  ///< "cylinder.3": patch, and number from below, from 1; no name of a patch has a point
+  std::uint32_t patch = 0;
+  double low = 0, high = 0;  ///< heights, m
+  double area = 0;           ///< inside the box, m^2
+  double sine = 0;           ///< of the wall's angle with the vertical, a mean: 0 upright, 1 level
+  bool is_level() const;     ///< a floor or a lid: it has no line down
+  std::vector<std::uint32_t> fields;
+};
+
+/// The bands of all patches, each four spacings high at least, twelve of a patch at most; a level patch is one.
+std::vector<LoadBand> load_bands(const Parameters& parameters, const SurfaceFields& fields);
+
+/// What each band received since the start: "normal_impulse_NAME", pressing on it, and but for level ones
+/// "shear_impulse_NAME", along the wall downwards, N s.
+std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const SurfaceFields& fields,
+                                  const WallLoads& loads);
+
+/// The columns on the mesh: pressure and shear, means over the last whole window; pressure_at_rest, shear_at_rest;
+/// pressure_in_flow, shear_in_flow, means since the gate opened; pressure_largest and its time_of_largest.
+/// \param time, gate_time of the state, s
+SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, const WallLoads& loads, double time,
+                         double gate_time);
+
+}  // namespace talus::continuum

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/gas/atmosphere.hpp"
+
+#include <algorithm>
+
+#include "numerics/grid/loops.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double random_close_packing = 0.64;  // of spheres: Scott & Kilgour, J. Phys. D 2, 863 (1969)
+
+air::Parameters gas_of(const Parameters& p) {
+  air::Parameters gas = p.air.gas;
+  gas.grain_diameter = p.grains.diameter;
+  gas.grain_density = p.grains.density;
+  return gas;
+}
+
+}  // namespace
+
+Atmosphere::Atmosphere(const Parameters& p, const Domain& domain, const Surface& vessel)
+    : domain_(domain),
+      vessel_(vessel),
+      openings_(openings()),
+      grain_density_(p.grains.density),
+      most_solid_(std::max(random_close_packing, p.bed.packing)),
+      medium_(gas_of(p).medium()),
+      deposition_(air_grid(p), domain_, vessel_),
+      flow_(air_grid(p), gas_of(p), domain_.walls(), vessel_),
+      per_solid_volume_(air_grid(p).face_field()),
+      slip_square_(air_grid(p).cell_field()) {}
+
+int Atmosphere::openings() const {
+  int open = domain_.openings();
+  for (std::size_t n = 0; n < vessel_.patches(); ++n) open += vessel_.is_open(n);
+  return open;
+}
+
+void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
+  if (is_due(s)) move_air(team, dt, s);
+  --s.air.steps_left;
+  s.air.impulse += dt * s.air.force;
+}
+
+void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  AirAround& a = s.air;
+  if (openings_ != openings()) {
+    openings_ = openings();
+    flow_.set_walls(domain_.walls(), vessel_);
+  }
+  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
+    a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
+  });
+  deposit(team, smoothing_length, s);
+  for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
+    a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
+  });
+  longest_ = flow_.time_step(team, a.solids, a.flow);
+}
+
+void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
+  AirAround& a = s.air;
+  a.steps_left = static_cast<std::uint64_t>(longest_ / dt);
+  const double duration = static_cast<double>(a.steps_left) * dt;
+  try {
+    flow_.advance(team, duration, a.solids, a.flow, per_solid_volume_);
+    for (const auto& [cell, share] : overfull_)
+      for (CellField& component : per_solid_volume_) component[cell] *= share;
+  } catch (const NumericalError& error) {
+    NumericalError::Report report = error.report();
+    report.step = s.step, report.time = s.time;
+    throw NumericalError(report);
+  }
+  flow_.add_outflow(team, duration, a.flow, a.excess);
+  const double* pressure = a.flow.pressure.data();
+  a.swing_max =
+      std::max(a.swing_max, largest_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
+  received_.resize(s.position.size());
+  deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
+  for_each(team, received_.size(),
+           [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
+  a.force = s.mass * reduce(
+                         team, received_.size(), Vector3{}, [&](std::size_t i) { return a.acceleration[i]; },
+                         [](const Vector3& x, const Vector3& y) { return x + y; });
+  ++a.steps;
+  a.iterations = static_cast<std::uint64_t>(flow_.iterations());
+  measure_slip(team, s);
+}
+
+void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposition_.find_weights(team, s.position, smoothing_length);
+  deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+  if (!vessel_.is_empty()) leave_overfull(s.air.solids);
+}
+
+/// A cell whose centre is within the vessel has the grains of the cells next to it that the wall cuts, too. What is
+/// more than grains can fill stands beyond the wall: the air meets the rest, as fast, and what it exchanges with that
+/// goes to all of them.
+void Atmosphere::leave_overfull(air::Solids& solids) {
+  overfull_.clear();
+  for (std::size_t c = 0; c < solids.fraction.size(); ++c) {
+    double& fraction = solids.fraction[c];
+    if (!(fraction > most_solid_)) continue;
+    const double share = most_solid_ / fraction;
+    overfull_.push_back({c, share});
+    fraction = most_solid_;
+    for (CellField& component : solids.flux) component[c] *= share;
+  }
+}
+
+void Atmosphere::begin(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
+  deposit(team, smoothing_length, s);
+  flow_.begin(team, s.air.solids, s.air.flow);
+}
+
+/// The slip of each particle is the mean of its cells'.
+void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
+  const AirAround& a = s.air;
+  for_each_row(team, a.grid, a.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    auto& [x, y, z] = per_solid_volume_;
+    air::find_slip_of_row(end - begin, flow_.cells_from(begin, a.solids, a.flow.velocity), x.data() + begin,
+                          y.data() + begin, z.data() + begin, slip_square_.data() + begin);
+  });
+  const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
+  const double slip =
+      deposition_.largest_mean(team, per_solid_volume_, slip_square_, s.air.reynolds_max / reynolds_of_one);
+  s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds_of_one * slip);
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The air around the particles. It takes longer steps than they do: from the solid volume and flux of the particles at
+/// the start of its step it computes the impulse of drag and pressure on each particle, which is applied evenly over
+/// the particle steps of the same time. The momentum that the air loses is gained by the particles, to round-off.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "models/air/flow.hpp"
+#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/state.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "numerics/surface/surface.hpp"
+#include "physics/coupling/deposition.hpp"
+
+namespace talus::continuum {
+
+/// The cells of the air: air.cell, adjusted to whole numbers of cells along each side of the box; if it is left out,
+/// along z also to the plate, if that changes it by at most a tenth.
+Grid air_grid(const Parameters& parameters);
+
+/// Contradictions between the air's keys and the others; empty without air.
+std::vector<Problem> check_air(const Parameters& parameters);
+
+class Atmosphere {
+ public:
+  /// \param domain, vessel outlive the atmosphere; gates opened in them are open to the air from its next step on
+  Atmosphere(const Parameters& parameters, const Domain& domain, const Surface& vessel);
+
+  /// Air at rest around the particles of a new state.
+  void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
+
+  /// Whether the particles have reached the end of the step of the air.
+  bool is_due(const State& state) const { return state.air.steps_left == 0; }
+
+  /// If due: deposits the particles on the cells.
+  void take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
+
+  /// The longest step of the air with the particles last deposited, s.
+  double longest_step() const { return longest_; }
+
+  /// If due, advances the air by its next step: as many equal particle steps as fit within the longest step. Counts one
+  /// of them as taken. \param dt the particles' step, s, at most longest_step()
+  /// \throws NumericalError for a void fraction out of range, or a pressure that does not converge: cell and residual
+  void advance(ThreadTeam& team, double dt, State& state);
+
+  /// The condition that limits the last step of the air, and its cell.
+  NumericalError::Report step_limit(const State& state) const {
+    return flow_.step_limit(state.air.solids, state.air.flow);
+  }
+
+ private:
+  void move_air(ThreadTeam& team, double dt, State& state);
+  void deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
+  void leave_overfull(air::Solids& solids);
+  void measure_slip(ThreadTeam& team, State& state);
+
+  int openings() const;
+
+  const Domain& domain_;
+  const Surface& vessel_;
+  int openings_;  // of both, known to the air
+  double grain_density_;
+  double most_solid_;  // of a cell beside the vessel
+  struct Overfull {
+    std::size_t cell;
+    double share;  // of its grains, that the air meets
+  };
+  std::vector<Overfull> overfull_;
+  coupling::DragMedium medium_;
+  coupling::Deposition deposition_;
+  air::AirFlow flow_;
+  FaceField per_solid_volume_;  // of cells: impulse, then slip
+  CellField slip_square_;
+  std::vector<Vector3> received_;
+  double longest_ = 0;
+};
+
+}  // namespace talus::continuum

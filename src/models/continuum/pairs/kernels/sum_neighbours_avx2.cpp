@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The sums over neighbours, compiled for one instruction set.
+#include "models/continuum/pairs/kernels/sum_neighbours.hpp"
+
+namespace talus::continuum {
+
+SumNeighbours sum_neighbours_avx2(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+                                  StressAround stress_around, StressGradient stress_gradient) {
+  return choose(terms, stabilisers, precision, stress_around, stress_gradient);
+}
+
+void velocity_gradients_avx2(const PairSums* sums, double (*gradient)[PairSums::together]) {
+  velocity_gradients(sums, gradient);
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/setup/forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "models/continuum/boundary/vessel_walls.hpp"
+#include "models/continuum/gas/atmosphere.hpp"
+#include "models/continuum/material.hpp"
+#include "models/continuum/population.hpp"
+#include "models/continuum/setup/loading.hpp"
+#include "models/continuum/setup/time_scale.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double most_steps = 1e12;  // at a microsecond each, twelve days
+constexpr double hopeless_courant =
+    50;  // of a fixed step, with the bound on the speed of waves; 5 may yet hold in a loose bed
+
+double wave_speed(const Parameters& p) {
+  return Material(p).sound_speed(p.bed.packing * p.grains.density);
+}
+
+double smoothing_length(const Parameters& p) {
+  return p.sph.smoothing_ratio * sph::smoothing_length(lattice_of(p).mass, p.bed.packing * p.grains.density);
+}
+
+struct SettlingTime {
+  double least = 0, most = 0;  ///< s; of an undamped bed far apart
+};
+
+/// A bed whose weight comes on at once swings about its rest with its slowest wave, omega = pi c/(2 H) for the height
+/// H, whose speed is at most 4/pi g/omega; one whose weight comes on as half a cosine over n periods of it has 1/(4
+/// n^2) of that left. Damping of time tau makes it die out with the slower root of s^2 - s/tau + omega^2, until hardly
+/// a particle is faster than settle.speed. Without damping it dies out by friction and by the scheme's own viscosity,
+/// in a time that no closed form gives: settle.longest bounds it.
+SettlingTime settling_time(const Parameters& p) {
+  const auto known = [&](double time) { return SettlingTime{time, time}; };
+  if (p.gate.opens == GateOpens::from_the_start) return known(0);
+  if (p.gate.opens == GateOpens::at_time) return known(p.gate.time);
+  constexpr double pi = std::numbers::pi;
+  const TimeScales scales = time_scales_of(p);
+  const double frequency = 0.5 * pi * wave_speed(p) / depth_of_grains(p), loading = loading_time(p, wave_speed(p));
+  const double periods = loading * frequency / (2 * pi);
+  const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
+  const double excess = std::log(std::max(1.0, speed / scales.settled_speed)),
+               least = loading + scales.settled_duration;
+  const double most = scales.settling_limit;
+  if (!(excess > 0)) return known(std::min(most, least));
+  if (!p.settle.damping_time) return {std::min(most, least), most};
+  const double half_rate = 0.5 / *p.settle.damping_time;
+  const double rate = half_rate - std::sqrt(std::max(0.0, half_rate * half_rate - frequency * frequency));
+  return known(std::min(most, least + excess / rate));
+}
+
+/// All triangles of the vessel.
+struct Triangles {
+  double count = 0, area = 0;  ///< m^2
+};
+Triangles triangles_of_vessel(const Parameters& p) {
+  Triangles all;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    for (const Triangle& t : triangles_of(p, n)) ++all.count, all.area += norm(t.area());
+  return all;
+}
+
+/// Of all sets of points, on a square of a spacing.
+double points_on_square() {
+  double points = 0;
+  for (const PointsOfWalls& set : points_of_walls) points += 1 / (set.apart * set.apart);
+  return points;
+}
+
+}  // namespace
+
+double time_step_of(const Parameters& p) {
+  return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
+}
+
+Forecast forecast(const Parameters& p, double end) {
+  const Triangles triangles = triangles_of_vessel(p);
+  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(p);
+  const double step = time_step_of(p);
+  const SettlingTime settling = settling_time(p);
+  const double particles = bed + mass_to_come(p, end, settling.most) / lattice_of(p).mass;
+  return {.particles = particles,
+          .written = copies_of(p) * particles,
+          .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
+          .wall_points = points_on_square() * squares,
+          .triangles = triangles.count,
+          .settling_steps = std::ceil(settling.least / step),
+          .most_settling_steps = std::ceil(settling.most / step),
+          .flow_steps = std::ceil(end / step)};
+}
+
+double courant_number(const Parameters& p) {
+  return time_step_of(p) * wave_speed(p) / smoothing_length(p);
+}
+
+std::vector<Problem> check_steps(const Parameters& p, double end) {
+  std::vector<Problem> problems;
+  const double length = smoothing_length(p), speed = wave_speed(p), step = time_step_of(p);
+  if (p.integration.step && step > hopeless_courant * length / speed)
+    problems.push_back(
+        {.key = "integration.step",
+         .what = fmt::format("in {:.3g} s pressure waves pass {:.3g} smoothing lengths", step, step * speed / length),
+         .allowed = fmt::format("at most {:.2g} s, better {:.2g} s (integration.courant = {:g})",
+                                hopeless_courant * length / speed, p.integration.courant * length / speed,
+                                p.integration.courant)});
+  if (!(step > 0 && std::isfinite(step))) {
+    problems.push_back({.key = "integration.courant",
+                        .what = fmt::format("the time step would be {} s: pressure waves run at {} m/s over {} m "
+                                            "(bed.spacing, grains.density, law.scale)",
+                                            step, speed, length),
+                        .allowed = "a step above 0 s"});
+    return problems;
+  }
+  const double settling = settling_time(p).least;
+  const char* const key = p.integration.step ? "integration.step"
+                          : settling <= end  ? "run.end"
+                          : p.gate.time > 0  ? "gate.time"
+                          : p.settle.loading_time.value_or(0) > time_scales_of(p).settled_duration
+                              ? "settle.loading_time"
+                              : "settle.duration";
+  if (!((end + settling) / step <= most_steps))
+    problems.push_back(
+        {.key = key,
+         .what = fmt::format("{:.3g} s take {:.2g} steps of {:.2g} s", end + settling, (end + settling) / step, step),
+         .allowed = fmt::format("at most {:.0e} steps", most_steps)});
+  return problems;
+}
+
+double memory_of(const Forecast& f) {
+  // Libraries; columns, records and lists of particles and images, with room for sums of those beside walls; points of
+  // walls, with the fields and the mesh of their loads; triangles, whose edges and faults are sought before anything
+  // else is there.
+  // Particles that are written are those computed, but for a sector, whose copies are made for it.
+  constexpr double libraries = 22e6, sought = 1600, kept = 400, of_copy = 250;
+  return std::max(libraries + sought * f.triangles, libraries + 3500 * f.particles +
+                                                        of_copy * (f.written - f.particles) + 900 * f.cells +
+                                                        350 * f.wall_points + kept * f.triangles);
+}
+
+Parameters coarser(const Parameters& p, double particles) {
+  Parameters q = p;
+  q.bed.spacing *= std::cbrt(bed_count(p) / particles);
+  if (!p.bed.given) return q;
+  const Extent x = bed_along_x(p), y = bed_along_y(p);  // where the file's particles lie
+  q.bed.left = x.low, q.bed.right = x.high, q.bed.front = y.low, q.bed.rear = y.high, q.bed.bottom = bed_bottom(p);
+  q.bed.given = nullptr, q.bed.file.clear();
+  return q;
+}
+
+Parameters sample(const Parameters& p, double particles) {
+  const Lattice lattice = lattice_of(p);
+  constexpr double most_layers = 20;
+  const double layers = std::min(most_layers, static_cast<double>(lattice.count[1]));
+  const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
+  Parameters q = p;
+  q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
+  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.bed.mass = std::nullopt;
+  q.bed.bottom = q.bed.left = q.bed.right = q.bed.front = q.bed.rear = std::nullopt;
+  q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.file.clear();
+  q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;
+  q.bed.height = side * lattice.spacing.z, q.box.height = 2 * q.bed.height;
+  q.bed.spacing = std::cbrt(lattice.spacing.x * lattice.spacing.y * lattice.spacing.z);
+  q.box.left = q.box.right = q.box.front = q.box.rear = FaceKind::symmetry;
+  q.box.floor = FaceKind::wall, q.box.top = FaceKind::open;
+  q.gate = {.opens = GateOpens::from_the_start, .time = 0};
+  q.air.cell = p.air.enabled ? air_grid(p).spacing.x : q.bed.spacing;
+  if (p.air.enabled && p.air.cell_depth) q.air.cell_depth = std::min(air_grid(p).spacing.y, q.box.depth);
+  for (FlowBoundary& kind : q.air.gas.boundaries.kind) kind = FlowBoundary::no_slip;
+  q.air.gas.boundaries.kind[5] = FlowBoundary::open;
+  return q;
+}
+
+}  // namespace talus::continuum

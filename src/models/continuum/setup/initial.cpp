@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/setup/initial.hpp"
+
+#include <algorithm>
+
+#include "base/random.hpp"
+#include "models/continuum/gas/atmosphere.hpp"
+#include "models/continuum/phase.hpp"
+#include "models/continuum/population.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+/// Uniformly within bed.disorder spacings along each axis.
+void displace(const Parameters& parameters, std::vector<Vector3>& positions) {
+  const double most = parameters.bed.disorder * parameters.bed.spacing;
+  if (!(most > 0)) return;
+  Random random(static_cast<std::uint64_t>(parameters.seed));
+  for (Vector3& x : positions)
+    for (int axis = 0; axis < 3; ++axis) x[axis] += random.uniform(-most, most);
+}
+
+std::int64_t tag_of(const Parameters& parameters, std::size_t bed) {
+  return bed == 0 ? 0 : parameters.beds[bed - 1].tag;
+}
+
+/// Particles of a bed after those that are there. \param one the case with this bed alone
+void add_bed(const Parameters& one, std::int64_t tag, State& state) {
+  const std::vector<Vector3> positions = bed_positions(one);
+  const std::size_t count = state.position.size() + positions.size();
+  state.position.insert(state.position.end(), positions.begin(), positions.end());
+  const std::array<double, 3> velocity = one.bed.velocity.value_or(std::array<double, 3>{});
+  state.velocity.resize(count, Vector3{velocity[0], velocity[1], velocity[2]});
+  state.density.resize(count, one.bed.packing * one.grains.density);
+  if (state.has.tag) state.tag.resize(count, tag);
+  const auto& given = one.bed.given;
+  const auto take = [count](const auto& of_file, auto& column) {
+    if (!of_file.empty())
+      std::copy(of_file.begin(), of_file.end(), column.begin() + static_cast<std::ptrdiff_t>(count - of_file.size()));
+  };
+  if (given) take(given->velocity, state.velocity), take(given->density, state.density);
+}
+
+}  // namespace
+
+State initial_state(const Parameters& parameters, const Material& material) {
+  State state;
+  state.mass = lattice_of(parameters).mass;
+  state.has = {.tag = !parameters.beds.empty(),
+               .collisional = parameters.collisions.form != granular::Collisions::none,
+               .reset_position = material.by_displacements(),
+               .sector_turns = sector_of(parameters).has_value(),
+               .lasting_rate = draws_by_lasting_rate(parameters),
+               .deformation_rate = parameters.sph.hourglass_damping > 0};
+  for (const std::size_t n : beds_of(parameters)) add_bed(with_bed_alone(parameters, n), tag_of(parameters, n), state);
+  displace(parameters, state.position);
+  const std::size_t count = state.position.size();
+  for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
+  for (auto& column : state.material.stress) column.assign(count, 0.0);
+  if (state.has.lasting_rate)
+    for (auto& column : state.lasting_rate) column.assign(count, 0.0);
+  if (state.has.deformation_rate)
+    for (auto& column : state.deformation_rate) column.assign(count, 0.0);
+  if (state.has.collisional)
+    for (auto& column : state.material.collisional) column.assign(count, 0.0);
+  state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
+  state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count());
+  if (state.has.reset_position) state.reset_position = state.position;
+  if (state.has.sector_turns) state.sector_turns.assign(count, 0);
+  state.population = initial_population(parameters, count);
+  state.slots = material.slots();
+  state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));
+  if (parameters.air.enabled) {
+    state.air.grid = air_grid(parameters);
+    state.air.flow = air::AirState(state.air.grid);
+    state.air.solids = air::Solids(state.air.grid);
+    state.air.excess = state.air.grid.cell_field();
+    state.air.acceleration.assign(count, Vector3{});
+  }
+  return state;
+}
+
+}  // namespace talus::continuum

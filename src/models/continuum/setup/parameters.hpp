@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a case of the continuum model says: grains as a continuum of particles that move and carry stress, in a box
+/// with a plate across it (Yuu & Umekage 2011). SI, angles in radians; the initial values are the defaults.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/instruction_set.hpp"
+#include "base/parameter.hpp"
+#include "models/air/parameters.hpp"
+#include "models/continuum/boundary/inner_walls.hpp"
+#include "models/continuum/inlets.hpp"
+#include "models/continuum/setup/bed.hpp"
+#include "models/continuum/setup/choices.hpp"
+#include "models/continuum/setup/layout.hpp"
+#include "models/continuum/setup/material_names.hpp"
+#include "models/continuum/setup/vessel.hpp"
+#include "numerics/geometry/domain.hpp"
+#include "physics/granular/collisional_stress.hpp"
+#include "physics/granular/law.hpp"
+#include "physics/sph/balance.hpp"
+
+namespace talus::continuum {
+
+struct Parameters {
+  struct BoxSize {
+    double width = 0, depth = 0, height = 0;
+    std::optional<double> sector = std::nullopt;
+    FaceKind left = FaceKind::wall, right = FaceKind::wall;
+    FaceKind front = FaceKind::symmetry, rear = FaceKind::symmetry;
+    FaceKind floor = FaceKind::wall, top = FaceKind::open;
+  } box;
+  Plate plate;
+  Wedge wedge;
+  std::vector<InclinedPlate> plates;
+  std::vector<VesselPart> vessel;
+  std::vector<Inlet> inlets;
+  Removal removal;
+  struct Gate {
+    GateOpens opens = GateOpens::when_settled;
+    double time = 0;
+  } gate;
+  struct Grains {
+    std::optional<GrainMaterial> material;
+    double density = 2500;
+    double diameter = 200e-6;
+    MaterialRange range;  ///< of the material. Not a key: who reads the case fills it in
+  } grains;
+  BedParameters bed;
+  std::vector<TaggedBed> beds;  ///< besides
+  std::int64_t seed = 1;
+  granular::LawParameters law;
+  granular::CollisionParameters collisions;
+  struct Sph {
+    Smoothing smoothing = Smoothing::local;
+    double smoothing_ratio = 1;
+    Continuity continuity = Continuity::printed;
+    sph::StressForm stress_form = sph::StressForm::balanced;
+    double viscosity_alpha = 0.1;
+    double viscosity_beta = 0;
+    ViscositySpeed viscosity_speed = ViscositySpeed::largest;
+    double density_relaxation = 1;
+    double stress_regularisation = 0;
+    double density_diffusion = 0;
+    double hourglass_damping = 0;
+  } sph;
+  struct Walls {
+    Friction friction = Friction::coulomb;
+    std::optional<WallMaterial> material;
+    double coefficient = 0.3;
+    FrictionFrom friction_from = FrictionFrom::gate;
+  } walls;
+  struct Gravity {
+    double acceleration = 9.81;
+  } gravity;
+  struct Air {
+    bool enabled = false;
+    std::optional<double> cell, cell_depth;
+    air::Parameters gas;  ///< of which the grains' size and density stand in `grains`
+  } air;
+  struct Settle {
+    std::optional<double> speed, duration, longest;  ///< left out: time_scale.hpp
+    std::optional<double> loading_time;
+    std::optional<double> damping_time;
+  } settle;
+  struct Analysis {
+    std::optional<double> averaging_time;  ///< left out: time_scale.hpp
+  } analysis;
+  struct Integration {
+    Method method = Method::leapfrog;
+    double courant = default_courant(Method::leapfrog);
+    std::optional<double> step;
+    double skin = 0.4;
+    double skin_at_rest = 0.25;
+    PairPrecision pair_precision = PairPrecision::in_double;
+    InstructionSet instruction_set = InstructionSet::automatic;
+  } integration;
+
+  /// Of the vessel, for surface_of(). Not a key.
+  std::shared_ptr<VesselSurface> surface = std::make_shared<VesselSurface>();
+};
+
+/// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
+template <class Visit, class P>
+void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right face",
+                  true},
+        p.box.width);
+  visit(
+      Parameter{"box.depth", dimension::length, above(0), "extent along y, from the front face at 0 to the rear", true},
+      p.box.depth);
+  visit(Parameter{"box.height", dimension::length, above(0), "extent along z, from the floor at 0 to the top", true},
+        p.box.height);
+  visit(
+      Parameter{"box.sector", dimension::angle, between(Sector::least_angle, Sector::largest_angle),
+                "angle of a sector about the upright axis through the middle of the box, computed in place of the "
+                "whole of an axisymmetric [[vessel]]: a whole part of 360 deg; what leaves through one of its faces "
+                "comes in through the other, all results are those of the whole vessel, and the box has no side faces; "
+                "left out: the whole"},
+      p.box.sector);
+  auto sided = only_if({"box.sector", "is given", "left out", !p.box.sector}, visit);
+  sided(Parameter{"box.left",
+                  {},
+                  {},
+                  "kind of the left face: a wall (with friction), a symmetry plane, periodic (with its opposite), free "
+                  "as printed (mirror without reversing the velocity), or open"},
+        p.box.left);
+  sided(Parameter{"box.right", {}, {}, "the right face"}, p.box.right);
+  sided(Parameter{"box.front", {}, {}, "the front face"}, p.box.front);
+  sided(Parameter{"box.rear", {}, {}, "the rear face"}, p.box.rear);
+  visit(Parameter{"box.floor", {}, {}, "the floor"}, p.box.floor);
+  visit(Parameter{"box.top", {}, {}, "the top"}, p.box.top);
+  for_each_parameter_of_inner_walls(visit, p);
+  for_each_parameter_of_vessel(visit, p.vessel);
+  for_each_parameter_of_inlets(visit, p.inlets, p.removal);
+  visit(Parameter{"gate.opens", {}, {}, "when the gate of slit, wedge or vessel opens"}, p.gate.opens);
+  auto timed = only_if(where("gate.opens", p.gate.opens, GateOpens::at_time), visit);
+  timed(Parameter{"gate.time", dimension::time, at_least(0),
+                  "time at which the gate opens, with gate.opens = \"at-time\""},
+        p.gate.time);
+  visit(Parameter{"grains.material",
+                  {},
+                  {},
+                  "what the grains are: density, diameter, packing, law and friction on walls follow where the case "
+                  "does not give them (talus materials); left out: the defaults below"},
+        p.grains.material);
+  visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
+        p.grains.density);
+  visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
+
+  for_each_parameter_of_bed(visit, p.bed, p.seed, !p.inlets.empty() || !p.beds.empty());
+  for_each_parameter_of_beds(visit, p.beds);
+
+  granular::for_each_parameter(visit, p.law);
+  granular::for_each_parameter(visit, p.collisions);
+
+  visit(
+      Parameter{
+          "sph.smoothing",
+          {},
+          {},
+          "smoothing length: of each particle from its density, h = (m/rho_b)^(1/3), or fixed at its initial value"},
+      p.sph.smoothing);
+  visit(
+      Parameter{"sph.smoothing_ratio", dimension::none, between(1, 1.5),
+                "smoothing length in units of (m/rho_b)^(1/3), the paper's: a wider kernel sums over more neighbours"},
+      p.sph.smoothing_ratio);
+  visit(Parameter{"sph.continuity",
+                  {},
+                  {},
+                  "rate of the density: Eq. 16 as printed, consistent with the kernel sum, or -rho_b times the trace "
+                  "of the corrected velocity gradient"},
+        p.sph.continuity);
+  auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
+  const bool bears_tension =
+      granular::with_chosen_law(p.law, []<class Law>(const auto&) { return Law::bears_tension; });
+  auto loose_where_free = only_if(
+      {"law.name", "is " + value_text(p.law.name), "of a law without tensile strength", !bears_tension}, as_sum);
+  loose_where_free(
+      Parameter{
+          "sph.density_relaxation", dimension::none, at_least(0),
+          "share of the difference between the kernel's sum and the density that a shear strain of "
+          "1 takes back; not under a law with tensile strength; 0, as printed: both drift apart as the grains flow"},
+      p.sph.density_relaxation);
+  visit(Parameter{"sph.stress_form",
+                  {},
+                  {},
+                  "factor of the stress in Eq. 17: balanced (the floor carries the weight) or as printed"},
+        p.sph.stress_form);
+  visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
+                  "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a "
+                  "few spacings above the head that they came with"},
+        p.sph.viscosity_alpha);
+  visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
+        p.sph.viscosity_beta);
+  visit(Parameter{"sph.viscosity_speed",
+                  {},
+                  {},
+                  "speed of sound in the linear part of that viscosity: the law's largest, or the local one, which is "
+                  "none where grains bear no pressure"},
+        p.sph.viscosity_speed);
+  auto of_critical_state = only_if(
+      {"law.name", "is " + value_text(p.law.name), "critical-state", p.law.template is<granular::CriticalState>()},
+      visit);
+  of_critical_state(Parameter{"sph.stress_regularisation", dimension::none, at_least(0),
+                              "how strongly shear draws the deviatoric stress to that of the neighbours; 1: by as much "
+                              "as the shear of a step makes anew of it; 0: not at all"},
+                    p.sph.stress_regularisation);
+  visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
+                  "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
+                  "particle to particle; 0.1 in delta-SPH; 0: none"},
+        p.sph.density_diffusion);
+  visit(Parameter{"sph.hourglass_damping", dimension::none, between(0, 1),
+                  "coefficient of a viscosity against what of a pair's approach the velocity gradients do not explain, "
+                  "between grains that bear pressure; 0: none"},
+        p.sph.hourglass_damping);
+
+  visit(Parameter{"walls.friction", {}, {}, "friction of walls and plate: Coulomb's, the printed rule, or none"},
+        p.walls.friction);
+  auto rough = only_if(unless("walls.friction", p.walls.friction, Friction::none), visit);
+  rough(Parameter{"walls.material",
+                  {},
+                  {},
+                  "what the walls are made of: their friction follows with grains.material, where walls.coefficient is "
+                  "not given"},
+        p.walls.material);
+  rough(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
+                  "coefficient of wall friction, the tangent of the angle of wall friction"},
+        p.walls.coefficient);
+  rough(
+      Parameter{
+          "walls.friction_from", {}, {}, "whether walls have friction from the start or from the opening of the gate"},
+      p.walls.friction_from);
+
+  visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
+        p.gravity.acceleration);
+
+  visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it no other key of the air may be given"},
+        p.air.enabled);
+  auto airy = only_if(where("air.enabled", p.air.enabled, true), visit);
+  airy(Parameter{"air.cell", dimension::length, above(0),
+                 "size of the cells of the air, adjusted to whole numbers along each side of the box; left out: three "
+                 "quarters of bed.spacing, adjusted to the plate too"},
+       p.air.cell);
+  airy(Parameter{"air.cell_depth", dimension::length, above(0),
+                 "size of the cells along y, if another: a box that is thin along y may have one cell there"},
+       p.air.cell_depth);
+  air::for_each_parameter(airy, p.air.gas);
+
+  auto settling = only_if(where("gate.opens", p.gate.opens, GateOpens::when_settled), visit);
+  settling(Parameter{"settle.speed", dimension::velocity, above(0),
+                     "the bed has settled when 99 of 100 particles are slower than this; left out: 0.0008 times (g "
+                     "D)^½, D the narrower side of the outlet, without one the height of the bed"},
+           p.settle.speed);
+  settling(Parameter{"settle.duration", dimension::time, at_least(0), "for this long; left out: 0.3 times (D/g)^½"},
+           p.settle.duration);
+  settling(Parameter{"settle.longest", dimension::time, above(0),
+                     "a bed that is still moving then is a failure; left out: 15 times (L/g)^½, L the larger of D and "
+                     "the height of the bed, after the last inlet that fills the vessel has ended"},
+           p.settle.longest);
+  settling(Parameter{"settle.loading_time", dimension::time, at_least(0),
+                     "time over which gravity is raised to its full value while the bed settles, so that no pressure "
+                     "wave compresses it beyond its weight; 0: at once; left out: the time in which a pressure wave "
+                     "passes twenty times through the height of the bed, at most a quarter of settle.longest"},
+           p.settle.loading_time);
+  auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
+  gated(
+      Parameter{"settle.damping_time", dimension::time, above(0),
+                "time constant of an artificial damping of the velocities until the gate opens; left out: no damping"},
+      p.settle.damping_time);
+
+  visit(Parameter{"analysis.averaging_time", dimension::time, above(0),
+                  "averaging time of rates, wall loads and speeds; peaks are averages over half of it; left out: 0.3 "
+                  "times (D/g)^½, D the narrower side of the outlet, without one the height of the bed"},
+        p.analysis.averaging_time);
+  visit(Parameter{"integration.method",
+                  {},
+                  {},
+                  "leapfrog, or second-order Runge-Kutta, of twice the work in a step and shorter steps"},
+        p.integration.method);
+  visit(Parameter{"integration.step", dimension::time, above(0),
+                  "fixed time step, instead of that of the Courant number"},
+        p.integration.step);
+  visit(Parameter{"integration.courant", dimension::none, above(0),
+                  "time step times the sound speed over the smallest smoothing length; left out: 1.2 with the "
+                  "leapfrog, 0.3 with Runge-Kutta"},
+        p.integration.courant);
+  visit(Parameter{"integration.skin", dimension::none, between(0, 2),
+                  "largest skin of the neighbour lists, of particles that move half of it in 20 steps, in spacings"},
+        p.integration.skin);
+  visit(Parameter{"integration.skin_at_rest", dimension::none, between(0, 1),
+                  "share of that skin which particles at rest have: with a smaller one lists of a bed are shorter, and "
+                  "built anew as soon as it moves"},
+        p.integration.skin_at_rest);
+  visit(
+      Parameter{
+          "integration.pair_precision",
+          {},
+          {},
+          "precision of the sums over pairs; single: relative error 1e-6 of a sum, about twice as fast; the state "
+          "stays double"},
+      p.integration.pair_precision);
+  visit(
+      Parameter{
+          "integration.instruction_set", {}, {}, "instruction set of the sums over neighbours; the bits depend on it"},
+      p.integration.instruction_set);
+}
+
+/// Contradictions between keys that are each valid by themselves; empty if there are none.
+std::vector<Problem> check(const Parameters& parameters);
+
+}  // namespace talus::continuum
