@@ -96,7 +96,7 @@ def measure_all(options):
         settings = json.loads(path.read_text(encoding="utf-8"))
         of = frames(path.parent)
         numbers = measure(read(of[0]), read(of[-1]), settings["radius"] * DIAMETER)
-        rows.append(settings | {name: f"{value:.4g}" for name, value in numbers.items()})
+        rows.append(settings | {name: f"{value:.5g}" for name, value in numbers.items()})
     TABLE.parent.mkdir(exist_ok=True)
     with open(TABLE, "w", encoding="utf-8", newline="") as out:
         writer = csv.DictWriter(out, COLUMNS, lineterminator="\n")
