@@ -119,6 +119,13 @@ class Materials(unittest.TestCase):
         self.assertLess(numbers["runout_99"], numbers["runout"])
         self.assertAlmostEqual(numbers["stray"], 1 / (len(cone) + 1))
 
+    def test_numbers_of_small_beads_are_where_a_line_leads(self):
+        rows = [{"radius": str(radius), "height": str(0.7 + 0.9 / radius + off)}
+                for radius, off in ((9, 0.01), (9, -0.01), (12, 0.01), (12, -0.01), (18, 0))]
+        value, error = beads.for_small_beads(rows, "height")
+        self.assertAlmostEqual(value, 0.7, delta=1e-9)
+        self.assertTrue(0.01 < error < 0.04, error)
+
     @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
     def test_a_small_column_of_beads_runs_and_is_measured(self):
         with tempfile.TemporaryDirectory() as folder, mock.patch.object(beads, "TABLE", pathlib.Path(folder) / "beads.csv"):

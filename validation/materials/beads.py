@@ -25,7 +25,7 @@ BEADS = materials.REFERENCE["beads"]
 #: Columns of the table by what they are called in Markdown; those of the settings first.
 COLUMNS = {"radius": "r0/d", "rolling": "rolling friction", "floor": "floor", "settled_with": "friction in filling",
            "seed": "seed", "beads": "beads", "aspect": "a", "packing": "packing", "runout": "run-out",
-           "height": "height", "runout_99": "of 99 % of the mass", "stray": "stray"}
+           "height": "height", "slope": "slope, degrees", "runout_99": "run-out of 99 % of the mass", "stray": "stray"}
 FLOORS = {"flat": 0, "bumps": 1}
 
 
@@ -66,7 +66,7 @@ def measure(first, last, radius):
     mass = np.cumsum(r[order] ** 3)
     share = np.hypot(*x[order[np.searchsorted(mass, 0.99 * mass[-1])], :2])
     return {"beads": len(first[0]), "aspect": height / radius, "packing": packing, "runout": foot / radius - 1,
-            "height": top / radius, "runout_99": share / radius - 1,
+            "height": top / radius, "slope": materials.slope_of_heap(x, DIAMETER)[0], "runout_99": share / radius - 1,
             "stray": materials.stray_share(x, velocity, on, DIAMETER)}
 
 
@@ -78,7 +78,7 @@ def run(options):
 
 
 def law(options):
-    """Prints run-out, height and strays of the law's columns."""
+    """Prints run-out, height, slope and strays of the law's columns."""
     for name, numbers in BEADS["law"].items():
         settings = {"grains.material": "glass-beads", "bed.spacing": f"{materials.spacing_of('column', 1.0):g} mm",
                     "bed.height": "60 mm", "bed.packing": BEADS["packing"],
@@ -87,7 +87,11 @@ def law(options):
         run_ = talus.simulate(materials.HERE / "column.toml", options.folder / f"law-{name}", settings, threads=1,
                               existing="resume", program=options.program)
         of, _ = materials.measure_run(run_, "column", 1.0)
-        print(f"| {name} | {of['column-runout-1']:.3f} | {of['column-height-1']:.3f} | {of['stray']:.3g} |")
+        box = run_.case["box"]
+        x = np.asarray(run_.snapshots[-1].positions) - 0.5 * np.array([box["width"], box["depth"], 0])
+        slope, _, _ = materials.slope_of_heap(x, 1e-3 * materials.spacing_of("column", 1.0))
+        print(f"| {name} | {of['column-runout-1']:.3f} | {of['column-height-1']:.3f} | {slope:.1f} | "
+              f"{of['stray']:.3g} |")
 
 
 def measure_all(options):
@@ -104,16 +108,31 @@ def measure_all(options):
         writer.writerows(sorted(rows, key=lambda row: [row[name] for name in list(COLUMNS)[:5]]))
 
 
+def for_small_beads(rows, name):
+    """Value and standard error of a number as d/r0 goes to 0: a line through the runs. \\param rows of the table, of
+    beads and floors that are the same"""
+    share = 1 / np.array([float(row["radius"]) for row in rows])
+    line, errors = np.polyfit(share, [float(row[name]) for row in rows], 1, cov=True)
+    return line[1], np.sqrt(errors[1, 1])
+
+
 def table(_):
     """In bold: outside of the band."""
-    print("| " + " | ".join(COLUMNS.values()) + " |\n|" + "---|" * len(COLUMNS))
     with open(TABLE, encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            for name in ("runout", "height"):
-                low, high = materials.BANDS[f"column-{name}-1"]
-                if not low <= float(row[name]) <= high:
-                    row[name] = f"**{row[name]}**"
-            print("| " + " | ".join(row.values()) + " |")
+        rows = list(csv.DictReader(file))
+    print("| " + " | ".join(COLUMNS.values()) + " |\n|" + "---|" * len(COLUMNS))
+    for row in rows:
+        cells = dict(row)
+        for name in ("runout", "height"):
+            low, high = materials.BANDS[f"column-{name}-1"]
+            if not low <= float(row[name]) <= high:
+                cells[name] = f"**{row[name]}**"
+        print("| " + " | ".join(cells.values()) + " |")
+    alike = [row for row in rows if (row["rolling"], row["floor"], row["settled_with"]) == ("0.1", "bumps", "0.15")]
+    if len(alike) > 3:
+        for name in ("runout", "height"):
+            value, error = for_small_beads(alike, name)
+            print(f"{COLUMNS[name]} of small beads, rolling friction 0.1, floor of beads: {value:.3f} +- {error:.3f}")
 
 
 if __name__ == "__main__":

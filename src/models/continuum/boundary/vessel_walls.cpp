@@ -120,8 +120,7 @@ std::optional<Surface::Foot> VesselWalls::foot_near(Clearance& clear, const Vect
   std::optional<Surface::Foot> foot;
   const bool searched = clear.triangles == 0 || !(moved < looked_beyond);
   if (searched) {
-    // What the tree finds lies in boxes within that distance, and is several times as much as what lies within it
-    // itself.
+    // The tree finds triangles whose boxes are within that distance, several times as many as are themselves.
     constexpr std::size_t max_found = 64;
     thread_local std::vector<std::uint32_t> near;
     clear = {y, within + looked_beyond, 0, {}};
