@@ -107,6 +107,10 @@ class Sweep:
             return [setting["text"] for setting in settings]
         return self._of_quantity(name, "mean")
 
+    def texts(self, key):
+        """The values of a varied key as they were given, one a group."""
+        return [group["settings"][key]["text"] for group in self._groups]
+
     def deviation(self, quantity):
         """Standard deviations over the members, one a group; nan of a single member."""
         return self._of_quantity(quantity, "standard_deviation")

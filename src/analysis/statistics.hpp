@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Statistics of samples: moments, quantiles, histograms, a Gaussian and its test, lines. A result
-/// that a sample is too small for, or that divides by a spread of zero, is nan.
+/// Statistics of samples: moments, quantiles, histograms, a test of normality, lines. A result that a sample is too
+/// small for, or that divides by a spread of zero, is nan.
 #pragma once
 
 #include <span>
@@ -36,16 +36,6 @@ struct Histogram {
 };
 /// \param bins at least 1; \param most > least
 Histogram histogram(std::span<const double> sample, double least, double most, std::size_t bins);
-
-struct Gaussian {
-  double mean = 0;
-  double deviation = 1;
-
-  double density(double x) const;
-};
-
-/// The Gaussian with the sample's mean and standard deviation.
-Gaussian gaussian_of_moments(std::span<const double> sample);
 
 /// Anderson & Darling's test of normality with mean and standard deviation estimated from the sample.
 struct NormalityTest {

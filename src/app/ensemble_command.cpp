@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// talus ensemble: many members of a case, over seeds and varied keys.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
+#include "app/comparison/python.hpp"
 #include "app/ensemble/plan.hpp"
 #include "app/ensemble/report_entries.hpp"
 #include "app/ensemble/schedule.hpp"
@@ -36,27 +38,39 @@ struct Options {
   bool gather = false, jobs_given = false;
 };
 
+/// Of what is done.
+std::vector<std::filesystem::path> draw_results(const EnsemblePlan& plan, const Options& options) {
+  const EnsembleRequest& request = options.request;
+  std::vector<std::string> names;
+  for (const EnsembleGroup& group : plan.groups) {
+    claim_pictures(group, request.folder / group.name);
+    names.push_back(group.name);
+  }
+  claim_file(request.folder / "sweep.png");
+  return draw_charts({"ensemble", request.folder.string(), fmt::format("{}", fmt::join(names, ",")),
+                      fmt::format("{}", fmt::join(options.plot, ","))},
+                     request.folder);
+}
+
 /// Tables, pictures and report of what is done; returns the picture to look at first.
 std::vector<std::filesystem::path> write_results(const EnsemblePlan& plan, const Options& options) {
   const EnsembleRequest& request = options.request;
-  std::vector<std::filesystem::path> pictures;
   std::vector<SweptGroup> groups;
+  std::vector<std::string> quantities;
   for (const EnsembleGroup& group : plan.groups) {
-    const auto drawn = write_group(group, request.folder / group.name);
-    pictures.insert(pictures.end(), drawn.begin(), drawn.end());
+    write_group(group, request.folder / group.name);
     groups.push_back({&group, quantity_spreads(group)});
   }
+  for (const QuantitySpread* quantity : all_quantities(groups)) quantities.push_back(quantity->name);
+  check_quantities(options.plot, quantities);
   if (has_report_page()) {
     ReadRuns runs;
     write_report({.title = request.folder.stem().string(), .runs = entries_of(plan.groups), .comparisons = {}},
                  request.folder / "report.html", runs);
   }
   print("{}", sweep_text(groups));
-  if (request.vary.empty()) return pictures;
-  write_sweep(groups, request.folder);
-  if (draw_sweep(groups, options.plot, request.folder / "sweep.png"))
-    pictures.insert(pictures.begin(), request.folder / "sweep.png");
-  return pictures;
+  if (!request.vary.empty()) write_sweep(groups, request.folder);
+  return plan.pictures ? draw_results(plan, options) : std::vector<std::filesystem::path>();
 }
 
 /// The command that makes write_results() of the same ensemble, from wherever the jobs run.

@@ -9,6 +9,7 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
+#include "app/comparison/python.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
 #include "base/terminal.hpp"
@@ -81,16 +82,19 @@ ExitStatus follow(const LawOptions& options) {
 
   begin_output(folder, existing_of(options), "--overwrite");
   write_path_table(path, folder / "path.csv");
-  draw_path(path, folder / "path.png");
   const auto fits = with_chosen_law(parameters.law, []<class Law>(const typename Law::Parameters& own) {
     if constexpr (requires { own.fits; }) return std::optional<granular::Fits>(own.fits);
     return std::optional<granular::Fits>();
   });
-  if (fits) draw_functions(*fits, folder / "functions.png");
+  if (fits) write_functions(*fits, folder / "functions.csv");
+  for (const char* picture : {"path.png", "functions.png"}) claim_file(folder / picture);
+  std::string files = fits ? "path.csv, functions.csv" : "path.csv";
+  for (const std::filesystem::path& drawn : draw_charts({"law", folder.string()}, folder))
+    files += ", " + drawn.filename().string();
 
   for (const NamedValue& quantity : quantities_of(path))
     print("{:18} {:.6g}{}\n", quantity.name, quantity.value, quantity.unit == "1" ? "" : " " + quantity.unit);
-  print("{}: path.csv, path.png{}\n", folder.string(), fits ? ", functions.png" : "");
+  print("{}: {}\n", folder.string(), files);
   return ExitStatus::done;
 }
 

@@ -83,7 +83,8 @@ class Folders(ProgramTest):
                 shutil.rmtree(self.folder / "r")
 
     def test_ensembles(self):
-        command = ("ensemble", "case.toml", "--members", 2, "--jobs", 1, "--set", "run.end=0.02 ms")
+        command = ("ensemble", "case.toml", "--members", 2, "--jobs", 1, "--set", "run.end=0.02 ms", "--set",
+                   "output.pictures=true")
         self.put("docs", ["all/members.csv", "thesis.tex"])
         for how in ((), ("--resume",)):
             said = self.talus(*command, "--out", "docs", *how, status=2).stderr

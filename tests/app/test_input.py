@@ -362,7 +362,7 @@ class ExistingFolder(ProgramTest):
     def test_overwriting_leaves_nothing_of_the_old_run_but_what_others_put_there(self):
         self.talus("run", "case.toml", "--out", "r", "--set", "output.pictures=true")
         for name in ("analysis/head_widths.csv", "pictures/frames.png", "pictures/front.png",
-                     "pictures/front_speed.png", "snapshots/particles_0010.vtkhdf"):
+                     "snapshots/particles_0010.vtkhdf"):
             self.assertTrue((self.folder / "r" / name).exists(), name)
         (self.folder / "r/snapshots/particles_0077.vtkhdf.part").touch()
         for name in ("notes.txt", "analysis/mine.txt", "pictures/mine.svg"):

@@ -68,7 +68,7 @@ class Slurm(ProgramTest):
         self.assertIn("are done already", self.launch("--out", name, *VARIED, "--resume").stdout)
 
         self.talus("ensemble", "case.toml", "--out", "here", *VARIED)
-        for path in ("sweep.csv", "sweep.json", "sweep.png", "angle=30deg/members.csv", "angle=50deg/quantities.csv"):
+        for path in ("sweep.csv", "sweep.json", "angle=30deg/members.csv", "angle=50deg/quantities.csv"):
             self.assertEqual((self.folder / name / path).read_bytes(), (self.folder / "here" / path).read_bytes(), path)
         for member in (self.folder / "here").glob("*/seed_????"):
             self.assertEqual(bits(member), bits(self.folder / name / member.relative_to(self.folder / "here")))
@@ -112,7 +112,7 @@ class Slurm(ProgramTest):
 class Plot(ProgramTest):
     def test_a_sweep_is_drawn_against_its_keys(self):
         arguments = ("ensemble", "case.toml", "--out", "e", "--members", 1, "--vary", "slope.angle=30 deg,50 deg",
-                     "--vary", "particles.radius=4 mm,5 mm")
+                     "--vary", "particles.radius=4 mm,5 mm", "--set", "output.pictures=true")
         self.assertIn("Picture: e/sweep.png", self.talus(*arguments).stdout)
         drawn = [(self.folder / "e/sweep.png").read_bytes()]
         for plot in (["front_speed_max"], ["front_speed_max,overlap_max"]):
@@ -131,7 +131,8 @@ class Plot(ProgramTest):
 
     def test_keys_without_numbers_are_drawn_by_the_numbers_of_the_groups(self):
         self.talus("ensemble", "case.toml", "--out", "e", "--members", 1, "--vary",
-                   "integration.method=chebyshev,dormand-prince", "--plot", "front_speed_max")
+                   "integration.method=chebyshev,dormand-prince", "--plot", "front_speed_max", "--set",
+                   "output.pictures=true")
         self.assertTrue((self.folder / "e/sweep.png").is_file())
 
 

@@ -16,7 +16,6 @@
 #include "app/case/run_tables.hpp"
 #include "io/figure/figure.hpp"
 #include "io/file_list.hpp"
-#include "io/series.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace talus::app {
@@ -182,16 +181,6 @@ std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_f
     }
   }
 
-  if (std::filesystem::exists(run_folder / "analysis" / "front_speed.csv")) {
-    const talus::Series speed = read_series(run_folder / "analysis" / "front_speed.csv");
-    const auto time = speed.column("time"), value = speed.column("front_speed");
-    const Chart chart{.title = title,
-                      .x = {.label = "*t* *v*_{s}/*a*"},
-                      .y = {.label = "front speed *v*_{f}/*v*_{s}"},
-                      .series = {figure::Line{.x = {time.begin(), time.end()}, .y = {value.begin(), value.end()}}}};
-    drawn.push_back(pictures / "front_speed.png");
-    write_png({.panels = {chart}}, drawn.back());
-  }
   return drawn;
 }
 

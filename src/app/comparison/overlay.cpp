@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "app/comparison/python.hpp"
 #include "base/terminal.hpp"
-#include "io/figure/figure.hpp"
 #include "io/manifest.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/run_folder.hpp"
-#include "io/series.hpp"
 #include "io/summary.hpp"
 
 namespace talus::app {
@@ -51,24 +50,8 @@ ExitStatus compare_runs(const std::filesystem::path& a, const std::filesystem::p
     if (!one.find(value.name)) print_row(value.name, nullptr, &value);
 
   if (picture.empty()) return ExitStatus::done;
-  const Series s = read_series(first.series()), t = read_series(second.series());
-  figure::Figure figure{.title = name_of(a) + " and " + name_of(b)};
-  for (std::size_t c = 1; c < s.names.size(); ++c) {
-    if (!t.has(s.names[c])) continue;
-    const auto other_time = t.column("time"), other = t.column(s.names[c]);
-    figure.panels.emplace_back(
-        figure::Chart{.x = {.label = "time", .unit = "s"},
-                      .y = {.label = s.names[c], .unit = s.units[c] == "1" ? "" : s.units[c]},
-                      .series = {figure::Line{.x = s.columns[0], .y = s.columns[c], .label = name_of(a)},
-                                 figure::Line{.x = {other_time.begin(), other_time.end()},
-                                              .y = {other.begin(), other.end()},
-                                              .label = name_of(b),
-                                              .dash = figure::Dash::dashed}}});
-  }
-  if (!figure.panels.empty()) {
-    figure::write_png(figure, picture);
-    print("Picture: {}\n", picture.string());
-  }
+  for (const std::filesystem::path& drawn : draw_charts({"runs", a.string(), b.string(), picture.string()}, picture))
+    print("Picture: {}\n", drawn.string());
   return ExitStatus::done;
 }
 

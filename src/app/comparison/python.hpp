@@ -9,10 +9,18 @@
 
 namespace talus::app {
 
-/// The first python3 of the PATH that has these modules; nothing if none has. \param modules "h5py, matplotlib"
-std::optional<std::filesystem::path> find_python(const std::string& modules);
+/// The first python3 of the PATH that has these modules and the package talus; nothing if none has. \param modules {"h5py", "matplotlib"}
+std::optional<std::filesystem::path> find_python(const std::vector<std::string>& modules);
 
-/// A command that finds the package talus: of the project, or where it is installed.
-std::vector<std::string> with_package(std::vector<std::string> command);
+/// What a module of the package talus prints. \param input its stdin \param about what an error names
+/// \throws FileError with its last line if it fails
+std::string said_by_package(const std::filesystem::path& python, const std::string& module,
+                            const std::vector<std::string>& arguments, const std::string& input,
+                            const std::filesystem::path& about);
+
+/// Draws with talus.charts. \returns the pictures; none, having said what is missing, without a Python that can draw
+/// \throws FileError if it fails
+std::vector<std::filesystem::path> draw_charts(const std::vector<std::string>& arguments,
+                                               const std::filesystem::path& about);
 
 }  // namespace talus::app

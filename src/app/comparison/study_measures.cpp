@@ -9,12 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/measure.hpp"
-#include "app/comparison/project.hpp"
 #include "app/comparison/python.hpp"
 #include "base/error.hpp"
 #include "base/nearest.hpp"
-#include "run/interrupt.hpp"
-#include "run/jobs.hpp"
 
 namespace talus::app {
 
@@ -23,7 +20,7 @@ namespace {
 using Json = nlohmann::json;
 using Values = std::vector<std::optional<double>>;
 
-constexpr const char* needed = "needs python3-numpy, python3-h5py";
+constexpr const char* needed = "needs python3-numpy, python3-h5py, python3-talus";
 
 /// How the numbers of a row are asked for: "each" member's, one of the "curves" of the members or of their "values", or
 /// one of all variants "together".
@@ -132,23 +129,6 @@ void check_faults(const Reference& reference, const std::vector<const Comparison
   if (!problems.empty()) throw InputError(problems);
 }
 
-/// Of a traceback, the error itself.
-std::string last_line(std::string text) {
-  while (text.ends_with('\n')) text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
-}
-
-/// \throws FileError
-Json ask(const std::filesystem::path& python, const std::filesystem::path& study, const Json& questions, int jobs) {
-  const run::ProgramEnd end = run::run_program(
-      with_package({python.string(), "-B", "-m", "talus.measures", study.string(), "--jobs", fmt::format("{}", jobs)}),
-      Json{{"questions", questions}}.dump(), [] { return run::signal_has_come(); });
-  if (end.status != 0)
-    throw FileError((study / "measures.py").string(),
-                    fmt::format("failed (exit status {}): {}", end.status, last_line(end.errors)));
-  return Json::parse(end.output);
-}
-
 }  // namespace
 
 void evaluate_by_study(const Reference& reference, const std::vector<FoundEnsemble>& found, const StudiedRuns& runs,
@@ -168,12 +148,14 @@ void evaluate_by_study(const Reference& reference, const std::vector<FoundEnsemb
     questions.push_back(std::move(question));
   }
   if (open.empty()) return;
-  const std::optional<std::filesystem::path> python = find_python("numpy, h5py");
+  const std::optional<std::filesystem::path> python = find_python({"numpy", "h5py"});
   if (!python) {
     for (EvaluatedRow* row : open) row->missing = needed;
     return;
   }
-  const Json answer = ask(*python, reference.measures, questions, jobs);
+  const Json answer = Json::parse(
+      said_by_package(*python, "talus.measures", {reference.measures.string(), "--jobs", fmt::format("{}", jobs)},
+                      Json{{"questions", questions}}.dump(), reference.measures / "measures.py"));
   check_faults(reference, asked, answer);
   for (std::size_t n = 0; n < open.size(); ++n) take_answer(answer["answers"][n], *open[n]);
 }

@@ -14,7 +14,6 @@
 #include "app/continuum/air_pictures.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/vessel_fields.hpp"
-#include "app/continuum/wall_loads.hpp"
 #include "io/figure/figure.hpp"
 #include "io/figure/particle_dots.hpp"
 #include "io/file_list.hpp"
@@ -112,31 +111,6 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
   write_png({.title = title, .panels = {picture}}, path);
 }
 
-/// \param by_hand a level to draw beside the curve; 0: none
-bool draw_curve(const std::filesystem::path& table, const std::string& column, const Axis& y, double by_hand,
-                const std::string& title, const std::filesystem::path& path) {
-  if (!std::filesystem::exists(table)) return false;
-  const talus::Series series = read_series(table);
-  if (!series.has(column)) return false;
-  const auto time = series.column("time"), value = series.column(column);
-  Line line;
-  for (std::size_t n = 0; n < time.size(); ++n)
-    if (time[n] >= 0) {
-      line.x.push_back(time[n]);
-      line.y.push_back(value[n]);
-    }
-  if (line.x.empty()) return false;
-  Chart chart{.title = title, .x = {.label = "*t*", .unit = "s"}, .y = y, .series = {line}};
-  if (by_hand > 0)
-    chart.series.emplace_back(Line{.x = {0, line.x.back()},
-                                   .y = {by_hand, by_hand},
-                                   .label = "analytical estimate",
-                                   .colour = muted,
-                                   .dash = Dash::dashed});
-  write_png({.panels = {chart}}, path);
-  return true;
-}
-
 /// The grains over time, particles as dots.
 void draw_grains(const Frames& frames, const HopperSetting& setting, const std::string& title,
                  const std::filesystem::path& path) {
@@ -223,7 +197,7 @@ figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperRun& run,
                                                   const std::string& title) {
   const HopperSetting& setting = run.setting;
-  const std::filesystem::path pictures = run_folder / "pictures", tables = run_folder / "analysis";
+  const std::filesystem::path pictures = run_folder / "pictures";
   make_folder(pictures);
   std::vector<std::filesystem::path> drawn;
   const Frames frames = snapshots_of(run_folder, run);
@@ -234,20 +208,9 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
     draw_packing(frames.paths.back(), frames.time.back(), setting, title, drawn.back());
   }
   if (draw_air(run_folder, setting, title, pictures / "air.png")) drawn.push_back(pictures / "air.png");
-  if (draw_wall_loads(run_folder, setting.shape.plate.has_value(), title, pictures / "wall_loads.png"))
-    drawn.push_back(pictures / "wall_loads.png");
   if (draw_fields(run_folder, setting, title, pictures / "fields.png")) drawn.push_back(pictures / "fields.png");
-  if (!setting.shape.plate) return drawn;
-  if (!setting.section.empty() && draw_flow(frames, run, title, pictures / "flow.png"))
+  if (setting.shape.plate && !setting.section.empty() && draw_flow(frames, run, title, pictures / "flow.png"))
     drawn.push_back(pictures / "flow.png");
-  if (draw_curve(tables / "discharge.csv", "discharge_rate", {.label = "discharge *Q*", .unit = "kg/s"},
-                 setting.hand_discharge, title, pictures / "discharge.png"))
-    drawn.push_back(pictures / "discharge.png");
-  // That surface is a mean along y, and in a round vessel falls off at the sides though the grains lie level.
-  if (setting.section.empty() &&
-      draw_curve(tables / "snapshots.csv", "surface_angle_hopper",
-                 {.label = "slope of the hopper's surface", .unit = "deg"}, 0, title, pictures / "surface_angle.png"))
-    drawn.push_back(pictures / "surface_angle.png");
   return drawn;
 }
 

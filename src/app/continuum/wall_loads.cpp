@@ -13,7 +13,6 @@
 #include "analysis/hopper_estimators.hpp"
 #include "app/case/run_tables.hpp"
 #include "app/continuum/hand_formulas.hpp"
-#include "io/figure/figure.hpp"
 #include "io/series.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
 #include "models/continuum/setup/layout.hpp"
@@ -115,40 +114,6 @@ void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& r
                {"pressure_largest", "Pa"},
                {"time_of_largest", "s"}},
               rows);
-}
-
-bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const std::string& title,
-                     const std::filesystem::path& path) {
-  using namespace figure;
-  const std::filesystem::path table = run_folder / "analysis" / "wall_loads.csv";
-  if (!std::filesystem::exists(table)) return false;
-  const talus::Series loads = read_series(table);
-  const auto low = loads.column("low"), high = loads.column("high"), patch = loads.column("patch");
-  Chart chart{
-      .title = title, .x = {.label = "pressure on the wall", .unit = "Pa"}, .y = {.label = "*z*", .unit = "mm"}};
-  const auto add = [&](const char* column, const char* label, const Colour& colour, Dash dash, bool marked) {
-    const auto pressure = loads.column(column);
-    std::map<double, std::vector<std::pair<double, double>>> points;  // by patch
-    for (std::size_t n = 0; n < pressure.size(); ++n)
-      if (high[n] > low[n] && std::isfinite(pressure[n]))
-        points[patch[n]].push_back({500 * (low[n] + high[n]), pressure[n]});
-    for (auto& [of, wall] : points) {
-      std::sort(wall.begin(), wall.end());
-      Line line{.label = of == points.begin()->first ? label : "", .colour = colour, .dash = dash, .marked = marked};
-      for (const auto& [z, p] : wall) line.x.push_back(p), line.y.push_back(z);
-      chart.series.emplace_back(std::move(line));
-    }
-  };
-  add("pressure_at_rest", "at rest", blue, Dash::solid, true);
-  add("pressure_at_rest_by_hand", "analytical estimate: Janssen, Walker", blue, Dash::dashed, false);
-  if (flows) {
-    add("pressure_in_flow", "in flow", vermillion, Dash::solid, true);
-    add("pressure_in_flow_by_hand", "analytical estimate, in flow", vermillion, Dash::dashed, false);
-    add("pressure_largest", "peak", muted, Dash::dotted, false);
-  }
-  if (chart.series.empty()) return false;
-  write_png({.panels = {chart}}, path);
-  return true;
 }
 
 }  // namespace talus::app

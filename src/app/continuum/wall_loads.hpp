@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The load of a vessel's walls by patch and height, beside the hand formulas: tables and a picture of a run.
+/// The load of a vessel's walls by patch and height, beside the hand formulas: tables of a run.
 #pragma once
 
 #include <filesystem>
@@ -24,10 +24,5 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
 /// wedge or plates hold the bed, or where it stands apart from the side faces. \throws FileError
 void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run,
                      const continuum::Parameters& parameters);
-
-/// pictures/wall_loads.png: pressure against height at rest, in flow and by hand. \param flows whether there is an
-/// outlet \returns false without the table
-bool draw_wall_loads(const std::filesystem::path& run_folder, bool flows, const std::string& title,
-                     const std::filesystem::path& path);
 
 }  // namespace talus::app

@@ -59,7 +59,8 @@ bool has_seed(const PreparedCase& prepared) {
   });
 }
 
-void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
+/// \returns output.pictures of the case
+bool add_members(const EnsembleRequest& request, EnsembleGroup& group) {
   CaseFile file = CaseFile::read(request.case_path);
   for (const std::string& setting : request.settings) file.set(setting);
   for (const std::string& setting : group.settings) file.set(setting, "--vary");
@@ -83,6 +84,7 @@ void add_members(const EnsembleRequest& request, EnsembleGroup& group) {
     member.end = prepared.run.end;
     group.members.push_back(std::move(member));
   }
+  return first.run.pictures;
 }
 
 }  // namespace
@@ -94,7 +96,7 @@ EnsemblePlan plan_ensemble(const EnsembleRequest& request) {
   std::erase_if(varied, [](const Varied& key) { return key.values.empty(); });
 
   // All combinations, the last key fastest.
-  EnsemblePlan plan{.groups = {{.name = {}, .settings = {}, .members = {}}}};
+  EnsemblePlan plan{.groups = {{.name = {}, .settings = {}, .members = {}}}, .pictures = true};
   for (const Varied& key : varied) {
     std::vector<EnsembleGroup> groups;
     for (const EnsembleGroup& group : plan.groups)
@@ -114,7 +116,7 @@ EnsemblePlan plan_ensemble(const EnsembleRequest& request) {
       problems.push_back(
           {.where = "--vary", .what = "two groups would be " + group.name, .allowed = "each value once"});
     try {
-      add_members(request, group);
+      plan.pictures = add_members(request, group);
     } catch (const InputError& error) {  // the case's own faults come with every group: once is enough
       for (const Problem& problem : error.problems())
         if (std::none_of(problems.begin(), problems.end(),

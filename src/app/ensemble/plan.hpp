@@ -35,6 +35,7 @@ struct EnsembleGroup {
 
 struct EnsemblePlan {
   std::vector<EnsembleGroup> groups;
+  bool pictures = true;  ///< output.pictures of the case
 };
 
 /// Reads and checks the case of every group. Member k has the case's seed + k. Folders: FOLDER/GROUP/seed_0001; of a

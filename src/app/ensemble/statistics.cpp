@@ -8,9 +8,9 @@
 #include <cmath>
 #include <set>
 
+#include "analysis/statistics.hpp"
 #include "app/ensemble/schedule.hpp"
 #include "io/atomic_file.hpp"
-#include "io/figure/figure.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -102,35 +102,6 @@ void write_series(const std::filesystem::path& path, const Series& series) {
   write_table(path, columns, rows);
 }
 
-figure::Figure bands_figure(const Series& bands, const std::string& title) {
-  figure::Figure figure{.title = title};
-  for (std::size_t c = 1; c + 1 < bands.names.size(); c += 2) {
-    const std::string name = bands.names[c].substr(0, bands.names[c].rfind("_mean"));
-    figure.panels.emplace_back(figure::Chart{
-        .x = {.label = "time", .unit = bands.units[0]},
-        .y = {.label = name, .unit = bands.units[c] == "1" ? "" : bands.units[c]},
-        .series = {figure::Line{.x = bands.columns[0], .y = bands.columns[c], .spread = bands.columns[c + 1]}}});
-  }
-  return figure;
-}
-
-figure::Chart histogram_chart(const std::vector<double>& values, const std::string& label, const std::string& unit) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  const auto bins = std::max<std::size_t>(5, static_cast<std::size_t>(std::sqrt(static_cast<double>(values.size()))));
-  const double margin = 1e-9 * std::abs(*high) + 1e-300;
-  const Histogram h = histogram(values, *low, *high + margin, bins);
-  figure::Bars bars;
-  for (std::size_t b = 0; b <= bins; ++b) bars.edges.push_back(h.least + static_cast<double>(b) * h.bin_width);
-  for (std::size_t b = 0; b < bins; ++b) bars.heights.push_back(h.density(b));
-  const Gaussian fit = gaussian_of_moments(values);
-  figure::Line curve{.label = "Gaussian of the same mean and deviation", .dash = figure::Dash::dashed};
-  for (int k = -60; k <= 60; ++k) {
-    curve.x.push_back(fit.mean + 0.06 * k * fit.deviation);
-    curve.y.push_back(fit.density(curve.x.back()));
-  }
-  return {.x = {.label = label, .unit = unit}, .y = {.label = "probability density"}, .series = {bars, curve}};
-}
-
 }  // namespace
 
 std::vector<QuantitySpread> quantity_spreads(const EnsembleGroup& group) {
@@ -189,18 +160,7 @@ std::vector<std::string> time_tables(const EnsembleGroup& group) {
   return {names.begin(), names.end()};
 }
 
-std::vector<double> pooled_column(const EnsembleGroup& group, const std::filesystem::path& table,
-                                  const std::string& column) {
-  std::vector<double> values;
-  for (const Series& t : read_tables(group, table)) {
-    if (!t.has(column)) continue;
-    const auto more = t.column(column);
-    values.insert(values.end(), more.begin(), more.end());
-  }
-  return values;
-}
-
-std::vector<std::filesystem::path> write_group(const EnsembleGroup& group, const std::filesystem::path& folder) {
+void write_group(const EnsembleGroup& group, const std::filesystem::path& folder) {
   const std::vector<QuantitySpread> spreads = quantity_spreads(group);
   std::string members = "seed,status";
   for (const QuantitySpread& spread : spreads) members += fmt::format(",{} [{}]", spread.name, spread.unit);
@@ -225,26 +185,15 @@ std::vector<std::filesystem::path> write_group(const EnsembleGroup& group, const
   }
   write_atomically(folder / "quantities.csv", quantities + "\n");
 
+  for (const std::string& table : time_tables(group))
+    write_series(folder / ("bands_" + table + ".csv"),
+                 table_spread(group, std::filesystem::path("analysis") / (table + ".csv")));
+}
+
+void claim_pictures(const EnsembleGroup& group, const std::filesystem::path& folder) {
   make_folder(folder / "pictures");
-  std::vector<std::filesystem::path> pictures;
-  for (const std::string& table : time_tables(group)) {
-    const Series bands = table_spread(group, std::filesystem::path("analysis") / (table + ".csv"));
-    write_series(folder / ("bands_" + table + ".csv"), bands);
-    pictures.push_back(folder / "pictures" / ("bands_" + table + ".png"));
-    figure::write_png(bands_figure(bands, group.name), pictures.back());
-  }
-  figure::Figure histograms{.title = group.name};
-  for (const QuantitySpread& spread : spreads)
-    if (spread.values.size() >= 5 && spread.deviation > 0)
-      histograms.panels.emplace_back(
-          histogram_chart(spread.values, spread.name, spread.unit == "1" ? "" : spread.unit));
-  if (const auto widths = pooled_column(group, "analysis/head_widths.csv", "width"); widths.size() >= 5)
-    histograms.panels.emplace_back(histogram_chart(widths, "width of every head at the end", "m"));
-  if (!histograms.panels.empty()) {
-    pictures.push_back(folder / "pictures" / "histograms.png");
-    figure::write_png(histograms, pictures.back());
-  }
-  return pictures;
+  for (const std::string& table : time_tables(group)) claim_file(folder / "pictures" / ("bands_" + table + ".png"));
+  claim_file(folder / "pictures" / "histograms.png");
 }
 
 }  // namespace talus::app

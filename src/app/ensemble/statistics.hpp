@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/statistics.hpp"
 #include "app/ensemble/plan.hpp"
 #include "numerics/series.hpp"
 
@@ -34,13 +33,10 @@ Series table_spread(const EnsembleGroup& group, const std::filesystem::path& tab
 /// Names of the tables, with time as first column, that any done member has under analysis/ with at least one row.
 std::vector<std::string> time_tables(const EnsembleGroup& group);
 
-/// All values of one column over the members: widths of heads.
-std::vector<double> pooled_column(const EnsembleGroup& group, const std::filesystem::path& table,
-                                  const std::string& column);
+/// Writes, in the group's folder: members.csv, quantities.csv and bands_TABLE.csv. \throws FileError
+void write_group(const EnsembleGroup& group, const std::filesystem::path& folder);
 
-/// Writes, in the group's folder: members.csv, quantities.csv, bands_TABLE.csv and pictures/*.png (bands, histograms).
-/// \returns the pictures
-/// \throws FileError
-std::vector<std::filesystem::path> write_group(const EnsembleGroup& group, const std::filesystem::path& folder);
+/// Enters the pictures that talus.charts makes of a group into the list of files that are Talus's. \throws FileError
+void claim_pictures(const EnsembleGroup& group, const std::filesystem::path& folder);
 
 }  // namespace talus::app

@@ -2,12 +2,15 @@
 #include "app/ensemble/sweep.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/nearest.hpp"
 #include "base/unit.hpp"
 #include "io/atomic_file.hpp"
 
@@ -182,6 +185,18 @@ std::string sweep_text(const std::vector<SweptGroup>& groups) {
 void write_sweep(const std::vector<SweptGroup>& groups, const std::filesystem::path& folder) {
   write_atomically(folder / "sweep.csv", csv_text(groups));
   write_atomically(folder / "sweep.json", json_text(groups));
+}
+
+void check_quantities(const std::vector<std::string>& asked, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  std::vector<Problem> problems;
+  for (const std::string& name : asked)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      problems.push_back({.where = "--plot " + name,
+                          .what = "no member has such a quantity",
+                          .allowed = fmt::format("{}", fmt::join(names, ", ")),
+                          .nearest = std::string(nearest(name, names))});
+  if (!problems.empty()) throw InputError(problems);
 }
 
 }  // namespace talus::app

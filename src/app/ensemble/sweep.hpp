@@ -45,11 +45,4 @@ void write_sweep(const std::vector<SweptGroup>& groups, const std::filesystem::p
 /// \throws InputError with the nearest name for each quantity asked for that is not known
 void check_quantities(const std::vector<std::string>& asked, const std::vector<std::string>& known);
 
-/// Draws quantities against the first varied key that is a number, a line for each combination of the others; against
-/// the groups' numbers if none is. \param quantities that are asked for; none: those that differ between groups, twelve
-/// at most \returns false, drawing nothing, if nothing differs
-/// \throws InputError with the nearest name if there is no such quantity, FileError
-bool draw_sweep(const std::vector<SweptGroup>& groups, const std::vector<std::string>& quantities,
-                const std::filesystem::path& path);
-
 }  // namespace talus::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What `talus law` leaves: the path as a table and as curves, and the fitted functions that the law is made of.
+/// What `talus law` leaves: the path, and the fitted functions that the law is made of, as tables.
 #pragma once
 
 #include <filesystem>
@@ -29,11 +29,8 @@ std::vector<NamedValue> quantities_of(const FollowedPath& path);
 /// \throws FileError
 void write_path_table(const FollowedPath& path, const std::filesystem::path& file);
 
-/// Stresses against strains, friction, packing: of a path of shear with loops, the paper's Figure 2. \throws FileError
-void draw_path(const FollowedPath& path, const std::filesystem::path& file);
-
-/// A1 to A4 of a fitted law over the printed ones (the paper's Figure 1), the friction and the pressure that follow.
-/// \throws FileError
-void draw_functions(const granular::Fits& fits, const std::filesystem::path& file);
+/// A1 to A4 of a fitted law (the paper's Figure 1), the friction and the pressure that follow, against strain: as
+/// printed and, where they are, as repaired. \throws FileError
+void write_functions(const granular::Fits& fits, const std::filesystem::path& file);
 
 }  // namespace talus::app

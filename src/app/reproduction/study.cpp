@@ -98,7 +98,7 @@ StudyRuns all_runs(const Reference& reference, const StudyRequest& request, cons
 /// The figures and the page, or a word on what they need. \returns false if the script failed
 bool draw_page(const std::filesystem::path& project, const StudyRequest& request) {
   const std::filesystem::path script = project / "validation" / request.study / "figures.py";
-  const std::optional<std::filesystem::path> python = find_python("h5py, matplotlib");
+  const std::optional<std::filesystem::path> python = find_python({"h5py", "matplotlib"});
   if (!python) {
     fmt::print(
         "No figures: they take python3 with h5py and matplotlib (Debian: python3-h5py, python3-matplotlib).\n"

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double tick_length = 3.5, tick_gap = 2.5, title_gap = 5.0, axis_width = 0.8;
 constexpr double bar_distance = 8, bar_width = 9, key_gap = 5;
-constexpr Colour grid_colour = rgb(0xe7eaee);
 
 double widest(cairo_t* context, const Ticks& ticks) {
   double width = 0;
@@ -27,8 +26,7 @@ Ticks x_ticks(cairo_t* context, const Scale& scale) {
 }  // namespace
 
 double Scale::operator()(double value) const {
-  const double t = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-  return begin + t * (end - begin);
+  return begin + (value - low) / (high - low) * (end - begin);
 }
 
 Ticks ticks_for(const Scale& scale, double spacing) {
@@ -37,7 +35,7 @@ Ticks ticks_for(const Scale& scale, double spacing) {
   int most = std::clamp(static_cast<int>(std::abs(scale.end - scale.begin) / spacing), 1, many);
   Ticks ticks;
   do {
-    ticks = scale.logarithmic ? logarithmic_ticks(low, high, most) : linear_ticks(low, high, most);
+    ticks = linear_ticks(low, high, most);
   } while (ticks.major.size() < 2 && ++most <= many);
   return ticks;
 }
@@ -62,16 +60,6 @@ Margins frame_margins(cairo_t* context, const Frame& frame) {
   return margins;
 }
 
-void draw_grid(cairo_t* context, const Frame& frame) {
-  set_pen(context, grid_colour, 0.6);
-  for (const double value : x_ticks(context, frame.x).major) {
-    stroke_line(context, frame.x(value), frame.y.begin, frame.x(value), frame.y.end);
-  }
-  for (const double value : ticks_for(frame.y, 32).major) {
-    stroke_line(context, frame.x.begin, frame.y(value), frame.x.end, frame.y(value));
-  }
-}
-
 void draw_frame(cairo_t* context, const Frame& frame) {
   const double left = frame.x.begin, bottom = frame.y.begin;
   const Ticks across = x_ticks(context, frame.x), up = ticks_for(frame.y, 32);
@@ -82,8 +70,6 @@ void draw_frame(cairo_t* context, const Frame& frame) {
   cairo_stroke(context);
 
   auto tick = [&](double x, double y, double dx, double dy) { stroke_line(context, x, y, x + dx, y + dy); };
-  for (const double value : across.minor) tick(frame.x(value), bottom, 0, 0.55 * tick_length);
-  for (const double value : up.minor) tick(left, frame.y(value), -0.55 * tick_length, 0);
   const double line = bottom + tick_length + tick_gap + 0.8 * tick_style.size;
   for (std::size_t i = 0; i < across.major.size(); ++i) {
     set_pen(context, ink, axis_width);
@@ -107,7 +93,7 @@ void draw_frame(cairo_t* context, const Frame& frame) {
 }
 
 double colour_bar_width(cairo_t* context, const ColourBar& bar, double height) {
-  const Ticks ticks = ticks_for({bar.low, bar.high, false, height, 0}, 28);
+  const Ticks ticks = ticks_for({bar.low, bar.high, height, 0}, 28);
   const double title = bar.title.empty() ? 0 : title_gap + 1.35 * label_style.size;
   return bar_distance + bar_width + tick_length + tick_gap + widest(context, ticks) + title;
 }
@@ -129,7 +115,7 @@ void draw_colour_bar(cairo_t* context, const ColourBar& bar, const Rectangle& pl
   set_pen(context, ink, 0.6);
   cairo_stroke(context);
 
-  const Scale scale{bar.low, bar.high, false, box.bottom(), box.y};
+  const Scale scale{bar.low, bar.high, box.bottom(), box.y};
   const Ticks ticks = ticks_for(scale, 28);
   double number_width = 0;
   for (std::size_t i = 0; i < ticks.major.size(); ++i) {

@@ -13,13 +13,12 @@ namespace talus::figure {
 
 inline constexpr TextStyle tick_style{.size = 8.5}, label_style{.size = 9.5}, legend_style{.size = 8.5};
 
-/// Maps data between `low` and `high` to the page between `begin` and `end`, evenly or by the logarithm.
+/// Maps data between `low` and `high` to the page between `begin` and `end`, evenly.
 struct Scale {
   double low = 0, high = 1;
-  bool logarithmic = false;
   double begin = 0, end = 1;
 
-  /// Position on the page; not finite where the value is not, or has no logarithm.
+  /// Position on the page; not finite where the value is not.
   double operator()(double value) const;
 };
 
@@ -38,11 +37,9 @@ struct Margins {
 struct Frame {
   Scale x = {}, y = {};  ///< x: begin left, end right; y: begin at the bottom, end at the top
   std::string x_title = {}, y_title = {};
-  bool grid = true;
 };
 
 Margins frame_margins(cairo_t* context, const Frame& frame);
-void draw_grid(cairo_t* context, const Frame& frame);
 void draw_frame(cairo_t* context, const Frame& frame);
 
 /// A colour bar right of a plot.

@@ -70,11 +70,9 @@ void set_colour(cairo_t* context, const Colour& colour) {
   cairo_set_source_rgba(context, colour.red, colour.green, colour.blue, colour.alpha);
 }
 
-void set_pen(cairo_t* context, const Colour& colour, double width, Dash dash) {
+void set_pen(cairo_t* context, const Colour& colour, double width) {
   set_colour(context, colour);
   cairo_set_line_width(context, width);
-  const double dashes[] = {4.0 * width, 2.2 * width}, dots[] = {1.2 * width, 1.8 * width};
-  cairo_set_dash(context, dash == Dash::dashed ? dashes : dots, dash == Dash::solid ? 0 : 2, 0);
 }
 
 void fill_rectangle(cairo_t* context, const Rectangle& r, const Colour& colour) {

@@ -62,11 +62,9 @@ class Saved {
   cairo_t* context_;
 };
 
-enum class Dash { solid, dashed, dotted };
-
 void set_colour(cairo_t* context, const Colour& colour);
-/// Colour, width and dashes of the lines to come.
-void set_pen(cairo_t* context, const Colour& colour, double width, Dash dash = Dash::solid);
+/// Colour and width of the lines to come.
+void set_pen(cairo_t* context, const Colour& colour, double width);
 void fill_rectangle(cairo_t* context, const Rectangle& rectangle, const Colour& colour);
 /// Strokes one straight line with the pen as set.
 void stroke_line(cairo_t* context, double x0, double y0, double x1, double y1);

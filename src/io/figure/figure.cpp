@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The layout: what stands around each plot is measured first, and what is left of the width is shared by the columns,
-/// in the same way in all rows that have as many; the heights follow from the shapes of the plots. The numbers on an
+/// The layout: what stands around each plot is measured first, and what is left of the width is shared by the columns;
+/// the heights follow from the shapes of the plots. The numbers on an
 /// axis depend on its length, so that is repeated until nothing changes, at most ten times.
 #include "io/figure/figure.hpp"
 
@@ -19,43 +19,19 @@ constexpr TextStyle figure_title_style{.size = 11, .bold = true}, letter_style{.
     title_style{.size = 10};
 constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, least_width = 60;
 
-double aspect_of(const Chart& chart) {
-  return chart.aspect;
-}
-
-struct Row {
-  std::size_t first = 0, panels = 0;
-  std::size_t columns = 1;
-};
-
-std::vector<Row> rows_of(const Figure& figure) {
+std::size_t columns_of(const Figure& figure) {
   const std::size_t count = figure.panels.size();
-  std::vector<Row> rows;
-  std::size_t placed = 0;
-  auto add = [&](std::size_t columns) {
-    rows.push_back({placed, std::min(columns, count - placed), columns});
-    placed += rows.back().panels;
-  };
-  for (const int columns : figure.rows) {
-    if (columns < 1 || placed == count) throw std::invalid_argument("a row without panels");
-    add(static_cast<std::size_t>(columns));
-  }
-  if (!figure.rows.empty() && placed < count) throw std::invalid_argument("more panels than the rows hold");
-  const std::size_t usual = std::min(count, std::size_t{count >= 5 ? 3u : 2u});
-  while (placed < count) add(figure.columns > 0 ? std::min(static_cast<std::size_t>(figure.columns), count) : usual);
-  return rows;
+  const std::size_t usual = count >= 5 ? 3 : 2;
+  return std::min(count, figure.columns > 0 ? static_cast<std::size_t>(figure.columns) : usual);
 }
 
 class Layout {
  public:
-  Layout(const Figure& figure, cairo_t* context) : figure_(figure), rows_(rows_of(figure)) {
-    for (const Row& row : rows_) most_columns_ = std::max(most_columns_, row.columns);
+  Layout(const Figure& figure, cairo_t* context) : figure_(figure), columns_(columns_of(figure)) {
     constexpr double widths[] = {480, 720, 860, 980};
-    width_ = figure.width > 0 ? figure.width : widths[std::min(most_columns_, std::size_t{4}) - 1];
-    for (const Row& row : rows_) {
-      const double width = width_ / static_cast<double>(row.columns);
-      plots_.insert(plots_.end(), row.panels, {0, 0, width, 0.7 * width});
-    }
+    width_ = figure.width > 0 ? figure.width : widths[std::min(columns_, std::size_t{4}) - 1];
+    const double width = width_ / static_cast<double>(columns_);
+    plots_.assign(figure.panels.size(), {0, 0, width, 0.7 * width});
     for (int pass = 0; pass < 10; ++pass) {
       const std::vector<Rectangle> before = plots_;
       arrange(context);
@@ -74,23 +50,16 @@ class Layout {
   }
 
   /// "(a) title" above the plot.
-  bool has_title(std::size_t panel) const {
-    return lettered() || std::visit([](const auto& p) { return !p.title.empty(); }, figure_.panels[panel]);
-  }
+  bool has_title(std::size_t panel) const { return lettered() || !figure_.panels[panel].title.empty(); }
   bool lettered() const { return figure_.letters && figure_.panels.size() > 1; }
 
  private:
   void arrange(cairo_t* context) {
-    // What stands left and right of the plots, by the number of columns and the column.
-    std::vector<std::vector<Margins>> sides(most_columns_ + 1, std::vector<Margins>(most_columns_));
-    std::vector<Margins> around(plots_.size());
-    for (const Row& row : rows_) {
-      for (std::size_t k = 0; k < row.panels; ++k) {
-        const std::size_t i = row.first + k;
-        around[i] = std::visit([&](const auto& p) { return margins(context, p, plots_[i]); }, figure_.panels[i]);
-        Margins& side = sides[row.columns][k];
-        side.left = std::max(side.left, around[i].left), side.right = std::max(side.right, around[i].right);
-      }
+    std::vector<Margins> sides(columns_), around(plots_.size());
+    for (std::size_t i = 0; i < plots_.size(); ++i) {
+      around[i] = margins(context, figure_.panels[i], plots_[i]);
+      Margins& side = sides[i % columns_];
+      side.left = std::max(side.left, around[i].left), side.right = std::max(side.right, around[i].right);
     }
     if (figure_.bar) bar_ = colour_bar_width(context, *figure_.bar, height_);
     double below = 0;  // the last row
@@ -99,33 +68,33 @@ class Layout {
       bar_ = std::max(bar_, key.right), below = key.bottom;
     }
     double y = edge + (figure_.title.empty() ? 0 : 1.4 * title_line);
-    for (const Row& row : rows_) {
-      double room = width_ - 2 * edge - bar_ - static_cast<double>(row.columns - 1) * column_gap;
-      for (std::size_t k = 0; k < row.columns; ++k) room -= sides[row.columns][k].left + sides[row.columns][k].right;
-      const double plot_width = std::max(least_width, room / static_cast<double>(row.columns));
+    double room = width_ - 2 * edge - bar_ - static_cast<double>(columns_ - 1) * column_gap;
+    for (const Margins& side : sides) room -= side.left + side.right;
+    const double plot_width = std::max(least_width, room / static_cast<double>(columns_));
+    for (std::size_t first = 0; first < plots_.size(); first += columns_) {
+      const std::size_t end = std::min(first + columns_, plots_.size());
       double top = 0, bottom = 0, aspect = 0;
-      for (std::size_t i = row.first; i < row.first + row.panels; ++i) {
+      for (std::size_t i = first; i < end; ++i) {
         top = std::max(top, around[i].top + (has_title(i) ? title_line : 0));
         bottom = std::max(bottom, around[i].bottom);
-        aspect = std::max(aspect, std::visit([](const auto& p) { return aspect_of(p); }, figure_.panels[i]));
+        aspect = std::max(aspect, aspect_of(figure_.panels[i]));
       }
       y += top;
       double x = edge;
-      for (std::size_t k = 0; k < row.panels; ++k) {
-        const Margins& side = sides[row.columns][k];
+      for (std::size_t i = first; i < end; ++i) {
+        const Margins& side = sides[i - first];
         x += side.left;
-        plots_[row.first + k] = {x, y, plot_width, aspect * plot_width};
+        plots_[i] = {x, y, plot_width, aspect * plot_width};
         x += plot_width + side.right + column_gap;
       }
-      if (&row == &rows_.back()) bottom = std::max(bottom, below);
+      if (end == plots_.size()) bottom = std::max(bottom, below);
       y += aspect * plot_width + bottom + row_gap;
     }
     height_ = y - row_gap + edge;
   }
 
   const Figure& figure_;
-  std::vector<Row> rows_;
-  std::size_t most_columns_ = 1;
+  std::size_t columns_;
   double width_ = 0, height_ = 0, bar_ = 0;
   std::vector<Rectangle> plots_;
 };
@@ -143,20 +112,17 @@ Canvas drawn(const Figure& figure) {
   draw_text(context, figure.title, edge, edge + figure_title_style.size, figure_title_style);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const Rectangle& plot = layout.plot(i);
-    std::visit(
-        [&](const auto& panel) {
-          draw(context, panel, plot);
-          if (!layout.has_title(i)) return;
-          const double top = plot.y - margins(context, panel, plot).top - 5;
-          double x = plot.x;
-          if (layout.lettered()) {
-            const std::string letter = fmt::format("({:c})", static_cast<char>('a' + i % 26));
-            draw_text(context, letter, x, top, letter_style);
-            x += text_extent(context, letter, letter_style).width + 5;
-          }
-          draw_text(context, panel.title, x, top, title_style);
-        },
-        figure.panels[i]);
+    const ParticlePicture& panel = figure.panels[i];
+    draw(context, panel, plot);
+    if (!layout.has_title(i)) continue;
+    const double top = plot.y - margins(context, panel, plot).top - 5;
+    double x = plot.x;
+    if (layout.lettered()) {
+      const std::string letter = fmt::format("({:c})", static_cast<char>('a' + i % 26));
+      draw_text(context, letter, x, top, letter_style);
+      x += text_extent(context, letter, letter_style).width + 5;
+    }
+    draw_text(context, panel.title, x, top, title_style);
   }
   if (figure.bar) draw_colour_bar(context, *figure.bar, layout.panels());
   if (figure.key) draw_arrow_key(context, *figure.key, layout.panels(), arrow_key_margins(context, *figure.key).bottom);

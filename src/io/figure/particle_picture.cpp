@@ -31,8 +31,8 @@ Frame frame_of(const ParticlePicture& picture, const Projection& p) {
   const AxisName across = axis_of(picture.view.right), up = axis_of(picture.view.up);
   const double unit = picture.length.value;
   Frame frame;
-  frame.x = {across.sign * p.window.left / unit, across.sign * p.window.right / unit, false, p.plot.x, p.plot.right()};
-  frame.y = {up.sign * p.window.bottom / unit, up.sign * p.window.top / unit, false, p.plot.bottom(), p.plot.y};
+  frame.x = {across.sign * p.window.left / unit, across.sign * p.window.right / unit, p.plot.x, p.plot.right()};
+  frame.y = {up.sign * p.window.bottom / unit, up.sign * p.window.top / unit, p.plot.bottom(), p.plot.y};
   frame.x_title = axis_title(fmt::format("*{}*", across.name), picture.length.name);
   frame.y_title = axis_title(fmt::format("*{}*", up.name), picture.length.name);
   return frame;

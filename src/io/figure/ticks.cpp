@@ -26,12 +26,6 @@ double scaled(double digit, int n) {
   return n >= 0 ? digit * std::pow(10.0, n) : digit / std::pow(10.0, -n);
 }
 
-std::string power_label(int digit, int exponent, bool plain) {
-  if (plain) return fmt::format("{:g}", scaled(digit, exponent));
-  const std::string power = fmt::format("10^{{{}}}", exponent);
-  return digit == 1 ? power : fmt::format("{}×{}", digit, power);
-}
-
 }  // namespace
 
 std::string with_minus(std::string_view number) {
@@ -76,32 +70,6 @@ Ticks linear_ticks(double low, double high, int most) {
     ticks.labels.push_back(with_minus(fmt::format("{:.{}f}", k == 0 ? 0.0 : k * step / scaled(1, factor), decimals)));
   }
   return ticks;
-}
-
-Ticks logarithmic_ticks(double low, double high, int most) {
-  check(low, high, most);
-  if (!(low > 0)) throw std::invalid_argument(fmt::format("no logarithmic axis from {}", low));
-  const double slack = 1 + 1e-9;
-  auto inside = [&](double value) { return value >= low / slack && value <= high * slack; };
-  const int first = decade(low), last = decade(high) + 1;
-  const bool plain = first >= -3 && last <= 5;
-  const double decades = std::log10(high / low);
-  const int stride = std::max(1, static_cast<int>(std::ceil(decades / most)));
-  Ticks ticks;
-  for (int n = first; n <= last; ++n) {
-    for (int digit = 1; digit <= 9; ++digit) {
-      const double value = scaled(digit, n);
-      if (!inside(value)) continue;
-      const bool major = digit == 1 ? n % stride == 0 : decades < 2 && (digit == 2 || digit == 5);
-      if (major) {
-        ticks.major.push_back(std::clamp(value, low, high));
-        ticks.labels.push_back(power_label(digit, n, plain));
-      } else if (stride == 1 || digit == 1) {
-        ticks.minor.push_back(value);
-      }
-    }
-  }
-  return ticks.major.size() < 2 ? linear_ticks(low, high, most) : ticks;
 }
 
 }  // namespace talus::figure

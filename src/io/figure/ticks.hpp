@@ -11,7 +11,6 @@ namespace talus::figure {
 struct Ticks {
   std::vector<double> major;        ///< increasing, within the axis
   std::vector<std::string> labels;  ///< one for each major tick; labels times `factor` is the value
-  std::vector<double> minor;        ///< logarithmic axes only
   std::string factor;               ///< "×10^{-6}" for very small or large numbers, or empty
 };
 
@@ -26,10 +25,6 @@ double nice_length(double most);
 /// Multiples of the nice step in [low, high]; with `most` below 3 there may be none. \throws std::invalid_argument
 /// unless low < high, both finite
 Ticks linear_ticks(double low, double high, int most);
-
-/// Powers of ten in [low, high], thinned to at most `most`; where fewer than two decades are seen, also 2 and 5 times
-/// them, and linear ticks within one. \throws std::invalid_argument unless 0 < low < high, both finite
-Ticks logarithmic_ticks(double low, double high, int most);
 
 /// With the minus sign of typography.
 std::string with_minus(std::string_view number);

@@ -17,8 +17,11 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Chart with_line(const Colour& colour) {
-  return {.title = "*ṽ*_{f}", .x = {"*t̃*"}, .series = {Line{.x = {0, 1}, .y = {0, 1}, .colour = colour, .width = 3}}};
+/// Two grains of a colour.
+ParticlePicture with_grains(const Colour& colour) {
+  static const std::vector<Vector3> positions = {{0, 0, 0}, {4, 1.5, 0}};
+  static const std::vector<double> radii = {0.5, 0.5};
+  return {.title = "*ṽ*_{f}", .positions = positions, .radii = radii, .colouring = Plain{colour}};
 }
 
 /// The columns and rows in which a colour is seen, first and last.
@@ -34,15 +37,15 @@ Rectangle where(const Picture& picture, const Colour& colour) {
 }
 
 TEST(Figure, HasTheSizeThatWasAskedFor) {
-  const Picture picture = decode(png({.panels = {with_line(blue)}, .width = 300, .scale = 3}));
+  const Picture picture = decode(png({.panels = {with_grains(blue)}, .width = 300, .scale = 3}));
   EXPECT_EQ(picture.width, 900);
   EXPECT_GT(picture.height, 500);
   EXPECT_LT(picture.height, 900);
 }
 
 TEST(Figure, PutsPanelsInAGrid) {
-  const Picture picture =
-      decode(png({.panels = {with_line(blue), with_line(vermillion), with_line(green)}, .columns = 2, .width = 400}));
+  const Picture picture = decode(
+      png({.panels = {with_grains(blue), with_grains(vermillion), with_grains(green)}, .columns = 2, .width = 400}));
   const Rectangle a = where(picture, blue), b = where(picture, vermillion), c = where(picture, green);
   EXPECT_LT(a.right(), b.x);
   EXPECT_LT(a.bottom(), c.y);
@@ -53,7 +56,7 @@ TEST(Figure, PutsPanelsInAGrid) {
 }
 
 TEST(Figure, OneColourBarAndOneKeyStandRightOfAllPanels) {
-  const Figure plain{.panels = {with_line(blue), with_line(vermillion)}, .columns = 1, .width = 300};
+  const Figure plain{.panels = {with_grains(blue), with_grains(vermillion)}, .columns = 1, .width = 300};
   Figure with = plain;
   with.bar = ColourBar{.low = 0, .high = 1, .title = "packing"};
   with.key = ArrowKey{.label = "1 m/s", .length = 20, .colour = purple};
@@ -68,7 +71,7 @@ TEST(Figure, OneColourBarAndOneKeyStandRightOfAllPanels) {
 }
 
 TEST(Figure, PixelsAreThoseOfThePng) {
-  const Figure figure{.panels = {with_line(blue)}, .width = 150, .scale = 1.5};
+  const Figure figure{.panels = {with_grains(blue)}, .width = 150, .scale = 1.5};
   const Picture picture = decode(png(figure));
   const Pixels raw = pixels(figure);
   ASSERT_EQ(raw.width, picture.width);
@@ -80,40 +83,13 @@ TEST(Figure, PixelsAreThoseOfThePng) {
   }
 }
 
-TEST(Figure, RowsMayDifferInTheirColumns) {
-  const Picture picture =
-      decode(png({.panels = {with_line(blue), with_line(vermillion), with_line(green)}, .rows = {1, 2}, .width = 400}));
-  const Rectangle a = where(picture, blue), b = where(picture, vermillion), c = where(picture, green);
-  EXPECT_LT(a.bottom(), b.y);
-  EXPECT_NEAR(b.y, c.y, 1);
-  EXPECT_LT(b.right(), c.x);
-  EXPECT_NEAR(a.x, b.x, 1);
-  EXPECT_NEAR(a.right(), c.right(), 2);
-  EXPECT_GT(a.width, 2 * b.width);
-  EXPECT_NEAR(b.width, c.width, 2);
-}
-
-TEST(Figure, TheLastRowMayHaveRoomLeft) {
-  const Picture picture = decode(png({.panels = {with_line(blue), with_line(green)}, .rows = {1, 2}, .width = 400}));
-  const Rectangle a = where(picture, blue), b = where(picture, green);
-  EXPECT_LT(a.bottom(), b.y);
-  EXPECT_LT(b.width, 0.5 * a.width);
-}
-
-TEST(Figure, MixesCurvesAndParticles) {
-  const std::vector<Vector3> positions = {{0, 0, 0}, {2, 1, 0}};
-  const std::vector<double> radii = {0.5, 0.5};
-  const ParticlePicture particles{.positions = positions, .radii = radii, .colouring = Plain{purple}};
-  const Picture picture = decode(png({.panels = {with_line(blue), particles}}));
-  EXPECT_GT(picture.count(blue), 100);
-  EXPECT_GT(picture.count(purple), 1000);
-}
-
 TEST(Figure, NothingIsCutOffAtTheEdge) {
-  const Chart wide{.title = "title",
-                   .x = {"label", "unit"},
-                   .y = {"label", "unit"},
-                   .series = {Line{.x = {0, 1e6}, .y = {-1e-7, 1e-7}}}};
+  const std::vector<Vector3> positions = {{0, -1e-3, 0}, {1e6, 1e5, 0}};
+  const std::vector<double> radii = {1, 1}, values = {-1e-7, 1e-7};
+  const ParticlePicture wide{.title = "title",
+                             .positions = positions,
+                             .radii = radii,
+                             .colouring = ByValue{.values = values, .label = "label", .unit = {1, "unit"}}};
   const Picture picture = decode(png({.title = "a title", .panels = {wide, wide}, .width = 500}));
   for (int x = 0; x < picture.width; ++x) {
     EXPECT_EQ(picture.at(x, 1), white);
@@ -126,33 +102,30 @@ TEST(Figure, NothingIsCutOffAtTheEdge) {
 }
 
 TEST(Figure, SameDescriptionSameBytes) {
-  const Figure figure{.panels = {with_line(blue), with_line(green)}};
+  const Figure figure{.panels = {with_grains(blue), with_grains(green)}};
   EXPECT_EQ(png(figure), png(figure));
 }
 
 TEST(Figure, RefusesWhatCannotBeDrawn) {
   EXPECT_THROW(png({}), std::invalid_argument);
-  EXPECT_THROW(png({.panels = {with_line(blue)}, .rows = {0, 1}}), std::invalid_argument);
-  EXPECT_THROW(png({.panels = {with_line(blue)}, .rows = {1, 1}}), std::invalid_argument);
-  EXPECT_THROW(png({.panels = {with_line(blue), with_line(green)}, .rows = {1}}), std::invalid_argument);
-  EXPECT_THROW(png({.panels = {with_line(blue)}, .scale = 0}), std::invalid_argument);
-  EXPECT_THROW(png({.panels = {with_line(blue)}, .scale = 1e6}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_grains(blue)}, .scale = 0}), std::invalid_argument);
+  EXPECT_THROW(png({.panels = {with_grains(blue)}, .scale = 1e6}), std::invalid_argument);
 }
 
 TEST(WritePng, WritesTheFileWhole) {
   const ScratchFolder folder;
-  const Figure figure{.panels = {with_line(blue)}};
-  put_content(folder / "curve.png", "an older file");
-  write_png(figure, folder / "curve.png");
-  EXPECT_EQ(content_of(folder / "curve.png"), png(figure));
-  EXPECT_THAT(names_in(folder.path()), ElementsAre("curve.png"));
+  const Figure figure{.panels = {with_grains(blue)}};
+  put_content(folder / "drawn.png", "an older file");
+  write_png(figure, folder / "drawn.png");
+  EXPECT_EQ(content_of(folder / "drawn.png"), png(figure));
+  EXPECT_THAT(names_in(folder.path()), ElementsAre("drawn.png"));
 }
 
 TEST(WritePng, FailsWithTheNameAndLeavesNothing) {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "taken.png");  // a folder stands where the file should
-  const Figure figure{.panels = {with_line(blue)}};
-  for (const auto& path : {folder / "taken.png", folder / "missing/curve.png"}) {
+  const Figure figure{.panels = {with_grains(blue)}};
+  for (const auto& path : {folder / "taken.png", folder / "missing/drawn.png"}) {
     EXPECT_THAT(message_of<FileError>([&] { write_png(figure, path); }), HasSubstr(path.string()));
   }
   EXPECT_THAT(names_in(folder.path()), ElementsAre("taken.png"));
@@ -163,11 +136,11 @@ TEST(WritePng, KeepsTheOlderPictureWhenTheDiskIsFull) {
   const SmallDisk disk;
   if (!disk.mounted()) GTEST_SKIP() << "needs the right to mount a small disk";
   put_content(disk / "filling", std::string(1'036'000, 'x'));
-  put_content(disk / "curve.png", "old");
-  EXPECT_THAT(message_of<FileError>([&] { write_png({.panels = {with_line(blue)}}, disk / "curve.png"); }),
+  put_content(disk / "drawn.png", "old");
+  EXPECT_THAT(message_of<FileError>([&] { write_png({.panels = {with_grains(blue)}}, disk / "drawn.png"); }),
               HasSubstr("No space left"));
-  EXPECT_EQ(content_of(disk / "curve.png"), "old");
-  EXPECT_THAT(names_in(disk.path()), ElementsAre("curve.png", "filling"));
+  EXPECT_EQ(content_of(disk / "drawn.png"), "old");
+  EXPECT_THAT(names_in(disk.path()), ElementsAre("drawn.png", "filling"));
 }
 
 }  // namespace

@@ -73,27 +73,11 @@ TEST(LinearTicks, ShareAFactorWhenVerySmallOrLarge) {
   EXPECT_THAT(linear_ticks(0, 2.5e6, 5).labels, ElementsAre("0.0", "0.5", "1.0", "1.5", "2.0", "2.5"));
 }
 
-TEST(LogarithmicTicks, ArePowersOfTenWithTheirMultiplesBetween) {
-  const Ticks ticks = logarithmic_ticks(1e-9, 1e-6, 6);
-  EXPECT_THAT(ticks.labels, ElementsAre("10^{-9}", "10^{-8}", "10^{-7}", "10^{-6}"));
-  EXPECT_EQ(ticks.minor.size(), 3u * 8u);
-  EXPECT_THAT(ticks.minor.front(), DoubleEq(2e-9));
-  EXPECT_THAT(logarithmic_ticks(1e-20, 1e20, 5).labels,
-              ElementsAre("10^{-16}", "10^{-8}", "10^{0}", "10^{8}", "10^{16}"));
-}
-
-TEST(LogarithmicTicks, FillTheAxisWhenItHasFewDecades) {
-  EXPECT_THAT(logarithmic_ticks(8, 60, 6).labels, ElementsAre("10", "20", "50"));
-  const Ticks within = logarithmic_ticks(2.1, 4.9, 4);
-  EXPECT_THAT(within.major, ElementsAre(3, 4));
-}
-
 TEST(Ticks, RefuseWhatIsNoAxis) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(linear_ticks(1, 1, 5), std::invalid_argument);
   EXPECT_THROW(linear_ticks(0, infinity, 5), std::invalid_argument);
   EXPECT_THROW(linear_ticks(0, std::nan(""), 5), std::invalid_argument);
-  EXPECT_THROW(logarithmic_ticks(0, 10, 5), std::invalid_argument);
   EXPECT_THROW(nice_step(0, 5), std::invalid_argument);
   EXPECT_THROW(nice_length(-1), std::invalid_argument);
 }
