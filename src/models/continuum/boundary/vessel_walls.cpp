@@ -120,10 +120,20 @@ std::optional<Surface::Foot> VesselWalls::foot_near(Clearance& clear, const Vect
   std::optional<Surface::Foot> foot;
   const bool searched = clear.triangles == 0 || !(moved < looked_beyond);
   if (searched) {
+    // The tree finds triangles whose boxes are within that distance, several times as many as are themselves.
+    constexpr std::size_t max_found = 64;
     thread_local std::vector<std::uint32_t> near;
     clear = {y, within + looked_beyond, 0, {}};
-    if (surface_.near(y, clear.distance, Clearance::max_triangles, near)) {
+    bool all = surface_.near(y, clear.distance, max_found, near);
+    if (all) {
+      const double slack = 1e-9 * clear.distance;
+      std::erase_if(near, [&](std::uint32_t t) {
+        return norm(nearest_place(surface_.triangles()[t], y) - y) > clear.distance + slack;
+      });
       if (near.empty()) return std::nullopt;
+      all = near.size() <= Clearance::max_triangles;
+    }
+    if (all) {
       clear.triangles = static_cast<std::uint32_t>(near.size());
       std::copy(near.begin(), near.end(), clear.triangle.begin());
     } else {
