@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "analysis/avalanche_numbers.hpp"
-#include "analysis/row_values.hpp"
 
 namespace talus {
 namespace {
@@ -59,10 +58,6 @@ double of_run(std::string_view name, Window window = {}) {
   return measure(name, synthetic(0, 1), window);
 }
 
-std::optional<double> of_row(const ComparisonRow& row, const std::vector<AvalancheRun>& members) {
-  return RowValues<AvalancheRun>(row, {&members}, avalanche_measures()).values().at(0);
-}
-
 TEST(AvalancheMeasures, OfAKnownRun) {
   EXPECT_DOUBLE_EQ(of_run("front_speed_max"), 50);
   EXPECT_DOUBLE_EQ(of_run("front_speed_end"), 30);
@@ -77,36 +72,6 @@ TEST(AvalancheMeasures, OfAKnownRun) {
   EXPECT_DOUBLE_EQ(of_run("head_aspect_ratio", {.from = 6}), (6 * 4 + 3.5) / 7);
   EXPECT_DOUBLE_EQ(of_run("overlap_max"), 0.01);
   EXPECT_TRUE(std::isnan(measure("head_count", {}, {}))) << "a run without data";
-}
-
-TEST(EnsembleQuantity, StatisticsOverTheMembers) {
-  const std::vector<AvalancheRun> members = {synthetic(-1, 1), synthetic(0, 1), synthetic(1, 1)};
-  auto of = [&](std::string quantity, Statistic statistic, std::size_t count = 3) {
-    const ComparisonRow row{.quantity = std::move(quantity), .from = From::each, .statistic = statistic};
-    return of_row(row, {members.begin(), members.begin() + static_cast<std::ptrdiff_t>(count)});
-  };
-  EXPECT_DOUBLE_EQ(*of("front_speed_max", Statistic::standard_deviation), 1);
-  EXPECT_DOUBLE_EQ(*of("front_speed_max", Statistic::median), 50);
-  EXPECT_EQ(of("head_count", Statistic::standard_deviation, 1), std::nullopt);
-  EXPECT_EQ(of("head_count", Statistic::mean, 0), std::nullopt);
-  EXPECT_EQ(of("head_count", Statistic::mean, 1), 3);
-  EXPECT_THROW(of("head_widht", Statistic::mean), std::out_of_range);
-}
-
-TEST(EnsembleQuantity, MembersWithoutAnAngleAreLeftOutWhileTheyAreTheFewer) {
-  std::vector<AvalancheRun> members = {synthetic(-1, 1), synthetic(0, 1), synthetic(1, 1)};
-  const ComparisonRow at_first{.quantity = "frontal_angle", .from = From::each, .window = {.at = 2}};
-  const auto lose_first_angle = [](AvalancheRun& run) {
-    const AvalancheRun::Numbers whole = run.snapshots;
-    run.snapshots = {whole.time(), [whole](std::size_t n, Number number) {
-                       return n == 1 && number == avalanche::frontal_angle ? AvalancheRun::none
-                                                                           : whole.value(n, number);
-                     }};
-  };
-  lose_first_angle(members[2]);
-  EXPECT_NEAR(*of_row(at_first, members), 88 - 4.5, 1e-12);
-  lose_first_angle(members[1]);
-  EXPECT_TRUE(std::isnan(*of_row(at_first, members)));
 }
 
 TEST(AvalancheSummary, ListsWhatAppliesWithUnits) {
