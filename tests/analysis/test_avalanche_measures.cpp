@@ -28,7 +28,7 @@ AvalancheRun::Numbers numbers(std::vector<double> time, std::function<ByHand(std
 /// Grains in the head: 2000 - 150 t, of 2000; width (60 - t) a, thickness (15 - t/4 + wobble) a. `shift` is added to
 /// the front speed.
 AvalancheRun synthetic(double shift, double radius) {
-  AvalancheRun run{.scales = {radius, 1}, .grains = 2000};
+  AvalancheRun run{.scales = {radius, 1}};
   auto speed = [=](double t) { return (t <= 5 ? 30 + 4 * t : 50 - (t - 5) - 0.5 * std::max(0.0, t - 10)) + shift; };
   for (int n = 1; n <= 80; ++n) {
     run.front_speed.time.push_back(0.25 * n);
@@ -45,7 +45,6 @@ AvalancheRun synthetic(double shift, double radius) {
                   {avalanche::head<&HeadSize::thickness>, width / (n == 5 ? 3.5 : 4)},
                   {avalanche::frontal_angle, 90 - t + (10 - static_cast<double>(n)) * shift}};
   });
-  for (int k = 0; k < 4; ++k) run.head_widths.push_back((30 + 2 * k) * radius);
   run.overlap_max = 0.01;
   return run;
 }
@@ -91,7 +90,7 @@ TEST(AvalancheSummary, KeepsTheOrderOfFrontSpeeds) {
     front.time.push_back(0.01 * n);
     front.value.push_back(std::pow(0.01 * n, 3));
   }
-  const AvalancheRun run = avalanche_run(front, 1.1, {1, 1}, 5);
+  const AvalancheRun run = avalanche_run(front, 1.1, {1, 1});
   EXPECT_LE(measure("front_speed_end", run, {}), measure("front_speed_max", run, {}));
   EXPECT_GE(measure("front_speed_end", run, {}), measure("front_speed_min", run, {}));
 }
