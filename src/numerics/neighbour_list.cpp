@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/compiled_for.hpp"
+#include "base/exact_sum.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/near_points/kernel.hpp"
 
@@ -239,10 +240,11 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
 bool NeighbourList::holds(ThreadTeam& team, std::span<const Vector3> position) const {
   if (skin_ < 0 || reference_.size() != position.size() || position.empty()) return false;
   // Distances between points do not change when all move together: only what exceeds the mean motion counts.
-  const Vector3 mean = (1.0 / static_cast<double>(position.size())) *
-                       reduce(
-                           team, position.size(), Vector3{}, [&](std::size_t i) { return position[i] - reference_[i]; },
-                           [](const Vector3& a, const Vector3& b) { return a + b; });
+  Vector3 mean;
+  for (int axis = 0; axis < 3; ++axis)
+    mean[axis] =
+        exact_sum(team, position.size(), [&](std::size_t i) { return position[i][axis] - reference_[i][axis]; }) /
+        static_cast<double>(position.size());
   const double limit = 0.25 * skin_ * skin_;
   return reduce(
       team, position.size(), true,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/exact_sum.hpp"
 #include "base/random.hpp"
 #include "models/cloud/stability.hpp"
 
@@ -12,8 +13,7 @@ namespace talus::cloud {
 namespace {
 
 double length(ThreadTeam& team, const std::vector<Vector3>& v) {
-  return std::sqrt(reduce(
-      team, v.size(), 0.0, [&](std::size_t i) { return dot(v[i], v[i]); }, [](double a, double b) { return a + b; }));
+  return std::sqrt(exact_sum(team, v.size(), [&](std::size_t i) { return dot(v[i], v[i]); }));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/exact_sum.hpp"
 #include "models/cloud/stability.hpp"
 #include "numerics/chebyshev.hpp"
 #include "numerics/dormand_prince.hpp"
@@ -12,13 +13,10 @@ namespace talus::cloud {
 namespace {
 
 double root_mean_square(ThreadTeam& team, std::size_t count, auto&& vector) {
-  const double sum = reduce(
-      team, count, 0.0,
-      [&](std::size_t i) {
-        const Vector3 v = vector(i);
-        return dot(v, v);
-      },
-      [](double a, double b) { return a + b; });
+  const double sum = exact_sum(team, count, [&](std::size_t i) {
+    const Vector3 v = vector(i);
+    return dot(v, v);
+  });
   return std::sqrt(sum / static_cast<double>(count));
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/exact_sum.hpp"
 #include "models/continuum/gas/air_totals.hpp"
 #include "models/continuum/population.hpp"
 #include "models/continuum/regime.hpp"
@@ -34,10 +35,12 @@ ParticleTotals totals_of_particles(const Box& box, const State& s) {
   ParticleTotals totals;
   double square = 0;
   std::size_t outside = 0;
+  const FixedPoint point(s.impulse_unit);
+  FixedVector momentum;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     const Vector3 &x = s.position[i], &v = s.velocity[i];
     square = std::max(square, dot(v, v));
-    totals.momentum += v;
+    momentum.add(point, s.mass * v);
     totals.least_density = std::min(totals.least_density, s.density[i]);
     totals.largest_density = std::max(totals.largest_density, s.density[i]);
     totals.largest_packing = std::max(totals.largest_packing, s.packing[i]);
@@ -47,7 +50,7 @@ ParticleTotals totals_of_particles(const Box& box, const State& s) {
   if (s.position.empty())
     totals.least_density = totals.largest_density = totals.largest_packing = std::numeric_limits<double>::quiet_NaN();
   totals.largest_speed = std::sqrt(square);
-  totals.momentum = s.mass * totals.momentum;
+  totals.momentum = momentum.value(point);
   totals.mass_outside = s.mass * static_cast<double>(outside);
   return totals;
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "base/exact_sum.hpp"
+
 namespace talus::continuum {
 
 namespace {
@@ -129,15 +131,16 @@ bool feed(const Parameters& p, State& s, Workspace& w) {
 bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   if (!p.removal.is_any()) return false;
   std::vector<std::uint32_t> left;
-  Vector3 taken;
+  const FixedPoint point(s.impulse_unit);
+  FixedVector taken;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     if (is_outside(p, w.domain.box(), s.position[i]))
-      taken += s.velocity[i];
+      taken.add(point, s.mass * s.velocity[i]);
     else
       left.push_back(static_cast<std::uint32_t>(i));
   }
   const std::size_t gone = s.position.size() - left.size();
-  s.population.removed_momentum += s.mass * taken;
+  s.population.removed_momentum += taken.value(point);
   if (gone == 0) return false;
   s.population.removed += gone;
   select(s, left);

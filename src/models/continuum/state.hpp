@@ -74,6 +74,9 @@ struct State {
          deformation_rate = false;
   } has;
   double mass = 0;  ///< of a particle, kg
+  /// Mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from the
+  /// case, not a field.
+  double impulse_unit = 0;
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
   std::vector<Vector3> reset_position;
   /// Of each particle in a sector, how many angles it has been turned back, from 0 to one circle; empty without one.
@@ -192,8 +195,8 @@ void for_each_field_of_loads(Visit&& visit, W& w) {
   };
   column("load_push", "N s", w.push);
   column("load_received", "N s", w.received);
-  column("load_window_push", "N s", w.window_push);
-  column("load_window_received", "N s", w.window_received);
+  column("load_window_push", "1", w.window_push.halves());
+  column("load_window_received", "1", w.window_received.halves());
   column("load_gate_push", "N s", w.gate_push);
   column("load_gate_received", "N s", w.gate_received);
   column("load_pressure", "Pa", w.pressure);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/exact_sum.hpp"
 #include "models/continuum/boundary/vessel_contact.hpp"
 #include "models/continuum/boundary/walls.hpp"
 #include "models/continuum/check_state.hpp"
@@ -246,14 +247,16 @@ void Step::walls(double duration, std::span<const Vector3> position) const {
 void Step::damping() const {
   if (!p.settle.damping_time || s.gate_time >= 0) return;
   const double left = std::exp(-dt / *p.settle.damping_time);
-  const Vector3 momentum = reduce(
-      team, s.velocity.size(), Vector3{},
-      [&](std::size_t i) {
-        s.velocity[i] = left * s.velocity[i];
-        return s.velocity[i];
+  const FixedPoint point(s.impulse_unit);
+  const FixedVector taken = accumulate(
+      team, s.velocity.size(), FixedVector{},
+      [&](std::size_t i, FixedVector& sum) {
+        const Vector3 before = s.velocity[i];
+        s.velocity[i] = left * before;
+        sum.add(point, s.mass * (before - s.velocity[i]));
       },
-      [](const Vector3& a, const Vector3& b) { return a + b; });
-  s.damping_impulse += (s.mass * (1 / left - 1)) * momentum;
+      [](FixedVector a, const FixedVector& b) { return a += b; });
+  s.damping_impulse += taken.value(point);
 }
 
 void Step::clock() const {

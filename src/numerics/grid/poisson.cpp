@@ -53,19 +53,17 @@ void PoissonSolver::for_each_range(ThreadTeam& team, Body&& body) const {
   });
 }
 
-/// Sum of term(begin, length) over ranges, in order.
+/// Sum of term(begin, length) over ranges: within a block of rows in order, over blocks exact and of no order.
 template <class Term>
 double PoissonSolver::sum(ThreadTeam& team, Term&& term) {
   partial_.assign(board_.blocks(), 0);
   for_each_range(team, [&](std::size_t block, std::size_t begin, std::size_t end) {
     partial_[block] += term(begin, end - begin);
   });
-  double total = 0;
-  for (const double part : partial_) total += part;
-  return total;
+  return exact_sum(partial_);
 }
 
-/// Sum of body(colour, row, first cell of the run, length) over runs, in order.
+/// The same of body(colour, row, first cell of the run, length) over runs.
 template <class Body>
 double PoissonSolver::sum_over_runs(ThreadTeam& team, Body&& body) {
   partial_.assign(board_.blocks(), 0);
@@ -74,9 +72,7 @@ double PoissonSolver::sum_over_runs(ThreadTeam& team, Body&& body) {
       for (std::size_t r = begin; r < end; ++r)
         partial_[block] += body(colour, r, board_.run(colour, r), board_.length(colour, r));
   });
-  double total = 0;
-  for (const double part : partial_) total += part;
-  return total;
+  return exact_sum(partial_);
 }
 
 /// Calls body(block, first cell of the run, length, first cell in the grid's order, row) for all runs; the cells of a

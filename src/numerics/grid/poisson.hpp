@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "base/exact_sum.hpp"
 #include "base/parallel.hpp"
 #include "numerics/grid/conjugate_gradients.hpp"
 #include "numerics/grid/grid.hpp"
@@ -83,7 +84,7 @@ class PoissonSolver {
   std::vector<double> source_, value_, residual_;
   std::vector<float> direction_, applied_, change_;                // of the refinement, scaled
   std::vector<double> direction_of_doubles_, applied_of_doubles_;  // empty until they are needed
-  std::vector<double> partial_;
+  std::vector<double> partial_;                                    // sums of the blocks of rows
 };
 
 }  // namespace talus

@@ -10,7 +10,7 @@ struct PoissonSolver::SystemOfDoubles {
   PoissonSolver& s;
   ThreadTeam& team;
 
-  /// Sum of term(cell) over all cells, in the board's order; pads count nothing.
+  /// Sum of term(colour, row) over all runs, as PoissonSolver::sum; pads count nothing.
   template <class Term>
   double sum(Term&& term) {
     s.partial_.assign(s.board_.blocks(), 0);
@@ -18,9 +18,7 @@ struct PoissonSolver::SystemOfDoubles {
       for (int colour = 0; colour < 2; ++colour)
         for (std::size_t r = begin; r < end; ++r) s.partial_[block] += term(colour, r);
     });
-    double total = 0;
-    for (const double part : s.partial_) total += part;
-    return total;
+    return exact_sum(s.partial_);
   }
   double product(const std::vector<double>& a, const auto& b) {
     return sum([&](int colour, std::size_t r) {

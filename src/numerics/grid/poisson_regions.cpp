@@ -55,12 +55,18 @@ void PoissonSolver::find_closed_regions() {
       }
 }
 
+template <class Number>
+double total_of(const std::vector<std::size_t>& region, const std::vector<Number>& column) {
+  ExactSum total;
+  for (const std::size_t c : region) total.add(static_cast<double>(column[c]));
+  return total.value();
+}
+
 /// Size of the part of the residual that no value can balance.
 double PoissonSolver::unbalanced() const {
   double square = 0;
   for (const auto& region : closed_) {
-    double total = 0;
-    for (const std::size_t c : region) total += residual_[c];
+    const double total = total_of(region, residual_);
     square += total * total / static_cast<double>(region.size());
   }
   return std::sqrt(square);
@@ -69,9 +75,7 @@ double PoissonSolver::unbalanced() const {
 template <class Number>
 void PoissonSolver::remove_means(std::vector<Number>& column) const {
   for (const auto& region : closed_) {
-    double total = 0;
-    for (const std::size_t c : region) total += static_cast<double>(column[c]);
-    const auto mean = static_cast<Number>(total / static_cast<double>(region.size()));
+    const auto mean = static_cast<Number>(total_of(region, column) / static_cast<double>(region.size()));
     for (const std::size_t c : region) column[c] -= mean;
   }
 }

@@ -219,8 +219,9 @@ void Deposition::for_each_particle(const Block& block, std::size_t first, Body&&
 
 void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,
                          FaceField& flux) const {
-  // Cells are shared by particles of several blocks, so pairs of the four sums are the tasks; each adds the particles
-  // in order. A single thread reads the weights once for all.
+  // Cells are shared by particles of several blocks, so pairs of the four sums are the tasks. A single thread reads the
+  // weights once for all. Sums in fixed point are of no order.
+  constexpr double of_fraction = rounding_to(0x1p-50), of_flux = rounding_to(0x1p-44);  // up to 8, and 512 m/s
   const double share = solid_volume / grid_.volume();
   CellField* const field[] = {&fraction, &flux[0], &flux[1], &flux[2]};
   const bool is_alone = team.size() == 1;
@@ -235,11 +236,12 @@ void Deposition::deposit(ThreadTeam& team, double solid_volume, std::span<const 
                           const Vector3& v = velocity[i];
                           const double amounts[] = {amount, amount * v.x, amount * v.y, amount * v.z};
                           if (is_alone)
-                            add_rows(rows, particle.columns, first, weight, amounts,
+                            add_rows(rows, particle.columns, first, weight, amounts, of_fraction, of_flux,
                                      {field[0]->data(), field[1]->data(), field[2]->data(), field[3]->data()});
                           else
                             add_rows(rows, particle.columns, first, weight, amounts[from], amounts[from + 1],
-                                     field[from]->data(), field[from + 1]->data());
+                                     task == 0 ? of_fraction : of_flux, of_flux, field[from]->data(),
+                                     field[from + 1]->data());
                         });
   });
 }

@@ -34,6 +34,7 @@ class Deposition {
   void find_weights(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
 
   /// \param solid_volume of each particle, without pores, m^3; the same for all
+  /// Sums in fixed point: they do not depend on the order of the particles.
   /// \param fraction out: solid volume over volume of every cell
   /// \param flux out: by component, that times the solid's velocity, m/s
   void deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,

@@ -99,20 +99,22 @@ TALUS_CLONES void find_largest(std::size_t count, const double* number, double* 
 }
 
 TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
-                           double amount, double other_amount, double* __restrict field, double* __restrict other) {
+                           double amount, double other_amount, double rounding, double other_rounding,
+                           double* __restrict field, double* __restrict other) {
   for (std::size_t r = 0; r < rows; ++r)
     for (std::size_t i = first[r]; i < first[r] + columns; i += row_lanes, weight += row_lanes) {
       Floats kept;
       Doubles one, two;
       load(weight, kept), load(field + i, one), load(other + i, two);
       const Doubles share = __builtin_convertvector(kept, Doubles);
-      one += amount * share, two += other_amount * share;
+      one += (amount * share + rounding) - rounding, two += (other_amount * share + other_rounding) - other_rounding;
       store(one, field + i), store(two, other + i);
     }
 }
 
 TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
-                           const double* amount, const std::array<double*, 4>& field) {
+                           const double* amount, double rounding, double other_rounding,
+                           const std::array<double*, 4>& field) {
   double* __restrict a = field[0], * __restrict b = field[1], * __restrict c = field[2], * __restrict d = field[3];
   const double of_a = amount[0], of_b = amount[1], of_c = amount[2], of_d = amount[3];
   for (std::size_t r = 0; r < rows; ++r)
@@ -121,7 +123,8 @@ TALUS_CLONES void add_rows(std::size_t rows, std::size_t columns, const std::uin
       Doubles x, y, z, w;
       load(weight, kept), load(a + i, x), load(b + i, y), load(c + i, z), load(d + i, w);
       const Doubles share = __builtin_convertvector(kept, Doubles);
-      x += of_a * share, y += of_b * share, z += of_c * share, w += of_d * share;
+      x += (of_a * share + rounding) - rounding, y += (of_b * share + other_rounding) - other_rounding;
+      z += (of_c * share + other_rounding) - other_rounding, w += (of_d * share + other_rounding) - other_rounding;
       store(x, a + i), store(y, b + i), store(z, c + i), store(w, d + i);
     }
 }

@@ -40,13 +40,21 @@ double keep_rows(std::size_t rows, std::size_t columns, const RowFate* fate, con
 /// The largest of each `row_lanes` numbers, one after another, at least 0.
 void find_largest(std::size_t count, const double* number, double* __restrict largest);
 
-/// Adds two amounts to two fields by weight. \param first cell of each row
+/// Adds two amounts to two fields by weight, each rounded to fixed point. \param first cell of each row
+/// \param rounding of each field: what rounding_to gives
 void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight, double amount,
-              double other_amount, double* __restrict field, double* __restrict other);
+              double other_amount, double rounding, double other_rounding, double* __restrict field,
+              double* __restrict other);
 
-/// The same of four.
+/// The same of four, the last three with the second rounding.
 void add_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,
-              const double* amount, const std::array<double*, 4>& field);
+              const double* amount, double rounding, double other_rounding, const std::array<double*, 4>& field);
+
+/// What, added to a smaller number and taken away again, rounds it to a multiple of a power of two. Sums of such
+/// multiples are exact, and of no order, as long as they are below 2^53 times as large.
+constexpr double rounding_to(double quantum) {
+  return 0x1.8p52 * quantum;
+}
 
 /// Sums of three fields by weight.
 Vector3 sum_rows(std::size_t rows, std::size_t columns, const std::uint32_t* first, const float* weight,

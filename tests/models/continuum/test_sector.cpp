@@ -272,9 +272,9 @@ TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
   const SurfaceFields fields = load_fields(p, surface_of(p));
   for (std::uint32_t n = 0; n < fields.count(); ++n) {
     const std::uint32_t next = fields.in_copy(n, 1);
-    EXPECT_NEAR(noted.push[next], noted.push[n], 1e-12 * noted.push[n]);
-    EXPECT_LE(norm(noted.received[next] - fields.sector()->turn(1) * noted.received[n]),
-              1e-12 * norm(noted.received[n]));
+    EXPECT_NEAR(noted.push_of(next), noted.push_of(n), 1e-12 * noted.push_of(n));
+    EXPECT_LE(norm(noted.received_of(next) - fields.sector()->turn(1) * noted.received_of(n)),
+              1e-12 * norm(noted.received_of(n)));
     EXPECT_NEAR(norm(fields.all()[next].place - fields.sector()->turned(fields.all()[n].place, 1)), 0, 1e-14);
   }
 }

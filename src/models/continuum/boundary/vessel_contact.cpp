@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/exact_sum.hpp"
 #include "models/continuum/boundary/vessel_motion.hpp"
 #include "models/continuum/boundary/walls.hpp"
 #include "physics/sph/wall_contact.hpp"
@@ -11,7 +12,7 @@ namespace talus::continuum {
 
 namespace {
 
-using Impulses = std::vector<Vector3>;  // by patch
+using Impulses = std::vector<FixedVector>;  // by patch
 
 constexpr int max_contacts = 8;  // of a particle in a step, one after the other: two in a corner, three in its tip
 
@@ -30,6 +31,10 @@ void add(const Noted& noted, const SurfaceFields& fields, WallLoads& loads) {
 Impulses sum(Impulses a, const Impulses& b) {
   for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
   return a;
+}
+
+void add(const Impulses& received, const FixedPoint& point, State& state) {
+  for (std::size_t n = 0; n < received.size(); ++n) state.vessel_impulse[n] += received[n].value(point);
 }
 
 /// Walls of the vessel as particles rub on them.
@@ -60,6 +65,7 @@ void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFi
   Noted noted = none_noted(rates.at_vessel.size());
   const Rubbing rubbing(p, state);
   VesselWalls& walls = sweep.vessel_walls();
+  const FixedPoint point(state.impulse_unit);
   const auto meet = [&](std::size_t place, Impulses& received) {
     const std::size_t i = rates.at_vessel[place];
     const Vector3& x = state.position[i];
@@ -67,13 +73,13 @@ void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFi
     if (of_chunk.empty()) of_chunk.reserve(2 * chunk_size);
     const auto become = [&](std::uint32_t patch, const Vector3& velocity) {
       const Vector3 impulse = state.mass * (state.velocity[i] - velocity);
-      received[patch] += impulse;
+      received[patch].add(point, impulse);
       of_chunk.back().received += impulse;
       state.velocity[i] = velocity;
     };
     for (const WallForce& wall : rates.vessel[place].all()) {
       const double push = state.mass * step.duration * dot(wall.acceleration, wall.normal);
-      received[wall.patch] -= (state.mass * step.duration) * wall.acceleration;
+      received[wall.patch].add(point, (-state.mass * step.duration) * wall.acceleration);
       of_chunk.push_back({wall.field, push, -push * wall.normal});
       if (!rubbing.rough) continue;
       become(wall.patch,
@@ -96,8 +102,7 @@ void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFi
                         {n, rubbing.velocity_of(patch, touched->place, n), 0, rubbing.coefficient(patch)}, push));
     }
   };
-  state.vessel_impulse = sum(
-      state.vessel_impulse, accumulate(team, rates.at_vessel.size(), Impulses(state.vessel_impulse.size()), meet, sum));
+  add(accumulate(team, rates.at_vessel.size(), Impulses(state.vessel_impulse.size()), meet, sum), point, state);
   add(noted, fields, state.wall_loads);
 }
 
@@ -124,6 +129,7 @@ void reflect_at_vessel(ThreadTeam& team, const Parameters& p, const Surface& ves
   Noted noted = none_noted(before.size());
   const Rubbing rubbing(p, state);
   constexpr int most_bounces = 4;
+  const FixedPoint point(state.impulse_unit);
   const auto turn = [&](std::size_t i, Impulses& received) {
     Vector3 &x = state.position[i], &u = state.velocity[i];
     if (!neighbourhood.may_meet_vessel(i, before[i], x)) return;
@@ -139,7 +145,7 @@ void reflect_at_vessel(ThreadTeam& team, const Parameters& p, const Surface& ves
         const Vector3 after = sph::after_contact(
             u, {n, rubbing.velocity_of(triangle.patch, place, n), 0, rubbing.coefficient(triangle.patch)}, push);
         const Vector3 impulse = state.mass * (u - after);
-        received[triangle.patch] += impulse;
+        received[triangle.patch].add(point, impulse);
         noted[i / chunk_size].push_back({fields.at(vessel.part(met->triangle), place), state.mass * push, impulse});
         u = after;
       }
@@ -148,8 +154,7 @@ void reflect_at_vessel(ThreadTeam& team, const Parameters& p, const Surface& ves
     }
     if (!state.reset_position.empty()) state.reset_position[i] += x - moved_to;
   };
-  state.vessel_impulse =
-      sum(state.vessel_impulse, accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum));
+  add(accumulate(team, before.size(), Impulses(state.vessel_impulse.size()), turn, sum), point, state);
   add(noted, fields, state.wall_loads);
 }
 

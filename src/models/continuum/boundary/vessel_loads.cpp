@@ -40,15 +40,16 @@ SurfaceFields load_fields(const Parameters& p, const Surface& surface) {
   return {surface, size_of_field * p.bed.spacing, sector_of(p)};
 }
 
-WallLoads no_loads(std::size_t fields) {
+WallLoads no_loads(std::size_t fields, double unit) {
   const std::vector<double> none(fields, 0.0);
   const std::vector<Vector3> nothing(fields);
   return {.push = none,
           .received = nothing,
-          .window_push = none,
           .gate_push = none,
-          .window_received = nothing,
           .gate_received = nothing,
+          .window_push = FixedSums(fields),
+          .window_received = FixedSums(3 * fields),
+          .point = FixedPoint(unit),
           .pressure = none,
           .rest_pressure = none,
           .traction = nothing,
@@ -59,39 +60,50 @@ WallLoads no_loads(std::size_t fields) {
 }
 
 void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads) {
-  loads.push[load.field] += load.push;
-  loads.received[load.field] += load.received;
+  const auto add = [&](std::uint32_t field, const Vector3& received) {
+    loads.window_push.add(field, loads.point.of(load.push));
+    for (int axis = 0; axis < 3; ++axis)
+      loads.window_received.add(3 * field + static_cast<std::size_t>(axis), loads.point.of(received[axis]));
+  };
+  add(load.field, load.received);
   const std::optional<Sector>& sector = fields.sector();
   for (int k = 1; sector && k < sector->copies(); ++k) {
-    const std::uint32_t copy = fields.in_copy(load.field, k);
-    loads.push[copy] += load.push;
-    loads.received[copy] += sector->turn(k) * load.received;
+    add(fields.in_copy(load.field, k), sector->turn(k) * load.received);
   }
 }
+
+namespace {
+
+/// Adds what the present window has to what came before it, and begins the next one.
+void begin_window(double time, WallLoads& w) {
+  for (std::size_t n = 0; n < w.push.size(); ++n) w.push[n] = w.push_of(n), w.received[n] = w.received_of(n);
+  w.window_push.clear(), w.window_received.clear();
+  w.window_start = time;
+}
+
+}  // namespace
 
 void close_window(const SurfaceFields& fields, double time, double length, WallLoads& w) {
   const double duration = time - w.window_start;
   if (duration < length) return;
   for (std::size_t n = 0; n < fields.count(); ++n) {
     const double over = 1 / (duration * fields.all()[n].area);
-    w.pressure[n] = over * (w.push[n] - w.window_push[n]);
-    w.traction[n] = over * (w.received[n] - w.window_received[n]);
+    w.pressure[n] = over * w.point.value(w.window_push[n]);
+    w.traction[n] = over * w.in_window(n);
     if (w.pressure[n] > w.largest[n]) {
       w.largest[n] = w.pressure[n];
       w.largest_time[n] = time - 0.5 * duration;
     }
   }
-  w.window_push = w.push;
-  w.window_received = w.received;
-  w.window_start = time;
+  begin_window(time, w);
 }
 
 void begin_flow(double time, WallLoads& w) {
   w.rest_pressure = w.pressure;
   w.rest_traction = w.traction;
-  w.gate_push = w.window_push = w.push;
-  w.gate_received = w.window_received = w.received;
-  w.window_start = time;
+  begin_window(time, w);
+  w.gate_push = w.push;
+  w.gate_received = w.received;
   std::fill(w.largest.begin(), w.largest.end(), 0.0);
   std::fill(w.largest_time.begin(), w.largest_time.end(), 0.0);
 }
@@ -156,8 +168,8 @@ std::vector<NamedValue> totals_of(const std::vector<LoadBand>& bands, const Surf
   for (const LoadBand& band : bands) {
     double push = 0, shear = 0;
     for (const std::uint32_t n : band.fields) {
-      push += loads.push[n];
-      shear += dot(loads.received[n], downwards(fields.all()[n].normal));
+      push += loads.push_of(n);
+      shear += dot(loads.received_of(n), downwards(fields.all()[n].normal));
     }
     values.push_back({"normal_impulse_" + band.name, "N s", push});
     if (!band.is_level()) values.push_back({"shear_impulse_" + band.name, "N s", shear});
@@ -181,9 +193,9 @@ SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, con
   add("shear", "Pa", [&](std::size_t n) { return along(w.traction[n], normal(n)); });
   add("pressure_at_rest", "Pa", [&](std::size_t n) { return w.rest_pressure[n]; });
   add("shear_at_rest", "Pa", [&](std::size_t n) { return along(w.rest_traction[n], normal(n)); });
-  add("pressure_in_flow", "Pa", [&](std::size_t n) { return since_gate(n) * (w.push[n] - w.gate_push[n]); });
+  add("pressure_in_flow", "Pa", [&](std::size_t n) { return since_gate(n) * (w.push_of(n) - w.gate_push[n]); });
   add("shear_in_flow", "Pa",
-      [&](std::size_t n) { return along(since_gate(n) * (w.received[n] - w.gate_received[n]), normal(n)); });
+      [&](std::size_t n) { return along(since_gate(n) * (w.received_of(n) - w.gate_received[n]), normal(n)); });
   add("pressure_largest", "Pa", [&](std::size_t n) { return w.largest[n]; });
   add("time_of_largest", "s", [&](std::size_t n) { return w.largest_time[n]; });
   add("patch", "1", [&](std::size_t n) { return static_cast<double>(fields.all()[n].patch); });

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exact_sum.hpp"
 #include "base/vector.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "numerics/named_value.hpp"
@@ -16,18 +17,31 @@ namespace talus::continuum {
 
 /// The kept columns, one entry per field.
 struct WallLoads {
-  // What the field received since the start, N s: pressing on it, whichever side, and altogether with friction.
+  // What the field received from the start to the present window, N s: pressing on it, whichever side, and altogether
+  // with friction.
   std::vector<double> push;
   std::vector<Vector3> received;
-  // The same at the start of the present window, and at the opening of the gate.
-  std::vector<double> window_push, gate_push;
-  std::vector<Vector3> window_received, gate_received;
+  // The same until the opening of the gate.
+  std::vector<double> gate_push;
+  std::vector<Vector3> gate_received;
+  // The same in the present window, in fixed point: sums of no order. Of window_received x, y, z, one after another.
+  FixedSums window_push, window_received;
+  FixedPoint point{1};  ///< of the window, N s; from the case, not a field
   // Means over the last whole window, and over the last one before the gate opened, Pa.
   std::vector<double> pressure, rest_pressure;
   std::vector<Vector3> traction, rest_traction;
   // The largest mean of a window since the gate opened (until then: since the start), Pa, and the window's middle, s.
   std::vector<double> largest, largest_time;
   double window_start = 0;  ///< s
+
+  /// Since the start, N s.
+  double push_of(std::size_t field) const { return push[field] + point.value(window_push[field]); }
+  Vector3 received_of(std::size_t field) const { return received[field] + in_window(field); }
+  /// In the present window, N s.
+  Vector3 in_window(std::size_t field) const {
+    return {point.value(window_received[3 * field]), point.value(window_received[3 * field + 1]),
+            point.value(window_received[3 * field + 2])};
+  }
 };
 
 /// A force that a field received.
@@ -40,8 +54,8 @@ struct LoadOfField {
 /// The fields of a vessel's walls: twice the spacing of the particles wide.
 SurfaceFields load_fields(const Parameters& parameters, const Surface& surface);
 
-/// Without load. \param fields their number
-WallLoads no_loads(std::size_t fields);
+/// Without load. \param fields their number \param unit State::impulse_unit, N s
+WallLoads no_loads(std::size_t fields, double unit);
 
 /// To the field, and in a sector to what it is in all copies: the loads are those of the whole vessel.
 void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/exact_sum.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
 
@@ -11,13 +12,17 @@ namespace talus::continuum {
 
 namespace {
 
-using Impulses = std::array<Vector3, most_walls>;
+using Impulses = std::array<FixedVector, most_walls>;
 
 constexpr int max_passes = 4;  // over the walls of a corner
 
 Impulses sum(Impulses a, const Impulses& b) {
   for (std::size_t w = 0; w < most_walls; ++w) a[w] += b[w];
   return a;
+}
+
+void add(const Impulses& received, const FixedPoint& point, State& state) {
+  for (std::size_t w = 0; w < most_walls; ++w) state.wall_impulse[w] += received[w].value(point);
 }
 
 /// The velocity of a particle after the printed friction at a wall.
@@ -65,9 +70,10 @@ void apply_wall_contact(ThreadTeam& team, const Parameters& p, const Domain& dom
   const double coefficient = coefficient_of_walls(p, state);
   std::array<Vector3, most_walls> normal;
   for (int wall = 0; wall < domain.wall_count(); ++wall) normal[static_cast<std::size_t>(wall)] = domain.normal(wall);
+  const FixedPoint point(state.impulse_unit);
   const auto meet = [&](std::size_t i, Impulses& received) {
     const auto become = [&](int wall, const Vector3& velocity) {
-      received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - velocity);
+      received[static_cast<std::size_t>(wall)].add(point, state.mass * (state.velocity[i] - velocity));
       state.velocity[i] = velocity;
     };
     const auto touch = [&](int wall, double acceleration) {
@@ -86,7 +92,7 @@ void apply_wall_contact(ThreadTeam& team, const Parameters& p, const Domain& dom
     int walls = 0;
     rates.by_walls.of(i, [&](int wall, double acceleration) {
       const auto w = static_cast<std::size_t>(wall);
-      received[w] -= (state.mass * step.duration * acceleration) * normal[w];
+      received[w].add(point, (-state.mass * step.duration * acceleration) * normal[w]);
       held = touch(wall, acceleration) || held;
       ++walls;
     });
@@ -100,7 +106,7 @@ void apply_wall_contact(ThreadTeam& team, const Parameters& p, const Domain& dom
         if (domain.is_solid(wall))
           become(wall, velocity_after_printed_friction(p, domain, wall, state, i, position[i], step.duration));
   };
-  state.wall_impulse = sum(state.wall_impulse, accumulate(team, position.size(), Impulses{}, meet, sum));
+  add(accumulate(team, position.size(), Impulses{}, meet, sum), point, state);
 }
 
 void hold_off_walls(ThreadTeam& team, const Domain& domain, const Rates& rates, std::span<const Vector3> position,
@@ -127,9 +133,10 @@ void reflect_at_walls(ThreadTeam& team, const Parameters& p, const Material& mat
                       std::span<const Vector3> before, State& state) {
   constexpr int most_bounces = 8;
   const double coefficient = coefficient_of_walls(p, state);
+  const FixedPoint point(state.impulse_unit);
   const auto turn = [&](std::size_t i, Impulses& received) {
     const auto become = [&](int wall, const Vector3& position, const Vector3& velocity) {
-      received[static_cast<std::size_t>(wall)] += state.mass * (state.velocity[i] - velocity);
+      received[static_cast<std::size_t>(wall)].add(point, state.mass * (state.velocity[i] - velocity));
       state.velocity[i] = velocity;
       state.position[i] = position;
     };
@@ -158,7 +165,7 @@ void reflect_at_walls(ThreadTeam& team, const Parameters& p, const Material& mat
       }
     }
   };
-  state.wall_impulse = sum(state.wall_impulse, accumulate(team, before.size(), Impulses{}, turn, sum));
+  add(accumulate(team, before.size(), Impulses{}, turn, sum), point, state);
 }
 
 }  // namespace talus::continuum

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/exact_sum.hpp"
 #include "numerics/grid/loops.hpp"
 
 namespace talus::continuum {
@@ -81,9 +82,12 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),
            [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
-  a.force = s.mass * reduce(
-                         team, received_.size(), Vector3{}, [&](std::size_t i) { return a.acceleration[i]; },
-                         [](const Vector3& x, const Vector3& y) { return x + y; });
+  const FixedPoint point(s.impulse_unit / duration);
+  a.force = accumulate(
+                team, received_.size(), FixedVector{},
+                [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass * a.acceleration[i]); },
+                [](FixedVector one, const FixedVector& other) { return one += other; })
+                .value(point);
   ++a.steps;
   a.iterations = static_cast<std::uint64_t>(flow_.iterations());
   measure_slip(team, s);

@@ -47,6 +47,7 @@ void add_bed(const Parameters& one, std::int64_t tag, State& state) {
 State initial_state(const Parameters& parameters, const Material& material) {
   State state;
   state.mass = lattice_of(parameters).mass;
+  state.impulse_unit = state.mass * material.sound_speed(parameters.bed.packing * parameters.grains.density);
   state.has = {.tag = !parameters.beds.empty(),
                .collisional = parameters.collisions.form != granular::Collisions::none,
                .reset_position = material.by_displacements(),
@@ -65,7 +66,7 @@ State initial_state(const Parameters& parameters, const Material& material) {
   if (state.has.collisional)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
   state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
-  state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count());
+  state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count(), state.impulse_unit);
   if (state.has.reset_position) state.reset_position = state.position;
   if (state.has.sector_turns) state.sector_turns.assign(count, 0);
   state.population = initial_population(parameters, count);

@@ -71,7 +71,7 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   const SurfaceFields fields = load_fields(p, surface);
   ASSERT_EQ(s.wall_loads.push.size(), fields.count());
   std::vector<Vector3> received(p.vessel.size());
-  for (std::size_t n = 0; n < fields.count(); ++n) received[fields.all()[n].patch] += s.wall_loads.received[n];
+  for (std::size_t n = 0; n < fields.count(); ++n) received[fields.all()[n].patch] += s.wall_loads.received_of(n);
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
     EXPECT_LT(norm(received[n] - s.vessel_impulse[n]), 1e-12 * norm(s.vessel_impulse[n])) << n;
   const double top = 4 * spacing + 8 * spacing, gamma = bulk_density(p) * 9.81;
@@ -99,7 +99,7 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   p.vessel = {plate("bottom", {0, 0, 2}, {4, 0, 0}, {0, 4, 0})};
   const SurfaceFields fields = load_fields(p, surface_of(p));
   ASSERT_EQ(fields.count(), 4u);
-  WallLoads loads = no_loads(4);
+  WallLoads loads = no_loads(4, 1);
   const double area = fields.all()[2].area;
   double time = 0;
   const auto press = [&](double force, int windows) {
