@@ -24,7 +24,7 @@ std::array<float, 3> single(const Vector3& x) {
 
 VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields,
                          const std::optional<Sector>& sector)
-    : surface_(surface), fields_(fields), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
+    : surface_(surface), fields_(fields), kernels_(TALUS_COMPILED_FOR(set, wall_kernels)()), spacing_(spacing) {
   if (surface.is_empty()) return;
   patches_.resize(surface.parts());
   quantum_ = quantum_of_walls(spacing);
@@ -91,7 +91,7 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     seats_[s].share = 0;
     if (surface_.is_open(stand.patch)) continue;
     NearWall& wall = count < most_near_walls ? met[count] : one_more;
-    sweep_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(), smoothing_length,
+    kernels_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(), smoothing_length,
                   wall.sums);
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
@@ -182,7 +182,7 @@ Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& record
     pairs = {record.data(), seat.data(), static_cast<std::uint32_t>(record.size())};
   }
   alignas(64) double acceleration[4];
-  sweep_.images(records, static_cast<std::uint32_t>(particle), seats_[wall.stand], seats_.data(), pairs, mass,
+  kernels_.images(records, static_cast<std::uint32_t>(particle), seats_[wall.stand], seats_.data(), pairs, mass,
                 acceleration);
   return {acceleration[0], acceleration[1], acceleration[2]};
 }
