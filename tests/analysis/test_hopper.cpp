@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-#include "analysis/hopper_numbers.hpp"
+#include "analysis/hopper_estimators.hpp"
 #include "analysis/paper_hopper.hpp"
 
 namespace talus {
