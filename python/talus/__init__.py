@@ -8,7 +8,10 @@
     run.summary["discharge_rate_plateau"].units   # "kg/s"
 
 `simulate`, `sweep` and `new` start the program, `compare` sets two runs side by side, and tables and snapshots turn into
-pandas and xarray (`to_pandas`, `to_xarray`) where these are installed. `talus.draw` (matplotlib) draws particles, fields of the air and curves into axes of your own.
+pandas and xarray (`to_pandas`, `to_xarray`) where these are installed. `talus.draw` (matplotlib) draws particles, fields of
+the air and curves into axes of your own. `talus.continuum` interpolates fields of a hopper's particles by the kernel at any
+place, with the images behind its walls (`talus.fields`), and finds free surfaces (`talus.surfaces`); `talus.curves` has rates,
+spectra and periods.
 """
 from talus.column import Column, Value
 from talus.comparison import Difference, changed_keys, compare

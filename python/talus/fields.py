@@ -12,8 +12,10 @@ import numpy as np
 
 SUPPORT = 2  # of the kernel, over its smoothing length
 MIRRORS = ("wall", "symmetry", "free-as-printed")
+TINY = 1e-300
 LEAST_MOMENT = 0.01  # determinant of the moment below which neighbours do not span the space
 POINTS_AT_ONCE = 4000
+WIDER = 1.25  # than the median smoothing length: particles that are looked for in cells of their own
 
 
 def cubic_spline(distance, h):
@@ -34,14 +36,15 @@ def cubic_spline_line(distance, h):
     """Integral of W along a line at a distance from the centre, 1/m²."""
     def chord(a, s):
         """Half of the integral of (a - r)³ over the chord at distance s of the sphere r < a."""
+        result = np.zeros(len(s))
         inside = s < a
-        s = np.where(inside, s, 0)
+        s = s[inside]
         y = np.sqrt((a - s) * (a + s))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            area = np.where(s > 0, s**2 * np.log((y + a) / s), 0)
+        area = s**2 * np.log((y + a) / np.maximum(s, TINY))
         first, second = 0.5 * (y * a + area), s**2 * y + y**3 / 3
         third = 0.25 * y * a**3 + 0.75 * s**2 * first
-        return np.where(inside, a**3 * y - 3 * a**2 * first + 3 * a * second - third, 0)
+        result[inside] = a**3 * y - 3 * a**2 * first + 3 * a * second - third
+        return result
     s = distance / h
     return (chord(2, s) - 4 * chord(1, s)) / (2 * np.pi * h**2)
 
@@ -171,6 +174,7 @@ def packing_section(grains, box, width, height):
     if len(grains.position) == 0:
         return section
     reach = SUPPORT * grains.smoothing_length.max()
+    wide = grains.smoothing_length > WIDER * np.median(grains.smoothing_length)
     rows, columns = section.value.shape
     for image in box.images(reach):
         if image.copy[1] != 0:  # in the line's integral already
@@ -183,15 +187,19 @@ def packing_section(grains, box, width, height):
         taken = (count > 0).all(axis=1)
         if image.in_plate:
             taken &= abs(place[:, 2] - box.plate.height) < support
-        for across, up in np.unique(count[taken], axis=0):
-            of = np.flatnonzero(taken & (count[:, 0] == across) & (count[:, 1] == up))
-            column = low[of, 0, None, None] + np.arange(across)[None, None, :]
-            row = low[of, 1, None, None] + np.arange(up)[None, :, None]
-            n, row, column = np.broadcast_arrays(of[:, None, None], row, column)
-            n, row, column = n.ravel(), row.ravel(), column.ravel()
-            distance = np.hypot(section.x[column] - place[n, 0], section.z[row] - place[n, 2])
-            near = distance < support[n]
-            n, row, column, distance = n[near], row[near], column[near], distance[near]
+        for group in (taken & ~wide, taken & wide):  # a few thin particles in a stream reach over many cells
+            of = np.flatnonzero(group)
+            if len(of) == 0:
+                continue
+            across, up = count[of].max(axis=0)
+            column = np.minimum(low[of, 0, None] + np.arange(across), columns - 1)
+            row = np.minimum(low[of, 1, None] + np.arange(up), rows - 1)
+            squared = ((section.x[column] - place[of, 0, None])**2)[:, None, :] + (
+                (section.z[row] - place[of, 2, None])**2)[:, :, None]
+            n, k, m = np.nonzero((squared < (support[of]**2)[:, None, None])
+                                 & (np.arange(across) < count[of, 0, None])[:, None, :]
+                                 & (np.arange(up) < count[of, 1, None])[:, :, None])
+            distance, column, row, n = np.sqrt(squared[n, k, m]), column[n, m], row[n, k], of[n]
             if box.plate is not None:
                 seen = box.visible((section.x[column], section.z[row]), (place[n, 0], place[n, 2]), image.in_plate)
                 n, row, column, distance = n[seen], row[seen], column[seen], distance[seen]
@@ -224,7 +232,7 @@ class Field:
         self._in_plate = np.array([image.in_plate for image in self._images], dtype=bool)[self._number]
         self._h = h[self._source]
         # A few thin particles in a stream would make wide cells for all.
-        wide = self._h > 1.25 * np.median(h) if len(h) else np.empty(0, dtype=bool)
+        wide = self._h > WIDER * np.median(h) if len(h) else np.empty(0, dtype=bool)
         self._groups = [group for group in (np.flatnonzero(~wide), np.flatnonzero(wide)) if len(group)]
 
     def _pairs(self, points, own=None):

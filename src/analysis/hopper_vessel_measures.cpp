@@ -152,57 +152,57 @@ std::vector<Row> hopper_vessel_measures() {
       Row("discharge_steady", "kg/s",
           "mean of Q over the longest stretch of means over T, five at least, that lie within 10 % of their own mean, "
           "between 10 % and 70 % discharged; none where less than 5 % of the bed leaves within it",
-          {[](const Run& r, const Window&) { return steady_discharge(r).value; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).value; }}, {outlet}),
       Row("discharge_steady_error", "kg/s",
           "half width of the 95 % interval of that mean, by Student's t of the means of blocks, five at least, each "
           "longer than the correlation time; none where the stretch is too short for that",
-          {[](const Run& r, const Window&) { return steady_discharge(r).error; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).error; }}, {outlet}),
       Row("discharge_steady_from", "s", "where that stretch begins",
-          {[](const Run& r, const Window&) { return steady_discharge(r).from; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).from; }}, {outlet}),
       Row("discharge_steady_to", "s", "where it ends",
-          {[](const Run& r, const Window&) { return steady_discharge(r).to; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return steady_discharge(r).to; }}, {outlet}),
       Row("discharge_steady_per_length", "kg/(s m)", "discharge_steady over the length of the slit",
           {[](const Run& r, const Window&) { return steady_discharge(r).value / r.setting.outlet_length; }},
-          {{vessel_with_slit}}),
+          {vessel_with_slit}),
       Row("emptying_time", "s", "first time from the opening of the gate at which 99 % of M is below the outlet",
           {[](const Run& r, const Window&) {
             Curve left = discharged_share(r);
             for (double& share : left.value) share = 1 - share;
             return first_time_at_or_below(left, 0.01);
           }},
-          {{outlet}}),
+          {outlet}),
       Row("emptying_time_by_hand", "s", "0.99 M over discharge_rate_beverloo, without start and end",
           {[](const Run& r, const Window&) { return 0.99 * r.setting.mass() / r.setting.hand_discharge; }},
-          {{hand_formula}}),
+          {hand_formula}),
       Row("share_that_moves", "1",
           "share of the particles above the outlet that are faster than a tenth of their mean; speed: displacement "
           "since the snapshot about T before, over the time between. From 0.99 on it is mass flow, below that funnel "
           "flow; none before 10 % have been discharged, or where the flow had stopped",
-          {share_in_motion, share_that_moves}, {{vessel_with_outlet, while_it_flows}}),
+          {share_in_motion, share_that_moves}, {vessel_with_outlet, while_it_flows}),
       Row("residual_mass", "kg", "mass above the outlet at the end",
-          {[](const Run& r, const Window&) { return flow_end(r).left; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return flow_end(r).left; }}, {outlet}),
       Row("flow_stop_time", "s",
           "time of the last outflow from the opening of the gate on, where over three (D/g)^½ before the end of the "
           "run "
           "less than a hundredth of the discharge passed; none where it flows at the end, or nothing has passed",
-          {[](const Run& r, const Window&) { return flow_end(r).stop_time; }}, {{outlet}}),
+          {[](const Run& r, const Window&) { return flow_end(r).stop_time; }}, {outlet}),
       Row("outlet_packing", "1",
           "packing in the space of the outlet's width and as high above it, at the end: of an arch that stands there, "
           "0.3 of the bed's at least",
-          at(outlet_packing), {{outlet}}),
+          at(outlet_packing), {outlet}),
       Row("mass_flow_half_angle_jenike", "deg",
           "half angle, from the vertical, up to which a cone empties in mass flow by hand: 90° − ½ acos((1 − sin φ)/(2 "
           "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ = asin M of the grains' friction M, their angle in "
           "plane strain, φ_w = atan μ of the cone's wall",
           {[](const Run& r, const Window&) { return r.setting.mass_flow_half_angle * 180 / std::numbers::pi; }},
-          {{cone}}),
+          {cone}),
       Row("wall_pressure_ratio", "1",
           "K: stress across the upright walls, from their impulses over T before the gate opened, over the mean "
           "τ_zz of the bed at the same heights, in the last snapshot before",
-          {wall_pressure_ratio}, {{has_upright_walls}}),
+          {wall_pressure_ratio}, {has_upright_walls}),
       Row("weight_balance_error_at_rest", "1",
           "upward force of all walls, from their impulses over T before the gate opened, over M g, less 1",
-          {balance_at_rest}, {{vessel}}),
+          {balance_at_rest}, {vessel}),
   };
 }
 

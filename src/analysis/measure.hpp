@@ -87,14 +87,14 @@ struct Estimator {
 /// Where a summary lists a measure: in runs to which it applies, over that window.
 template <class Run>
 struct InSummary {
-  bool (*applies)(const Run& run) = nullptr;
+  bool (*applies)(const Run& run);
   Window (*window)(const Run& run) = nullptr;  ///< null: the whole run, and its end
 };
 
 template <class Run>
 struct Measure {
   Measure(std::string_view its_name, std::string_view its_unit, std::string_view its_text, Estimator<Run> its_estimator,
-          std::optional<InSummary<Run>> listed = {}, bool can_be_missing = false)
+          InSummary<Run> listed, bool can_be_missing = false)
       : name(its_name),
         unit(its_unit),
         text(its_text),
@@ -106,14 +106,13 @@ struct Measure {
   std::string_view unit;  ///< SI; "deg" for angles, "1" for numbers
   std::string_view text;
   Estimator<Run> estimator;
-  std::optional<InSummary<Run>> in_summary;
+  InSummary<Run> in_summary;
   bool may_be_missing;  ///< members of an ensemble that have no such number are left out while they are the fewer
 };
 
 /// What a table or a document says of a measure.
 struct MeasureText {
   std::string_view name, unit, text;
-  bool in_summary;
 };
 /// All measures of a model.
 std::vector<MeasureText> texts_of_hopper_measures();
@@ -125,7 +124,7 @@ std::optional<MeasureText> find_measure(std::string_view name);
 template <class Run>
 std::vector<MeasureText> texts_of(std::span<const Measure<Run>> measures) {
   std::vector<MeasureText> texts;
-  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text, m.in_summary.has_value()});
+  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text});
   return texts;
 }
 
@@ -134,9 +133,9 @@ template <class Run>
 std::vector<NamedValue> summary_of(const Run& run, std::span<const Measure<Run>> measures) {
   std::vector<NamedValue> summary;
   for (const Measure<Run>& m : measures)
-    if (m.in_summary && m.in_summary->applies(run))
+    if (m.in_summary.applies(run))
       summary.push_back({std::string(m.name), std::string(m.unit),
-                         m.estimator.of(run, m.in_summary->window ? m.in_summary->window(run) : Window{})});
+                         m.estimator.of(run, m.in_summary.window ? m.in_summary.window(run) : Window{})});
   return summary;
 }
 

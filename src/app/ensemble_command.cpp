@@ -97,8 +97,7 @@ void check_plot(const EnsemblePlan& plan, const Options& options) {
   const ModelEntry& model = model_of(file);
   if (!model.measures) return;
   std::vector<std::string> known{"steps"};
-  for (const MeasureText& measure : model.measures())
-    if (measure.in_summary) known.emplace_back(measure.name);
+  for (const MeasureText& measure : model.measures()) known.emplace_back(measure.name);
   for (const EnsembleGroup& group : plan.groups)  // members of another version of Talus
     for (const QuantitySpread& spread : quantity_spreads(group)) known.push_back(spread.name);
   std::sort(known.begin(), known.end());

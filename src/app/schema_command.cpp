@@ -23,20 +23,19 @@ std::string page_head(const std::string& model) {
   constexpr std::size_t width = 100;
   const std::string text = fmt::format(
       "Every key of a case of the model `{0}`. This page is the output of `talus schema {0} --markdown`; the texts are "
-      "defined with the parameters in `src/models/{0}/parameters.hpp`. Quantities are strings with a unit (`\"5 "
+      "defined with the parameters in `src/models/{1}/parameters.hpp`. Quantities are strings with a unit (`\"5 "
       "mm\"`), of any unit of their dimension: m, in, ft; g, t, lb; s, min, h, d; rad, deg, rev, rpm; N, Pa, bar, psi, "
       "J, "
       "W, Hz; L, P, cP; with the prefixes n, u, m, c, k, M, G of SI units, products (`Pa s`), quotients (`t/h`) and "
       "powers (`m/s2`). The unit below is that of the default and of the output of `talus check`.",
-      model);
+      model, model == "continuum" ? "continuum/setup" : model);
   return fmt::format("# Case reference: {}\n\n{}\n", model, wrapped(text, width, 0, 0));
 }
 
-/// One row per measure, those that a summary lists first.
-std::string table_of(const std::vector<MeasureText>& measures, bool in_summary) {
+/// One row per measure.
+std::string table_of(const std::vector<MeasureText>& measures) {
   std::string table = "| name | unit | definition |\n|---|---|---|\n";
   for (const MeasureText& m : measures) {
-    if (m.in_summary != in_summary) continue;
     std::string text(m.text);
     for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
     table += fmt::format("| `{}` | {} | {} |\n", m.name, m.unit, text);
@@ -54,9 +53,7 @@ std::string page_of_quantities() {
       "the output of `talus schema --quantities`; the texts are in the lists\n`src/analysis/hopper_measures.cpp` and "
       "`src/analysis/avalanche_measures.cpp`.\n";
   const auto add = [&page](const char* title, const char* symbols, const std::vector<MeasureText>& measures) {
-    page += fmt::format("\n## {0}\n\n{1}\n\n### In a summary\n\n{2}", title, symbols, table_of(measures, true));
-    if (std::any_of(measures.begin(), measures.end(), [](const MeasureText& m) { return !m.in_summary; }))
-      page += "\n### In comparisons\n\n" + table_of(measures, false);
+    page += fmt::format("\n## {}\n\n{}\n\n{}", title, symbols, table_of(measures));
   };
   add("Grains in a vessel: continuum", symbols_of_hopper_measures, texts_of_hopper_measures());
   add("Avalanches and falling clouds: cloud", symbols_of_avalanche_measures, texts_of_avalanche_measures());

@@ -38,7 +38,7 @@ TEST(SnapshotTable, LoadsEachSnapshotOnceHoweverFewAreKept) {
   };
   const Sample run{SnapshotNumbers<double>::of({0.0, 0.1, 0.2, 0.3, 0.4}, load, 2)};
   const auto row = [](const char* name, double (*number)(const double&)) {
-    return Measure<Sample>(name, "1", "a number of a snapshot", Estimator<Sample>{.of = {}, .number = number});
+    return Measure<Sample>(name, "1", "a number of a snapshot", Estimator<Sample>{.of = {}, .number = number}, {});
   };
   const std::vector<Measure<Sample>> measures{row("same", [](const double& n) { return n; }),
                                               row("twice", [](const double& n) { return 2 * n; }),

@@ -17,6 +17,7 @@ from figures_of_hopper import Hoppers  # noqa: E402
 import numpy as np  # noqa: E402
 import talus.draw  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
+from talus.continuum import continuum  # noqa: E402
 
 MM = 1e-3
 SNAPSHOTS = (0, 0.17, 0.2, 0.3, 0.4, 0.5, 1.0)  # s, Figure 4
@@ -79,9 +80,8 @@ class Figures(Hoppers):
     def discharged_share(hopper):
         series = hopper.run.series
         mass = series["discharged_mass"]
-        whole = float(hopper.run.table("snapshots")["mass"][0])
         flowing = series["time"] >= hopper.gate
-        return series["time"][flowing] - hopper.gate, mass[flowing] / whole
+        return series["time"][flowing] - hopper.gate, mass[flowing] / continuum(hopper.run).mass
 
     def fields(self, name, title, column, unit, text, limits, caption, times):
         shown = [(hopper, hopper.at(min(time, hopper.end))) for hopper in self.hoppers for time in times

@@ -123,7 +123,7 @@ TEST(Reference, APlaceIsOfTheMeasuresOfAStudy) {
   };
   EXPECT_THAT(fault("packing_max", "distance = 20"), HasSubstr("is not a length (unit missing?)"));
   EXPECT_THAT(fault("packing_max", "distance = \"20 mm\""), HasSubstr("takes no distance"));
-  EXPECT_THAT(fault("mass", "distance = \"20 mm\""), HasSubstr("kg")) << "another unit than the row's";
+  EXPECT_THAT(fault("fed_mass", "distance = \"20 mm\""), HasSubstr("kg")) << "another unit than the row's";
 }
 
 }  // namespace
