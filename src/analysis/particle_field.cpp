@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "numerics/neighbourhood.hpp"
+
 namespace talus {
 
 namespace {
@@ -47,7 +49,7 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
           .solid_volume = std::numbers::pi / 6 * cube};
 }
 
-ParticleField::ParticleField(Particles particles, Domain domain, Places places)
+ParticleField::ParticleField(Particles particles, Domain domain)
     : particles_(std::move(particles)),
       domain_(std::move(domain)),
       reach_(largest_support(particles_)),
@@ -59,105 +61,11 @@ ParticleField::ParticleField(Particles particles, Domain domain, Places places)
       low_[axis] = std::min(low_[axis], x[axis]);
       high_[axis] = std::max(high_[axis], x[axis]);
     }
-  if (places == Places::many) list_images();
-}
-
-void ParticleField::list_images() {
-  if (particles_.position.empty()) return;
-  std::vector<double> sorted = particles_.smoothing_length;
-  const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), median, sorted.end());
-  constexpr double wider = 1.25;
-  const double most = wider * *median;
-  lists_ = {list_of(0, most), list_of(most, std::numeric_limits<double>::infinity())};
-}
-
-/// Of the particles whose smoothing lengths are above one and at most another.
-ParticleField::List ParticleField::list_of(double above, double most) const {
-  const std::span<const std::uint32_t> order = grid_.order();
-  std::vector<std::uint32_t> chosen;  // places in that order
-  List list;
-  for (std::uint32_t k = 0; k < order.size(); ++k)
-    if (const double h = particles_.smoothing_length[order[k]]; h > above && h <= most) {
-      chosen.push_back(k);
-      list.smoothing_length = std::max(list.smoothing_length, h);
-    }
-  if (chosen.empty()) return list;
-  const double reach = sph::support * list.smoothing_length;
-  // Particles whose cells follow each other are mostly near each other: images of a sphere of them that is far from all
-  // that its images are seen in need no test.
-  constexpr std::size_t together = 16;
-  constexpr double rounding = 1 + 1e-6;
-  const auto group = [&](std::size_t s) {
-    return std::span(chosen).subspan(together * s, std::min(together, chosen.size() - together * s));
-  };
-  std::vector<std::pair<Vector3, double>> spheres((chosen.size() + together - 1) / together);
-  for (std::size_t s = 0; s < spheres.size(); ++s) {
-    Vector3 low = particles_.position[order[group(s)[0]]], high = low;
-    for (const std::uint32_t k : group(s))
-      for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], particles_.position[order[k]][axis]);
-        high[axis] = std::max(high[axis], particles_.position[order[k]][axis]);
-      }
-    spheres[s] = {0.5 * (low + high), 0.5 * norm(high - low)};
-  }
-  std::vector<Listed> found;
-  std::vector<Vector3> places;
-  for (std::uint32_t n = 0; n < images_.size(); ++n) {
-    const Image& image = images_[n];
-    const auto is_near = [&](const Vector3& place, double more) {
-      return image.is_identity() || domain_.is_near(image, place, rounding * (reach + more));
-    };
-    for (std::size_t s = 0; s < spheres.size(); ++s) {
-      if (!is_near(image.position(spheres[s].first), spheres[s].second)) continue;
-      for (const std::uint32_t k : group(s)) {
-        const Vector3 place = image.position(particles_.position[order[k]]);
-        if (!is_near(place, 0)) continue;
-        places.push_back(place);
-        found.push_back(
-            {place, particles_.smoothing_length[order[k]], std::uint64_t{n} * order.size() + k, order[k], n});
-      }
-    }
-  }
-  // Stored cell by cell, so that neighbours stand together.
-  const CellGrid unsorted(places, reach);
-  for (const std::uint32_t n : unsorted.order()) list.entries.push_back(found[n]);
-  for (std::size_t n = 0; n < places.size(); ++n) places[n] = list.entries[n].place;
-  list.grid.emplace(places, reach);
-  return list;
-}
-
-/// In the order in which they are found without lists: image by image, and cell by cell in each. Those that are too far
-/// away to count are left out: they would add zeros.
-template <class Visit>
-void ParticleField::for_each_listed(const Vector3& x, Visit&& visit) const {
-  struct Near {
-    std::uint64_t rank;
-    const Listed* entry;
-  };
-  thread_local std::vector<Near> near;
-  near.clear();
-  constexpr double rounding = 1 + 1e-9;
-  for (const List& list : lists_) {
-    if (!list.grid) continue;
-    list.grid->for_each_candidate(x, [&](std::uint32_t n) {
-      const Listed& entry = list.entries[n];
-      const Vector3 d = entry.place - x;
-      const double reach = rounding * sph::support * entry.smoothing_length;
-      if (dot(d, d) < reach * reach) near.push_back({entry.rank, &entry});
-    });
-  }
-  std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.rank < b.rank; });
-  for (const auto& [rank, entry] : near) {
-    const Image& image = images_[entry->image];
-    if (domain_.is_visible(x, entry->place, image)) visit(entry->source, image, entry->place - x);
-  }
 }
 
 template <class Visit>
 void ParticleField::for_each_near(const Vector3& x, Visit&& visit) const {
   if (particles_.position.empty()) return;
-  if (!lists_.empty()) return for_each_listed(x, visit);
   for (const Image& image : images_) {
     const Vector3 source = image.source(x);
     bool within = true;
@@ -206,6 +114,55 @@ std::vector<std::size_t> particles_around(std::span<const Vector3> position, con
   for (std::size_t i = 0; i < position.size(); ++i)
     if (std::abs(position[i].x - place.x) < reach && std::abs(position[i].z - place.z) < reach) near.push_back(i);
   return near;
+}
+
+namespace {
+
+/// A particle or an image of one, as its neighbours see it.
+struct Seen {
+  Vector3 place, velocity;
+  double smoothing_length, volume;
+};
+
+}  // namespace
+
+std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Domain& domain,
+                                          std::span<const std::uint32_t> taken, std::span<const Vector3> velocity) {
+  ThreadTeam team(1);
+  Neighbourhood neighbourhood(domain);
+  neighbourhood.build(team, particles.position, particles.smoothing_length, 0.0);
+  std::vector<Seen> all;
+  all.reserve(particles.position.size() + neighbourhood.ghosts().size());
+  for (std::size_t j = 0; j < particles.position.size(); ++j)
+    all.push_back({particles.position[j], velocity[j], particles.smoothing_length[j], particles.volume[j]});
+  for (const Ghost& ghost : neighbourhood.ghosts()) {
+    Seen seen = all[ghost.source];
+    const Image& image = neighbourhood.image(ghost);
+    seen.place = image.position(seen.place), seen.velocity = image.vector(seen.velocity);
+    all.push_back(seen);
+  }
+  static constexpr Image identity;
+  const auto is_visible = [&](std::uint32_t i, std::uint32_t j) {
+    const std::size_t count = particles.position.size();
+    return domain.is_visible(all[i].place, all[j].place,
+                             j < count ? identity : neighbourhood.image(neighbourhood.ghosts()[j - count]));
+  };
+  std::vector<Tensor3<>> gradients;
+  gradients.reserve(taken.size());
+  for (const std::uint32_t i : taken) {
+    const Seen& own = all[i];
+    const bool sees_all = !neighbourhood.sight_may_change(i);
+    sph::GradientSums<> sums;
+    for (const std::uint32_t j : neighbourhood.of(i)) {
+      const Seen& other = all[j];
+      const double h = 0.5 * (own.smoothing_length + other.smoothing_length);
+      const Vector3 d = other.place - own.place;
+      if (const double r = norm(d); r < sph::support * h && (sees_all || is_visible(i, j)))
+        sums.add(other.volume, sph::cubic_spline_slope(r, h), d, other.velocity - own.velocity);
+    }
+    gradients.push_back(sph::velocity_gradient(sums));
+  }
+  return gradients;
 }
 
 }  // namespace talus

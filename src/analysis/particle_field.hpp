@@ -35,13 +35,9 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
 
 class ParticleField {
  public:
-  /// How many places it will be asked about: at a few, images are sought at each; for many they are listed beforehand,
-  /// which costs as much as some hundred places and makes each some four times as quick. The bits are the same.
-  enum class Places { few, many };
-
   /// \param domain with its gates in their state at that time
   /// \throws std::invalid_argument if a position is not finite or a smoothing length not above 0
-  ParticleField(Particles particles, Domain domain, Places places = Places::few);
+  ParticleField(Particles particles, Domain domain);
 
   const Particles& particles() const { return particles_; }
   const Domain& domain() const { return domain_; }
@@ -54,32 +50,11 @@ class ParticleField {
   double value(const Vector3& x, std::span<const double> column) const;
   Vector3 value(const Vector3& x, std::span<const Vector3> column) const;
 
-  /// Largest support of a particle, m.
-  double reach() const { return reach_; }
-
  private:
-  /// A particle, or an image of it that can be seen from within the box.
-  struct Listed {
-    Vector3 place;            ///< m
-    double smoothing_length;  ///< m
-    std::uint64_t rank;       ///< what is seen from a place is summed in the order of its ranks
-    std::uint32_t source, image;
-  };
-  /// Those of one range of smoothing lengths: a few thin ones in a stream would make wide cells for all.
-  struct List {
-    double smoothing_length = 0;   ///< the largest, m
-    std::vector<Listed> entries;   ///< in the order of the cells
-    std::optional<CellGrid> grid;  ///< of their places; none where there are none
-  };
-
   /// Calls visit(j, image, d) for each particle j and each of its images whose place x + d is seen from x and whose
   /// kernel reaches it.
   template <class Visit>
   void for_each_near(const Vector3& x, Visit&& visit) const;
-  template <class Visit>
-  void for_each_listed(const Vector3& x, Visit&& visit) const;
-  void list_images();
-  List list_of(double above, double most) const;
 
   Particles particles_;
   Domain domain_;
@@ -87,7 +62,6 @@ class ParticleField {
   Vector3 low_, high_;         // of the particles
   std::vector<Image> images_;  // the identity first
   CellGrid grid_;
-  std::vector<List> lists_;  // for many places
 };
 
 /// du_i/dx_j at particles, in the order of `taken`, corrected so that it is exact for linear fields.

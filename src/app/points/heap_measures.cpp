@@ -42,7 +42,7 @@ struct Heap {
 Heap heap_of(const PointsToMeasure& set) {
   const double a = set.mean_radius();
   const Domain domain = box_around(set);
-  const ParticleField field(particles_of_spheres(set.position(), a), domain, ParticleField::Places::many);
+  const ParticleField field(particles_of_spheres(set.position(), a), domain);
   Heap heap{
       packing_section(field.particles(), domain, 2 * a, a), {}, {}, 0.5 * (domain.box().low.x + domain.box().high.x)};
   for (const Vector3& x : set.position()) heap.at_points.push_back(field.packing(x));
