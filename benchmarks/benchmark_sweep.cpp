@@ -21,7 +21,7 @@ struct Bed {
   Material material;
   ThreadTeam team;
   Domain domain;
-  Sweep sweep;
+  PairSums pairs;
   Rates rates;
   std::vector<double> h;
 
@@ -62,7 +62,7 @@ struct Bed {
         material(parameters),
         team(static_cast<int>(run.range(3))),
         domain(domain_of(parameters)),
-        sweep(parameters, domain, state.mass, 100) {
+        pairs(parameters, domain, state.mass, 100) {
     Random random(1);
     const auto shift = [&] { return 0.1 * parameters.bed.spacing * random.uniform(-1, 1); };
     for (Vector3& x : state.position) x += Vector3{shift(), shift(), shift()};
@@ -72,12 +72,12 @@ struct Bed {
     for (auto& stress : state.material.stress)
       for (double& component : stress) component = random.uniform(0, 1000);
     sort_for_locality(state, sph::support * parameters.bed.spacing);
-    for (const double density : state.density) h.push_back(sweep.smoothing_length(density));
-    sweep.find_neighbours(team, state.position, h);
-    evaluate(SweepTerms::all);
+    for (const double density : state.density) h.push_back(pairs.smoothing_length(density));
+    pairs.find_neighbours(team, state.position, h);
+    evaluate(PairTerms::all);
   }
-  void evaluate(SweepTerms terms) {
-    sweep(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
+  void evaluate(PairTerms terms) {
+    pairs(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
           rates);
   }
 };
@@ -85,28 +85,28 @@ struct Bed {
 /// Neighbours of all particles, images among them.
 std::size_t pairs_of(const Bed& bed) {
   std::size_t pairs = 0;
-  for (std::size_t i = 0; i < bed.h.size(); ++i) pairs += bed.sweep.neighbourhood().of(i).size();
+  for (std::size_t i = 0; i < bed.h.size(); ++i) pairs += bed.pairs.neighbourhood().of(i).size();
   return pairs;
 }
 
-void sweep(benchmark::State& run, SweepTerms terms) {
+void sweep(benchmark::State& run, PairTerms terms) {
   Bed bed(run);
   for (auto _ : run) bed.evaluate(terms);
   run.SetItemsProcessed(static_cast<std::int64_t>(pairs_of(bed)) * run.iterations());
 }
 void sweep_gradients(benchmark::State& run) {
-  sweep(run, SweepTerms::gradients);
+  sweep(run, PairTerms::gradients);
 }
 void sweep_forces(benchmark::State& run) {
-  sweep(run, SweepTerms::forces);
+  sweep(run, PairTerms::forces);
 }
 void sweep_all(benchmark::State& run) {
-  sweep(run, SweepTerms::all);
+  sweep(run, PairTerms::all);
 }
 
 void neighbours(benchmark::State& run) {
   Bed bed(run);
-  for (auto _ : run) bed.sweep.find_neighbours(bed.team, bed.state.position, bed.h);
+  for (auto _ : run) bed.pairs.find_neighbours(bed.team, bed.state.position, bed.h);
   run.SetItemsProcessed(static_cast<std::int64_t>(bed.h.size()) * run.iterations());
 }
 

@@ -119,7 +119,7 @@ struct Bed {
   Continuum model;
   Domain domain;
   Surface surface;
-  Sweep sweep;
+  PairSums pairs;
   std::vector<double> h;
   double least_step = std::numeric_limits<double>::infinity(), least_lists = least_step;  // s, of a particle
 
@@ -128,7 +128,7 @@ struct Bed {
         model(p),
         domain(domain_of(p)),
         surface(surface_of(p)),
-        sweep(p, domain, model.state().mass, 100, surface) {
+        pairs(p, domain, model.state().mass, 100, surface) {
     State& s = model.mutable_state();
     double top = 0;
     for (const Vector3& x : s.position) top = std::max(top, x.z);
@@ -137,7 +137,7 @@ struct Bed {
         s.material.stress[c][i] = p.bed.packing * p.grains.density * 9.81 * (top + spacing - s.position[i].z);
     model.begin(team);
     for (int n = 0; n < 50; ++n) model.advance(team);
-    for (const double density : s.density) h.push_back(sweep.smoothing_length(density));
+    for (const double density : s.density) h.push_back(pairs.smoothing_length(density));
   }
   double count() const { return static_cast<double>(model.state().position.size()); }
 
@@ -149,7 +149,7 @@ struct Bed {
       if (model.state().list_builds == builds) least_step = std::min(least_step, (processor_time() - begin) / count());
     }
     const double begin = processor_time();
-    sweep.find_neighbours(team, model.state().position, h);
+    pairs.find_neighbours(team, model.state().position, h);
     least_lists = std::min(least_lists, (processor_time() - begin) / count());
   }
 };

@@ -41,17 +41,12 @@ const std::optional<HeadSize>& AvalancheSnapshot::head_size() const {
 }
 
 const FallingCloud& AvalancheSnapshot::fall() const {
-  return made_once(fall_, [&] {
-    Vector3 centre;
-    for (const Vector3& x : start) centre += (1.0 / static_cast<double>(start.size())) * x;
-    double radius = 0;
-    for (const Vector3& x : start) radius = std::max(radius, norm(x - centre));
-    return measure_falling_cloud(now.positions(), now.vectors("velocity"), gravity, radius);
-  });
+  return made_once(
+      fall_, [&] { return measure_falling_cloud(now.positions(), now.vectors("velocity"), gravity, initial_radius); });
 }
 
-AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales& scales, std::size_t grains) {
-  AvalancheRun run{.scales = scales, .grains = static_cast<double>(grains), .end = end / scales.time()};
+AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales& scales) {
+  AvalancheRun run{.scales = scales, .end = end / scales.time()};
   const double window = front_speed_window * scales.time();
   run.front_speed = front_speed_curve(front, window, front.time.empty() ? end : std::min(end, front.time.back()));
   for (double& t : run.front_speed.time) t /= scales.time();

@@ -37,8 +37,8 @@ class AvalancheSnapshot {
   const AvalancheScales scales;
   const AvalancheView view;
   const Snapshot now;
-  std::span<const Vector3> start = {};  ///< positions at the start of the run, the same grains in the same order, m
-  Vector3 gravity = {0, 0, -1};         ///< unit vector
+  double initial_radius = 0;     ///< of the cloud at the start of the run, m
+  Vector3 gravity = {0, 0, -1};  ///< unit vector
 
   std::span<const Vector3> position() const;         ///< as seen: from the side without y
   const std::vector<GrainSet>& heads() const;        ///< find_heads()
@@ -59,12 +59,10 @@ struct AvalancheRun {
 
   AvalancheScales scales;
   AvalancheView view = AvalancheView::from_above;
-  double grains = 0;
-  double end = 0;                        ///< a/v_s
-  Curve front_speed = {};                ///< v_s against a/v_s, at 0.25, 0.5, ... after the start
-  Numbers snapshots = {};                ///< against the time in a/v_s: the state at the start, then the data
-  std::vector<double> head_widths = {};  ///< of every head at the end, m
-  double overlap_max = none;             ///< over a
+  double end = 0;             ///< a/v_s
+  Curve front_speed = {};     ///< v_s against a/v_s, at 0.25, 0.5, ... after the start
+  Numbers snapshots = {};     ///< against the time in a/v_s: the state at the start, then the data
+  double overlap_max = none;  ///< over a
 
   /// Whether the run went on to that time, but for a step.
   bool reaches(double time) const { return end >= time * (1 - 1e-3); }
@@ -72,7 +70,7 @@ struct AvalancheRun {
 
 /// A run without snapshots: its scales and the front's speed. \param front m against s, from the start; from above it
 /// is front_position, from the side front_position_on_slope with a layer of 2 a \param end of the run, s
-AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales& scales, std::size_t grains);
+AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales& scales);
 
 /// Every measure of one run, each once; a number that a run does not have is nan.
 std::span<const Measure<AvalancheRun>> avalanche_measures();

@@ -102,16 +102,40 @@ double evaluate(Statistic statistic, std::span<const double> numbers) {
   return statistic == Statistic::ratio ? numbers[0] / numbers[1] : numbers[0] - numbers[1];
 }
 
-double evaluate_members(Statistic statistic, std::vector<double> numbers, bool may_be_missing) {
-  if (may_be_missing) numbers = finite_values(std::move(numbers));
-  return numbers.empty() ? std::nan("") : evaluate(statistic, numbers);
-}
+namespace {
 
+/// Without those that are nan, as long as these are the fewer; else none at all.
 std::vector<double> finite_values(std::vector<double> numbers) {
   const std::size_t members = numbers.size();
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (2 * numbers.size() < members) numbers.clear();
   return numbers;
+}
+
+std::optional<double> value_of_variant(const ComparisonRow& row, const std::vector<std::optional<double>>& members,
+                                       bool may_be_missing) {
+  if (members.empty() || std::any_of(members.begin(), members.end(), [](const auto& one) { return !one; }))
+    return std::nullopt;
+  std::vector<double> numbers;
+  for (const std::optional<double>& member : members) numbers.push_back(*member);
+  if (row.from != From::each && row.from != From::variants) return numbers.front();
+  if (row.statistic == Statistic::standard_deviation && numbers.size() < 2) return std::nullopt;
+  if (may_be_missing) numbers = finite_values(std::move(numbers));
+  return numbers.empty() ? std::nan("") : evaluate(is_of_two(row.statistic) ? Statistic::mean : row.statistic, numbers);
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> row_values(const ComparisonRow& row, const RowNumbers& numbers) {
+  std::vector<std::optional<double>> values;
+  for (const auto& members : numbers.of_variants)
+    values.push_back(value_of_variant(row, members, numbers.may_be_missing));
+  if (row.from != From::variants) return values;
+  if (!is_of_two(row.statistic)) return {values.empty() ? std::nullopt : values.front()};
+  if (std::any_of(values.begin(), values.end(), [](const auto& value) { return !value; })) return {std::nullopt};
+  std::vector<double> of_both;
+  for (const std::optional<double>& value : values) of_both.push_back(*value);
+  return {evaluate(row.statistic, of_both)};
 }
 
 }  // namespace talus

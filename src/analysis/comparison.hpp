@@ -78,13 +78,6 @@ enum class Statistic {
 /// variant.
 double evaluate(Statistic statistic, std::span<const double> numbers);
 
-/// Numbers of the members of an ensemble without those that are nan, as long as these are the fewer; else none at all.
-std::vector<double> finite_values(std::vector<double> numbers);
-
-/// The statistic of the numbers of members. \param may_be_missing take their finite_values() alone; nan where
-/// there is none
-double evaluate_members(Statistic statistic, std::vector<double> numbers, bool may_be_missing);
-
 struct ComparisonRow {
   std::string id = {};
   int line = 0;           ///< in the file
@@ -103,5 +96,21 @@ struct ComparisonRow {
   Criterion criterion = {};
   std::string source = {};
 };
+
+/// The numbers from which a row is made: of each variant one a member, or one of all its members; or one of all
+/// variants together. A list is empty where the runs are not there, a number nothing where it could not be evaluated.
+struct RowNumbers {
+  std::vector<std::vector<std::optional<double>>> of_variants = {};
+  bool may_be_missing = false;  ///< members whose number is nan are left out while they are the fewer
+};
+
+/// Of two variants.
+inline bool is_of_two(Statistic statistic) {
+  return statistic == Statistic::ratio || statistic == Statistic::difference;
+}
+
+/// One a variant of the row, or one alone of From::variants; nothing where numbers are not there or too few.
+/// \throws std::invalid_argument for a ratio or difference that is not of two variants
+std::vector<std::optional<double>> row_values(const ComparisonRow& row, const RowNumbers& numbers);
 
 }  // namespace talus

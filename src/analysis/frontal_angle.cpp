@@ -10,6 +10,8 @@ namespace talus {
 
 namespace {
 
+constexpr double cluster_reach = 4, step = 3;  // mean radii
+
 /// The grain to go to from i, or nothing.
 std::optional<std::uint32_t> next_grain(std::span<const Vector3> position, const Links& links,
                                         const std::vector<bool>& closed, std::uint32_t i) {
@@ -29,11 +31,11 @@ std::optional<std::uint32_t> next_grain(std::span<const Vector3> position, const
 
 }  // namespace
 
-GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, const FrontalAngleRule& rule) {
-  const Links wide(position, rule.cluster_reach * mean_radius);
+GrainSet surface_walk(std::span<const Vector3> position, double mean_radius) {
+  const Links wide(position, cluster_reach * mean_radius);
   const GrainSet cluster = largest_set(wide.connected_sets(std::vector<bool>(position.size(), true)), position);
   if (cluster.empty()) return {};
-  const Links links(position, rule.step * mean_radius);
+  const Links links(position, step * mean_radius);
 
   std::vector<bool> closed(position.size(), true);
   std::uint32_t foremost = cluster.front();

@@ -11,18 +11,13 @@
 
 namespace talus {
 
-struct FrontalAngleRule {
-  double cluster_reach = 4;  ///< link of the cluster whose front is taken, in mean radii; choice
-  double step = 3;           ///< reach of the search for the next grain, in mean radii (section 4.3)
-};
-
 /// The grains of the front's surface, from the foremost of the largest cluster upwards, none lower than the one before.
 ///
-/// The next grain is the one, of those within a step and not lower than the last, that lies at the smallest angle from
-/// +x (section 4.3 gives the range of 0 to 180 degrees, not the order: choice; of equal ones the nearest). The walk
-/// ends where there is none. \param position m; the foremost of equal ones is the lowest \param mean_radius of the
-/// case, > 0, m
-GrainSet surface_walk(std::span<const Vector3> position, double mean_radius, const FrontalAngleRule& rule = {});
+/// The cluster is that of links of 4 a (choice). The next grain is the one, of those within 3 a and not lower than the
+/// last, that lies at the smallest angle from +x (section 4.3 gives the range of 0 to 180 degrees, not the order:
+/// choice; of equal ones the nearest). The walk ends where there is none. \param position m; the foremost of equal ones
+/// is the lowest \param mean_radius of the case, > 0, m
+GrainSet surface_walk(std::span<const Vector3> position, double mean_radius);
 
 /// Angle between the slope behind the front and the line nearest to the grains' centres, 0 to pi: below pi/2 the front
 /// leans back. Nothing for fewer than three grains, or if they prefer no direction.

@@ -11,6 +11,9 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double reach = 4;     // mean radii
+constexpr double share = 0.25;  // of the largest number
+constexpr std::size_t least = 5;
 
 std::uint32_t largest_number(const Numbers& number, const GrainSet& grains) {
   std::uint32_t largest = 0;
@@ -20,42 +23,39 @@ std::uint32_t largest_number(const Numbers& number, const GrainSet& grains) {
 
 }  // namespace
 
-NeighbourNumbers neighbour_numbers(const Links& links, bool count_self) {
+NeighbourNumbers neighbour_numbers(const Links& links) {
   NeighbourNumbers numbers;
-  const std::uint32_t self = count_self ? 1 : 0;
   for (std::size_t i = 0; i < links.size(); ++i)
-    numbers.direct.push_back(static_cast<std::uint32_t>(links.of(i).size()) + self);
+    numbers.direct.push_back(static_cast<std::uint32_t>(links.of(i).size()));
   for (std::size_t i = 0; i < links.size(); ++i) {
-    std::uint32_t sum = self * numbers.direct[i];
+    std::uint32_t sum = 0;
     for (const std::uint32_t j : links.of(i)) sum += numbers.direct[j];
     numbers.indirect.push_back(sum);
   }
   return numbers;
 }
 
-std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius, const HeadRule& rule) {
+std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius) {
   if (position.empty()) return {};
-  const Links links(position, rule.reach * mean_radius);
-  const NeighbourNumbers both = neighbour_numbers(links, rule.count_self);
-  const Numbers& number = rule.measure == HeadRule::Measure::indirect ? both.indirect : both.direct;
+  const Links links(position, reach * mean_radius);
+  const Numbers number = neighbour_numbers(links).indirect;
 
-  const double limit = rule.share * *std::max_element(number.begin(), number.end());
+  const double limit = share * *std::max_element(number.begin(), number.end());
   std::vector<bool> candidate(position.size(), false);
   for (const GrainSet& part : links.connected_sets(std::vector<bool>(position.size(), true))) {
     const std::uint32_t largest = largest_number(number, part);
     if (largest <= limit) continue;
-    const double own_limit = rule.own_largest ? rule.share * largest : limit;
-    for (const std::uint32_t i : part) candidate[i] = number[i] > own_limit;
+    for (const std::uint32_t i : part) candidate[i] = number[i] > share * largest;
   }
   std::vector<GrainSet> heads = links.connected_sets(candidate);
-  std::erase_if(heads, [&](const GrainSet& head) { return head.size() < rule.least; });
+  std::erase_if(heads, [&](const GrainSet& head) { return head.size() < least; });
   std::sort(heads.begin(), heads.end(),
             [&](const GrainSet& a, const GrainSet& b) { return is_larger(a, b, position); });
   return heads;
 }
 
 HeadSize head_size(std::span<const Vector3> position, std::span<const double> radius, const GrainSet& head,
-                   double mean_radius, double rear_window) {
+                   double mean_radius) {
   HeadSize size;
   double left = -infinity, right = infinity;
   size.foremost = -infinity;
@@ -71,7 +71,7 @@ HeadSize head_size(std::span<const Vector3> position, std::span<const double> ra
   GrainSet across = head;
   std::sort(across.begin(), across.end(),
             [&](std::uint32_t a, std::uint32_t b) { return position[a].y < position[b].y; });
-  const double half = 0.5 * rear_window * mean_radius;
+  const double half = 0.5 * reach * mean_radius;
   size.inner = -infinity;
   double rear_left = infinity, rear_right = infinity;
   for (std::size_t n = 0, begin = 0; n < across.size(); ++n) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Heads of an avalanche: dense groups of grains at its front, found from the number of grains around each grain
-/// (Niiya, Awazu & Nishimori 2020, section 4.1), and their size (Figure 8c). What the paper leaves open is a member of
-/// `HeadRule`.
+/// (Niiya, Awazu & Nishimori 2020, section 4.1), and their size (Figure 8c). What the paper leaves
+/// open is a choice.
 #pragma once
 
 #include <cmath>
@@ -20,30 +20,16 @@ struct NeighbourNumbers {
   std::vector<std::uint32_t> indirect;  ///< n'_i: sum of n_j over them, Eq. 11b
 };
 
-/// \param count_self whether a grain belongs to its own neighbours, in both sums; the paper does not say
-NeighbourNumbers neighbour_numbers(const Links& links, bool count_self = false);
-
-/// How heads are found. The defaults are those of validation/niiya2020/reference.toml.
-struct HeadRule {
-  enum class Measure { indirect, direct };
-  Measure measure = Measure::indirect;  ///< n' (as the paper decides) or n (its Figure 8a)
-  double reach = 4;                     ///< of a neighbour, in mean radii (Eq. 11)
-  double share = 0.25;                  ///< of the largest number, above which a grain belongs to a head (section 4.1)
-  /// Grains of a head, counted with its rim. The paper has no least number; below five a group has no shape. Choice.
-  std::size_t least = 5;
-  bool count_self = false;  ///< as in neighbour_numbers; choice
-  /// Whether each head is drawn at `share` of its own largest number ("the maximum value calculated for each aggregated
-  /// part"), and heads that touch then are one; else at `share` of the largest number of all.
-  bool own_largest = true;
-};
+NeighbourNumbers neighbour_numbers(const Links& links);
 
 /// The heads, the one with the most grains first (of equal ones the one farther down), each by index.
 ///
-/// Parts are the connected sets of all grains, two being connected if closer than the reach. Of each part whose largest
-/// number is above `share` of the largest of all (choice: a few grains left behind are no part), the grains above
-/// `share` of its own largest number, and the links between them, make sets; those of at least `least` grains are
-/// heads. \param position centres, m; \param mean_radius of the case, > 0, m
-std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius, const HeadRule& rule = {});
+/// Parts are the connected sets of all grains, two being connected if closer than 4 a (Eq. 11). Of each part whose
+/// largest n' is above a quarter of the largest of all (section 4.1; choice: a few grains left behind are no part), the
+/// grains above a quarter of its own largest n' ("the maximum value calculated for each aggregated part"), and the
+/// links between them, make sets; those of at least five grains are heads (choice: below five a group has no shape).
+/// \param position centres, m; \param mean_radius a of the case, > 0, m
+std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius);
 
 /// Size of a head in the plane x, y; lengths in m, from outer edge to outer edge of the grains (choice). Thickness,
 /// inner edge and concavity are nan if no grain lies in the central half, which a head of a few grains may do.
@@ -63,10 +49,9 @@ struct HeadSize {
   bool in_central_half(const Vector3& x) const { return 4 * std::abs(x.y - centre) <= width; }
 };
 
-/// The rear boundary at a grain is the rearmost edge among the head's grains whose y differs by at most half of
-/// `rear_window` from its own.
-/// \param head grains, at least one; \param rear_window in mean radii; 4, the reach of a link, is a choice
+/// The rear boundary at a grain is the rearmost edge among the head's grains whose y differs by at most 2 a from its
+/// own (choice). \param head grains, at least one
 HeadSize head_size(std::span<const Vector3> position, std::span<const double> radius, const GrainSet& head,
-                   double mean_radius, double rear_window = 4);
+                   double mean_radius);
 
 }  // namespace talus

@@ -1,11 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How the measures of grains in a vessel are made from a run: of its series, or of the numbers of its snapshots.
+/// How the measures of grains in a vessel are made from a run: of its series, or of the numbers of its snapshots, which
+/// come first. SI, angles in degrees; nan where a number has no meaning. Estimators: validation/yuu2011/reference.toml.
 #pragma once
 
+#include <numbers>
+
 #include "analysis/discharge.hpp"
-#include "analysis/hopper_numbers.hpp"
+#include "analysis/hopper.hpp"
 
 namespace talus::hopper {
+
+// Numbers of one snapshot.
+enum class Where { bin, hopper };                                     ///< below the outlet, and above it
+const FreeSurface& surface_in(const HopperSnapshot& s, Where where);  ///< empty if there is no hopper
+ReposeAngle repose_in(const HopperSnapshot& s, Where where);
+
+template <Where where>
+double surface_angle_in(const HopperSnapshot& s) {
+  return surface_angle(surface_in(s, where), s.shape().middle()) / (std::numbers::pi / 180);
+}
+template <Where where, double ReposeAngle::*angle>
+double repose_angle_in(const HopperSnapshot& s) {
+  return repose_in(s, where).*angle / (std::numbers::pi / 180);
+}
+template <double GradientSizes::*size>
+double gradient(const HopperSnapshot& s) {
+  return s.gradient_sizes().*size;
+}
+double mass(const HopperSnapshot& s);  ///< of all particles
+double quiescent_speed(const HopperSnapshot& s);
+double packing_max(const HopperSnapshot& s);
+double density_drift(const HopperSnapshot& s);
+double stress_ratio(const HopperSnapshot& s);
+double inertial_share(const HopperSnapshot& s);
+double left_right_imbalance(const HopperSnapshot& s);
 
 using Number = HopperRun::Numbers::Number;
 

@@ -113,6 +113,7 @@ struct Measure {
 /// What a table or a document says of a measure.
 struct MeasureText {
   std::string_view name, unit, text;
+  bool may_be_missing;
 };
 /// All measures of a model.
 std::vector<MeasureText> texts_of_hopper_measures();
@@ -124,7 +125,7 @@ std::optional<MeasureText> find_measure(std::string_view name);
 template <class Run>
 std::vector<MeasureText> texts_of(std::span<const Measure<Run>> measures) {
   std::vector<MeasureText> texts;
-  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text});
+  for (const auto& m : measures) texts.push_back({m.name, m.unit, m.text, m.may_be_missing});
   return texts;
 }
 

@@ -30,6 +30,7 @@ class Neighbourhood {
   explicit Neighbourhood(Domain&&) = delete;
 
   const Domain& domain() const { return domain_; }
+  const Surface& vessel() const { return vessel_; }
 
   /// Finds ghosts and neighbours: all pairs with |x_i - x_j| <= a_i + m_i + a_j + m_j.
   /// \param position inside the domain, m; \param radius a, m; \param margin m >= 0 by which a particle may move and

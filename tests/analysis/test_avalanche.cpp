@@ -95,7 +95,7 @@ TEST(AvalancheRun, FromTheRecordsOfTheFront) {
     front.time.push_back(n * 1e-5);
     front.value.push_back(7 + 80 * n * 1e-5);
   }
-  const AvalancheRun run = avalanche_run(front, 1e-3, scales, 5);
+  const AvalancheRun run = avalanche_run(front, 1e-3, scales);
   ASSERT_EQ(run.front_speed.time.size(), 8u) << "the run ends at 2 a/v_s, the records a little later";
   EXPECT_DOUBLE_EQ(run.front_speed.time.back(), 2);
   for (const double v : run.front_speed.value) EXPECT_NEAR(v, 20, 1e-9);
@@ -104,9 +104,9 @@ TEST(AvalancheRun, FromTheRecordsOfTheFront) {
 TEST(AvalancheRun, HasNoFrontSpeedWhereNoWindowFits) {
   const AvalancheScales scales{0.002, 4};  // a window is 0.125 ms
   const Curve front{{0, 1e-4, 2e-4}, {0, 0.01, 0.02}};
-  EXPECT_EQ(avalanche_run(front, 2e-4, scales, 5).front_speed.time.size(), 1u);
-  EXPECT_TRUE(avalanche_run(front, 1e-4, scales, 5).front_speed.time.empty());
-  EXPECT_EQ(avalanche_run(front, 5e-4, scales, 5).front_speed.time.size(), 1u) << "no grain was a front at the end";
+  EXPECT_EQ(avalanche_run(front, 2e-4, scales).front_speed.time.size(), 1u);
+  EXPECT_TRUE(avalanche_run(front, 1e-4, scales).front_speed.time.empty());
+  EXPECT_EQ(avalanche_run(front, 5e-4, scales).front_speed.time.size(), 1u) << "no grain was a front at the end";
 }
 
 }  // namespace

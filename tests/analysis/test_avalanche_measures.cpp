@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "analysis/avalanche_numbers.hpp"
-#include "analysis/row_values.hpp"
 
 namespace talus {
 namespace {
@@ -29,7 +28,7 @@ AvalancheRun::Numbers numbers(std::vector<double> time, std::function<ByHand(std
 /// Grains in the head: 2000 - 150 t, of 2000; width (60 - t) a, thickness (15 - t/4 + wobble) a. `shift` is added to
 /// the front speed.
 AvalancheRun synthetic(double shift, double radius) {
-  AvalancheRun run{.scales = {radius, 1}, .grains = 2000};
+  AvalancheRun run{.scales = {radius, 1}};
   auto speed = [=](double t) { return (t <= 5 ? 30 + 4 * t : 50 - (t - 5) - 0.5 * std::max(0.0, t - 10)) + shift; };
   for (int n = 1; n <= 80; ++n) {
     run.front_speed.time.push_back(0.25 * n);
@@ -46,7 +45,6 @@ AvalancheRun synthetic(double shift, double radius) {
                   {avalanche::head<&HeadSize::thickness>, width / (n == 5 ? 3.5 : 4)},
                   {avalanche::frontal_angle, 90 - t + (10 - static_cast<double>(n)) * shift}};
   });
-  for (int k = 0; k < 4; ++k) run.head_widths.push_back((30 + 2 * k) * radius);
   run.overlap_max = 0.01;
   return run;
 }
@@ -57,10 +55,6 @@ double measure(std::string_view name, const AvalancheRun& run, const Window& win
 
 double of_run(std::string_view name, Window window = {}) {
   return measure(name, synthetic(0, 1), window);
-}
-
-std::optional<double> of_row(const ComparisonRow& row, const std::vector<AvalancheRun>& members) {
-  return RowValues<AvalancheRun>(row, {&members}, avalanche_measures()).values().at(0);
 }
 
 TEST(AvalancheMeasures, OfAKnownRun) {
@@ -77,36 +71,6 @@ TEST(AvalancheMeasures, OfAKnownRun) {
   EXPECT_DOUBLE_EQ(of_run("head_aspect_ratio", {.from = 6}), (6 * 4 + 3.5) / 7);
   EXPECT_DOUBLE_EQ(of_run("overlap_max"), 0.01);
   EXPECT_TRUE(std::isnan(measure("head_count", {}, {}))) << "a run without data";
-}
-
-TEST(EnsembleQuantity, StatisticsOverTheMembers) {
-  const std::vector<AvalancheRun> members = {synthetic(-1, 1), synthetic(0, 1), synthetic(1, 1)};
-  auto of = [&](std::string quantity, Statistic statistic, std::size_t count = 3) {
-    const ComparisonRow row{.quantity = std::move(quantity), .from = From::each, .statistic = statistic};
-    return of_row(row, {members.begin(), members.begin() + static_cast<std::ptrdiff_t>(count)});
-  };
-  EXPECT_DOUBLE_EQ(*of("front_speed_max", Statistic::standard_deviation), 1);
-  EXPECT_DOUBLE_EQ(*of("front_speed_max", Statistic::median), 50);
-  EXPECT_EQ(of("head_count", Statistic::standard_deviation, 1), std::nullopt);
-  EXPECT_EQ(of("head_count", Statistic::mean, 0), std::nullopt);
-  EXPECT_EQ(of("head_count", Statistic::mean, 1), 3);
-  EXPECT_THROW(of("head_widht", Statistic::mean), std::out_of_range);
-}
-
-TEST(EnsembleQuantity, MembersWithoutAnAngleAreLeftOutWhileTheyAreTheFewer) {
-  std::vector<AvalancheRun> members = {synthetic(-1, 1), synthetic(0, 1), synthetic(1, 1)};
-  const ComparisonRow at_first{.quantity = "frontal_angle", .from = From::each, .window = {.at = 2}};
-  const auto lose_first_angle = [](AvalancheRun& run) {
-    const AvalancheRun::Numbers whole = run.snapshots;
-    run.snapshots = {whole.time(), [whole](std::size_t n, Number number) {
-                       return n == 1 && number == avalanche::frontal_angle ? AvalancheRun::none
-                                                                           : whole.value(n, number);
-                     }};
-  };
-  lose_first_angle(members[2]);
-  EXPECT_NEAR(*of_row(at_first, members), 88 - 4.5, 1e-12);
-  lose_first_angle(members[1]);
-  EXPECT_TRUE(std::isnan(*of_row(at_first, members)));
 }
 
 TEST(AvalancheSummary, ListsWhatAppliesWithUnits) {
@@ -126,7 +90,7 @@ TEST(AvalancheSummary, KeepsTheOrderOfFrontSpeeds) {
     front.time.push_back(0.01 * n);
     front.value.push_back(std::pow(0.01 * n, 3));
   }
-  const AvalancheRun run = avalanche_run(front, 1.1, {1, 1}, 5);
+  const AvalancheRun run = avalanche_run(front, 1.1, {1, 1});
   EXPECT_LE(measure("front_speed_end", run, {}), measure("front_speed_max", run, {}));
   EXPECT_GE(measure("front_speed_end", run, {}), measure("front_speed_min", run, {}));
 }

@@ -68,6 +68,39 @@ TEST(Statistic, OfTwoVariants) {
   EXPECT_THROW(evaluate(Statistic::ratio, three), std::invalid_argument);
 }
 
+TEST(RowValues, AreStatisticsOverTheMembersOfEachVariant) {
+  const RowNumbers numbers{.of_variants = {{1, 2, 6}, {}, {5}, {4, std::nullopt}}};
+  using Values = std::vector<std::optional<double>>;
+  EXPECT_EQ(row_values({.statistic = Statistic::mean}, numbers), (Values{3, {}, 5, {}}));
+  EXPECT_EQ(row_values({.statistic = Statistic::median}, numbers), (Values{2, {}, 5, {}}));
+  EXPECT_EQ(row_values({.statistic = Statistic::standard_deviation}, numbers), (Values{std::sqrt(7.0), {}, {}, {}}));
+  EXPECT_EQ(row_values({.from = From::curves}, {.of_variants = {{7}, {}}}), (Values{7, {}}));
+  EXPECT_EQ(row_values({.from = From::parameters}, {.of_variants = {{7, 8}}}), (Values{7}));
+}
+
+TEST(RowValues, MembersWithoutANumberAreLeftOutWhileTheyAreTheFewer) {
+  const double nan = std::nan("");
+  const auto mean_of = [](std::vector<std::optional<double>> members, bool may_be_missing) {
+    return *row_values({}, {.of_variants = {std::move(members)}, .may_be_missing = may_be_missing}).at(0);
+  };
+  EXPECT_EQ(mean_of({1, 2, nan}, true), 1.5);
+  EXPECT_EQ(mean_of({1, nan}, true), 1) << "half of them";
+  EXPECT_TRUE(std::isnan(mean_of({1, nan, nan}, true)));
+  EXPECT_TRUE(std::isnan(mean_of({1, 2, nan}, false)));
+}
+
+TEST(RowValues, OfTwoVariantsAreMadeFromTheirMeans) {
+  using Values = std::vector<std::optional<double>>;
+  const ComparisonRow ratio{.from = From::variants, .statistic = Statistic::ratio};
+  const ComparisonRow difference{.from = From::variants, .statistic = Statistic::difference};
+  EXPECT_EQ(row_values(ratio, {.of_variants = {{1, 2}, {3}}}), (Values{0.5}));
+  EXPECT_EQ(row_values(difference, {.of_variants = {{1, 2}, {3}}}), (Values{-1.5}));
+  EXPECT_EQ(row_values(difference, {.of_variants = {{1, 2}, {}}}), (Values{{}}));
+  EXPECT_THROW(row_values(ratio, {.of_variants = {{1}}}), std::invalid_argument);
+  EXPECT_EQ(row_values({.from = From::variants}, {.of_variants = {{9}}}), (Values{9})) << "of all of them together";
+  EXPECT_EQ(row_values({.from = From::variants}, {}), (Values{{}}));
+}
+
 TEST(Measures, AreNamedOnce) {
   std::set<std::string_view> names;
   const std::vector<MeasureText> all = all_measures();

@@ -10,9 +10,8 @@
 #include <numbers>
 #include <string>
 
-#include "analysis/hopper_numbers.hpp"
+#include "analysis/hopper_estimators.hpp"
 #include "analysis/paper_hopper.hpp"
-#include "analysis/row_values.hpp"
 
 namespace talus {
 namespace {
@@ -112,44 +111,6 @@ TEST(Hopper, QuantitiesOfARun) {
   EXPECT_NEAR(is("mass_error", {}), 0, 1e-12);
   EXPECT_TRUE(std::isnan(is("stress_ratio_flow", {.at = 1.5}))) << "after the end";
   EXPECT_TRUE(std::isnan(is("discharged_fraction", {.at = 1.5})));
-}
-
-/// A run with one and a half times the discharge, and a bin that is steeper by 5 degrees.
-HopperRun faster(const HopperRun& slow) {
-  HopperRun fast = slow;
-  for (const std::size_t column : {2, 3})
-    for (double& value : fast.series.columns[column]) value *= 1.5;
-  fast.snapshots = {slow.snapshots.time(), [](std::size_t n, HopperRun::Numbers::Number number) {
-                      return number_by_hand(n, number) +
-                             (number == hopper::surface_angle_in<hopper::Where::bin> ? 5 : 0);
-                    }};
-  return fast;
-}
-
-TEST(Hopper, RowsOfTwoRuns) {
-  const HopperRun slow = run_of_a_steady_flow();
-  const std::vector<HopperRun> first = {faster(slow)}, second = {slow};
-  const auto of = [&](std::string quantity, Statistic statistic = Statistic::mean,
-                      Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
-    const ComparisonRow row{
-        .quantity = std::move(quantity), .from = From::variants, .statistic = statistic, .window = window};
-    return RowValues<HopperRun>(row, {&first, &second}, hopper_measures()).values().at(0);
-  };
-  EXPECT_NEAR(*of("discharge_rate_max", Statistic::ratio), 1.5, 1e-9);
-  EXPECT_NEAR(*of("surface_angle_bin", Statistic::difference, {.at = 0.5}), 5, 1e-12);
-  EXPECT_EQ(of("surface_angle_bin", Statistic::difference, {.at = 1.5}), std::nullopt) << "after the end";
-}
-
-TEST(Hopper, RowsOfTwoVariantsAreMeansOverTheirMembers) {
-  const HopperRun slow = run_of_a_steady_flow();
-  const std::vector<HopperRun> first = {faster(slow), slow}, second = {slow};
-  const auto of = [&](std::string quantity, Statistic statistic, Window window = {.at = {}, .from = 0.03, .to = 0.28}) {
-    const ComparisonRow row{
-        .quantity = std::move(quantity), .from = From::variants, .statistic = statistic, .window = window};
-    return *RowValues<HopperRun>(row, {&first, &second}, hopper_measures()).values().at(0);
-  };
-  EXPECT_NEAR(of("discharge_rate_max", Statistic::ratio), 1.25, 1e-9);
-  EXPECT_NEAR(of("surface_angle_bin", Statistic::difference, {.at = 0.5}), 2.5, 1e-12);
 }
 
 std::vector<std::string> names_in_summary(const HopperRun& run) {

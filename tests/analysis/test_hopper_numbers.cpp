@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Snapshots of a hopper made by hand, whose numbers are known.
-#include "analysis/hopper_numbers.hpp"
+#include "analysis/hopper_estimators.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/hopper_regions.hpp"
+#include "analysis/hopper.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

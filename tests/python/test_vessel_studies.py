@@ -6,6 +6,7 @@ Usage: test_vessel_studies.py TALUS
 import contextlib
 import io
 import pathlib
+import shutil
 import sys
 import tempfile
 import unittest
@@ -17,6 +18,7 @@ import numpy as np  # noqa: E402
 
 VALIDATION = pathlib.Path(__file__).resolve().parents[2] / "validation"
 sys.path[:0] = [str(VALIDATION), *(str(VALIDATION / name) for name in ("orifice", "drum", "long-runs", "materials"))]
+import beads  # noqa: E402
 import drum  # noqa: E402
 import long_runs  # noqa: E402
 import materials  # noqa: E402
@@ -97,6 +99,48 @@ class Materials(unittest.TestCase):
         self.assertAlmostEqual(materials.stray_share(x, velocity, on, self.SPACING), 3 / len(x))
         self.assertAlmostEqual(foot, 0.03 / np.tan(np.radians(25)), delta=2 * self.SPACING)  # the lattice's last layer
         self.assertAlmostEqual(height, 0.03, delta=self.SPACING)
+
+    def test_a_column_of_beads_is_measured_as_one_of_the_law(self):
+        n = np.arange(-40, 40) * beads.DIAMETER
+        x = np.stack([part.ravel() + 0.5 * beads.DIAMETER for part in np.meshgrid(n, n, n[40:])], axis=1)
+        radius, distance = 18 * beads.DIAMETER, np.hypot(x[:, 0], x[:, 1])
+
+        def frame(x):
+            return np.full(len(x), 0.5 * beads.DIAMETER), x, np.zeros_like(x)
+
+        first = frame(x[(distance < radius) & (x[:, 2] < radius)])
+        cone = x[x[:, 2] + 0.5 * beads.DIAMETER < 0.7 * radius - distance * np.tan(np.radians(20))]
+        numbers = beads.measure(first, frame(np.vstack([cone, [[1.5 * radius + 0.1, 0, 0.0006]]])), radius)
+        self.assertEqual(numbers["beads"], len(first[0]))
+        self.assertAlmostEqual(numbers["aspect"], 1, delta=1e-9)
+        self.assertAlmostEqual(numbers["packing"], np.pi / 6, delta=0.01)
+        self.assertAlmostEqual(numbers["height"], 0.7, delta=1 / 18)
+        self.assertAlmostEqual(numbers["runout"], 0.7 / np.tan(np.radians(20)) - 1, delta=3 / 18)
+        self.assertLess(numbers["runout_99"], numbers["runout"])
+        self.assertAlmostEqual(numbers["stray"], 1 / (len(cone) + 1))
+
+    def test_numbers_of_small_beads_are_where_a_line_leads(self):
+        rows = [{"radius": str(radius), "height": str(0.7 + 0.9 / radius + off)}
+                for radius, off in ((9, 0.01), (9, -0.01), (12, 0.01), (12, -0.01), (18, 0))]
+        value, error = beads.for_small_beads(rows, "height")
+        self.assertAlmostEqual(value, 0.7, delta=1e-9)
+        self.assertTrue(0.01 < error < 0.04, error)
+
+    @unittest.skipUnless(shutil.which("lmp"), "LAMMPS is not installed")
+    def test_a_small_column_of_beads_runs_and_is_measured(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(beads, "TABLE", pathlib.Path(folder) / "beads.csv"):
+            options = mock.MagicMock(folder=pathlib.Path(folder), rolling=[0.1], radius=5, floor="bumps", settled_with=0.15,
+                                     seed=1)
+            beads.run(options)
+            beads.measure_all(options)
+            told = io.StringIO()
+            with contextlib.redirect_stdout(told):
+                beads.table(options)
+        row = dict(zip(beads.COLUMNS, told.getvalue().splitlines()[2].strip("| ").split(" | ")))
+        self.assertEqual(row["floor"], "bumps")
+        self.assertAlmostEqual(float(row["aspect"]), 1, delta=0.1)
+        self.assertTrue(0.5 < float(row["packing"]) < 0.65, row["packing"])
+        self.assertTrue(0.4 < float(row["height"].strip("*")) < 0.9, row["height"])
 
     def test_every_material_of_the_program_has_its_bands(self):
         files = {path.stem for path in (VALIDATION.parent / "materials").glob("*.toml")}

@@ -123,7 +123,7 @@ def bits(folder):
     folder, found = Path(folder), {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
-        if not path.is_file() or path.name in ("log.txt", "files.txt", "figures.txt", "report.html"):
+        if not path.is_file() or path.name in ("log.txt", "files.txt", "report.html"):
             continue
         require(not name.endswith(".part"), f"{name} is left behind")
         if path.suffix == ".json":

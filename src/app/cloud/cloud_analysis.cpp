@@ -29,6 +29,15 @@ Curve front_of(const Series& series, const CloudFrame& frame) {
   return front;
 }
 
+/// Of the points about their centre.
+double radius_of(std::span<const Vector3> positions) {
+  Vector3 centre;
+  for (const Vector3& x : positions) centre += (1.0 / static_cast<double>(positions.size())) * x;
+  double radius = 0;
+  for (const Vector3& x : positions) radius = std::max(radius, norm(x - centre));
+  return radius;
+}
+
 struct Loaded {
   Loaded(PointSet read, const CloudFrame& frame)
       : points(std::move(read)), snapshot(frame.scales, frame.view(), points.view()) {}
@@ -47,26 +56,19 @@ AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const Cloud
   const double end = series.column("time").back();
 
   const auto paths = snapshot_paths(run_folder);
-  const auto start = std::make_shared<PointSet>(paths.empty() ? PointSet{} : read_points(paths.front()));
-  AvalancheRun run =
-      avalanche_run(frame.has_slope ? front : Curve{}, end, frame.scales, paths.empty() ? 0 : start->view().size());
+  const double initial_radius = paths.empty() ? 0 : radius_of(read_points(paths.front()).view().positions());
+  AvalancheRun run = avalanche_run(frame.has_slope ? front : Curve{}, end, frame.scales);
   run.view = frame.view();
   run.overlap_max = *std::max_element(overlap.begin(), overlap.end()) / frame.scales.mean_radius;
   std::vector<double> time;
   for (const auto& path : paths) time.push_back(read_points_time(path) / frame.scales.time());
   const auto read = [=](std::size_t n) -> std::shared_ptr<const AvalancheSnapshot> {
     auto loaded = std::make_shared<Loaded>(read_points(paths[n]), frame);
-    loaded->snapshot.start = start->view().positions();
+    loaded->snapshot.initial_radius = initial_radius;
     loaded->snapshot.gravity = frame.gravity;
     return {loaded, &loaded->snapshot};
   };
   run.snapshots = AvalancheRun::Numbers::of(std::move(time), read, snapshots_in_memory(paths, snapshot_memory));
-  if (run.view == AvalancheView::from_above && !paths.empty()) {
-    const auto last = read(paths.size() - 1);
-    for (const GrainSet& head : last->heads())
-      run.head_widths.push_back(
-          head_size(last->position(), last->now.scalars("radius"), head, frame.scales.mean_radius).width);
-  }
   return run;
 }
 
@@ -79,7 +81,13 @@ std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, c
     write_table(folder / "front_speed.csv", {{"time", "a/v_s"}, {"front_speed", "v_s"}}, run.front_speed);
   if (run.view == AvalancheView::from_above) {
     std::vector<std::vector<double>> rows;
-    for (const double width : run.head_widths) rows.push_back({width});
+    if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
+      const Loaded last(read_points(paths.back()), frame);
+      for (const GrainSet& head : last.snapshot.heads())
+        rows.push_back(
+            {head_size(last.snapshot.position(), last.snapshot.now.scalars("radius"), head, frame.scales.mean_radius)
+                 .width});
+    }
     write_table(folder / "head_widths.csv", {{"width", "m"}}, rows);
   }
   return summary_of(run, avalanche_measures());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -192,6 +193,13 @@ Scene scene_of_cloud(const CaseFile& resolved) {
                                 : frame.motion == cloud::Motion::xyz ? "free"
                                                                      : "xz";
   return {.walls = {}, .box = {}, .slope = frame.has_slope, .radius = frame.scales.mean_radius, .view = view};
+}
+
+StudiedRun study_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
+  const CloudFrame frame = study_of(resolved).frame;
+  const auto& run =
+      runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, frame, runs.snapshot_memory()); });
+  return studied<AvalancheRun>(std::make_shared<AvalancheRun>(run), avalanche_measures());
 }
 
 std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,

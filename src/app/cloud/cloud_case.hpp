@@ -10,6 +10,7 @@
 #include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
 #include "app/cloud/cloud_analysis.hpp"
+#include "app/comparison/studied_runs.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {
@@ -20,6 +21,7 @@ PreparedCase prepare_cloud(const CaseFile& file);
 /// As ModelEntry (models.hpp) has them. \param resolved the manifest's case, whose points need not be there any more
 std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                           ReadRuns& runs);
+StudiedRun study_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
 /// The slope, if there is one.
 Scene scene_of_cloud(const CaseFile& resolved);
 std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,

@@ -74,7 +74,7 @@ std::vector<EvaluatedRow> evaluate(const Reference& reference, const std::vector
   for (const ComparisonRow& row : reference.rows) {
     EvaluatedRow evaluated{.row = &row, .values = {}, .verdict = Verdict::reported};
     if (!row.of_study) try {
-        evaluated.values = runs.values(row);
+        evaluated.values = row_values(row, runs.numbers(row));
       } catch (const std::logic_error& error) {
         if (faults == Faults::refuse)
           throw InputError({{.where = reference.path, .key = "row " + row.id, .what = error.what()}});

@@ -9,7 +9,8 @@
 
 namespace talus::app {
 
-/// The first python3 of the PATH that has these modules and the package talus; nothing if none has. \param modules {"h5py", "matplotlib"}
+/// The first python3 of the PATH that has these modules and the package talus; nothing if none has. \param modules
+/// {"h5py", "matplotlib"}
 std::optional<std::filesystem::path> find_python(const std::vector<std::string>& modules);
 
 /// What a module of the package talus prints. \param input its stdin \param about what an error names

@@ -217,7 +217,8 @@ ComparisonRow read_row(Reader& reader, const toml::table& table) {
 /// The measure of a row and its unit; those of a study are checked by it.
 void check_measure(Reader& reader, const toml::node& node, bool has_study_measures, ComparisonRow& row) {
   const std::optional<MeasureText> measure = find_measure(row.quantity);
-  const bool of_several = row.from == From::curves || row.from == From::values;
+  const bool of_several =
+      row.from == From::curves || row.from == From::values || (row.from == From::variants && !is_of_two(row.statistic));
   if (of_several && !has_study_measures)
     reader.fault(node, "from", "takes several runs together, which only a study measures",
                  "a measures.py beside the file");

@@ -2,54 +2,57 @@
 /// The runs of a reference, read, and the numbers of its rows.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <memory>
-#include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "analysis/row_values.hpp"
+#include "analysis/measure.hpp"
 #include "app/comparison/found_runs.hpp"
 #include "app/comparison/reference.hpp"
 
 namespace talus::app {
 
-struct StudiedRuns {
-  /// A row's numbers: one per variant of the row, or one alone if it is made from several; nothing where the runs that
-  /// it needs are not there. \throws std::logic_error if the row asks for what no such runs have
-  std::function<std::vector<std::optional<double>>(const ComparisonRow& row)> values;
-  /// Whether the runs of each of the row's variants are there and go on to the end of its window.
-  std::function<std::vector<bool>(const ComparisonRow& row)> are_there;
+/// One run, whatever its model.
+struct StudiedRun {
+  /// \throws std::logic_error if there is no such quantity of such a run, or it has no data for it
+  std::function<double(const std::string& quantity, const Window& window)> number;
+  std::function<bool(double time)> reaches;  ///< whether it went on to that time
 };
 
+/// \param run lives as long as what is returned
 template <class Run>
-struct StudiedEnsemble {
-  std::string case_name, variant;
-  std::vector<Run> runs;  ///< in the order of the seeds
-};
-
-/// The runs of one model with its measures. \param read makes a run from its folder and its resolved case
-template <class Run, class Read>
-StudiedRuns studied(const std::vector<FoundEnsemble>& found, std::span<const Measure<Run>> measures, Read&& read) {
-  const auto ensembles = std::make_shared<std::vector<StudiedEnsemble<Run>>>();
-  for (const FoundEnsemble& e : found) {
-    ensembles->push_back({e.case_name, e.variant, {}});
-    for (std::size_t n = 0; n < e.folders.size(); ++n) ensembles->back().runs.push_back(read(e.folders[n], e.files[n]));
-  }
-  const auto row_values = [ensembles, measures](const ComparisonRow& row) {
-    std::vector<const std::vector<Run>*> groups;
-    for (const std::string& variant : row.variants) {
-      const auto ensemble = std::find_if(ensembles->begin(), ensembles->end(), [&](const StudiedEnsemble<Run>& e) {
-        return e.case_name == row.case_name && e.variant == variant;
-      });
-      groups.push_back(ensemble == ensembles->end() ? nullptr : &ensemble->runs);
-    }
-    return RowValues<Run>(row, std::move(groups), measures);
-  };
-  return {[row_values](const ComparisonRow& row) { return row_values(row).values(); },
-          [row_values](const ComparisonRow& row) { return row_values(row).are_there(); }};
+StudiedRun studied(std::shared_ptr<const Run> run, std::span<const Measure<Run>> measures) {
+  return {[run, measures](const std::string& quantity, const Window& window) {
+            const Measure<Run>* measure = find_row(measures, quantity);
+            if (!measure) throw std::out_of_range("'" + quantity + "' is no measure of such a run");
+            return measure->estimator.of(*run, window);
+          },
+          [run](double time) { return run->reaches(time); }};
 }
+
+/// All runs, in the order of the ensembles that were found.
+class StudiedRuns {
+ public:
+  struct Ensemble {
+    std::string case_name, variant;
+    std::vector<StudiedRun> runs;  ///< in the order of the seeds
+  };
+  explicit StudiedRuns(std::vector<Ensemble> ensembles) : ensembles_(std::move(ensembles)) {}
+
+  /// Whether the runs of each of the row's variants are there and go on to the end of its window.
+  std::vector<bool> are_there(const ComparisonRow& row) const;
+
+  /// One a member, of the program's own quantities. \throws std::logic_error as a run's
+  RowNumbers numbers(const ComparisonRow& row) const;
+
+ private:
+  const std::vector<StudiedRun>* find(const ComparisonRow& row, const std::string& variant) const;
+
+  std::vector<Ensemble> ensembles_;
+};
 
 }  // namespace talus::app

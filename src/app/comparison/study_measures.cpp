@@ -31,7 +31,7 @@ std::string kind_of(const ComparisonRow& row) {
     case From::values:
       return "values";
     case From::variants:
-      if (row.statistic != Statistic::ratio && row.statistic != Statistic::difference) return "together";
+      if (!is_of_two(row.statistic)) return "together";
       break;
     case From::each:
     case From::parameters:
@@ -45,23 +45,18 @@ Json time_of(double time) {
 }
 
 Json question_of(const ComparisonRow& row, const std::vector<FoundEnsemble>& found, const std::vector<bool>& there) {
-  const std::string kind = kind_of(row);
-  const bool all_there = std::all_of(there.begin(), there.end(), [](bool is) { return is; });
   Json groups = Json::array();
   for (std::size_t n = 0; n < row.variants.size(); ++n) {
     Json group = Json::array();
-    const bool wanted = row.from == From::variants ? all_there : there[n];
     for (const FoundEnsemble& e : found)
-      if (wanted && e.case_name == row.case_name && e.variant == row.variants[n])
+      if (there[n] && e.case_name == row.case_name && e.variant == row.variants[n])
         for (const std::filesystem::path& folder : e.folders) group.push_back(folder.string());
     if (row.from == From::parameters && group.size() > 1) group.erase(group.begin() + 1, group.end());
-    if (row.from == From::each && row.statistic == Statistic::standard_deviation && group.size() < 2) group.clear();
     groups.push_back(std::move(group));
   }
-  if (kind == "together" && !all_there) groups = Json::array();
   return {{"quantity", row.quantity},
           {"unit", row.statistic == Statistic::ratio ? Json() : Json(row.unit)},
-          {"of", kind},
+          {"of", kind_of(row)},
           {"window",
            {{"at", row.window.at ? time_of(*row.window.at) : Json()},
             {"from", row.window.from},
@@ -76,36 +71,15 @@ std::optional<double> number_of(const Json& value) {
   return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
 }
 
-/// The number of a group; nothing where there are none, or one could not be evaluated.
-std::optional<double> number_of_group(const ComparisonRow& row, Statistic statistic, const Json& values,
-                                      bool may_be_missing) {
-  std::vector<double> numbers;
-  for (const Json& value : values) {
-    const std::optional<double> number = number_of(value);
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-  }
-  if (numbers.empty()) return std::nullopt;
-  if (kind_of(row) != "each" || row.from == From::parameters) return numbers.front();
-  return evaluate_members(statistic, std::move(numbers), may_be_missing);
-}
-
 void take_answer(const Json& answer, EvaluatedRow& evaluated) {
-  const ComparisonRow& row = *evaluated.row;
-  const bool of_two = row.statistic == Statistic::ratio || row.statistic == Statistic::difference;
-  Values values;
-  for (const Json& group : answer["values"])
-    values.push_back(number_of_group(row, of_two ? Statistic::mean : row.statistic, group, answer["may_be_missing"]));
+  RowNumbers numbers{.of_variants = {}, .may_be_missing = answer["may_be_missing"]};
+  for (const Json& group : answer["values"]) {
+    numbers.of_variants.emplace_back();
+    for (const Json& value : group) numbers.of_variants.back().push_back(number_of(value));
+  }
+  evaluated.values = row_values(*evaluated.row, numbers);
   for (const Json& reason : answer["missing"])
     if (evaluated.missing.empty()) evaluated.missing = reason;
-  if (row.from == From::variants && of_two) {
-    std::vector<double> numbers;
-    for (const std::optional<double>& value : values)
-      if (value) numbers.push_back(*value);
-    values = {numbers.size() == 2 ? std::optional(evaluate(row.statistic, numbers)) : std::nullopt};
-  }
-  evaluated.values = std::move(values);
-  if (row.from == From::variants) evaluated.values.resize(1);
 }
 
 /// \throws InputError

@@ -280,6 +280,10 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   return prepared;
 }
 
+StudiedRun study_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
+  return studied<HopperRun>(std::make_shared<HopperRun>(hopper_run_of(resolved, folder, runs)), hopper_measures());
+}
+
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
   return runs.of<HopperRun>(folder, [&] {
     const auto* const read = runs.find_case<ContinuumCase>(folder);

@@ -9,6 +9,7 @@
 #include "app/case/prepared_case.hpp"
 #include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
+#include "app/comparison/studied_runs.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {
@@ -21,6 +22,7 @@ ParameterList continuum_parameters();
 
 /// The run in a folder. \param resolved the manifest's case \throws FileError, InputError
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
+StudiedRun study_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
 
 /// As ModelEntry (models.hpp) has them. \param resolved the manifest's case
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,

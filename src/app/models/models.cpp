@@ -10,9 +10,7 @@
 #include "app/air/air_case.hpp"
 #include "app/case/model_case.hpp"
 #include "app/cloud/cloud_case.hpp"
-#include "app/cloud/cloud_studies.hpp"
 #include "app/continuum/continuum_case.hpp"
-#include "app/continuum/continuum_studies.hpp"
 #include "base/memory.hpp"
 #include "base/nearest.hpp"
 #include "models/air/model.hpp"
@@ -31,7 +29,7 @@ constexpr ModelEntry entries[] = {
      .telling_time = nullptr,
      .scene = [](const CaseFile& file, const std::filesystem::path&, ReadRuns&) { return scene_of_cloud(file); },
      .parameters = [] { return ModelCase<cloud::Parameters>().list(); },
-     .studies = study_avalanches,
+     .study = study_cloud_run,
      .measures = texts_of_avalanche_measures},
     {.name = "continuum",
      .prepare = prepare_continuum,
@@ -41,7 +39,7 @@ constexpr ModelEntry entries[] = {
      .telling_time = telling_time_of_continuum,
      .scene = scene_of_continuum,
      .parameters = continuum_parameters,
-     .studies = study_hoppers,
+     .study = study_continuum_run,
      .measures = texts_of_hopper_measures},
     {.name = "air",
      .prepare = prepare_air,
@@ -51,7 +49,7 @@ constexpr ModelEntry entries[] = {
      .telling_time = nullptr,
      .scene = [](const CaseFile& file, const std::filesystem::path&, ReadRuns&) { return scene_of_air(file); },
      .parameters = [] { return ModelCase<air::ModelParameters>().list(); },
-     .studies = nullptr,
+     .study = nullptr,
      .measures = nullptr},
 };
 
@@ -84,11 +82,17 @@ const ModelEntry& model_of(const CaseFile& file) {
 StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
   const CaseFile& file = found.front().files.front();
   const ModelEntry& model = model_of(file);
-  if (!model.studies)
+  if (!model.study)
     throw InputError({{.where = file.name(),
                        .key = "model",
                        .what = fmt::format("no study is of runs of the model \"{}\"", model.name)}});
-  return model.studies(found, runs);
+  std::vector<StudiedRuns::Ensemble> ensembles;
+  for (const FoundEnsemble& e : found) {
+    ensembles.push_back({e.case_name, e.variant, {}});
+    for (std::size_t n = 0; n < e.folders.size(); ++n)
+      ensembles.back().runs.push_back(model.study(e.files[n], e.folders[n], runs));
+  }
+  return StudiedRuns(std::move(ensembles));
 }
 
 PreparedCase prepare_case(const CaseFile& file) {

@@ -39,8 +39,8 @@ struct ModelEntry {
   Scene (*scene)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
   ParameterList (*parameters)();
-  /// Reads runs that a reference is about. Null: no study is of this model. \throws FileError
-  StudiedRuns (*studies)(const std::vector<FoundEnsemble>& found, ReadRuns& runs);
+  /// Reads a run that a reference is about. Null: no study is of this model. \throws FileError
+  StudiedRun (*study)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// What a summary of its runs can list, where the case has it. Null: nothing that is known before a run.
   std::vector<MeasureText> (*measures)();
 };

@@ -13,7 +13,6 @@
 #include "app/ensemble/schedule.hpp"
 #include "app/models/models.hpp"
 #include "app/report/report.hpp"
-#include "app/reproduction/figures_script.hpp"
 #include "base/nearest.hpp"
 #include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
@@ -107,13 +106,12 @@ bool draw_page(const std::filesystem::path& project, const StudyRequest& request
         script.string(), request.folder.string());
     return true;
   }
-  if (!run_figures_script(*python, script, request.folder)) {
-    fmt::print(stderr, "talus: {} failed; it said:\n{}", script.string(),
-               read_whole_file(request.folder / "figures.txt"));
-    return false;
-  }
-  print("{}", read_whole_file(request.folder / "figures.txt"));
-  return true;
+  // -B: nothing is left beside the script.
+  const run::ProgramEnd end =
+      run::run_program({python->string(), "-B", script.string(), request.folder.string()}, {}, run::signal_has_come);
+  print("{}", end.output);
+  if (end.status != 0) fmt::print(stderr, "talus: {} failed; it said:\n{}", script.string(), end.errors);
+  return end.status == 0;
 }
 
 }  // namespace

@@ -288,7 +288,7 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const auto& lengths = workspace_->smoothing_length;
   // Of an empty vessel that of the bed's particles.
   const double h = lengths.empty()
-                       ? workspace_->sweep.smoothing_length(parameters_.bed.packing * parameters_.grains.density)
+                       ? workspace_->pairs.smoothing_length(parameters_.bed.packing * parameters_.grains.density)
                        : *std::min_element(lengths.begin(), lengths.end());
   const double step =
       lengths.empty() ? parameters_.integration.step.value_or(parameters_.integration.courant * h / c) : s.last_step;

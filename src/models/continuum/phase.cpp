@@ -22,7 +22,7 @@ void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   open_gates(p, w.vessel, time);
   if (in_vessel) {  // who was hidden by the gate is a neighbour now
     set_list_reference(p, s, w);
-    w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+    w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
   }
   if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);

@@ -45,7 +45,7 @@ void fit(const Parameters& p, const State& s, Workspace& w) {
   if (p.integration.method != Method::runge_kutta) return;
   w.velocity.resize(count);
   w.density.resize(count);
-  w.half_length.resize(count);
+  w.midpoint_smoothing_length.resize(count);
   w.columns = s.material;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Particles near in space are kept near in memory: half of the time of a sweep over many particles hangs on it.
+/// Particles near in space are kept near in memory: half of the time of pair sums over many particles hangs on it.
 #pragma once
 
 #include "models/continuum/state.hpp"

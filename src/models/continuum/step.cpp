@@ -31,68 +31,75 @@ struct Step {
   Workspace& w;
   double dt;  ///< s
 
+  // Stages of both integrators.
   void air() const;
-  void half() const;
-  void gradient(std::span<const Vector3> velocity, std::span<const double> density,
-                std::span<const double> smoothing_length, const MaterialColumns& material, SweepTerms terms) const;
-  void momentum(double duration, double time) const;
-  void drift(double duration, std::span<const Vector3> velocity) const;
+  void gradients(std::span<const Vector3> velocity, std::span<const double> density,
+                 std::span<const double> smoothing_length, const MaterialColumns& material, PairTerms terms) const;
+  void drift(std::span<const Vector3> velocity) const;
   void density() const;
   void stress() const;
-  void walls(double duration, std::span<const Vector3> position) const;
+  void contact(double duration, std::span<const Vector3> position) const;
+  void end() const;
+  void lists() const;
+  // Of the leapfrog.
+  void kick() const;
+  void midpoint_positions() const;
+  // Of the midpoint rule.
+  void half() const;
+  void momentum() const;
+  // Parts of `end`.
   void damping() const;
   void clock() const;
 };
 
-double step_length(ThreadTeam& team, const Parameters& p, State& s, Workspace& w);
+/// Velocities are staggered by half a step. The scheme neither damps nor amplifies waves, and evaluates forces and
+/// gradients once each.
+void advance_leapfrog(const Step& step) {
+  State& s = step.s;
+  Workspace& w = step.w;
+  step.kick();
+  step.contact(0.5 * (s.last_step + step.dt), s.position);
+  step.midpoint_positions();
+  step.gradients(s.velocity, s.density, w.smoothing_length, s.material, PairTerms::gradients);
+  step.drift(s.velocity);
+  step.density();
+  step.stress();
+  step.end();
+  // While the gradients are in the order of the particles.
+  keep_deformation_rate(step.team, s, w);
+  measure_shear_rate(step.team, s, w);
+  step.lists();
+  evaluate(step.team, step.p, s, w);
+}
+
+/// The explicit midpoint rule (Runge-Kutta of second order).
+void advance_midpoint(const Step& step) {
+  State& s = step.s;
+  Workspace& w = step.w;
+  step.half();
+  step.gradients(w.velocity, w.density, w.midpoint_smoothing_length, w.columns, PairTerms::all);
+  step.drift(w.velocity);
+  step.momentum();
+  step.density();
+  step.stress();
+  step.contact(step.dt, w.position);
+  step.end();
+  keep_deformation_rate(step.team, s, w);
+  step.lists();
+  evaluate(step.team, step.p, s, w);
+  measure_shear_rate(step.team, s, w);
+}
+
+double step_length(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w);
 
 }  // namespace
 
 /// On entry and exit the rates, packing and neighbour lists belong to the state.
 void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  if (w.air && w.air->is_due(s)) w.air->take_grains(team, w.smoothing_length, s);
   const Step step{team, p, s, w, step_length(team, p, s, w)};
-  const double dt = step.dt;
   step.air();
-  if (p.integration.method == Method::runge_kutta) {
-    // The explicit midpoint rule.
-    step.half();
-    step.gradient(w.velocity, w.density, w.half_length, w.columns, SweepTerms::all);
-    step.drift(dt, w.velocity);
-    step.momentum(dt, s.time + 0.5 * dt);
-    step.density();
-    step.stress();
-    step.walls(dt, w.position);
-  } else {
-    // The leapfrog: velocities are staggered by half a step. It neither damps nor amplifies waves, and evaluates forces
-    // and gradients once each.
-    const double kick = 0.5 * (s.last_step + dt);
-    step.momentum(kick, s.time);
-    step.walls(kick, s.position);
-    for_each(team, s.position.size(),
-             [&](std::size_t i) { w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i]; });
-    step.gradient(s.velocity, s.density, w.smoothing_length, s.material, SweepTerms::gradients);
-    step.drift(dt, s.velocity);
-    step.density();
-    step.stress();
-  }
-  reflect_at_walls(team, p, w.material, w.domain, w.position, s);
-  reflect_at_vessel(team, p, w.vessel, w.sweep.neighbourhood(), w.load_fields, w.position, s);
-  step.damping();
-  step.clock();
-  check_state(team, p, w.domain, s, dt);
-  update_phase(team, p, s, w);
-  const bool whole = p.integration.method == Method::runge_kutta;
-  // While the gradients are in the order of the particles.
-  keep_deformation_rate(team, s, w);
-  if (!whole) measure_shear_rate(team, s, w);
-  const bool fed = feed(p, s, w);
-  update_smoothing_lengths(team, s, w);
-  if (fed || !w.sweep.neighbourhood().holds(team, s.position, w.smoothing_length)) {
-    if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
-    find_neighbours(team, p, s, w);
-  }
-  evaluate(team, p, s, w);
-  if (whole) measure_shear_rate(team, s, w);
+  p.integration.method == Method::runge_kutta ? advance_midpoint(step) : advance_leapfrog(step);
 }
 
 namespace {
@@ -132,17 +139,16 @@ double step_of_speed(const Parameters& p, const GrainLimits& limits) {
 double step_of_grains(const Parameters& p, const GrainLimits& limits, const Workspace& w) {
   if (p.integration.step) return *p.integration.step;
   if (w.smoothing_length.empty())
-    return p.integration.courant * w.sweep.smoothing_length(p.bed.packing * p.grains.density) / w.sound_speed;
+    return p.integration.courant * w.pairs.smoothing_length(p.bed.packing * p.grains.density) / w.sound_speed;
   return std::min(p.integration.courant * limits.min_smoothing_length / w.sound_speed, step_of_speed(p, limits));
 }
 
 /// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
 /// the air; until the end of that step unchanged.
-double step_length(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!w.air) return step_of_grains(p, limits_of_grains(team, s, w), w);
-  if (!w.air->is_due(s)) return s.last_step;
-  w.air->take_grains(team, w.smoothing_length, s);
-  return std::min(step_of_grains(p, limits_of_grains(team, s, w), w), w.air->longest_step());
+double step_length(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w) {
+  if (w.air && !w.air->is_due(s)) return s.last_step;
+  const double of_grains = step_of_grains(p, limits_of_grains(team, s, w), w);
+  return w.air ? std::min(of_grains, w.air->longest_step()) : of_grains;
 }
 
 Vector3 gravity(const Parameters& p, const Workspace& w, double time) {
@@ -156,7 +162,7 @@ Vector3 by_air(const State& s, std::size_t i) {
 
 void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span<const Vector3> position) {
   if (w.material.by_displacements())
-    measure_strain(team, w.sweep.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
+    measure_strain(team, w.pairs.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
 }
 
 /// At the end of a step of the air: takes its next step, which fixes the acceleration of the particles until its end.
@@ -171,38 +177,48 @@ void Step::half() const {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
     w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
-    w.half_length[i] = w.sweep.smoothing_length(w.density[i]);
+    w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i]);
   });
   const ContactStep step{dt, dt, w.contact_distance};
   hold_off_walls(team, w.domain, w.rates, s.position, step, w.velocity);
-  hold_off_vessel(team, w.rates, s.position, step, w.sweep, w.velocity);
+  hold_off_vessel(team, w.rates, s.position, step, w.pairs, w.velocity);
   measure_strain_at(team, s, w, w.position);
   w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, w.density, 0.5 * dt, w.columns,
                     false);
 }
 
 /// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
-void Step::gradient(std::span<const Vector3> velocity, std::span<const double> density,
-                    std::span<const double> smoothing_length, const MaterialColumns& material, SweepTerms terms) const {
-  w.sweep(team, {w.position, velocity, density, smoothing_length, material, s.deformation_rate}, terms, w.rates);
+void Step::gradients(std::span<const Vector3> velocity, std::span<const double> density,
+                     std::span<const double> smoothing_length, const MaterialColumns& material, PairTerms terms) const {
+  w.pairs(team, {w.position, velocity, density, smoothing_length, material, s.deformation_rate}, terms, w.rates);
 }
 
-/// Eq. 17. \param duration of the force of stress and gravity, that of the air's is dt, s; \param time of gravity, s
-void Step::momentum(double duration, double time) const {
-  const Vector3 g = gravity(p, w, time);
-  const bool whole = p.integration.method == Method::runge_kutta;
-  for_each(team, s.velocity.size(), [&](std::size_t i) {
-    const Vector3 a = w.rates.acceleration[i] + g, air = by_air(s, i);
-    s.velocity[i] += whole ? duration * (a + air) : duration * a + dt * air;
-  });
+/// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.
+void Step::kick() const {
+  const double duration = 0.5 * (s.last_step + dt);
+  const Vector3 g = gravity(p, w, s.time);
+  for_each(team, s.velocity.size(),
+           [&](std::size_t i) { s.velocity[i] += duration * (w.rates.acceleration[i] + g) + dt * by_air(s, i); });
   s.gravity_impulse += (duration * s.mass * static_cast<double>(s.velocity.size())) * g;
 }
 
+/// Eq. 17 with the forces at the midpoint of the step.
+void Step::momentum() const {
+  const Vector3 g = gravity(p, w, s.time + 0.5 * dt);
+  for_each(team, s.velocity.size(),
+           [&](std::size_t i) { s.velocity[i] += dt * (w.rates.acceleration[i] + g + by_air(s, i)); });
+  s.gravity_impulse += (dt * s.mass * static_cast<double>(s.velocity.size())) * g;
+}
+
+void Step::midpoint_positions() const {
+  for_each(team, s.position.size(), [&](std::size_t i) { w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i]; });
+}
+
 /// The workspace keeps the previous positions.
-void Step::drift(double duration, std::span<const Vector3> velocity) const {
+void Step::drift(std::span<const Vector3> velocity) const {
   for_each(team, s.position.size(), [&](std::size_t i) {
     w.position[i] = s.position[i];
-    s.position[i] += duration * velocity[i];
+    s.position[i] += dt * velocity[i];
   });
 }
 
@@ -238,10 +254,29 @@ void Step::stress() const {
 }
 
 /// Contact with walls, friction, and their loads. \param position of the particles that the rates are of
-void Step::walls(double duration, std::span<const Vector3> position) const {
+void Step::contact(double duration, std::span<const Vector3> position) const {
   const ContactStep step{duration, dt, w.contact_distance};
   apply_wall_contact(team, p, w.domain, w.rates, position, step, s);
-  apply_vessel_contact(team, p, w.load_fields, w.rates, step, w.sweep, s);
+  apply_vessel_contact(team, p, w.load_fields, w.rates, step, w.pairs, s);
+}
+
+/// What ends a step: particles that crossed a boundary come back, the clock moves on, phases change.
+void Step::end() const {
+  reflect_at_walls(team, p, w.material, w.domain, w.position, s);
+  reflect_at_vessel(team, p, w.vessel, w.pairs.neighbourhood(), w.load_fields, w.position, s);
+  damping();
+  clock();
+  check_state(team, p, w.domain, s, dt);
+  update_phase(team, p, s, w);
+}
+
+/// Feeds inlets; builds the neighbour lists where they no longer hold, and removes what has left.
+void Step::lists() const {
+  const bool fed = feed(p, s, w);
+  update_smoothing_lengths(team, s, w);
+  if (!fed && w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length)) return;
+  if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
+  find_neighbours(team, p, s, w);
 }
 
 void Step::damping() const {
@@ -287,7 +322,7 @@ void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
     open_gates(p, w.vessel, s.time - s.gate_time);
   }
   update_smoothing_lengths(team, s, w);
-  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
   evaluate(team, p, s, w);
 }
 

@@ -33,7 +33,7 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
       load_fields(continuum::load_fields(parameters, vessel)),
       load_bands(continuum::load_bands(parameters, load_fields)),
       load_mesh(mesh_of(vessel, load_fields, edge_of_drawn_field * parameters.bed.spacing)),
-      sweep(parameters, domain, state.mass, sound_speed, vessel, &load_fields),
+      pairs(parameters, domain, state.mass, sound_speed, vessel, &load_fields),
       air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain, vessel) : nullptr),
       position(state.position.size()),
       smoothing_length(state.position.size()) {
@@ -41,17 +41,17 @@ Workspace::Workspace(const Parameters& parameters, const State& state)
   if (parameters.integration.method != Method::runge_kutta) return;
   velocity.resize(state.position.size());
   density.resize(state.position.size());
-  half_length.resize(state.position.size());
+  midpoint_smoothing_length.resize(state.position.size());
   columns = state.material;
 }
 
 void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
-  w.sweep.find_smoothing_lengths(team, s.density, w.smoothing_length);
+  w.pairs.find_smoothing_lengths(team, s.density, w.smoothing_length);
 }
 
 void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
   constexpr double steps = 20;
-  const double most = 0.5 * w.sweep.skin();
+  const double most = 0.5 * w.pairs.skin();
   s.list_position = s.position;
   s.list_smoothing_length = w.smoothing_length;
   s.list_margin.resize(s.position.size());
@@ -72,13 +72,12 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   }
   set_list_reference(p, s, w);
   ++s.list_builds;
-  w.sweep.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const bool all = p.integration.method == Method::runge_kutta;
-  w.sweep(team, {s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
-          all ? SweepTerms::all : SweepTerms::forces, w.rates);
+  w.pairs(team, {s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
+          p.integration.method == Method::runge_kutta ? PairTerms::all : PairTerms::forces, w.rates);
   s.packing.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {

@@ -10,14 +10,14 @@
 #include "models/continuum/boundary/vessel_loads.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/setup/time_scale.hpp"
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
 
-/// Recomputed from the state when a run is resumed. It owns the only Domain of the model: the sweep, the air and
+/// Recomputed from the state when a run is resumed. It owns the only Domain of the model: the pair sums, the air and
 /// observers refer to it, so that a gate is opened for all of them at once.
 struct Workspace {
   Domain domain;
@@ -32,14 +32,14 @@ struct Workspace {
   SurfaceFields load_fields;  ///< of the vessel
   std::vector<LoadBand> load_bands;
   FieldMesh load_mesh;
-  Sweep sweep;
+  PairSums pairs;
   Rates rates;                      ///< of the state, between steps
   std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
 
   /// The state at the midpoint of a step; all but positions of the midpoint rule only.
   std::vector<Vector3> position, velocity;
   std::vector<double> density;
-  std::vector<double> half_length;  ///< smoothing lengths of these densities, m
+  std::vector<double> midpoint_smoothing_length;  ///< of these densities, m
   MaterialColumns columns;
   std::vector<double> smoothing_length;  ///< of the densities of the state, m
 

@@ -39,16 +39,21 @@ TEST(Evaluation, JsonNamesRowsAndTheRunsTheyAreOf) {
   EXPECT_EQ(json["runs"][0]["folders"], nlohmann::json({"a/seed_0001", "a/seed_0002"})) << "below the folder compared";
 }
 
+/// A run that goes on to t = 2.
+StudiedRun run_with(double number) {
+  return {[number](const std::string& quantity, const Window&) {
+            if (quantity == "fails") throw std::invalid_argument("a spectrum needs four data");
+            return number;
+          },
+          [](double time) { return time <= 2; }};
+}
+
 TEST(Evaluation, ARowThatFailsIsRefusedOrNotedAndTheOthersAreEvaluated) {
   Reference reference;
   reference.path = "reference.toml";
   reference.rows = {row({"a"}), row({"a", "b"}), row({"a"})};
-  reference.rows[1].id = "fails";
-  const StudiedRuns runs{[](const ComparisonRow& asked) -> std::vector<std::optional<double>> {
-                           if (asked.id == "fails") throw std::invalid_argument("a spectrum needs four data");
-                           return {1.5};
-                         },
-                         {}};
+  reference.rows[1].quantity = "fails";
+  const StudiedRuns runs({{"", "a", {run_with(1.5)}}});
   EXPECT_THROW(evaluate(reference, {}, runs), InputError);
   const std::vector<EvaluatedRow> rows = evaluate(reference, {}, runs, Faults::note);
   ASSERT_EQ(rows.size(), 3);
@@ -57,6 +62,21 @@ TEST(Evaluation, ARowThatFailsIsRefusedOrNotedAndTheOthersAreEvaluated) {
   EXPECT_EQ(rows[1].values.size(), 2);
   EXPECT_EQ(rows[1].missing, "a spectrum needs four data");
   EXPECT_EQ(rows[2].verdict, Verdict::met);
+}
+
+TEST(StudiedRuns, AreThereWhereAllOfAVariantReachTheWindow) {
+  StudiedRun brief = run_with(3);
+  brief.reaches = [](double time) { return time <= 1; };
+  const StudiedRuns runs({{"", "a", {run_with(1), run_with(2)}}, {"", "b", {run_with(1), brief}}});
+  ComparisonRow asked = row({"a", "b", "c"});
+  EXPECT_THAT(runs.are_there(asked), testing::ElementsAre(true, true, false)) << "without a time";
+  asked.window.at = 1.5;
+  EXPECT_THAT(runs.are_there(asked), testing::ElementsAre(true, false, false));
+  const RowNumbers numbers = runs.numbers(asked);
+  EXPECT_THAT(numbers.of_variants[0], testing::ElementsAre(1.0, 2.0));
+  EXPECT_TRUE(numbers.of_variants[1].empty());
+  asked.window = {.from = 0.5, .to = 3};
+  EXPECT_THAT(runs.are_there(asked), testing::ElementsAre(false, false, false));
 }
 
 TEST(Evaluation, JsonSaysWhyARowOfRunsThatAreThereHasNoValue) {

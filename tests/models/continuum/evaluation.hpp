@@ -10,18 +10,18 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "models/continuum/cases.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 
 namespace talus::continuum {
 
-/// A state and its sweep, to be evaluated as it stands.
+/// A state and its pair sums, to be evaluated as it stands.
 struct Evaluation {
   ThreadTeam team{2};
   Parameters parameters;
   Material material;
   State state;
   Domain domain;
-  Sweep sweep;
+  PairSums pairs;
   Rates rates;
 
   explicit Evaluation(const Parameters& p)
@@ -29,7 +29,7 @@ struct Evaluation {
         material(p),
         state(initial_state(p, material)),
         domain(domain_of(p)),
-        sweep(p, domain, state.mass, 50) {}
+        pairs(p, domain, state.mass, 50) {}
 
   /// Moves every particle at random by up to a share of the spacing.
   void disturb(double share) {
@@ -59,19 +59,19 @@ struct Evaluation {
       for (auto& column : state.material.stress) column[i] = random.uniform(-1000, 1000);
     }
   }
-  void evaluate(SweepTerms terms = SweepTerms::all) {
+  void evaluate(PairTerms terms = PairTerms::all) {
     std::vector<double> h;
-    for (const double rho : state.density) h.push_back(sweep.smoothing_length(rho));
-    sweep.find_neighbours(team, state.position, h);
+    for (const double rho : state.density) h.push_back(pairs.smoothing_length(rho));
+    pairs.find_neighbours(team, state.position, h);
     if (!state.deformation_rate[0].empty()) {
-      sum(h, SweepTerms::gradients);
+      sum(h, PairTerms::gradients);
       for (std::size_t i = 0; i < h.size(); ++i)
         set_tensor(state.deformation_rate, i, symmetric_part(rates.velocity_gradient[i]));
     }
     sum(h, terms);
   }
-  void sum(const std::vector<double>& h, SweepTerms terms) {
-    sweep(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
+  void sum(const std::vector<double>& h, PairTerms terms) {
+    pairs(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
           rates);
   }
 

@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 #include "models/continuum/cases.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/sector.hpp"
 #include "models/continuum/setup/vessel.hpp"
 #include "numerics/whole.hpp"
@@ -19,18 +19,18 @@ struct Sums {
   Domain domain;
   Surface vessel;
   SurfaceFields fields;
-  Sweep sweep;
+  PairSums pairs;
   Rates rates;
 
   Sums(const Parameters& p, const Domain& around, const State& s, bool walls)
       : domain(around),
         vessel(walls ? surface_of(p) : Surface()),
         fields(load_fields(p, vessel)),
-        sweep(p, domain, s.mass, 50, vessel, &fields) {
+        pairs(p, domain, s.mass, 50, vessel, &fields) {
     std::vector<double> h;
-    for (const double rho : s.density) h.push_back(sweep.smoothing_length(rho));
-    sweep.find_neighbours(team, s.position, h);
-    sweep(team, {s.position, s.velocity, s.density, h, s.material, s.deformation_rate}, SweepTerms::all, rates);
+    for (const double rho : s.density) h.push_back(pairs.smoothing_length(rho));
+    pairs.find_neighbours(team, s.position, h);
+    pairs(team, {s.position, s.velocity, s.density, h, s.material, s.deformation_rate}, PairTerms::all, rates);
   }
 };
 

@@ -60,11 +60,11 @@ struct Rubbing {
 }  // namespace
 
 void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFields& fields, const Rates& rates,
-                          const ContactStep& step, Sweep& sweep, State& state) {
+                          const ContactStep& step, PairSums& pairs, State& state) {
   if (state.vessel_impulse.empty()) return;
   Noted noted = none_noted(rates.at_vessel.size());
   const Rubbing rubbing(p, state);
-  VesselWalls& walls = sweep.vessel_walls();
+  VesselWalls& walls = pairs.vessel_walls();
   const FixedPoint point(state.impulse_unit);
   const auto meet = [&](std::size_t place, Impulses& received) {
     const std::size_t i = rates.at_vessel[place];
@@ -107,8 +107,8 @@ void apply_vessel_contact(ThreadTeam& team, const Parameters& p, const SurfaceFi
 }
 
 void hold_off_vessel(ThreadTeam& team, const Rates& rates, std::span<const Vector3> position, const ContactStep& step,
-                     Sweep& sweep, std::span<Vector3> velocity) {
-  VesselWalls& walls = sweep.vessel_walls();
+                     PairSums& pairs, std::span<Vector3> velocity) {
+  VesselWalls& walls = pairs.vessel_walls();
   for_each(team, rates.at_vessel.size(), [&](std::size_t place) {
     const std::size_t i = rates.at_vessel[place];
     for (int contact = 0; contact < max_contacts; ++contact) {

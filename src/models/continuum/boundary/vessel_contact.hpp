@@ -7,7 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "models/continuum/boundary/walls.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/surface/surface.hpp"
@@ -19,11 +19,11 @@ namespace talus::continuum {
 /// state.wall_loads too, each to a field of the wall: that of stress to the one nearest to the particle when the
 /// neighbour lists were built, that of contact to the one it touches. \param fields of the vessel
 void apply_vessel_contact(ThreadTeam& team, const Parameters& parameters, const SurfaceFields& fields,
-                          const Rates& rates, const ContactStep& step, Sweep& sweep, State& state);
+                          const Rates& rates, const ContactStep& step, PairSums& pairs, State& state);
 
 /// As hold_off_walls (walls.hpp), for the vessel.
 void hold_off_vessel(ThreadTeam& team, const Rates& rates, std::span<const Vector3> position, const ContactStep& step,
-                     Sweep& sweep, std::span<Vector3> velocity);
+                     PairSums& pairs, std::span<Vector3> velocity);
 
 /// Particles that have crossed a triangle come back: as far before it as they were behind it, without their velocity
 /// towards it, with friction. None is left behind a wall.

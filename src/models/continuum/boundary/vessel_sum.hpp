@@ -39,8 +39,8 @@ struct WallForces {
 /// \returns what they add to the rate of the density, over the density, 1/s
 double add_walls(NearWalls met, const Vector3& velocity, sph::GradientSums<>& sums);
 
-/// Writes the forces of the walls on a particle, in the order in which it meets them. \param records those of the
-/// sweep \param sums over the particle's neighbours
+/// Writes the forces of the walls on a particle, in the order in which it meets them. \param records of the pairs
+/// \param sums over the particle's neighbours
 void find_forces_of_walls(const VesselWalls& walls, const Records& records, std::size_t self, const StressSums& sums,
                           const PairConstants& constants, double sound_speed, WallForces& forces);
 

@@ -24,7 +24,7 @@ std::array<float, 3> single(const Vector3& x) {
 
 VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields,
                          const std::optional<Sector>& sector)
-    : surface_(surface), fields_(fields), sweep_(TALUS_COMPILED_FOR(set, wall_sweep)()), spacing_(spacing) {
+    : surface_(surface), fields_(fields), kernels_(TALUS_COMPILED_FOR(set, wall_kernels)()), spacing_(spacing) {
   if (surface.is_empty()) return;
   patches_.resize(surface.parts());
   quantum_ = quantum_of_walls(spacing);
@@ -91,7 +91,7 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     seats_[s].share = 0;
     if (surface_.is_open(stand.patch)) continue;
     NearWall& wall = count < most_near_walls ? met[count] : one_more;
-    sweep_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(), smoothing_length,
+    kernels_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(), smoothing_length,
                   wall.sums);
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
@@ -120,10 +120,20 @@ std::optional<Surface::Foot> VesselWalls::foot_near(Clearance& clear, const Vect
   std::optional<Surface::Foot> foot;
   const bool searched = clear.triangles == 0 || !(moved < looked_beyond);
   if (searched) {
+    // The tree finds triangles whose boxes are within that distance, several times as many as are themselves.
+    constexpr std::size_t max_found = 64;
     thread_local std::vector<std::uint32_t> near;
     clear = {y, within + looked_beyond, 0, {}};
-    if (surface_.near(y, clear.distance, Clearance::max_triangles, near)) {
+    bool all = surface_.near(y, clear.distance, max_found, near);
+    if (all) {
+      const double slack = 1e-9 * clear.distance;
+      std::erase_if(near, [&](std::uint32_t t) {
+        return norm(nearest_place(surface_.triangles()[t], y) - y) > clear.distance + slack;
+      });
       if (near.empty()) return std::nullopt;
+      all = near.size() <= Clearance::max_triangles;
+    }
+    if (all) {
       clear.triangles = static_cast<std::uint32_t>(near.size());
       std::copy(near.begin(), near.end(), clear.triangle.begin());
     } else {
@@ -172,7 +182,7 @@ Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& record
     pairs = {record.data(), seat.data(), static_cast<std::uint32_t>(record.size())};
   }
   alignas(64) double acceleration[4];
-  sweep_.images(records, static_cast<std::uint32_t>(particle), seats_[wall.stand], seats_.data(), pairs, mass,
+  kernels_.images(records, static_cast<std::uint32_t>(particle), seats_[wall.stand], seats_.data(), pairs, mass,
                 acceleration);
   return {acceleration[0], acceleration[1], acceleration[2]};
 }

@@ -132,7 +132,7 @@ class VesselWalls {
 
   const Surface& surface_;
   const SurfaceFields* fields_;
-  WallSweep sweep_;
+  WallKernels kernels_;
   double spacing_;
   double quantum_ = 0;                  // of the places of the records, m
   std::vector<WallPoint> records_;      // of the points, one set after the other, and one without area

@@ -6,7 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 

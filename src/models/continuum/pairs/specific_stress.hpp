@@ -3,7 +3,7 @@
 #pragma once
 
 #include "models/continuum/material.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 #include "physics/sph/balance.hpp"
 
 namespace talus::continuum {

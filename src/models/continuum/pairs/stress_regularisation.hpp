@@ -14,7 +14,7 @@
 #pragma once
 
 #include "base/parallel.hpp"
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 

@@ -42,7 +42,7 @@ TEST(PairPrecision, SingleSumsAreThoseInDoubleToTheRoundOffOfFloats) {
       DisturbedBed exact(PairPrecision::in_double, set, stabilised);
       DisturbedBed single(PairPrecision::in_single, set, stabilised);
       exact.evaluate();
-      for (const SweepTerms terms : {SweepTerms::all, SweepTerms::gradients, SweepTerms::forces}) {
+      for (const PairTerms terms : {PairTerms::all, PairTerms::gradients, PairTerms::forces}) {
         single.evaluate(terms);
         Difference gradient, density, force, wall, packing;
         for (std::size_t i = 0; i < exact.state.position.size(); ++i) {

@@ -51,7 +51,7 @@ struct WallPairs {
 };
 
 /// Functions that are compiled once for each instruction set.
-struct WallSweep {
+struct WallKernels {
   /// \param place of the particle, in quanta; \param h its smoothing length, m
   void (*points)(const WallPoints& points, const std::uint32_t* place, double h, WallTotals& totals);
   /// The acceleration of a particle along a part of a wall by the images of others there (vessel_sum.hpp).
@@ -60,6 +60,6 @@ struct WallSweep {
                  const WallPairs& others, double mass, double* acceleration);
 };
 
-WallSweep wall_sweep_portable(), wall_sweep_avx2(), wall_sweep_avx512();
+WallKernels wall_kernels_portable(), wall_kernels_avx2(), wall_kernels_avx512();
 
 }  // namespace talus::continuum

@@ -4,7 +4,7 @@
 
 namespace talus::continuum {
 
-WallSweep wall_sweep_avx2() {
+WallKernels wall_kernels_avx2() {
   return {sum_points, sum_images};
 }
 

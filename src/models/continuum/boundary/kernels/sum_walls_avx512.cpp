@@ -4,7 +4,7 @@
 
 namespace talus::continuum {
 
-WallSweep wall_sweep_avx512() {
+WallKernels wall_kernels_avx512() {
   return {sum_points, sum_images};
 }
 

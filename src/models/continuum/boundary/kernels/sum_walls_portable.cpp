@@ -4,7 +4,7 @@
 
 namespace talus::continuum {
 
-WallSweep wall_sweep_portable() {
+WallKernels wall_kernels_portable() {
   return {sum_points, sum_images};
 }
 

@@ -68,7 +68,7 @@ struct WallLoad {
   std::uint32_t first;      ///< place of the block in the list
   std::uint8_t begin, end;  ///< places in the block
   std::uint8_t axis;
-  std::uint8_t slot;  ///< in PairSums::wall_acceleration
+  std::uint8_t slot;  ///< in ParticleSums::wall_acceleration
   double part;
 };
 
@@ -127,7 +127,7 @@ struct alignas(64) StressSums {
 };
 
 /// Sums over the neighbours j of i, with d = x_j - x_i.
-struct alignas(64) PairSums {
+struct alignas(64) ParticleSums {
   double moment[6];            ///< GradientSums::moment: xx yy zz xy yz zx
   double velocity[9];          ///< GradientSums::velocity: xx xy xz yx yy yz zx zy zz
   double density_rate;         ///< Eq. 16, kg/(m^3 s)
@@ -141,7 +141,7 @@ struct alignas(64) PairSums {
   static constexpr std::uint32_t together = 8;  ///< particles whose sums go on together
 };
 
-enum class SweepTerms { all, gradients, forces };
+enum class PairTerms { all, gradients, forces };
 
 /// Precision of the arithmetic of pairs.
 enum class PairPrecision { in_double, in_single };
@@ -158,16 +158,16 @@ enum class StressGradient { unasked, asked };
 
 /// Only the requested sums are written.
 using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const Neighbours& neighbours,
-                               const PairConstants& constants, PairSums& sums);
+                               const PairConstants& constants, ParticleSums& sums);
 
 /// The corrected velocity gradients (numerics/sph/velocity_gradient.hpp) of as many particles as there are sums.
-/// \param sums of PairSums::together particles \param gradient as many numbers for each component, 1/s: xx xy xz yx
+/// \param sums of ParticleSums::together particles \param gradient as many numbers for each component, 1/s: xx xy xz yx
 /// yy yz zx zy zz
-using VelocityGradients = void(const PairSums* sums, double (*gradient)[PairSums::together]);
+using VelocityGradients = void(const ParticleSums* sums, double (*gradient)[ParticleSums::together]);
 VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
 /// \param stabilisers prepared: of `gradients` only
-using ChooseSumNeighbours = SumNeighbours(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+using ChooseSumNeighbours = SumNeighbours(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
                                           StressAround stress_around, StressGradient stress_gradient);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 

@@ -66,7 +66,8 @@ struct PairAccelerations {
 /// Writes the acceleration, the sum of the kernel and the loads of the walls.
 template <class Real>
 TALUS_INLINE void store_forces(const Neighbours& neighbours, const PairAccelerations<Real>& pairs,
-                               const SimdVector3<Real>& all, const SimdVector<Real>& kernel_density, PairSums& sums) {
+                               const SimdVector3<Real>& all, const SimdVector<Real>& kernel_density,
+                               ParticleSums& sums) {
   using Number = SimdVector<Real>;
   const Number zero = 0.0;
   Number value[24];
@@ -156,7 +157,7 @@ struct StressGradientSums<true> {
 template <class Real, bool gradients, bool forces, Stabilisers stabilisers,
           StressAround stress_around = StressAround::unasked, StressGradient stress_gradient = StressGradient::unasked>
 void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighbours& neighbours,
-                    const PairConstants& constants, PairSums& sums) {
+                    const PairConstants& constants, ParticleSums& sums) {
   using Number = SimdVector<Real>;
   const auto records = records_of(all_records, Real{});
   const auto* motion = records.motion + self;
@@ -272,9 +273,9 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   }
 }
 
-TALUS_INLINE void velocity_gradients(const PairSums* sums, double (*gradient)[PairSums::together]) {
+TALUS_INLINE void velocity_gradients(const ParticleSums* sums, double (*gradient)[ParticleSums::together]) {
   using Number = SimdVector<double>;
-  for (std::uint32_t n = 0; n < PairSums::together; n += Number::lanes) {
+  for (std::uint32_t n = 0; n < ParticleSums::together; n += Number::lanes) {
     Number s[16];
     load_columns([&](int lane) { return sums[n + static_cast<std::uint32_t>(lane)].moment; }, s);
     const Tensor3<Number> l = sph::velocity_gradient<Number>(
@@ -285,36 +286,36 @@ TALUS_INLINE void velocity_gradients(const PairSums* sums, double (*gradient)[Pa
 }
 
 template <class Real, Stabilisers stabilisers, StressAround stress_around, StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(SweepTerms terms) {
-  return terms == SweepTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient>
-         : terms == SweepTerms::gradients
+TALUS_INLINE SumNeighbours choose(PairTerms terms) {
+  return terms == PairTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient>
+         : terms == PairTerms::gradients
              ? sum_neighbours<Real, true, false, stabilisers>
              : sum_neighbours<Real, false, true, stabilisers, stress_around, stress_gradient>;
 }
 
 template <class Real, StressAround stress_around, StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers) {
+TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers) {
   return stabilisers == Stabilisers::none     ? choose<Real, Stabilisers::none, stress_around, stress_gradient>(terms)
          : stabilisers == Stabilisers::acting ? choose<Real, Stabilisers::acting, stress_around, stress_gradient>(terms)
                                               : sum_neighbours<Real, true, false, Stabilisers::prepared>;
 }
 
 template <class Real, StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, StressAround stress_around) {
+TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around) {
   return stress_around == StressAround::asked
              ? choose<Real, StressAround::asked, stress_gradient>(terms, stabilisers)
              : choose<Real, StressAround::unasked, stress_gradient>(terms, stabilisers);
 }
 
 template <class Real>
-TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, StressAround stress_around,
+TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around,
                                   StressGradient stress_gradient) {
   return stress_gradient == StressGradient::asked
              ? choose<Real, StressGradient::asked>(terms, stabilisers, stress_around)
              : choose<Real, StressGradient::unasked>(terms, stabilisers, stress_around);
 }
 
-TALUS_INLINE SumNeighbours choose(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
                                   StressAround stress_around, StressGradient stress_gradient) {
   return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers, stress_around, stress_gradient)
                                                : choose<double>(terms, stabilisers, stress_around, stress_gradient);

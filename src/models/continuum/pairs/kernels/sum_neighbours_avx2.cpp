@@ -4,12 +4,12 @@
 
 namespace talus::continuum {
 
-SumNeighbours sum_neighbours_avx2(SweepTerms terms, Stabilisers stabilisers, PairPrecision precision,
+SumNeighbours sum_neighbours_avx2(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
                                   StressAround stress_around, StressGradient stress_gradient) {
   return choose(terms, stabilisers, precision, stress_around, stress_gradient);
 }
 
-void velocity_gradients_avx2(const PairSums* sums, double (*gradient)[PairSums::together]) {
+void velocity_gradients_avx2(const ParticleSums* sums, double (*gradient)[ParticleSums::together]) {
   velocity_gradients(sums, gradient);
 }
 

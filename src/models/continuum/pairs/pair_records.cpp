@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The records that the sums over pairs read, from the columns of the particles.
+#include "models/continuum/pairs/pair_records.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "models/continuum/material.hpp"
 #include "models/continuum/pairs/quanta.hpp"
 #include "models/continuum/pairs/specific_stress.hpp"
-#include "models/continuum/pairs/sweep.hpp"
 
 namespace talus::continuum {
 
@@ -88,37 +88,60 @@ void multiply_and_shift(const Number* record, const Number* factor, const Number
   std::copy_n(all, count, result);
 }
 
-}  // namespace
-
 /// Particles near each other are within the reach, at the middle of a step a little beyond: a quarter of the range.
-double Sweep::quantum_for(double reach) {
+double quantum_for(double reach) {
   return std::exp2(std::ceil(std::log2(reach)) + 2 - 32);
 }
 
+/// d x_j - x_i of the source, as the image has it.
+Vector3 displaced(const Image& image, const Vector3& d) {
+  return image.position(d) - image.position({});
+}
+
+DampingRecord record_of(const SymmetricTensor3<>& rate, double sound_speed, double loaded) {
+  return {{rate.xx, rate.yy, rate.zz, rate.xy, rate.yz, rate.zx}, sound_speed, loaded};
+}
+
+/// The same in single precision, number by number.
+template <class Single, class Record>
+void round_to_single(ThreadTeam& team, const std::vector<Record>& records, std::vector<Single>& single) {
+  static_assert(sizeof(Record) / sizeof(double) == sizeof(Single) / sizeof(float));
+  single.resize(records.size());
+  for_each(team, records.size(), [&](std::size_t r) {
+    const double* const from = reinterpret_cast<const double*>(&records[r]);
+    float* const to = reinterpret_cast<float*>(&single[r]);
+    for (std::size_t n = 0; n < sizeof(Record) / sizeof(double); ++n) to[n] = static_cast<float>(from[n]);
+  });
+}
+
+}  // namespace
+
 /// Walls of a vessel read the records in double precision whatever that of the pairs.
-void Sweep::pack(ThreadTeam& team, const ParticleView& particles, bool stresses) {
-  const bool in_single = precision_ == PairPrecision::in_single;
-  if (in_single) pack_single(team, particles, stresses);
-  if (!in_single || !vessel_.is_empty()) pack_double(team, particles, stresses);
+void PairRecords::pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
+  const bool in_single = options_.precision == PairPrecision::in_single;
+  if (in_single) pack_single(team, lists, particles, stresses);
+  if (!in_single || options_.always_double) pack_double(team, lists, particles, stresses);
 }
 
 /// Records of images are made from those of their sources. What only forces read is packed for them only.
-void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool stresses) {
+void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
-  const auto ghosts = neighbourhood_.ghosts();
+  const Neighbourhood& neighbourhood = lists.neighbourhood();
+  const auto ghosts = neighbourhood.ghosts();
+  const auto packed_ghosts = lists.packed_ghosts();
   make_room(motion_, count + ghosts.size() + 1);
   make_room(stress_, motion_.size());
   for_each(team, count, [&](std::size_t i) {
     const double density = particles.density[i];
     const Vector3 &x = particles.position[i], &u = particles.velocity[i];
-    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, mass_ / density};
+    motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, options_.mass / density};
     if (!stresses) return;
-    const SymmetricTensor3<> s = specific_stress(particles, i, stress_form_, grain_density_);
+    const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
     stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
   });
-  const std::vector<Signs> signs = signs_of(neighbourhood_.images());
-  for_each(team, packed_ghosts_.size(), [&](std::size_t n) {
-    const std::size_t g = packed_ghosts_[n];
+  const std::vector<Signs> signs = signs_of(neighbourhood.images());
+  for_each(team, packed_ghosts.size(), [&](std::size_t n) {
+    const std::size_t g = packed_ghosts[n];
     MotionRecord& source = motion_[ghosts[g].source];
     if (const Signs& image = signs[ghosts[g].image]; image.suffice) {
       multiply_and_shift<8>(numbers<double>(source), image.motion, image.shift, numbers<double>(motion_[count + g]));
@@ -126,7 +149,7 @@ void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool st
         multiply<8>(numbers<double>(stress_[ghosts[g].source]), image.stress, numbers<double>(stress_[count + g]));
       return;
     }
-    const Image& image = neighbourhood_.image(ghosts[g]);
+    const Image& image = neighbourhood.image(ghosts[g]);
     const Vector3 x = image.position({source.position[0], source.position[1], source.position[2]});
     const Vector3 u = image.vector({source.velocity[0], source.velocity[1], source.velocity[2]});
     motion_[count + g] = {{x.x, x.y, x.z}, source.half_length, {u.x, u.y, u.z}, source.volume};
@@ -140,17 +163,12 @@ void Sweep::pack_double(ThreadTeam& team, const ParticleView& particles, bool st
   stress_.back() = {{}, count > 0 ? 0.5 * particles.density.front() : 1, 0};
 }
 
-Records Sweep::records() const {
-  return {motion_.data(),
-          stress_.data(),
-          damping_.data(),
-          diffusion_.data(),
-          {single_motion_.data(), single_stress_.data(), single_damping_.data(), single_diffusion_.data(), quantum_}};
-}
-
-void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool stresses) {
+void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses) {
   const std::size_t count = particles.position.size();
-  const auto ghosts = neighbourhood_.ghosts();
+  const Neighbourhood& neighbourhood = lists.neighbourhood();
+  const auto ghosts = neighbourhood.ghosts();
+  const auto packed_ghosts = lists.packed_ghosts();
+  quantum_ = quantum_for(neighbourhood.reach());
   const double per_quantum = 1 / quantum_;
   make_room(single_motion_, count + ghosts.size() + 1);
   make_room(single_stress_, single_motion_.size());
@@ -158,12 +176,12 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
     const double density = particles.density[i];
     single_motion_[i] =
         single(particles.position[i], particles.velocity[i], static_cast<float>(0.5 * particles.smoothing_length[i]),
-               static_cast<float>(mass_ / density), per_quantum);
+               static_cast<float>(options_.mass / density), per_quantum);
     if (!stresses) return;
-    const SymmetricTensor3<> s = specific_stress(particles, i, stress_form_, grain_density_);
+    const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
     single_stress_[i] = single(s, static_cast<float>(0.5 * density));
   });
-  const std::vector<Signs> signs = signs_of(neighbourhood_.images());
+  const std::vector<Signs> signs = signs_of(neighbourhood.images());
   const auto mirror = [&](const Signs& of_image, std::span<const std::uint32_t> alike) {
     const Signs image = of_image;  // a copy: what is stored below could change what is referred to
     SingleMotionRecord* const motion = single_motion_.data();
@@ -193,16 +211,16 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
           single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
     }
   };
-  for_each_chunk(team, packed_ghosts_.size(), [&](std::size_t first, std::size_t end) {
+  for_each_chunk(team, packed_ghosts.size(), [&](std::size_t first, std::size_t end) {
     // Those of an image follow each other.
     for (std::size_t next = first; first < end; first = next) {
-      const std::uint32_t in = ghosts[packed_ghosts_[first]].image;
-      while (next < end && ghosts[packed_ghosts_[next]].image == in) ++next;
-      const std::span alike = std::span(packed_ghosts_).subspan(first, next - first);
+      const std::uint32_t in = ghosts[packed_ghosts[first]].image;
+      while (next < end && ghosts[packed_ghosts[next]].image == in) ++next;
+      const std::span alike = packed_ghosts.subspan(first, next - first);
       if (signs[in].suffice)
         mirror(signs[in], alike);
       else
-        turn(neighbourhood_.images()[in], alike);
+        turn(neighbourhood.images()[in], alike);
     }
   });
   // Its square is in the range of a float; one over its cube is zero, and not one of the numbers just above it, which
@@ -210,6 +228,54 @@ void Sweep::pack_single(ThreadTeam& team, const ParticleView& particles, bool st
   constexpr float vast = 1e16F;  // m
   single_motion_.back() = {{}, vast, {}, 0};
   single_stress_.back() = {{}, count > 0 ? single_stress_.front().half_density : 1, 0};
+}
+
+void PairRecords::pack_damping(ThreadTeam& team, const PairLists& lists, const ParticleView& particles,
+                               double sound_speed, bool everywhere) {
+  const std::size_t count = particles.position.size();
+  const Neighbourhood& neighbourhood = lists.neighbourhood();
+  const auto ghosts = neighbourhood.ghosts();
+  const auto packed_ghosts = lists.packed_ghosts();
+  const bool rates = !particles.deformation_rate[0].empty();
+  damping_.resize(count + ghosts.size() + 1);
+  for_each(team, count, [&](std::size_t i) {
+    const bool loaded = trace(stress_of(particles.material, i)) > 0;
+    damping_[i] = record_of(rates ? tensor_at(particles.deformation_rate, i) : SymmetricTensor3<>{},
+                            loaded || everywhere ? sound_speed : 0, loaded ? 1.0 : 0.0);
+  });
+  for_each(team, packed_ghosts.size(), [&](std::size_t n) {
+    const std::size_t g = packed_ghosts[n];
+    const DampingRecord& source = damping_[ghosts[g].source];
+    const double* const r = source.deformation_rate;
+    damping_[count + g] = record_of(neighbourhood.image(ghosts[g]).tensor({r[0], r[1], r[2], r[3], r[4], r[5]}),
+                                    source.sound_speed, source.loaded);
+  });
+  damping_.back() = {};
+  if (options_.precision == PairPrecision::in_single) round_to_single(team, damping_, single_damping_);
+}
+
+void PairRecords::set_diffusion(ThreadTeam& team, const PairLists& lists, std::span<const DiffusionRecord> own) {
+  const std::size_t count = own.size();
+  const Neighbourhood& neighbourhood = lists.neighbourhood();
+  const auto ghosts = neighbourhood.ghosts();
+  diffusion_.assign(count + ghosts.size() + 1, {});
+  std::copy(own.begin(), own.end(), diffusion_.begin());
+  for_each(team, ghosts.size(), [&](std::size_t g) {
+    DiffusionRecord ghost = diffusion_[ghosts[g].source];
+    double* const slope = ghost.density_gradient;
+    const Vector3 turned = displaced(neighbourhood.image(ghosts[g]), {slope[0], slope[1], slope[2]});
+    for (int axis = 0; axis < 3; ++axis) slope[axis] = turned[axis];
+    diffusion_[count + g] = ghost;
+  });
+  if (options_.precision == PairPrecision::in_single) round_to_single(team, diffusion_, single_diffusion_);
+}
+
+Records PairRecords::view() const {
+  return {motion_.data(),
+          stress_.data(),
+          damping_.data(),
+          diffusion_.data(),
+          {single_motion_.data(), single_stress_.data(), single_damping_.data(), single_diffusion_.data(), quantum_}};
 }
 
 }  // namespace talus::continuum

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/pairs/sweep.hpp"
+#include "models/continuum/pairs/pair_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ void expect_gradient(const Tensor3<>& found, const Tensor3<>& exact, double tole
   for (const double c : {d.xx, d.xy, d.xz, d.yx, d.yy, d.yz, d.zx, d.zy, d.zz}) EXPECT_NEAR(c, 0, tolerance);
 }
 
-TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedParticles) {
+TEST(PairSums, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedParticles) {
   Evaluation e(free_block(6, 5, 7));
   e.disturb(0.1);
   const Tensor3<> exact{1, -2, 0.5, 3, -1, 0.25, 0.75, 2, -0.5};
@@ -25,7 +25,7 @@ TEST(Sweep, GradientsOfLinearFieldsAreExactAtFreeSurfacesAndBetweenDisturbedPart
     expect_gradient(e.rates.velocity_gradient[i], exact, 1e-10);
 }
 
-TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
+TEST(PairSums, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
   for (const double depth : {1.0, 2.0, 5.0}) {
     Evaluation e(block_between_mirrors(depth));
     e.disturb(0.2);
@@ -37,7 +37,7 @@ TEST(Sweep, GradientsOfLinearFieldsAreExactAtWallsEdgesCornersAndInThinBoxes) {
   }
 }
 
-TEST(Sweep, GradientsAreExactOnBothSidesOfAPlateAndAtItsEdges) {
+TEST(PairSums, GradientsAreExactOnBothSidesOfAPlateAndAtItsEdges) {
   // Above the plate the particles stretch away from it, below they rest.
   Parameters p = column(20, 2, 30);
   p.plate.height = 15 * spacing;
@@ -54,7 +54,7 @@ TEST(Sweep, GradientsAreExactOnBothSidesOfAPlateAndAtItsEdges) {
   }
 }
 
-TEST(Sweep, UniformStressOnALatticeBetweenMirrorsPushesNothing) {
+TEST(PairSums, UniformStressOnALatticeBetweenMirrorsPushesNothing) {
   for (const FaceKind kind : {FaceKind::wall, FaceKind::symmetry, FaceKind::periodic}) {
     Parameters p = column(7, 1, 5);
     p.box.left = p.box.right = p.box.front = p.box.rear = p.box.floor = p.box.top = kind;
@@ -65,7 +65,7 @@ TEST(Sweep, UniformStressOnALatticeBetweenMirrorsPushesNothing) {
   }
 }
 
-TEST(Sweep, WallsBearTheStressTimesTheirArea) {
+TEST(PairSums, WallsBearTheStressTimesTheirArea) {
   // Uniform stress in a closed box: each wall is pushed by stress times area times the kernel's moment.
   Parameters p = column(7, 3, 5);
   p.box.top = FaceKind::wall;
@@ -80,7 +80,7 @@ TEST(Sweep, WallsBearTheStressTimesTheirArea) {
   for (std::size_t w = 0; w < 6; ++w) EXPECT_NEAR(by_wall[w], expected[w] * d2 * m, 1e-9 * std::abs(expected[w] * d2));
 }
 
-TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
+TEST(PairSums, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   Parameters p = column(8, 2, 30);
   p.plate.height = 15 * spacing;
   p.plate.slit_left = 2.3 * spacing;
@@ -97,7 +97,7 @@ TEST(Sweep, ForcesBetweenParticlesCancelAndWallsBearTheRest) {
   EXPECT_GT(norm(sums.by_walls), 1e-6 * sums.size);
 }
 
-TEST(Sweep, ThePlatesTwoSidesDoNotFeelEachOther) {
+TEST(PairSums, ThePlatesTwoSidesDoNotFeelEachOther) {
   Parameters p = column(12, 2, 30);
   p.plate.height = 15 * spacing;
   p.bed.bottom = 0;
@@ -124,7 +124,7 @@ TEST(Sweep, ThePlatesTwoSidesDoNotFeelEachOther) {
   EXPECT_GT(near, 20);
 }
 
-TEST(Sweep, ThroughAnOpenSlitTheBedIsWhole) {
+TEST(PairSums, ThroughAnOpenSlitTheBedIsWhole) {
   // With the whole plate open, rates are those of a box without one.
   Parameters p = column(8, 2, 30);
   Evaluation without(p);
@@ -153,7 +153,7 @@ TEST(Sweep, ThroughAnOpenSlitTheBedIsWhole) {
   EXPECT_EQ(shut.rates.acceleration, without.rates.acceleration);
 }
 
-TEST(Sweep, TheDensityFollowsTheKernelsSum) {
+TEST(PairSums, TheDensityFollowsTheKernelsSum) {
   // Eq. 16 in its pair form is the rate of the kernel's sum, image for image, with a fixed smoothing length.
   Parameters p = column(6, 1, 9, 3);
   Evaluation e(p);
@@ -167,7 +167,7 @@ TEST(Sweep, TheDensityFollowsTheKernelsSum) {
   const auto start = e.state.position;
   const auto at = [&](double time) {
     for (std::size_t i = 0; i < start.size(); ++i) e.state.position[i] = start[i] + time * e.state.velocity[i];
-    e.evaluate(SweepTerms::forces);
+    e.evaluate(PairTerms::forces);
     return e.rates.kernel_density;
   };
   const auto later = at(dt), earlier = at(-dt);
@@ -175,7 +175,7 @@ TEST(Sweep, TheDensityFollowsTheKernelsSum) {
     EXPECT_NEAR((later[i] - earlier[i]) / (2 * dt), rate[i], 1e-4 * std::abs(rate[i]) + 0.5);
 }
 
-TEST(Sweep, TheKernelsPackingOnALatticeIsTheBeds) {
+TEST(PairSums, TheKernelsPackingOnALatticeIsTheBeds) {
   Evaluation e(column(6, 1, 8, 4));
   e.evaluate();
   for (std::size_t i = 0; i < e.state.position.size(); ++i) {
@@ -185,7 +185,7 @@ TEST(Sweep, TheKernelsPackingOnALatticeIsTheBeds) {
   }
 }
 
-TEST(Sweep, AWiderKernelSumsOverAllWithinItsSupport) {
+TEST(PairSums, AWiderKernelSumsOverAllWithinItsSupport) {
   // Density and force of a bed under a linear stress, against sums over the whole lattice.
   for (const double ratio : {1.2, 1.5}) {
     Parameters p = column(8, 1, 12, 4);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The records that the pair sums read, one per particle; images exist only as records, made from those of their
+/// sources.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "models/continuum/pairs/kernels/kernel.hpp"
+#include "models/continuum/pairs/pair_lists.hpp"
+#include "models/continuum/pairs/rates.hpp"
+#include "models/continuum/setup/parameters.hpp"
+
+namespace talus::continuum {
+
+class PairRecords {
+ public:
+  struct Options {
+    double mass;           ///< of a particle, kg
+    double grain_density;  ///< kg/m^3
+    sph::StressForm stress_form;
+    PairPrecision precision;
+    bool always_double;  ///< with single precision of the pairs, too: the walls of a vessel read double precision
+  };
+  explicit PairRecords(const Options& options) : options_(options) {}
+
+  /// Motion of particles and images. \param stresses whether stresses, too: only forces read them
+  void pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
+  /// Rates of deformation, for hourglass damping and the local speed of sound.
+  /// \param sound_speed m/s, of a particle without pressure 0 unless it acts \param everywhere
+  void pack_damping(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, double sound_speed,
+                    bool everywhere);
+  /// Gradients of the density, for its diffusion. \param own of the particles; empty: all zero
+  void set_diffusion(ThreadTeam& team, const PairLists& lists, std::span<const DiffusionRecord> own);
+
+  Records view() const;
+
+ private:
+  void pack_double(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
+  void pack_single(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
+
+  Options options_;
+  double quantum_ = 0;  // of the places in single precision, m
+  // Particles, images, padding.
+  std::vector<MotionRecord> motion_;
+  std::vector<StressRecord> stress_;
+  std::vector<SingleMotionRecord> single_motion_;
+  std::vector<SingleStressRecord> single_stress_;
+  std::vector<DampingRecord> damping_;
+  std::vector<DiffusionRecord> diffusion_;
+  std::vector<SingleDampingRecord> single_damping_;
+  std::vector<SingleDiffusionRecord> single_diffusion_;
+};
+
+}  // namespace talus::continuum

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/pairs/pair_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/compiled_for.hpp"
+#include "models/continuum/material.hpp"
+#include "models/continuum/pairs/specific_stress.hpp"
+#include "models/continuum/pairs/stress_regularisation.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+#include "numerics/sph/smoothing_lengths.hpp"
+#include "numerics/sph/velocity_gradient.hpp"
+
+namespace talus::continuum {
+
+void Rates::resize(std::size_t count) {
+  acceleration.resize(count);
+  density_rate.resize(count);
+  velocity_gradient.resize(count);
+  kernel_density.resize(count);
+}
+
+PairSums::PairSums(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel,
+                   const SurfaceFields* fields)
+    : mass_(mass),
+      smoothing_ratio_(p.sph.smoothing_ratio),
+      fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
+                                  ? smoothing_ratio_ * sph::smoothing_length(mass, p.bed.packing * p.grains.density)
+                                  : 0.0),
+      grain_density_(p.grains.density),
+      skin_(p.integration.skin * p.bed.spacing),
+      stress_form_(p.sph.stress_form),
+      corrected_continuity_(p.sph.continuity == Continuity::corrected),
+      asks_stress_around_(stress_regularisation(p) > 0),
+      precision_(p.integration.pair_precision),
+      constants_{.mass = mass,
+                 .sound_speed = sound_speed,
+                 .viscosity_alpha = p.sph.viscosity_alpha,
+                 .viscosity_beta = p.sph.viscosity_beta,
+                 .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
+                 .hourglass_damping = p.sph.hourglass_damping * sound_speed},
+      diffuses_(p.sph.density_diffusion > 0),
+      damps_(p.sph.hourglass_damping > 0 || p.sph.viscosity_speed == ViscositySpeed::local),
+      local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
+      lists_(domain, vessel),
+      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields, sector_of(p)),
+      walls_(vessel_, lists_, constants_, local_sound_speed_),
+      records_({mass, grain_density_, stress_form_, precision_, !vessel.is_empty()}) {
+  const InstructionSet set = resolve(p.integration.instruction_set);
+  const auto choose = [&](PairTerms terms, StressGradient stress_gradient) {
+    return TALUS_COMPILED_FOR(set, sum_neighbours)(
+        terms, are_stabilised(terms) ? Stabilisers::acting : Stabilisers::none, precision_,
+        asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient);
+  };
+  for (const PairTerms terms : {PairTerms::all, PairTerms::gradients, PairTerms::forces}) {
+    const auto n = static_cast<std::size_t>(terms);
+    sum_[n] = choose(terms, StressGradient::unasked);
+    sum_at_vessel_[n] = choose(terms, StressGradient::asked);
+  }
+  velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
+  if (diffuses_)
+    density_gradients_ = TALUS_COMPILED_FOR(set, sum_neighbours)(
+        PairTerms::gradients, Stabilisers::prepared, precision_, StressAround::unasked, StressGradient::unasked);
+}
+
+bool PairSums::are_stabilised(PairTerms terms) const {
+  return (terms != PairTerms::forces && diffuses_) || (terms != PairTerms::gradients && damps_);
+}
+
+double PairSums::smoothing_length(double density) const {
+  return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_
+                                     : smoothing_ratio_ * sph::smoothing_length(mass_, density);
+}
+
+void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> density,
+                                      std::span<double> length) const {
+  if (fixed_smoothing_length_ > 0) {
+    std::ranges::fill(length, fixed_smoothing_length_);
+    return;
+  }
+  for_each_chunk(team, density.size(), [&](std::size_t first, std::size_t end) {
+    sph::smoothing_lengths(end - first, mass_, smoothing_ratio_, density.data() + first, length.data() + first);
+  });
+}
+
+void PairSums::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
+                               std::span<const double> smoothing_length, std::span<const double> margin) {
+  lists_.build(team, position, smoothing_length, margin);
+  vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin);
+}
+
+/// Packing above which the density diffuses: grains that touch, and no free surface between them.
+constexpr double min_diffusing_packing = 0.5;
+
+void PairSums::find_density_gradients(ThreadTeam& team, const ParticleView& particles) {
+  density_gradient_.resize(particles.position.size());
+  const Records all = records_.view();
+  for_each(team, density_gradient_.size(), [&](std::size_t i) {
+    thread_local PairLists::Visible memory;
+    ParticleSums sums;
+    density_gradients_(all, static_cast<std::uint32_t>(i), lists_.visible_from(particles.position, i, memory),
+                       constants_, sums);
+    const double *m = sums.moment, *r = sums.density_gradient;
+    // The density is corrected as a velocity is: as the x component of one.
+    const Tensor3<> density = sph::velocity_gradient(
+        {SymmetricTensor3<>{m[0], m[1], m[2], m[3], m[4], m[5]}, {.xx = r[0], .xy = r[1], .xz = r[2]}});
+    density_gradient_[i] = {{density.xx, density.xy, density.xz},
+                            particles.density[i] > min_diffusing_packing * grain_density_ ? 1.0 : 0.0,
+                            {}};
+  });
+}
+
+/// Records of particles and images, of stabilisers where they act, and the walls of the vessel as they are met.
+void PairSums::pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms) {
+  records_.pack(team, lists_, particles, terms != PairTerms::gradients || diffuses_);
+  // In half a step particles hardly move: the gradients take the walls as the forces met them.
+  if (!vessel_.is_empty() && (terms != PairTerms::gradients || !vessel_.is_met()))
+    vessel_.meet(team, particles.position, particles.smoothing_length);
+  if (!are_stabilised(terms)) return;
+  if (terms != PairTerms::gradients)
+    records_.pack_damping(team, lists_, particles, constants_.sound_speed, !local_sound_speed_);
+  if (terms == PairTerms::forces) return;
+  if (diffuses_)
+    find_density_gradients(team, particles);
+  else
+    density_gradient_.assign(particles.position.size(), {});
+  records_.set_diffusion(team, lists_, density_gradient_);
+}
+
+void PairSums::make_room(PairTerms terms, std::size_t count, Rates& rates) const {
+  rates.resize(count);
+  if (!vessel_.is_empty()) {
+    rates.vessel.resize(vessel_.particles().size());
+    rates.at_vessel.assign(vessel_.particles().begin(), vessel_.particles().end());
+  }
+  if (terms == PairTerms::gradients) return;
+  if (asks_stress_around_)
+    for (auto& component : rates.stress_around) component.resize(count);
+  rates.by_walls.walls = lists_.walls();
+  rates.by_walls.first = lists_.first_wall();
+  rates.by_walls.value.resize(lists_.first_wall().back());
+}
+
+void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates) {
+  const std::size_t count = particles.position.size();
+  make_room(terms, count, rates);
+  pack(team, particles, terms);
+  const SumNeighbours sum = sum_[static_cast<std::size_t>(terms)];
+  const SumNeighbours sum_at_vessel = sum_at_vessel_[static_cast<std::size_t>(terms)];
+  const Records all = records_.view();
+  constexpr std::size_t together = ParticleSums::together, blocks_at_once = 16;
+  const auto compute = [&](std::size_t first) {
+    thread_local PairLists::Visible of_thread;
+    PairLists::Visible& visible = of_thread;
+    ParticleSums sums[together];
+    const std::size_t size = std::min(together, count - first);
+    for (std::size_t n = 0; n < together; ++n) {
+      if (n >= size) {
+        sums[n] = {};
+        continue;
+      }
+      const Neighbours neighbours = lists_.visible_from(particles.position, first + n, visible);
+      const bool at_vessel = !vessel_.is_empty() && !vessel_.of(first + n).empty();
+      (at_vessel ? sum_at_vessel : sum)(all, static_cast<std::uint32_t>(first + n), neighbours, constants_, sums[n]);
+      if (terms != PairTerms::gradients && !vessel_.is_empty() && vessel_.place_of(first + n) >= 0)
+        walls_.add_forces(particles, first + n, all, neighbours, sums[n], rates);
+    }
+    if (terms != PairTerms::forces) {
+      if (!vessel_.is_empty())
+        for (std::size_t n = 0; n < size; ++n)
+          if (!vessel_.of(first + n).empty()) walls_.add_gradients(particles, first + n, sums[n]);
+      alignas(64) double gradient[9][together];
+      velocity_gradients_(sums, gradient);
+      for (std::size_t c = 0; c < 9; ++c)
+        std::copy_n(gradient[c], size, rates.velocity_gradient.component[c].data() + first);
+      for (std::size_t n = 0; n < size; ++n)
+        rates.density_rate[first + n] =
+            corrected_continuity_ ? -particles.density[first + n] * (gradient[0][n] + gradient[4][n] + gradient[8][n])
+                                  : sums[n].density_rate;
+    }
+    if (terms == PairTerms::gradients) return;
+    for (std::size_t n = 0; n < size; ++n) {
+      const std::size_t i = first + n;
+      rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
+      if (asks_stress_around_) set_tensor(rates.stress_around, i, stress_around(particles, i, sums[n]));
+      rates.kernel_density[i] = sums[n].kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
+      std::copy_n(sums[n].wall_acceleration, lists_.first_wall()[i + 1] - lists_.first_wall()[i],
+                  rates.by_walls.value.data() + lists_.first_wall()[i]);
+    }
+  };
+  const std::size_t blocks = (count + together - 1) / together;
+  team.run((blocks + blocks_at_once - 1) / blocks_at_once, [&](std::size_t task) {
+    for (std::size_t b = task * blocks_at_once; b < std::min(blocks, (task + 1) * blocks_at_once); ++b)
+      compute(b * together);
+  });
+}
+
+/// With that of the particle itself.
+SymmetricTensor3<> PairSums::stress_around(const ParticleView& particles, std::size_t i,
+                                           const ParticleSums& sums) const {
+  const double own = sph::cubic_spline(0.0, particles.smoothing_length[i]);
+  const double* s = sums.stress;
+  return SymmetricTensor3<>{s[0], s[1], s[2], s[3], s[4], s[5]} +
+         own * specific_stress(particles, i, stress_form_, grain_density_);
+}
+
+}  // namespace talus::continuum
