@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents against the tree: the width of prose, links, paths in backticks, and the functions and tests that
-EQUATIONS.md names: a function that it credits has a caller in src/, so that what stands there is what is computed."""
+"""Checks the documents against the tree: the width of prose, links, paths in backticks, the version, which CMakeLists.txt
+states, where others repeat it, and the functions and tests that EQUATIONS.md names: a function that it credits has a caller in src/, so that what stands there is what is computed."""
 
 import argparse
 import pathlib
@@ -59,6 +59,28 @@ def check_paths(root, documents):
                         yield f"{path.relative_to(root)}:{number}: there is no {name}"
 
 
+VERSION = re.compile(r"^project\(talus VERSION ([\d.]+)", re.MULTILINE)
+REPEATED = {"python/talus/__init__.py": re.compile(r'^__version__ = "([^"]*)"', re.MULTILINE),
+            "CITATION.cff": re.compile(r"^version: (\S+)", re.MULTILINE),
+            "CHANGELOG.md": re.compile(r"^## (\S+)", re.MULTILINE)}  # the first of its sections
+
+
+def check_version(root):
+    build = root / "CMakeLists.txt"
+    if not build.exists():
+        return
+    version = VERSION.search(build.read_text(encoding="utf-8"))
+    if not version:
+        yield "CMakeLists.txt:1: project() states no version"
+        return
+    for name, pattern in REPEATED.items():
+        text = (root / name).read_text(encoding="utf-8")
+        found = pattern.search(text)
+        if not found or found[1] != version[1]:
+            line = text[: found.start()].count("\n") + 1 if found else 1
+            yield f"{name}:{line}: the version is {found[1] if found else 'missing'}, in CMakeLists.txt {version[1]}"
+
+
 def without_comments(text):
     return re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
 
@@ -105,7 +127,8 @@ def main():
     parser.add_argument("root", nargs="?", default=pathlib.Path(__file__).resolve().parent.parent, type=pathlib.Path)
     root = parser.parse_args().root
     documents = tracked(root, "*.md")
-    problems = [*check_width(root, documents), *check_links(root, documents), *check_paths(root, documents), *check_equations(root)]
+    problems = [*check_width(root, documents), *check_links(root, documents), *check_paths(root, documents), *check_version(root),
+                *check_equations(root)]
     print("\n".join(problems), end="\n" if problems else "")
     return 1 if problems else 0
 

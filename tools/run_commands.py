@@ -53,6 +53,7 @@ NOT_RUN = (
     (r"git clone .*|cd .*|cmake .*|ninja .*|ctest .*|mkdir .*", "builds, or tests a build: ./run and ./test do"),
     (r"apt-get .*|tools/install_packages .*", "installs packages: ./run and ./test do"),
     (r"tools/check_lint.py", "takes minutes: ./test runs it"),
+    (r"tools/check_packages( --build)?", "needs root and a network, builds: a step of a release"),
     (r"tools/build_site", "needs mkdocs: tests/tools/test_site.py runs it"),
     (r"tools/campaign/run .*|tools/campaign/run", "takes half an hour: tests/tools/test_campaign.py runs a part"),
     (r"build-fuzz/.*", "needs a build by clang: tools/campaign/run --only fuzz runs it"),

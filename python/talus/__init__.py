@@ -21,7 +21,7 @@ from talus.snapshots import AirSnapshot, ParticleSnapshot, Snapshots
 from talus.table import Table
 from talus.trouble import RunError
 
-__version__ = "0.1.0"  # the program's
+__version__ = "0.2.0"  # the program's
 
 __all__ = ["AirSnapshot", "Column", "Difference", "ParticleSnapshot", "ProgramError", "Run", "RunError", "Snapshots", "Sweep",
            "Table", "Value", "changed_keys", "compare", "find_program", "find_runs", "new", "simulate", "sweep"]

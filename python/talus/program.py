@@ -25,9 +25,11 @@ class ProgramError(RunError):
 
 
 def find_program(program=None):
-    """The program: the one given, that of the variable TALUS, of the PATH, or built in the checkout of this package."""
-    built = Path(__file__).resolve().parents[2] / "build/talus"
-    for candidate in (program, os.environ.get("TALUS"), shutil.which("talus"), built):
+    """The program: the one given, that of the variable TALUS, of the PATH, built in the checkout of this package, or
+    installed with it (PREFIX/share/talus/python)."""
+    above = Path(__file__).resolve().parents
+    near = [above[n] / name for n, name in ((2, "build/talus"), (4, "bin/talus")) if n < len(above)]
+    for candidate in (program, os.environ.get("TALUS"), shutil.which("talus"), *near):
         if candidate and Path(candidate).is_file():
             return Path(candidate).resolve()
     raise RunError("there is no program talus: name it by program=, the variable TALUS or the PATH, or build it (./run "

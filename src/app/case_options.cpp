@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <thread>
 
+#include "app/comparison/project.hpp"
+
 namespace talus::app {
 
 void CaseOptions::add_to(CLI::App& command) {
-  command.add_option("CASE", path, "case file (TOML)")->required();
+  command.add_option("CASE", path, "case file (TOML)")
+      ->required()
+      ->transform(CLI::Validator([](std::string& given) { return given = found_file(given), std::string(); }, ""));
   command
       .add_option("--set", settings,
                   "override or add a key: table.key=value, a quantity with its unit; may be repeated")

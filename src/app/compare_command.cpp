@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/comparison/evaluation.hpp"
 #include "app/comparison/overlay.hpp"
+#include "app/comparison/project.hpp"
 #include "app/models/models.hpp"
 #include "base/terminal.hpp"
 #include "io/atomic_file.hpp"
@@ -21,7 +22,7 @@ struct CompareOptions {
 };
 
 ExitStatus compare_with_reference(const CompareOptions& options) {
-  const Reference reference = read_reference(options.other);
+  const Reference reference = read_reference(found_file(options.other));
   const std::vector<FoundEnsemble> found = find_ensembles(options.folder, reference);
   ReadRuns runs(ReadRuns::many_times);
   const std::vector<EvaluatedRow> rows = evaluate(reference, found, read_studied_runs(found, runs));

@@ -9,6 +9,7 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
+#include "app/comparison/project.hpp"
 #include "app/comparison/python.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
@@ -69,7 +70,7 @@ std::filesystem::path folder_of(const LawOptions& options) {
 
 ExitStatus follow(const LawOptions& options) {
   const LawCase parameters = read_law_case(options.case_options.read());
-  const std::vector<granular::PathStretch> stretches = read_path(options.path);
+  const std::vector<granular::PathStretch> stretches = read_path(found_file(options.path));
   FollowedPath path{.parameters = parameters,
                     .law = granular::make_law(parameters.law, parameters.grains.density, parameters.grains.diameter),
                     .stretches = stretches,

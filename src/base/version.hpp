@@ -6,7 +6,7 @@
 
 namespace talus {
 
-/// "0.1.0"
+/// "0.2.0": that of project() in CMakeLists.txt
 std::string_view program_version();
 
 /// The commit it was built from, with "-dirty" if tracked files differed from it; "unknown" outside a repository.

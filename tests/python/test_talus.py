@@ -365,9 +365,9 @@ class Installing(unittest.TestCase):
         folder = Path(tempfile.mkdtemp(prefix="talus-pip-"))
         self.addCleanup(shutil.rmtree, folder)
         shutil.copytree(PROJECT / "python", folder / "source", ignore=shutil.ignore_patterns("__pycache__"))
-        offline = ["--no-index", "--no-build-isolation", "--no-deps"]
-        self.assertIn(f"pip install {' '.join(offline)} ./python", (PROJECT / "docs/tutorials/python.md").read_text())
-        subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", *offline, "--target", folder / "installed", folder / "source"], check=True, capture_output=True)
+        offline = ["--no-build-isolation", "--no-deps"]
+        self.assertIn(f"pip install {' '.join(offline)} ./python", (PROJECT / "docs/install.md").read_text())
+        subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-index", *offline, "--target", folder / "installed", folder / "source"], check=True, capture_output=True)
         names = {path.name for path in (folder / "installed" / "talus").glob("*.py")}
         self.assertEqual(names, {path.name for path in (PROJECT / "python" / "talus").glob("*.py")})
         [metadata] = (folder / "installed").glob("talus-*.dist-info")

@@ -175,6 +175,16 @@ class Documents(Tree):
             self.write("src/base/user.cpp", f"void user() {{\n  {use}\n}}\n")
             self.assertEqual(list(check_documents.check_equations(self.root)), [], use)
 
+    def test_another_version_than_that_of_the_build_is_found(self):
+        self.write("CMakeLists.txt", "project(talus VERSION 1.2.3 LANGUAGES CXX)\n")
+        self.write("python/talus/__init__.py", '"""Text."""\n__version__ = "1.2.3"\n')
+        self.write("CITATION.cff", "cff-version: 1.2.0\nversion: 1.2.3\n")
+        self.write("CHANGELOG.md", "# Changelog\n\n## 1.2.3\n\n## 1.2.2\n")
+        self.assertEqual(list(check_documents.check_version(self.root)), [])
+        self.write("CITATION.cff", "cff-version: 1.2.0\nversion: 1.2.2\n")
+        self.assertEqual(list(check_documents.check_version(self.root)),
+                         ["CITATION.cff:2: the version is 1.2.2, in CMakeLists.txt 1.2.3"])
+
 
 class Packages(unittest.TestCase):
     def test_every_package_is_named_once_with_its_purpose(self):

@@ -13,4 +13,12 @@ std::optional<std::filesystem::path> find_project(const std::filesystem::path& f
   return std::nullopt;
 }
 
+std::string found_file(const std::string& given) {
+  const std::filesystem::path path = given;
+  if (given.empty() || path.is_absolute() || std::filesystem::exists(path)) return given;
+  const auto project = find_project(path);
+  return project && std::filesystem::is_regular_file(*project / path) ? (*project / path).lexically_normal().string()
+                                                                      : given;
+}
+
 }  // namespace talus::app

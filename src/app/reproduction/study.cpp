@@ -29,8 +29,9 @@ namespace {
 std::filesystem::path project_folder(const std::string& study) {
   if (const auto project = find_project(std::filesystem::path("validation") / study / "reference.toml"))
     return *project;
-  throw FileError("validation/" + study + "/reference.toml",
-                  "is neither here nor beside the program's build folder; run the command in the project's folder");
+  throw FileError(
+      "validation/" + study + "/reference.toml",
+      "is neither here, nor where the program was built or installed; run the command in the project's folder");
 }
 
 std::string folder_of(const std::string& case_name, std::string variant) {
