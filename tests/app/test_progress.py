@@ -21,7 +21,8 @@ class Progress(ProgramTest):
 
     def test_in_a_pipe(self):
         said = self.talus("run", "case.toml", "--out", "r", *LONG).stderr
-        lines = said.splitlines()
+        # A slow machine is told what it waits for, too.
+        lines = [line for line in said.splitlines() if not re.search(r" \.\.\. \d+ s$", line)]
         self.assertTrue(1 <= len(lines) <= 10, said)
         for line in lines:
             self.assertRegex(line, r"^t = \S+ s of 0\.001 s  step \d+.*  +\d+ %  ETA \d+ s$")

@@ -93,10 +93,6 @@ bool Material::by_displacements() const {
       law_);
 }
 
-bool Material::bears_tension() const {
-  return std::visit([]<class Law>(const Law&) { return Law::bears_tension; }, law_);
-}
-
 granular::LawRange Material::range() const {
   return std::visit([](const auto& law) { return law.range(); }, law_);
 }

@@ -25,9 +25,6 @@ class Material {
   /// Whether the law takes the strain from displacements (displacement.hpp) in place of its rate.
   bool by_displacements() const;
 
-  /// Whether a free surface of the law stays one, being pulled at.
-  bool bears_tension() const;
-
   /// What the law was made for.
   granular::LawRange range() const;
 

@@ -27,9 +27,9 @@ class Continuum {
 
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
-  /// When the gate opened, s.
   /// Where the particles are, its gates as they are now. \pre begun or resumed
   const Domain& domain() const { return workspace_->domain; }
+  /// When the gate opened, s; infinite while it is shut.
   double time_origin() const;
   double latest_origin() const;
   /// Why nothing is left to compute; nothing while there is.

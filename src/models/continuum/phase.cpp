@@ -59,7 +59,7 @@ std::size_t left_vessel(const Parameters& p, const State& s) {
 }  // namespace
 
 bool is_loose_where_free(const Parameters& p) {
-  return p.sph.continuity == Continuity::printed && !Material(p).bears_tension();
+  return p.sph.continuity == Continuity::printed && !granular::bears_tension(p.law);
 }
 
 double density_relaxation(const Parameters& p) {

@@ -100,6 +100,11 @@ auto with_chosen_law(const LawParameters& parameters, Body&& body) {
   return result;
 }
 
+/// Whether the chosen law transmits tension: without, a free surface that is pulled at opens.
+inline bool bears_tension(const LawParameters& parameters) {
+  return with_chosen_law(parameters, []<class Law>(const auto&) { return Law::bears_tension; });
+}
+
 /// The table of a law's keys: "law.drucker-prager".
 template <class Law>
 std::string table_of_law() {
