@@ -18,9 +18,8 @@ figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span
                                          std::span<const double> radii, figure::ByValue values);
 
 /// Draws, and returns the paths: pictures/frames.png, the grains as dots, six times; pictures/packing.png, the last
-/// snapshot coloured by packing; with air pictures/air.png; with a plate pictures/discharge.png and,
-/// but for a vessel, pictures/surface_angle.png; of a vessel pictures/wall_loads.png, pictures/fields.png and, with an
-/// outlet, pictures/flow.png. The tables of analyze_continuum() must be there. \throws FileError
+/// snapshot coloured by packing; with air pictures/air.png; of a vessel pictures/fields.png and, with
+/// an outlet, pictures/flow.png. Curves are drawn by python/talus/charts.py. The tables of analyze_continuum() must be there. \throws FileError
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperRun& run,
                                                   const std::string& title);
 
