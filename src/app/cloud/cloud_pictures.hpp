@@ -10,7 +10,7 @@
 
 namespace talus::app {
 
-/// Draws pictures/frames.png (four snapshots, heads marked); returns its path.
+/// Draws snapshots into pictures/, of an avalanche with its heads marked; returns the paths.
 /// \throws FileError
 std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame,
                                               const std::string& title);

@@ -19,7 +19,8 @@ figure::ParticlePicture particle_picture(const HopperSetting& setting, std::span
 
 /// Draws, and returns the paths: pictures/frames.png, the grains as dots, six times; pictures/packing.png, the last
 /// snapshot coloured by packing; with air pictures/air.png; of a vessel pictures/fields.png and, with
-/// an outlet, pictures/flow.png. Curves are drawn by python/talus/charts.py. The tables of analyze_continuum() must be there. \throws FileError
+/// an outlet, pictures/flow.png. Curves are drawn by python/talus/charts.py. The tables of analyze_continuum() must be
+/// there. \throws FileError
 std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& run_folder, const HopperRun& run,
                                                   const std::string& title);
 
