@@ -91,8 +91,8 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     seats_[s].share = 0;
     if (surface_.is_open(stand.patch)) continue;
     NearWall& wall = count < most_near_walls ? met[count] : one_more;
-    kernels_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(), smoothing_length,
-                  wall.sums);
+    kernels_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(),
+                    smoothing_length, wall.sums);
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
     if (!(size > 0)) continue;
@@ -183,7 +183,7 @@ Vector3 VesselWalls::force_of_images(const NearWall& wall, const Records& record
   }
   alignas(64) double acceleration[4];
   kernels_.images(records, static_cast<std::uint32_t>(particle), seats_[wall.stand], seats_.data(), pairs, mass,
-                acceleration);
+                  acceleration);
   return {acceleration[0], acceleration[1], acceleration[2]};
 }
 
