@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Checks the documents against the tree: the width of prose, links, paths in backticks, the version, which CMakeLists.txt
-states, where others repeat it, and the functions and tests that EQUATIONS.md names: a function that it credits has a caller in src/, so that what stands there is what is computed."""
+states, where others repeat it, and the functions and tests that EQUATIONS.md names: a function that it credits has a caller in src/, so that what stands there is what is computed.
+Words and names that were replaced (tools/words.csv) do not come back, in documents, code and comments."""
 
 import argparse
+import csv
 import pathlib
 import re
 import subprocess
@@ -81,6 +83,23 @@ def check_version(root):
             yield f"{name}:{line}: the version is {found[1] if found else 'missing'}, in CMakeLists.txt {version[1]}"
 
 
+def check_words(root):
+    words = root / "tools/words.csv"
+    if not words.exists():
+        return
+    with words.open(newline="", encoding="utf-8") as file:
+        replaced = {row["phrase"]: row["in its place"] for row in csv.DictReader(file)}
+    pattern = re.compile(r"(?<!\w)(?:" + "|".join(map(re.escape, replaced)) + r")(?!\w)", re.IGNORECASE)
+    spelled = {phrase.lower(): phrase for phrase in replaced}
+    for path in tracked(root, *(f"*.{kind}" for kind in ("md", "cpp", "hpp", "py", "toml", "in"))):
+        name = str(path.relative_to(root))
+        if name.startswith("docs/reproduction/") or not path.exists():  # pages that a command writes
+            continue
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for found in pattern.findall(line):
+                yield f"{name}:{number}: \"{found}\": {replaced[spelled[found.lower()]]}"
+
+
 def without_comments(text):
     return re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
 
@@ -128,7 +147,7 @@ def main():
     root = parser.parse_args().root
     documents = tracked(root, "*.md")
     problems = [*check_width(root, documents), *check_links(root, documents), *check_paths(root, documents), *check_version(root),
-                *check_equations(root)]
+                *check_equations(root), *check_words(root)]
     print("\n".join(problems), end="\n" if problems else "")
     return 1 if problems else 0
 

@@ -58,7 +58,7 @@ std::vector<bool> above_outlet(std::span<const Vector3> position, const HopperSh
 /// One of several outlets of a vessel.
 struct OutletSetting {
   std::string name;
-  double hand_discharge = 0;  ///< by a hand formula, kg/s; 0: none
+  double hand_discharge = 0;  ///< by an analytical estimate, kg/s; 0: none
   double across = 0;          ///< its narrower side, m
 };
 
@@ -79,9 +79,10 @@ struct HopperSetting {
   double middle = 0;                        ///< y of that plane, m
   double outlet_length = 0;                 ///< of an outlet that is not round, its longer side, m; 0: round, or none
   std::vector<BandOfWall> bands = {};       ///< of the vessel's walls
-  double hand_discharge = 0;                ///< by a hand formula, kg/s; 0: none for this outlet
+  double hand_discharge = 0;                ///< by an analytical estimate, kg/s; 0: none for this outlet
   std::vector<OutletSetting> outlets = {};  ///< where there are several
-  double mass_flow_half_angle = std::numeric_limits<double>::quiet_NaN();  ///< by a hand formula, rad; nan: none
+  double mass_flow_half_angle =
+      std::numeric_limits<double>::quiet_NaN();  ///< by an analytical estimate, rad; nan: none
   double averaging_time = 20e-3;  ///< T, of rates, loads and speeds; peaks are averages over half of it, s
   double time_scale = 64e-3;      ///< (D/g)^½ of the outlet's width D, without one of the bed's height, s
   double outlet_width = 0;        ///< D, its narrower side or diameter; 0: no outlet, m
@@ -162,9 +163,9 @@ Curve discharged_share(const HopperRun& run);
 /// whole, the particles' layers would pass one by one, with a period h/u of their own.
 Curve passed_mass(const HopperRun& run);
 
-/// Of each of several outlets the mass that passed it, the mean rate in a steady stretch of the whole discharge, that
-/// by hand, and how many particles and grains its narrower side is across; rates of a stretch that is not a number are
-/// left out. \param from, to of the stretch, from the opening of the gate, s
+/// Of each of several outlets the mass that passed it, the mean rate in a steady stretch of the whole discharge, its
+/// analytical estimate, and how many particles and grains its narrower side is across; rates of a stretch that is not a
+/// number are left out. \param from, to of the stretch, from the opening of the gate, s
 std::vector<NamedValue> outlet_quantities(const HopperRun& run, double from, double to);
 
 }  // namespace talus

@@ -75,7 +75,8 @@ const std::vector<Row> of_grains = {
         {[](const Run& r, const Window& w) { return mean_rate(passed_mass(r), w.from, w.to); }},
         {outlet, while_it_flows}),
     Row("discharge_rate_beverloo", "kg/s",
-        "discharge through an outlet of the case's size in a flat bottom by hand. Round: C ρ_b g^½ (D − k d)^(5/2) "
+        "discharge through an outlet of the case's size in a flat bottom, analytical estimate. Round: C ρ_b g^½ (D − k "
+        "d)^(5/2) "
         "(Beverloo et al. 1961), C = 0.58, k = 1.5, times (tan θ)^(−0.35) in a cone of half angle θ below 45 degrees "
         "(Rose & Tanaka 1959). Rectangular: (4 C/π) ρ_b A (g D_h)^½, D_h the hydraulic diameter (Nedderman et al. "
         "1982); of a slit in a plate 1.04 ρ_b g^½ (W − k d)^(3/2) for each length",

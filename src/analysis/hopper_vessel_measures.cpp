@@ -191,7 +191,8 @@ std::vector<Row> hopper_vessel_measures() {
           "0.3 of the bed's at least",
           at(outlet_packing), {outlet}),
       Row("mass_flow_half_angle_jenike", "deg",
-          "half angle, from the vertical, up to which a cone empties in mass flow by hand: 90° − ½ acos((1 − sin φ)/(2 "
+          "half angle, from the vertical, up to which a cone empties in mass flow, analytical estimate: 90° − ½ "
+          "acos((1 − sin φ)/(2 "
           "sin φ)) − ½ (φ_w + asin(sin φ_w/sin φ)) (Jenike 1961), φ = asin M of the grains' friction M, their angle in "
           "plane strain, φ_w = atan μ of the cone's wall",
           {[](const Run& r, const Window&) { return r.setting.mass_flow_half_angle * 180 / std::numbers::pi; }},

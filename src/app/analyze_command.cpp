@@ -124,7 +124,7 @@ void add_analyze_command(CLI::App& app, Action& action) {
   command->footer(footer +
                   "x points down the slope, y to its left, z away from it; of a heap z is up. Of a run's folder, "
                   "analysis/, pictures/ and\n"
-                  "the quantities of summary.json are made anew from its snapshots and its series.");
+                  "the quantities of summary.json are computed again from its snapshots and its series.");
   command->callback([options, &action] {
     action = [options] {
       return std::filesystem::is_directory(options->file) ? analyze_run_folder(*options) : analyze_file(*options);

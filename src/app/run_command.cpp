@@ -87,7 +87,7 @@ void add_run_command(CLI::App& app, Action& action) {
   command->footer(
       "The folder holds manifest.json, series.csv, snapshots/*.vtkhdf (ParaView), checkpoints, analysis/, pictures/,\n"
       "summary.json and log.txt. Ctrl-C, SIGTERM, a file `stop` in the folder and --walltime end the run with a\n"
-      "checkpoint (exit status 130); --resume goes on with the same bits.");
+      "checkpoint (exit status 130); --resume goes on bitwise identically.");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The instruction sets for which the innermost loops are compiled, and the choice among them at run time. The same
-/// case gives the same bits with the same set, and nearly the same numbers with another.
+/// case is bitwise reproducible with the same set, and nearly the same numbers with another.
 #pragma once
 
 #include <array>

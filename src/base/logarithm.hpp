@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The natural logarithm of what is mostly near 1, with the same bits for numbers and for vectors of them.
+/// The natural logarithm of what is mostly near 1, bitwise identical for numbers and for vectors of them.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Random numbers with the same bits on every machine: the engine is std::mt19937_64, whose sequence the standard
+/// Random numbers, bitwise identical on every machine: the engine is std::mt19937_64, whose sequence the standard
 /// fixes; the distributions of the standard library are not fixed, so the few that are needed are defined here.
 #pragma once
 

@@ -53,7 +53,7 @@ std::string unit_example(Dimension dimension);
 /// The unit of that example: "mm", "deg", "".
 std::string example_unit(Dimension dimension);
 
-/// The shortest text that parse_quantity reads back to the same bits: "0.0002 m", "45 deg", "0.05".
+/// The shortest text that parse_quantity reads back bitwise identical: "0.0002 m", "45 deg", "0.05".
 /// \param value finite, SI
 /// \param unit any unit of the value's dimension that parse_quantity knows, such as unit_name(dimension); "" for a
 /// number

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Checkpoints: all that a run needs to continue with the same bits.
+/// Checkpoints: all that a run needs to continue bitwise identically.
 ///
 /// Two files alternate, checkpoint_a.h5 and checkpoint_b.h5. A new one is written whole under a temporary name and then
 /// renamed over the older of the two, so that at any moment, also on a full disk, the newest whole one is there; room

@@ -134,7 +134,7 @@ std::string example_text(const Parameter& parameter, const ValueType& type);
 /// millimetres to some hundred metres where the range is without bounds.
 ParameterValue trial_value(const Parameter& parameter, const ValueType& type, int trial);
 
-/// A value as TOML in SI; it reads back to the same bits. Quantities are quoted, with their unit.
+/// A value as TOML in SI; it reads back bitwise identical. Quantities are quoted, with their unit.
 std::string toml_text(const Parameter& parameter, const ParameterValue& value);
 
 /// Text as a TOML (and JSON) string with its quotes.

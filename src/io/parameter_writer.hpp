@@ -14,7 +14,7 @@
 
 namespace talus {
 
-/// As a case file. It reads back to the same bits; optional keys without a value are comments.
+/// As a case file. It reads back bitwise identical; optional keys without a value are comments.
 std::string resolved_case(const ParameterList& list);
 
 /// The keys of such a text and their values as TOML ("\"0.005 s\""); what is not given is not among them.

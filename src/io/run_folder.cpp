@@ -137,7 +137,7 @@ void check_snapshots_are_listed(const RunFolder& folder) {
       if (snapshot_number(name, kind) && !list->holds("snapshots/" + name))
         refuse(folder.snapshots() / name,
                fmt::format("is there, and {} does not say that Talus wrote it", FileList::file_name),
-               "move it away; --overwrite to begin anew");
+               "move it away; --overwrite to start again");
 }
 
 /// Whether the folder may be used. Changes nothing.

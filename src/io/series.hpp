@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// series.csv: one header line with units, "time [s],step_size [s],...", then one row per step, each handed to the
-/// system as it is made. Numbers stand in the shortest form that reads back to the same bits.
+/// system as it is made. Numbers stand in the shortest form that reads back bitwise identical.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace talus {
 
 namespace {
 
-/// Times by file name; empty where there is no index, or none that can be understood: it is made anew then.
+/// Times by file name; empty where there is no index, or none that can be understood: it is rebuilt then.
 std::map<std::string, double> known_times(const std::filesystem::path& index) {
   std::map<std::string, double> times;
   if (!std::filesystem::exists(index)) return times;

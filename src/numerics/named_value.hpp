@@ -15,7 +15,7 @@ struct NamedValue {
 /// An answer to a question that the user of a case has, in words and with units.
 struct Answer {
   std::string question, answer;
-  std::string by_hand = {};  ///< the same by the formula used by hand, with its name; empty if there is none
+  std::string by_hand = {};  ///< the analytical estimate, with its name; empty if there is none
 };
 
 /// A remark on whether a case or a run stays within what its laws assume.

@@ -29,7 +29,7 @@ class SnapshotWriter {
 
   void save(CheckpointWriter& checkpoint) const;
 
-  /// Goes on behind a checkpoint: snapshots made after it are removed, and the indices are made anew from the files.
+  /// Goes on behind a checkpoint: snapshots made after it are removed, and the indices are rebuilt from the files.
   /// \throws FileError
   void resume(const CheckpointReader& checkpoint);
 

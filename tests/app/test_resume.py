@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The same bits on any number of threads, and from any interruption on: kills, signals, the stop file, the wall time."""
+"""Bitwise identical on any number of threads, and from any interruption on: kills, signals, the stop file, the wall time."""
 import json
 import re
 import resource

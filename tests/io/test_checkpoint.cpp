@@ -113,7 +113,7 @@ TEST(Checkpoint, AlternatesAndLoadsTheNewest) {
   const ScratchFolder folder;
   EXPECT_FALSE(CheckpointFiles(folder.path()).load());
   for (std::uint64_t step = 1; step <= 5; ++step) {
-    CheckpointFiles files(folder.path());  // anew each time, as resumed runs do
+    CheckpointFiles files(folder.path());  // again each time, as resumed runs do
     const std::string before = content_of(folder / (step % 2 ? "checkpoint_b.h5" : "checkpoint_a.h5"));
     pebbles::State state;
     state.step = step;

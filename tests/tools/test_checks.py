@@ -148,6 +148,15 @@ class Documents(Tree):
         self.write("docs/a.md", "```\n[bad](b.md)\n```\n")
         self.assertEqual(list(check_documents.check_links(self.root, self.documents())), [])
 
+    def test_a_word_that_was_replaced_is_found(self):
+        self.write("tools/words.csv", "phrase,in its place\nolden days,the past\nOldName,NewName\n")
+        self.write("docs/a.md", "Olden days it is quiet.\nGolden days.\n")
+        self.write("src/base/a.hpp", "struct OldName {};\nstruct OldNames {};\n")
+        subprocess.run(["git", "init", "-q", str(self.root)], check=True)
+        subprocess.run(["git", "-C", str(self.root), "add", "."], check=True)
+        self.assertEqual(sorted(check_documents.check_words(self.root)),
+                         ['docs/a.md:1: "Olden days": the past', 'src/base/a.hpp:1: "OldName": NewName'])
+
     def test_a_path_that_is_not_there_is_found(self):
         self.write("ARCHITECTURE.md", "`src/base/a.hpp` and `src/base/gone.hpp` and `src/models/*/state.hpp`\n")
         self.assertEqual(

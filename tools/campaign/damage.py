@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of a run that a broken disk or a careless hand has changed: --resume goes on to the same bits, or refuses with
-exit status 2 or 4 and a message; with the folder as it was, it goes on to the same bits. A refusal with exit status 2
+"""Files of a run that a broken disk or a careless hand has changed: --resume goes on bitwise identically, or refuses with
+exit status 2 or 4 and a message; with the folder as it was, it goes on bitwise identically. A refusal with exit status 2
 leaves every file as it found it. Results of a run that has ended, changed, are found by `talus check`."""
 import shutil
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A disk that fills at some point of a run: exit status 4 with a message, what was there stays, and with room the run
-goes on to the same bits. A file system in memory of so many bytes where one may be mounted; a limit on the length of
+goes on bitwise identically. A file system in memory of so many bytes where one may be mounted; a limit on the length of
 files where not."""
 import resource
 import signal

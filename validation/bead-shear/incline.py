@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""How steep layers of the referee's beads rest: on a rough plane whose slope falls until they stop, and rises until
+"""How steep layers of the DEM reference's beads rest: on a rough plane whose slope falls until they stop, and rises until
 they start (incline.in), and on a flat wall of the hopper.
 
 usage: incline.py run FOLDER    with LAMMPS (an hour on one core), to data/incline.csv

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the referee's beads do when their shear turns back, when it stops, and when they are shaken (reverse.in, kick.in).
+"""What the DEM reference's beads do when their shear turns back, when it stops, and when they are shaken (reverse.in, kick.in).
 
 usage: settle.py run FOLDER    three reversals and one shaken packing with LAMMPS (about ten minutes on one core), to
                                data/reversal.csv and data/agitation.csv

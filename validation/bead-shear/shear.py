@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Shears the referee's beads in a periodic box (shear.in), and fits the parameters of the law critical-state to them.
+"""Shears the DEM reference's beads in a periodic box (shear.in), and fits the parameters of the law critical-state to them.
 
 usage: shear.py run FOLDER     runs every state with LAMMPS (about half an hour on one core), to data/states.csv
        shear.py dilate FOLDER  shears dense packings at constant pressure (dilate.in, the same again), to data/dilation.csv

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fields, surfaces and numbers of the referee's runs, from the frames that hopper.in writes, as small CSV files.
+"""Fields, surfaces and numbers of the DEM reference's runs, from the frames that hopper.in writes, as small CSV files.
 
 usage: coarse_grain.py RUN_FOLDER ... [--out data] [--pictures RUN ...]
 

@@ -3,7 +3,7 @@
 """The hopper grain by grain beside Talus at equal times, and the page of the comparison.
 
     build/talus reproduce dem-hopper --variant vacuum --variant rolling --out RUNS      draws them at its end
-    python3 validation/dem-hopper/figures.py RUNS                                       draws them anew
+    python3 validation/dem-hopper/figures.py RUNS                                       draws them again
 """
 import csv
 import sys
@@ -22,7 +22,7 @@ from matplotlib import pyplot as plt  # noqa: E402
 
 MM = 1e-3
 DEPTH = 5e-3  # m, for which discharges are given
-CELL = 2.0    # mm, of the referee's pictures
+CELL = 2.0    # mm, of the DEM reference's pictures
 FASTEST = 1.5  # m/s, of the colours
 PROFILE, HEIGHTS = 0.2, (105, 120, 140, 160)  # s, mm
 

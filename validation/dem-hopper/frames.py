@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The runs of the referee: their vessel, their frames as hopper.in writes them, and what is in these without averages over
+"""The runs of the DEM reference: their vessel, their frames as hopper.in writes them, and what is in these without averages over
 places: discharge and loads of the walls. Extensive numbers are of a slice 5 mm deep."""
 import json
 from dataclasses import dataclass

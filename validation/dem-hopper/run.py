@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs hopper.in with LAMMPS (Debian's package lammps): one run of the referee in a folder of its own.
+"""Runs hopper.in with LAMMPS (Debian's package lammps): one run of the DEM reference in a folder of its own.
 
 usage: run.py FOLDER [--diameter M] [--seed N] [--rolling MU] [--end S] ...
        run.py FOLDER --hopper-of RUN [--end S]

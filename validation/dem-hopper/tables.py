@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tables of the referee's runs: which numbers, where and when, and the CSV files that hold them."""
+"""The tables of the DEM reference's runs: which numbers, where and when, and the CSV files that hold them."""
 import csv
 
 import numpy as np

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Scatter of the referee's numbers between seeds and their trend with the size of the beads, from data/numbers.csv.
+"""Scatter of the DEM reference's numbers between seeds and their trend with the size of the beads, from data/numbers.csv.
 
 usage: trend.py [data/numbers.csv] [--rolling MU]
 

@@ -107,7 +107,7 @@ std::vector<std::pair<std::string, std::string>> bed_lines(const Parameters& p) 
   }
   if (p.bed.given && !p.bed.given->unread.empty())
     lines.emplace_back("not read",
-                       fmt::format("{}: stress and history begin anew", fmt::join(p.bed.given->unread, ", ")));
+                       fmt::format("{}: stress and history start from zero", fmt::join(p.bed.given->unread, ", ")));
   return lines;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What an engineer would compute by hand for a case, to stand beside what Talus computes.
+/// Analytical estimates of a case, to compare with what Talus computes.
 #pragma once
 
 #include "analysis/hopper.hpp"
@@ -26,7 +26,7 @@ double mass_flow_half_angle_by_hand(const continuum::Parameters& parameters);
 /// The half angle that it has, rad; nan without such a cone.
 double half_angle_of_cone(const continuum::Parameters& parameters);
 
-/// The pressure on a band by hand, Pa; nan where there is no formula for it.
+/// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {
   double at_rest = HopperRun::none, in_flow = HopperRun::none;
 };

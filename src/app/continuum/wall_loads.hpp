@@ -14,7 +14,7 @@ namespace talus::app {
 /// The bands of a vessel's walls, as the series names them (models/continuum/boundary/vessel_loads.hpp).
 std::vector<BandOfWall> bands_of(const continuum::Parameters& parameters);
 
-/// Writes analysis/wall_loads.csv (a row per band: patch, from 1, heights, area, BandLoad, by hand) and
+/// Writes analysis/wall_loads.csv (a row per band: patch, from 1, heights, area, BandLoad, analytical estimate) and
 /// analysis/wall_stress.csv (pressure and shear of each band against time); nothing without a vessel. \throws FileError
 void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& run,
                       const continuum::Parameters& parameters);

@@ -10,7 +10,7 @@
 namespace talus::app {
 
 /// Before a run goes on: says on stderr which snapshots are missing; they are left out from now on. A run without a
-/// checkpoint, which begins anew, is let be. Changes nothing.
+/// checkpoint, which starts again, is left as it is. Changes nothing.
 /// \throws FileError if the series or a snapshot is not what was written, or if no checkpoint is whole
 void check_resumable_files(const RunFolder& folder);
 

@@ -27,9 +27,9 @@ enum class Precision { double_precision, single_precision };
 
 /// Velocities of spheres due to the forces on the others. The cost is N^2/2 pairs, the memory about 1 kB per sphere.
 ///
-/// The same bits for any number of threads. Instruction sets agree within 1e-14 of the largest sum over pairs of |M_ij
-/// F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from an estimate of the
-/// processor, which depends on its make.
+/// Bitwise identical for any number of threads. Instruction sets agree within 1e-14 of the largest sum over pairs of
+/// |M_ij F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from an estimate of
+/// the processor, which depends on its make.
 class PairSum {
  public:
   struct Options {

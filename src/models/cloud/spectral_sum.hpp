@@ -56,7 +56,7 @@ class SpectralSum {
   double cutoff() const;
   double least_cutoff() const;
 
-  /// As PairSum's, within the error above, and the same bits for any number of threads.
+  /// As PairSum's, within the error above, and bitwise identical for any number of threads.
   /// \returns false, with velocities left as they were, if the spheres are so far apart that a grid over them would
   ///          have more than `most_nodes`
   bool velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,

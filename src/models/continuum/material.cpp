@@ -113,7 +113,7 @@ void Material::update(ThreadTeam& team, const MaterialColumns& old, const Gradie
                                           time_step);
           return law.update(load<Law>(old, i), velocity_gradient[i], density[i], time_step);
         };
-        // Whole blocks in vectors where the law has them, with the same bits.
+        // Whole blocks in vectors where the law has them, bitwise identical.
         std::size_t done = 0;
         if constexpr (std::same_as<Law, granular::CriticalState>) {
           static UpdateCriticalState* const update_blocks =

@@ -43,7 +43,7 @@ struct AirAround {
   std::uint64_t steps_left = 0;       ///< of the particles until the air's next
   std::uint64_t iterations = 0;       ///< of the pressure, last step
   double reynolds_max = 0;            ///< largest Reynolds number of a grain since the start
-  double swing_max = 0;               ///< largest difference of a cell's pressure from air.pressure since then, Pa
+  double swing_max = 0;               ///< largest difference of a cell's pressure from air.pressure since the start, Pa
 };
 
 /// What has come and gone since the start.

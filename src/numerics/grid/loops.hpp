@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Parallel loops over the rows of a grid along x, over its cells, and over its faces. A body that writes only to its
-/// own index gives the same bits for any number of threads.
+/// own index is bitwise identical for any number of threads.
 #pragma once
 
 #include <algorithm>

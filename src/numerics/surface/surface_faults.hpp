@@ -33,8 +33,8 @@ struct SurfaceFault {
 std::string_view text_of(SurfaceFault::Kind kind);
 
 /// All of them, by kind, and by number within a kind. A triangle without area counts only as that. Coordinates that
-/// belong together must be the same bits. \param closed the surface may have no rims; else it may: a vessel is open at
-/// its top
+/// belong together must be bitwise identical. \param closed the surface may have no rims; else it may: a vessel is open
+/// at its top
 std::vector<SurfaceFault> faults_of(std::span<const Triangle> triangles, bool closed = false);
 
 }  // namespace talus

@@ -121,7 +121,7 @@ class CriticalState {
           p.fabric_contraction);
     auto fabric = only_if({"fabric_friction", "and fabric_contraction are 0", "one above 0", p.has_fabric()}, visit);
     fabric(Parameter{"fabric_strain", dimension::none, above(0),
-                     "gamma_F, shear strain in which these contacts form anew"},
+                     "gamma_F, shear strain in which these contacts form again"},
            p.fabric_strain);
   }
   /// Contradictions between keys that are each valid by themselves.

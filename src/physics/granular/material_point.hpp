@@ -3,7 +3,7 @@
 ///
 ///     new point = law.update(old point, velocity gradient, density, time step)
 ///
-/// is a pure function. It is applied from the state at the start of a step, at each stage anew, so that no stage
+/// is a pure function. It is applied from the state at the start of a step, again at each stage, so that no stage
 /// toggles a loading branch. Which law is decided outside the loop over the particles; laws are templates over the
 /// number type.
 ///

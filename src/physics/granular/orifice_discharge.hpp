@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Discharge through a hole by the hand formula, to stand beside a computed one.
+/// Analytical estimates of the discharge through a hole.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pressures in silos by hand formulas, to stand beside computed ones: slices of the bed in balance, the vertical
+/// Analytical estimates of pressures in silos: slices of the bed in balance, the vertical
 /// stress taken to be even across each.
 #pragma once
 

@@ -17,13 +17,13 @@
 /// Unloading, which the paper omits ("similar to the initial elastic region"). The pressure falls along the line of the
 /// initial stiffness times k_u, rises along it again and never passes the loading curve. So does the stress ratio
 /// tau_dev/p, in any direction; its yield point is that of the largest deviator so far. The next increment decides
-/// anew, so noise does not throw a point off its line. A closed cycle of the pressure, or of the shear strain under
+/// again, so noise does not throw a point off its line. A closed cycle of the pressure, or of the shear strain under
 /// constant pressure, only loses energy; shear at one pressure and back at another may gain some, as with every
 /// stiffness that goes with the pressure. Where the curve of A4 is steeper than the line (near 1e-4, k_u < 2.2) shear
 /// loads along the line, up to 11 % below the curve.
 ///
 /// Reset, the paper's rule: while the main strain falls the shear stress drops along its line, whatever the shear; at
-/// the end of the line, and as long as the main strain falls, the deviator starts anew from zero.
+/// the end of the line, and as long as the main strain falls, the deviator starts from zero.
 #pragma once
 
 #include <string_view>

@@ -15,7 +15,7 @@
 /// tau besides. When the main strain grows again stress rises the same way, until the main strain is back where the
 /// process began: the yield point, from which Eqs 1-8 hold again. Neither passes Eqs 1-8, nor the largest friction.
 /// When tau or the normal stress in the main direction has fallen to zero the process ends, without stress, and by the
-/// paper's rule the strain starts anew from zero.
+/// paper's rule the strain starts from zero.
 /// deviates: the paper omits these equations, which are "similar to the initial elastic region".
 #pragma once
 

@@ -115,7 +115,7 @@ inline Continuum started(const Parameters& p, ThreadTeam& team) {
   return model;
 }
 
-/// Expects the same bits of a run on one thread, on three, and on three from a state at half of the steps.
+/// Expects bitwise identical results of a run on one thread, on three, and on three from a state at half of the steps.
 inline void expect_same_for_any_threads_and_resumed(const Parameters& p, int steps) {
   ThreadTeam one(1), three(3);
   Continuum a = started(p, one), b = started(p, three), resumed(p);

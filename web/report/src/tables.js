@@ -151,7 +151,7 @@ export function drawCase(place) {
         ...[
           ["Talus", `${m.version} (${m.revision}), ${m.compiler}`],
           ["Seed", run.members > 1 ? `${m.seed} and on, ${run.members} members` : String(m.seed)],
-          ["Instruction set", `${m.instruction_set}: the same case, seed and instruction set give the same bits`],
+          ["Instruction set", `${m.instruction_set}: the same case, seed and instruction set are bitwise reproducible`],
           ["Status", run.status],
           ["Begun", `${m.started}, ${m.threads} thread${m.threads === 1 ? "" : "s"}, ${m.processor}, ${m.system}`],
           ["Fingerprint", m.fingerprint],

@@ -63,7 +63,7 @@ void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& l
 /// Closes the window if it is over. \param time at the end of a step, s \param length of a window, s: peak_time()
 void close_window(const SurfaceFields& fields, double time, double length, WallLoads& loads);
 
-/// Takes the last window for that at rest, and begins anew with the largest loads. \param time of the opening, s
+/// Takes the last window for that at rest, and resets the largest loads. \param time of the opening, s
 void begin_flow(double time, WallLoads& loads);
 
 /// A part of a patch between two heights.

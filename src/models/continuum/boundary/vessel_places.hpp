@@ -54,7 +54,7 @@ struct VesselPlaces {
   Vector3 moved_off(const Vector3& x) const;
   bool is_hidden(const Vector3& a, const Vector3& b) const;
   /// The nearest place that is seen from x, in its layer or the lowest one above it; else in the one below.
-  std::optional<Index> seen_from(const Vector3& x) const;
+  std::optional<Index> visible_from(const Vector3& x) const;
   /// Where the bed begins to be filled: see bed.inside.
   std::vector<Index> seeds() const;
   /// Takes what is connected with the seeds.

@@ -209,7 +209,7 @@ void for_each_parameter(Visit&& visit, P& p) {
       visit);
   of_critical_state(Parameter{"sph.stress_regularisation", dimension::none, at_least(0),
                               "how strongly shear draws the deviatoric stress to that of the neighbours; 1: by as much "
-                              "as the shear of a step makes anew of it; 0: not at all"},
+                              "as the shear of a step replaces of it; 0: not at all"},
                     p.sph.stress_regularisation);
   visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
                   "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
@@ -295,7 +295,7 @@ void for_each_parameter(Visit&& visit, P& p) {
         p.integration.skin);
   visit(Parameter{"integration.skin_at_rest", dimension::none, between(0, 1),
                   "share of that skin which particles at rest have: with a smaller one lists of a bed are shorter, and "
-                  "built anew as soon as it moves"},
+                  "rebuilt as soon as it moves"},
         p.integration.skin_at_rest);
   visit(
       Parameter{

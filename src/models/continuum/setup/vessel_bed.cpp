@@ -167,7 +167,7 @@ bool VesselPlaces::is_hidden(const Vector3& a, const Vector3& b) const {
   return surface.blocks(a, b) || domain.blocks(a, b);
 }
 
-std::optional<Index> VesselPlaces::seen_from(const Vector3& x) const {
+std::optional<Index> VesselPlaces::visible_from(const Vector3& x) const {
   const auto& sector = domain.sector();
   const double reach = around_seed * parameters.bed.spacing;
   std::vector<std::pair<double, std::uint32_t>> near;  // as they are seen from above
@@ -201,7 +201,7 @@ std::vector<Index> VesselPlaces::seeds() const {
   std::vector<Index> seeds;
   if (layers == 0) return seeds;
   const auto add = [&](const Vector3& x) {
-    if (const auto seen = seen_from(x)) seeds.push_back(*seen);
+    if (const auto seen = visible_from(x)) seeds.push_back(*seen);
   };
   if (const auto& inside = parameters.bed.inside) {
     add({(*inside)[0], (*inside)[1], (*inside)[2]});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The surface of a vessel is made once for all who ask, and anew for other triangles.
+/// The surface of a vessel is made once for all who ask, and again for other triangles.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -90,7 +90,7 @@ TEST(PrintedRoute, AResetStartsTheDisplacementAnew) {
           return by_identity(model.state(), model.state().material.history[k]);
       return std::vector<double>{};
     };
-    // A bed thrown upwards: stress is lost and the strain starts anew.
+    // A bed thrown upwards: stress is lost and the strain starts from zero.
     for (int n = 0; n < 40; ++n) model.advance(team);
     for (Vector3& v : model.mutable_state().velocity) v.z += 0.1 * (v.z < 0 ? 1 : 2);
     int seen = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The regularisation of the stress: a uniform ratio of deviator and pressure stays, what alternates decays by what the
-/// strain makes anew, and where nothing moves or nothing is borne nothing changes.
+/// strain makes, and where nothing moves or nothing is borne nothing changes.
 #include "models/continuum/pairs/stress_regularisation.hpp"
 
 #include <gtest/gtest.h>
