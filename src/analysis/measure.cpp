@@ -5,7 +5,7 @@ namespace talus {
 
 std::vector<MeasureText> all_measures() {
   std::vector<MeasureText> texts = texts_of_hopper_measures();
-  for (MeasureText& text : texts_of_avalanche_measures()) texts.push_back(std::move(text));
+  for (const MeasureText& text : texts_of_avalanche_measures()) texts.push_back(text);
   return texts;
 }
 

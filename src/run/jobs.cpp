@@ -62,7 +62,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() { close(number_); }
-  operator int() const { return number_; }
+  int number() const { return number_; }
 
  private:
   int number_;
@@ -72,29 +72,29 @@ pid_t start(const Job& job) {
   claim_file(job.output);
   const Descriptor output(open(job.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666),
                           job.output.string());
-  return start(job.arguments, STDIN_FILENO, output, output);
+  return start(job.arguments, STDIN_FILENO, output.number(), output.number());
 }
 
 /// A file in memory alone.
 class MemoryFile {
  public:
   explicit MemoryFile(const char* name) : descriptor_(memfd_create(name, MFD_CLOEXEC), name) {}
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return descriptor_.number(); }
 
   /// From here on it is read from its beginning.
   void write_all(std::string_view text) const {
     while (!text.empty()) {
-      const ssize_t written = ::write(descriptor_, text.data(), text.size());
+      const ssize_t written = ::write(descriptor_.number(), text.data(), text.size());
       if (written < 0) throw FileError("memory", std::string("cannot be written: ") + std::strerror(errno));
       text.remove_prefix(static_cast<std::size_t>(written));
     }
-    lseek(descriptor_, 0, SEEK_SET);
+    lseek(descriptor_.number(), 0, SEEK_SET);
   }
   std::string read_all() const {
-    lseek(descriptor_, 0, SEEK_SET);
+    lseek(descriptor_.number(), 0, SEEK_SET);
     std::string text;
     char part[4096];
-    for (ssize_t n = 0; (n = ::read(descriptor_, part, sizeof part)) > 0;)
+    for (ssize_t n = 0; (n = ::read(descriptor_.number(), part, sizeof part)) > 0;)
       text.append(part, static_cast<std::size_t>(n));
     return text;
   }
