@@ -37,6 +37,7 @@ class ExactSum {
   double not_finite_ = 0;          // sum of the terms that are infinite or no numbers
 };
 
+/// Sum of the terms, correctly rounded.
 double exact_sum(std::span<const double> terms);
 
 /// Sum of value(i) over i in [0, count), correctly rounded.
@@ -56,7 +57,8 @@ double exact_sum(ThreadTeam& team, std::size_t count, Value&& value) {
 /// Integers in place of doubles: multiples of 2^-84 of a unit. A term may be as large as 2^40 units, and a sum 2^42.
 class FixedPoint {
  public:
-  __extension__ using Integer = __int128;
+  /// Two's complement: sums wrap around in place of overflowing.
+  __extension__ using Integer = unsigned __int128;
 
   /// \param unit about the size of a large term, > 0; rounded up to a power of two
   explicit FixedPoint(double unit);
@@ -69,11 +71,12 @@ class FixedPoint {
       return static_cast<Integer>(std::int64_t{1} << (coarse_bits + 40)) << fine_bits;
     const double coarse = __builtin_rint(units);
     return (static_cast<Integer>(static_cast<std::int64_t>(coarse)) << fine_bits) +
-           static_cast<std::int64_t>(__builtin_rint((units - coarse) * fine_per_coarse));
+           static_cast<Integer>(static_cast<std::int64_t>(__builtin_rint((units - coarse) * fine_per_coarse)));
   }
-  double value(Integer sum) const { return static_cast<double>(sum) * quantum_; }
+  double value(Integer sum) const { return static_cast<double>(static_cast<Signed>(sum)) * quantum_; }
 
  private:
+  __extension__ using Signed = __int128;
   static constexpr int coarse_bits = 22, fine_bits = 62;
   static constexpr double fine_per_coarse = 0x1p62, max_coarse = 0x1p62;
 

@@ -95,6 +95,10 @@ TEST(FixedPoint, IsOfNoOrderAndAsExactAsDoubles) {
   for (const double term : {1e-6, -1e-6, 1.2345678901234567e-9, 3e5, -3e5, 0.0})
     EXPECT_EQ(point.value(point.of(term)), term);
   EXPECT_GT(point.value(point.of(std::nan(""))), 1e5);
+  // Twenty times the largest term is beyond the range: the sum wraps around.
+  FixedPoint::Integer of_none = 0;
+  for (int n = 0; n < 20; ++n) of_none += point.of(std::nan(""));
+  EXPECT_TRUE(std::isfinite(point.value(of_none)));
 }
 
 }  // namespace

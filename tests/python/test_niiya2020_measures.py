@@ -7,18 +7,20 @@ import unittest
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(PROJECT / "python")]
+sys.path[:0] = [str(PROJECT / "python"), str(PROJECT / "validation/niiya2020")]
 
+import avalanche  # noqa: E402
 import numpy as np  # noqa: E402
+import samples  # noqa: E402
 
+from talus.curves import curve, part  # noqa: E402
 from talus.measures import Measures, NotEvaluated, Window, table  # noqa: E402
 
 STUDY = PROJECT / "validation/niiya2020"
 MEASURES = Measures(STUDY)
-NIIYA = MEASURES.module
 
 
-class Synthetic(NIIYA.Avalanche):
+class Synthetic(avalanche.Avalanche):
     """A run to t = 20 with 10 data, 2 apart. Front speed: 30 + 4 t up to t = 5, then 50 - (t - 5) - (t - 10)/2 if t > 10.
     Grains in the head: 2000 - 150 t, of 2000; width (60 - t) a, a quarter of it the thickness, but for t = 10. `shift` is
     added to the front speed."""
@@ -192,7 +194,7 @@ class Still(Synthetic):
         return self.of_front
 
     def of(self, name, frame):
-        return NIIYA.SNAPSHOT_NUMBERS[name](NIIYA.View(self, frame))
+        return avalanche.SNAPSHOT_NUMBERS[name](avalanche.View(self, frame))
 
 
 class Documents(unittest.TestCase):
@@ -215,7 +217,7 @@ class OfASnapshot(unittest.TestCase):
             for half, sign in (("left", 1), ("right", -1)):
                 one = places[sign * y > 0]
                 frame = Frame(one * a, velocity[sign * y > 0] * v, a)
-                np.testing.assert_allclose(NIIYA.View(run, frame).curls, 3 * sign, rtol=1e-9)
+                np.testing.assert_allclose(avalanche.View(run, frame).curls, 3 * sign, rtol=1e-9)
                 self.assertTrue(math.isfinite(run.of(f"head_curl_{half}", frame)))
 
     def test_parts_of_a_head(self):
@@ -224,7 +226,7 @@ class OfASnapshot(unittest.TestCase):
         y = places[:, 1]
         run = Still(20.0)
         frame = Frame(places, np.column_stack([40 - 3 * np.abs(y), 2 * y, 0 * y]))
-        view = NIIYA.View(run, frame)
+        view = avalanche.View(run, frame)
         self.assertEqual(view.size.width, 30)
         self.assertEqual(view.size.thickness, 12)
         central = np.abs(y[:15])[np.abs(y[:15]) <= 7.5]
@@ -236,10 +238,10 @@ class OfASnapshot(unittest.TestCase):
         # Columns of four grains whose rear ends lie the farther back the farther they are from the middle.
         places = np.concatenate([block(-0.5 * abs(y), y, 4, 1) for y in range(-30, 31, 2)])
         run = Still()
-        view = NIIYA.View(run, Frame(places, np.zeros_like(places)))
+        view = avalanche.View(run, Frame(places, np.zeros_like(places)))
         rear_of_sides = -15 - 1
-        self.assertAlmostEqual(NIIYA.concavity(view), (view.size.inner - rear_of_sides) / view.size.thickness, places=12)
-        self.assertGreater(NIIYA.concavity(view), 0.5)
+        self.assertAlmostEqual(avalanche.concavity(view), (view.size.inner - rear_of_sides) / view.size.thickness, places=12)
+        self.assertGreater(avalanche.concavity(view), 0.5)
 
     def test_no_value_without_grains(self):
         run = Still()
@@ -249,7 +251,7 @@ class OfASnapshot(unittest.TestCase):
 
     def test_curl_needs_three_grains_off_one_line(self):
         line = np.column_stack([0.1 * np.arange(6), 0.3 * np.arange(6), np.zeros(6)])
-        view = NIIYA.View(Still(), Frame(line, np.random.default_rng(1).normal(size=(6, 3))))
+        view = avalanche.View(Still(), Frame(line, np.random.default_rng(1).normal(size=(6, 3))))
         self.assertTrue(np.isnan(view.curls).all())
 
     def test_head_and_tail(self):
@@ -259,7 +261,7 @@ class OfASnapshot(unittest.TestCase):
         velocity = [(10 - (z + 1) / 2 if x > 60 else 1, 0, 0) for x, _, z in places]
         run, frame = Still(7.0, from_the_side=True), Frame(places, velocity)
         # 151 grains: 5 % of the way along them is x = 15, in the column that ends at 12.
-        thickness, _, crest, head_columns = NIIYA.View(run, frame).profile
+        thickness, _, crest, head_columns = avalanche.View(run, frame).profile
         self.assertEqual((len(thickness), crest, head_columns), (22, 0, 10))
         self.assertEqual(run.of("front_rear_thickness_ratio", frame), 12 / 2)
         self.assertAlmostEqual(run.of("head_upper_relative_velocity", frame), 4.5 - 7, places=12)
@@ -271,7 +273,7 @@ class OfASnapshot(unittest.TestCase):
         # Heights of columns 4 long: the crest is the third, the fourth is half of it, the fifth not.
         heights = [2, 8, 12, 6, 5, 12, 2, 2]
         places = np.array([(-4.0 * n, 0, height - 1) for n, height in enumerate(heights) for _ in range(1 if n < 7 else 30)])
-        thickness, _, crest, head_columns = NIIYA.thickness_profile(places, np.ones(len(places)), 1)
+        thickness, _, crest, head_columns = avalanche.thickness_profile(places, np.ones(len(places)), 1)
         self.assertEqual(thickness.tolist(), heights)
         self.assertEqual((crest, head_columns), (2, 4))
 
@@ -279,7 +281,7 @@ class OfASnapshot(unittest.TestCase):
         before = Frame([(0, 0, 0), (5, 1, 0), (2, 7, 0)], np.zeros((3, 3)))
         after = Frame([(10, 1, 0), (16, 2, 0), (11, 8, 0)], np.zeros((3, 3)))
         run = Still()
-        run.view = lambda n: NIIYA.View(run, before)
+        run.view = lambda n: avalanche.View(run, before)
         self.assertAlmostEqual(run.of("displacement_spread", after), 0.1, places=14)
         self.assertAlmostEqual(run.of("displacement_lateral", after), 0, places=14)
         with self.assertRaises(NotEvaluated):
@@ -290,49 +292,49 @@ class FrontSpeed(unittest.TestCase):
     def test_only_where_the_front_was_there_all_the_time(self):
         run = Synthetic()
         run.__dict__["front"] = np.array([0, 0.2, 0.4]), np.array([0.0, 1, 2])
-        self.assertTrue(math.isnan(NIIYA.Avalanche.front_speed_at(run, 0.2)))
-        self.assertAlmostEqual(NIIYA.Avalanche.front_speed_at(run, 0.3), 5, places=12)
-        self.assertTrue(math.isnan(NIIYA.Avalanche.front_speed_at(run, 0.5)))
+        self.assertTrue(math.isnan(avalanche.Avalanche.front_speed_at(run, 0.2)))
+        self.assertAlmostEqual(avalanche.Avalanche.front_speed_at(run, 0.3), 5, places=12)
+        self.assertTrue(math.isnan(avalanche.Avalanche.front_speed_at(run, 0.5)))
 
     def test_a_part_leaves_its_first_time_out_and_keeps_its_last(self):
-        curve = np.array([0.1, 0.2, 0.1 + 0.2, 0.4]), np.array([1, 2, 3, 4])
-        self.assertEqual(NIIYA.part(curve, 0.1, 0.3)[1].tolist(), [2, 3])  # 0.1 + 0.2 is 0.30000000000000004
-        self.assertEqual(NIIYA.part(curve, 0.3, math.inf)[1].tolist(), [4])
+        values = curve([0.1, 0.2, 0.1 + 0.2, 0.4], [1, 2, 3, 4])
+        self.assertEqual(part(values, 0.1, 0.3)[1].tolist(), [2, 3])  # 0.1 + 0.2 is 0.30000000000000004
+        self.assertEqual(part(values, 0.3, math.inf)[1].tolist(), [4])
 
 
 class Statistics(unittest.TestCase):
     def test_rank_correlation(self):
         # Intelligence against hours of television, the textbook example: -29/165.
         x = [106, 100, 86, 101, 99, 103, 97, 113, 112, 110]
-        self.assertAlmostEqual(NIIYA.spearman_correlation(x, [7, 27, 2, 50, 28, 29, 20, 12, 6, 17]), -29 / 165, places=14)
-        self.assertAlmostEqual(NIIYA.spearman_correlation([1, 2, 3, 4], [-5, 0, 1, 1e9]), 1, places=14)
+        self.assertAlmostEqual(samples.spearman_correlation(x, [7, 27, 2, 50, 28, 29, 20, 12, 6, 17]), -29 / 165, places=14)
+        self.assertAlmostEqual(samples.spearman_correlation([1, 2, 3, 4], [-5, 0, 1, 1e9]), 1, places=14)
         # Equal values share the mean rank: 1, 2.5, 2.5, 4.
-        self.assertAlmostEqual(NIIYA.spearman_correlation([1, 2, 3, 4], [1, 2, 2, 3]), 4.5 / math.sqrt(5 * 4.5), places=14)
-        self.assertTrue(math.isnan(NIIYA.spearman_correlation([1, 2, 3], [1, 1, 1])))
+        self.assertAlmostEqual(samples.spearman_correlation([1, 2, 3, 4], [1, 2, 2, 3]), 4.5 / math.sqrt(5 * 4.5), places=14)
+        self.assertTrue(math.isnan(samples.spearman_correlation([1, 2, 3], [1, 1, 1])))
 
     def test_lines(self):
         x, y = [1, 2, 3], [3, 5, 10]
-        np.testing.assert_allclose(NIIYA.fit_line(x, y), (3.5, 1 - 1.5 / 26), rtol=1e-13)
-        origin = NIIYA.fit_line(x, y, through_origin=True)
+        np.testing.assert_allclose(samples.fit_line(x, y), (3.5, 1 - 1.5 / 26), rtol=1e-13)
+        origin = samples.fit_line(x, y, through_origin=True)
         np.testing.assert_allclose(origin, (43 / 14, 1 - (134 - 43 * 43 / 14) / 26), rtol=1e-13)
-        self.assertLess(NIIYA.fit_line(x, [10, 11, 12], through_origin=True)[1], 0, "worse than the mean")
-        self.assertTrue(math.isnan(NIIYA.fit_line([2, 2], [1, 3])[0]))
+        self.assertLess(samples.fit_line(x, [10, 11, 12], through_origin=True)[1], 0, "worse than the mean")
+        self.assertTrue(math.isnan(samples.fit_line([2, 2], [1, 3])[0]))
 
     def test_skewness(self):
-        self.assertAlmostEqual(NIIYA.skewness([2, 4, 4, 4, 5, 5, 7, 9]), (-27 - 1 - 1 - 1 + 8 + 64) / 8 / 8, places=14)
+        self.assertAlmostEqual(samples.skewness([2, 4, 4, 4, 5, 5, 7, 9]), (-27 - 1 - 1 - 1 + 8 + 64) / 8 / 8, places=14)
 
     def test_normality(self):
         # Stephens 1974, mean and deviation estimated.
         for a, p, delta in ((0.631, 0.10, 2e-3), (0.752, 0.05, 1e-3), (0.873, 0.025, 5e-4), (1.035, 0.01, 2e-4)):
-            self.assertAlmostEqual(NIIYA.anderson_darling_p_value(a), p, delta=delta)
+            self.assertAlmostEqual(samples.anderson_darling_p_value(a), p, delta=delta)
         random = np.random.default_rng(11)
-        rejected = sum(NIIYA.anderson_darling(3 + 2 * random.normal(size=50))[1] < 0.05 for _ in range(1000))
+        rejected = sum(samples.anderson_darling(3 + 2 * random.normal(size=50))[1] < 0.05 for _ in range(1000))
         self.assertAlmostEqual(rejected, 50, delta=21)  # three standard deviations
-        self.assertLess(NIIYA.anderson_darling(random.uniform(size=300) ** 3)[1], 1e-6)
+        self.assertLess(samples.anderson_darling(random.uniform(size=300) ** 3)[1], 1e-6)
         for too_few in (np.arange(7.0), np.ones(20)):
-            self.assertTrue(math.isnan(NIIYA.anderson_darling(too_few)[1]))
+            self.assertTrue(math.isnan(samples.anderson_darling(too_few)[1]))
         sample = np.array([1, 2, 2.5, 4, 4.1, 5, 7, 11, 12])
-        self.assertAlmostEqual(NIIYA.anderson_darling(sample)[0], NIIYA.anderson_darling(100 - 8 * sample)[0], places=12)
+        self.assertAlmostEqual(samples.anderson_darling(sample)[0], samples.anderson_darling(100 - 8 * sample)[0], places=12)
 
 
 if __name__ == "__main__":

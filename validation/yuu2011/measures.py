@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The quantities of this study beside those of a summary. Estimators in full: reference.toml.
+One list of all of them, with their definitions: hence the length of this file.
 
 T is `analysis.averaging_time`, t the time from the opening of the gate, h the spacing of the particles at the start,
 D and ρ_p the diameter and density of the grains, Q the mass that passes the outlet's plane per time. The *hopper* is

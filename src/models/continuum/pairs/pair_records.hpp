@@ -27,11 +27,11 @@ class PairRecords {
 
   /// Motion of particles and images. \param stresses whether stresses, too: only forces read them
   void pack(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, bool stresses);
-  /// Rates of deformation, for hourglass damping and the local speed of sound.
-  /// \param sound_speed m/s, of a particle without pressure 0 unless it acts \param everywhere
+  /// Rates of deformation, for hourglass damping, and speeds of sound, for the viscosity.
+  /// \param sound_speed m/s \param everywhere whether particles without pressure have it, too, in place of 0
   void pack_damping(ThreadTeam& team, const PairLists& lists, const ParticleView& particles, double sound_speed,
                     bool everywhere);
-  /// Gradients of the density, for its diffusion. \param own of the particles; empty: all zero
+  /// Gradients of the density, for its diffusion; those of images follow. \param own those of all particles
   void set_diffusion(ThreadTeam& team, const PairLists& lists, std::span<const DiffusionRecord> own);
 
   Records view() const;
