@@ -15,9 +15,6 @@
 #include "app/continuum/engineering_units.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
-#include "models/continuum/boundary/vessel_outlets.hpp"
-#include "models/continuum/setup/time_scale.hpp"
-#include "models/continuum/state.hpp"
 
 namespace talus::app {
 
@@ -36,10 +33,10 @@ double value_of(const std::vector<NamedValue>& quantities, std::string_view name
   return found != quantities.end() ? found->value : HopperRun::none;
 }
 
-std::string formula_of_discharge(const continuum::Parameters& p) {
-  const auto outlet = continuum::outlet_of_vessel(p);
-  if (!outlet || !outlet->round) return "Beverloo by the hydraulic diameter, flat bottom";
-  return half_angle_of_cone(p) < std::numbers::pi / 4 ? "Beverloo; Rose & Tanaka" : "Beverloo";  // nan: no cone
+std::string formula_of_discharge(const continuum::Layout& layout) {
+  const auto& outlets = layout.vessel_outlets;
+  if (outlets.empty() || !outlets.front().round) return "Beverloo by the hydraulic diameter, flat bottom";
+  return half_angle_of_cone(layout) < std::numbers::pi / 4 ? "Beverloo; Rose & Tanaka" : "Beverloo";  // nan: no cone
 }
 
 const char* regime_of(bool all_moves) {
@@ -47,9 +44,9 @@ const char* regime_of(bool all_moves) {
 }
 
 /// Of each of several outlets what passes it.
-std::vector<Answer> answers_of_outlets(const continuum::Parameters& p, const std::vector<NamedValue>& quantities) {
+std::vector<Answer> answers_of_outlets(const continuum::Layout& layout, const std::vector<NamedValue>& quantities) {
   std::vector<Answer> answers;
-  for (const continuum::VesselOutlet& outlet : continuum::outlets_of_vessel(p)) {
+  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets) {
     const double rate = value_of(quantities, "discharge_rate_" + outlet.name),
                  hand = value_of(quantities, "discharge_rate_beverloo_" + outlet.name);
     if (!std::isfinite(rate)) continue;
@@ -62,17 +59,17 @@ std::vector<Answer> answers_of_outlets(const continuum::Parameters& p, const std
 /// The flow through the outlet. \param of a quantity of the summary
 class FlowAnswers {
  public:
-  FlowAnswers(const continuum::Parameters& parameters, const std::vector<NamedValue>& quantities)
-      : p_(parameters), quantities_(quantities), left_(of("residual_fraction")) {}
+  FlowAnswers(const continuum::Setup& setup, const std::vector<NamedValue>& quantities)
+      : setup_(setup), quantities_(quantities), left_(of("residual_fraction")) {}
 
   std::vector<Answer> all() const {
     if (!std::isfinite(left_)) return {};
     std::vector<Answer> answers = {end()};
-    if (!p_.vessel.empty()) answers.push_back(regime());
+    if (!setup_.given.vessel.empty()) answers.push_back(regime());
     answers.push_back(steady_discharge());
     if (const double peak = of("discharge_rate_max"); peak > 0)
       answers.push_back(
-          {fmt::format("Peak discharge ({} average)", time_text(time_scales_of(p_).averaging_time)),
+          {fmt::format("Peak discharge ({} average)", time_text(setup_.scales.averaging_time)),
            fmt::format("{} after {}", rate_text(peak, HopperRun::none), time_text(of("discharge_rate_max_time"))),
            {}});
     answers.push_back({"Emptying time (99 %)",
@@ -102,7 +99,7 @@ class FlowAnswers {
     else if (std::isfinite(stopped))
       answer.answer = fmt::format(
           "has stopped after {} with {}: {}", time_text(stopped), rest,
-          of("outlet_packing") >= arch * p_.bed.packing ? "arch over the outlet" : "stagnant at its angle of repose");
+          of("outlet_packing") >= arch * setup_.given.bed.packing ? "arch over the outlet" : "stagnant at its angle of repose");
     else if (!(discharged() > 1e-9))
       answer.answer = fmt::format("has not started: {}", rest);
     else
@@ -116,11 +113,11 @@ class FlowAnswers {
       answer.answer = fmt::format("{}, stagnant zone {}", regime_of(share >= mass_flow), share_text(1 - share));
     else
       answer.answer = discharged() < hopper::share_of_regime ? too_little() : "not known: no snapshots while it flowed";
-    const double own = half_angle_of_cone(p_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
+    const double own = half_angle_of_cone(setup_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
     if (std::isfinite(own) && std::isfinite(most))
       answer.by_hand =
           fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike, grains of {:.3g}° in plane strain)",
-                      regime_of(own <= most), own, most, internal_friction_by_hand(p_) * 180 / std::numbers::pi);
+                      regime_of(own <= most), own, most, internal_friction_by_hand(setup_.given) * 180 / std::numbers::pi);
     return answer;
   }
 
@@ -135,11 +132,11 @@ class FlowAnswers {
       answer.answer =
           discharged() < hopper::steady_from ? too_little() : "none: it did not stay within 10 % for long enough";
     if (estimate > 0)
-      answer.by_hand = fmt::format("{} ({})", rate_text(estimate, HopperRun::none), formula_of_discharge(p_));
+      answer.by_hand = fmt::format("{} ({})", rate_text(estimate, HopperRun::none), formula_of_discharge(setup_));
     return answer;
   }
 
-  const continuum::Parameters& p_;
+  const continuum::Setup& setup_;
   const std::vector<NamedValue>& quantities_;
   double left_;
 };
@@ -181,13 +178,13 @@ class LoadsOfWall {
 
 /// Of each wall the largest pressure at rest, in flow and at its peak; walls that carry almost no load are left out.
 /// \param flows whether enough has left to speak of a flow
-std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const Series& table, std::string_view column,
+std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series& table, std::string_view column,
                                      std::size_t walls, const auto& name, const auto& formula, bool flows) {
   double most = 0;
   for (const std::string_view of : {"pressure_at_rest", "pressure_largest"})
     for (const double pressure : table.column(of))
       if (pressure > most) most = pressure;  // some may be nan
-  const std::string peak = fmt::format("Peak pressure ({} average)", time_text(time_scales_of(p).peak_time()));
+  const std::string peak = fmt::format("Peak pressure ({} average)", time_text(setup.scales.peak_time()));
   struct Kind {
     std::string title;
     const char *pressure, *estimate;
@@ -215,10 +212,11 @@ std::vector<Answer> answers_of_walls(const continuum::Parameters& p, const Serie
 
 }  // namespace
 
-std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector<NamedValue>& quantities,
+std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<NamedValue>& quantities,
                                const std::filesystem::path& run_folder) {
-  std::vector<Answer> answers = FlowAnswers(p, quantities).all();
-  for (Answer& answer : answers_of_outlets(p, quantities)) answers.push_back(std::move(answer));
+  std::vector<Answer> answers = FlowAnswers(setup, quantities).all();
+  const continuum::Parameters& p = setup.given;
+  for (Answer& answer : answers_of_outlets(setup, quantities)) answers.push_back(std::move(answer));
   const double left = value_of(quantities, "residual_fraction");
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
@@ -227,15 +225,15 @@ std::vector<Answer> answers_of(const continuum::Parameters& p, const std::vector
                        const auto& formula) {
     const std::filesystem::path path = run_folder / "analysis" / table;
     if (!std::filesystem::exists(path)) return;
-    for (Answer& answer : answers_of_walls(p, read_series(path), column, walls, name, formula, flows))
+    for (Answer& answer : answers_of_walls(setup, read_series(path), column, walls, name, formula, flows))
       answers.push_back(std::move(answer));
   };
   add(
       "wall_loads.csv", "patch", p.vessel.size(), [&](std::size_t w) { return continuum::name_of(p, w); },
       [&](std::size_t w) { return p.vessel[w].shape == VesselShape::cone ? "Walker" : "Janssen"; });
   add(
-      "box_walls.csv", "wall", continuum::wall_names.size(),
-      [](std::size_t w) { return std::string(continuum::wall_names[w]); }, [](std::size_t) { return "Janssen"; });
+      "box_walls.csv", "wall", setup.boundary->patches().size(),
+      [&](std::size_t w) { return setup.boundary->patches()[w].name; }, [](std::size_t) { return "Janssen"; });
   return answers;
 }
 

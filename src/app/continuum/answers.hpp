@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/setup.hpp"
 #include "numerics/named_value.hpp"
 
 namespace talus::app {
@@ -15,7 +15,7 @@ namespace talus::app {
 /// regime, steady and peak discharge, emptying time, and of each wall the largest pressure at rest, in flow and at its
 /// peak. What cannot be known yet says so; what the case does not have is left out. \param quantities of the summary
 /// \param run_folder with analysis/wall_loads.csv and analysis/box_walls.csv, if there are loads \throws FileError
-std::vector<Answer> answers_of(const continuum::Parameters& parameters, const std::vector<NamedValue>& quantities,
+std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<NamedValue>& quantities,
                                const std::filesystem::path& run_folder);
 
 }  // namespace talus::app

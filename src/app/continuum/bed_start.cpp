@@ -16,7 +16,7 @@ namespace talus::app {
 
 namespace {
 
-using continuum::Parameters;
+using continuum::Layout;
 
 constexpr double millimetre = 1e-3;
 constexpr double half_thickness = 0.51;  // of a section, in spacings: one layer of a lattice at least
@@ -30,7 +30,8 @@ struct Section {
 };
 
 /// \param positions of the whole bed
-Section section(const Parameters& p, const std::vector<Vector3>& positions, int axis, double at) {
+Section section(const Layout& layout, const std::vector<Vector3>& positions, int axis, double at) {
+  const continuum::Parameters& p = layout.given;
   Section cut;
   // Through the layer nearest to the plane.
   double nearest = INFINITY;
@@ -38,7 +39,7 @@ Section section(const Parameters& p, const std::vector<Vector3>& positions, int 
   for (const Vector3& x : positions)
     if (std::abs(x[axis] - at) <= std::max(nearest, half_thickness * p.bed.spacing)) cut.positions.push_back(x);
   cut.radii.assign(cut.positions.size(), 0.5 * p.bed.spacing);
-  const Domain domain = continuum::domain_of(p);
+  const Domain& domain = layout.boundary->domain();
   if (axis == 1)
     for (const WallLine& line : scene_of(domain, 0).walls) cut.segments.push_back({line.from, line.to});
   const Box& box = domain.box();
@@ -56,11 +57,10 @@ Section section(const Parameters& p, const std::vector<Vector3>& positions, int 
     return x;
   };
   std::vector<Triangle> triangles;
-  for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    for (Triangle t : continuum::triangles_of(p, n)) {
-      for (Vector3& corner : t.corner) corner = turned(corner);
-      triangles.push_back(t);
-    }
+  for (Triangle t : layout.boundary->vessel().triangles()) {
+    for (Vector3& corner : t.corner) corner = turned(corner);
+    triangles.push_back(t);
+  }
   if (!triangles.empty())
     for (const auto& [from, to] : section_at(Surface(std::move(triangles), p.vessel.size()), at))
       cut.segments.push_back({turned(from), turned(to)});
@@ -90,11 +90,12 @@ figure::ParticlePicture picture_of(const Section& cut, const figure::View& view,
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> bed_lines(const Parameters& p) {
-  if (continuum::has_no_bed(p)) return {{"bed", "none: grains come in through inlets only"}};
+std::vector<std::pair<std::string, std::string>> bed_lines(const Layout& layout) {
+  const continuum::Parameters& p = layout.given;
+  if (layout.has_no_bed()) return {{"bed", "none: grains come in through inlets only"}};
   std::vector<std::pair<std::string, std::string>> lines;
-  for (const std::size_t n : continuum::beds_of(p)) {
-    const continuum::BedReport report = continuum::report_of_bed(continuum::with_bed_alone(p, n));
+  for (const std::size_t n : layout.beds) {
+    const continuum::BedReport report = continuum::report_of_bed(layout.with_bed_alone(n));
     const std::string name = n == 0 ? "bed" : fmt::format("beds.{}, tag {}", n, p.beds[n - 1].tag);
     lines.emplace_back(name, fmt::format("{:.0f} particles, {:.4g} kg", report.particles, report.mass));
     std::vector<std::string> extents;
@@ -111,9 +112,10 @@ std::vector<std::pair<std::string, std::string>> bed_lines(const Parameters& p) 
   return lines;
 }
 
-void draw_bed(const Parameters& p, const std::string& title, const std::filesystem::path& path) {
-  std::vector<Vector3> positions = continuum::bed_positions(p);
-  if (const auto sector = continuum::sector_of(p)) {
+void draw_bed(const Layout& layout, const std::string& title, const std::filesystem::path& path) {
+  const continuum::Parameters& p = layout.given;
+  std::vector<Vector3> positions = continuum::bed_positions(layout);
+  if (const auto& sector = layout.sector()) {
     const std::size_t own = positions.size();
     for (int k = 1; k < sector->copies(); ++k)
       for (std::size_t n = 0; n < own; ++n) positions.push_back(sector->turned(positions[n], k));
@@ -126,9 +128,9 @@ void draw_bed(const Parameters& p, const std::string& title, const std::filesyst
         low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
     middle = 0.5 * (low + high);
   }
-  std::vector<Section> cuts = {section(p, positions, 1, middle.y)};
+  std::vector<Section> cuts = {section(layout, positions, 1, middle.y)};
   const bool is_deep = p.box.depth > 4 * p.bed.spacing;
-  if (is_deep) cuts.push_back(section(p, positions, 0, middle.x));
+  if (is_deep) cuts.push_back(section(layout, positions, 0, middle.x));
   figure::Figure figure{.title = title, .columns = static_cast<int>(cuts.size()), .letters = false};
   figure.panels.emplace_back(
       picture_of(cuts[0], figure::view_xz, fmt::format("*y* = {:.4g} mm", middle.y / millimetre)));

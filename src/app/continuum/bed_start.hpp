@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 
 /// Lines of a name and a text: particles and mass, extents, what the bed lies against, columns of bed.file that are not
 /// read.
-std::vector<std::pair<std::string, std::string>> bed_lines(const continuum::Parameters& parameters);
+std::vector<std::pair<std::string, std::string>> bed_lines(const continuum::Layout& layout);
 
 /// Writes sections of walls and bed through the middle of the bed, across y and across x, as a PNG. Gates are shut.
 /// \throws FileError
-void draw_bed(const continuum::Parameters& parameters, const std::string& title, const std::filesystem::path& path);
+void draw_bed(const continuum::Layout& layout, const std::string& title, const std::filesystem::path& path);
 
 }  // namespace talus::app

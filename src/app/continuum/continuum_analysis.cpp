@@ -18,7 +18,6 @@
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
-#include "models/continuum/setup/time_scale.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/surface/section.hpp"
@@ -120,23 +119,23 @@ double middle_of_vessel(const continuum::Parameters& p) {
 
 }  // namespace
 
-std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Parameters& p) {
-  if (p.vessel.empty()) return {};
-  Surface surface = continuum::surface_of(p);
-  continuum::open_gates(p, surface, std::numeric_limits<double>::infinity());
-  return section_at(surface, middle_of_vessel(p));
+std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Layout& layout) {
+  if (layout.given.vessel.empty()) return {};
+  continuum::Boundary boundary = *layout.boundary;
+  boundary.open_gates(std::numeric_limits<double>::infinity());
+  return section_at(boundary.vessel(), middle_of_vessel(layout.given));
 }
 
-HopperSetting hopper_setting(const continuum::Parameters& p) {
-  const continuum::Lattice lattice = continuum::lattice_of(p);
+HopperSetting hopper_setting(const continuum::Setup& setup) {
+  const continuum::Parameters& p = setup.given;
   HopperSetting setting{.shape = {.width = p.box.width,
                                   .depth = p.box.depth,
                                   .height = p.box.height,
                                   .plate = {},
                                   .spacing = p.bed.spacing},
-                        .domain = continuum::domain_of(p).whole(),
-                        .particle_mass = lattice.mass,
-                        .particles = static_cast<double>(continuum::bed_positions(p).size()) * continuum::copies_of(p),
+                        .domain = setup.boundary->domain().whole(),
+                        .particle_mass = setup.lattice.mass,
+                        .particles = static_cast<double>(continuum::bed_positions(setup).size()) * setup.copies,
                         .grain_density = p.grains.density,
                         .grain_diameter = p.grains.diameter,
                         .gravity = p.gravity.acceleration,
@@ -145,34 +144,34 @@ HopperSetting hopper_setting(const continuum::Parameters& p) {
                         .has_floor = is_mirror(p.box.floor),
                         .level_ground = !p.wedge.half_angle && p.plates.empty() && p.vessel.empty(),
                         .stress_share = p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0};
-  setting.hand_discharge = discharge_by_hand(p);
-  const continuum::TimeScales scales = continuum::time_scales_of(p);
-  setting.averaging_time = scales.averaging_time;
-  setting.time_scale = scales.time;
+  setting.hand_discharge = discharge_by_hand(setup);
+  setting.averaging_time = setup.scales.averaging_time;
+  setting.time_scale = setup.scales.time;
   setting.bed_packing = p.bed.packing;
-  setting.outlet_width = continuum::outlet_width(p).value_or(0);
+  setting.outlet_width = setup.outlet_width.value_or(0);
   setting.outlet_depth = p.box.depth;
   if (!p.vessel.empty()) {
     setting.middle = middle_of_vessel(p);
-    setting.section = section_of_vessel(p);
-    setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(p);
-    setting.bands = bands_of(p);
-    if (const auto outlet = continuum::outlet_of_vessel(p)) {
-      setting.outlet_depth = outlet->depth;
-      setting.outlet_is_round = outlet->round;
-      if (!outlet->round) setting.outlet_length = outlet->length;
+    setting.section = section_of_vessel(setup);
+    setting.mass_flow_half_angle = mass_flow_half_angle_by_hand(setup);
+    setting.bands = bands_of(setup);
+    const std::vector<continuum::VesselOutlet>& outlets = setup.vessel_outlets;
+    if (!outlets.empty()) {
+      setting.outlet_depth = outlets.front().depth;
+      setting.outlet_is_round = outlets.front().round;
+      if (!outlets.front().round) setting.outlet_length = outlets.front().length;
     }
-    if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
+    if (outlets.size() > 1)
       for (const continuum::VesselOutlet& outlet : outlets)
-        setting.outlets.push_back({outlet.name, discharge_by_hand(p, outlet), outlet.narrow});
+        setting.outlets.push_back({outlet.name, discharge_by_hand(setup, outlet), outlet.narrow});
   }
-  if (const auto outlet = continuum::outlet_of(p))
-    setting.shape.plate = {outlet->height, outlet->left, outlet->right};
+  if (setup.outlet)
+    setting.shape.plate = {setup.outlet->height, setup.outlet->left, setup.outlet->right};
   else if (p.plate.height)
     setting.shape.plate = {*p.plate.height, p.plate.slit_left.value_or(0.5 * p.box.width),
                            p.plate.slit_right.value_or(0.5 * p.box.width)};
   if (p.sph.smoothing == continuum::Smoothing::fixed)
-    setting.smoothing_length = sph::smoothing_length(lattice.mass, p.bed.packing * p.grains.density);
+    setting.smoothing_length = sph::smoothing_length(setup.lattice.mass, setup.density);
   return setting;
 }
 

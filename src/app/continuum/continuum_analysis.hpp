@@ -8,16 +8,16 @@
 #include <vector>
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/setup.hpp"
 #include "numerics/named_value.hpp"
 
 namespace talus::app {
 
 /// What is drawn of a vessel: the section through its middle with its gates open; nothing without one.
-std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Parameters& parameters);
+std::vector<std::array<Vector3, 2>> section_of_vessel(const continuum::Layout& layout);
 
 /// The case as the analysis needs it.
-HopperSetting hopper_setting(const continuum::Parameters& parameters);
+HopperSetting hopper_setting(const continuum::Setup& setup);
 
 /// Reads series.csv; a snapshot when a measure asks for it. \throws FileError
 HopperRun read_hopper(const std::filesystem::path& run_folder, const HopperSetting& setting,

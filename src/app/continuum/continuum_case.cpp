@@ -25,7 +25,6 @@
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/stl.hpp"
-#include "models/continuum/material.hpp"
 #include "models/continuum/model.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/setup/filling.hpp"
@@ -38,43 +37,43 @@ namespace {
 
 using continuum::Continuum;
 using continuum::Parameters;
+using continuum::Setup;
 
 constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16, most_beds = 64;
 
-std::vector<NamedValue> groups(const Parameters& p) {
-  const double density = p.bed.packing * p.grains.density;
-  const double sound = continuum::Material(p).sound_speed(density);
-  const double count = continuum::bed_count(p);
+std::vector<NamedValue> groups(const Setup& setup) {
+  const Parameters& p = setup.given;
+  const double density = setup.density, sound = setup.sound_speed, count = continuum::bed_count(setup);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
   std::vector<NamedValue> groups = {{"particles", "1", count},
-                                    {"mass", "kg", continuum::lattice_of(p).mass * count * continuum::copies_of(p)},
-                                    {"bed_height", "m", continuum::has_no_bed(p) ? 0 : continuum::depth_of_grains(p)},
+                                    {"mass", "kg", setup.lattice.mass * count * setup.copies},
+                                    {"bed_height", "m", setup.has_no_bed() ? 0 : setup.depth},
                                     {"sound_speed", "m/s", sound},
-                                    {"time_step", "s", continuum::time_step_of(p)},
+                                    {"time_step", "s", continuum::time_step_of(setup)},
                                     {"mach_number_of_fall", "1", fall / sound},
                                     {"particles_across_grain", "1", p.grains.diameter / p.bed.spacing}};
-  if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(continuum::copies_of(p))});
+  if (p.box.sector) groups.push_back({"sector_copies", "1", static_cast<double>(setup.copies)});
   // Where the bed is as wide as the box from its bottom to its top.
   if (!p.wedge.half_angle && !p.bed.left && !p.bed.right && !p.bed.front && !p.bed.rear && !p.bed.given &&
-      p.beds.empty() && !continuum::has_no_bed(p) && p.plates.empty() && p.vessel.empty())
+      p.beds.empty() && !setup.has_no_bed() && p.plates.empty() && p.vessel.empty())
     groups.push_back({"floor_stress_expected", "Pa",
                       density * p.gravity.acceleration * p.bed.height /
                           (p.sph.stress_form == sph::StressForm::printed ? p.bed.packing : 1.0)});
-  if (const double rate = discharge_by_hand(p); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
-  if (const auto outlet = continuum::outlet_of(p))
+  if (const double rate = discharge_by_hand(setup); rate > 0) groups.push_back({"discharge_by_hand", "kg/s", rate});
+  if (const auto& outlet = setup.outlet)
     groups.insert(groups.end(),
                   {{"outlet_width", "m", outlet->across}, {"slit_over_spacing", "1", outlet->across / p.bed.spacing}});
-  if (const auto outlets = continuum::outlets_of_vessel(p); outlets.size() > 1)
+  if (const auto& outlets = setup.vessel_outlets; outlets.size() > 1)
     for (const continuum::VesselOutlet& outlet : outlets) {
-      groups.push_back({"discharge_by_hand_" + outlet.name, "kg/s", discharge_by_hand(p, outlet)});
+      groups.push_back({"discharge_by_hand_" + outlet.name, "kg/s", discharge_by_hand(setup, outlet)});
       groups.push_back({"slit_over_spacing_" + outlet.name, "1", outlet.narrow / p.bed.spacing});
       groups.push_back({"slit_over_grain_" + outlet.name, "1", outlet.narrow / p.grains.diameter});
     }
   return groups;
 }
 
-Forecast forecast(const Parameters& p, const run::RunParameters& run) {
-  const continuum::Forecast f = continuum::forecast(p, run.end);
+Forecast forecast(const Setup& setup, const run::RunParameters& run) {
+  const continuum::Forecast f = continuum::forecast(setup, run.end);
   Forecast forecast{.phases = {}, .memory_bytes = continuum::memory_of(f), .disk_bytes = 0};
   if (f.settling_steps > 0)
     forecast.phases.push_back(
@@ -87,14 +86,15 @@ Forecast forecast(const Parameters& p, const run::RunParameters& run) {
 }
 
 /// Of a step, by particle.
-double measure_particle(const Parameters& p, ThreadTeam& team) {
-  Continuum model(p);
+double measure_particle(std::shared_ptr<const Setup> setup, ThreadTeam& team) {
+  const Parameters& p = setup->given;
+  Continuum model(setup);
   continuum::State& s = model.mutable_state();
   // Walls cost more where the bed presses against them.
   if (!p.vessel.empty())
     for (std::size_t c = 0; c < 3; ++c)
       std::fill(s.material.stress[c].begin(), s.material.stress[c].end(),
-                p.bed.packing * p.grains.density * p.gravity.acceleration * continuum::depth_of_grains(p));
+                setup->density * p.gravity.acceleration * setup->depth);
   model.begin(team);
   const auto count = static_cast<double>(s.position.size());  // some may be taken away
   const double duration = p.air.enabled ? 0.6 : 0.2;          // the air's steps are longer, and few
@@ -103,28 +103,28 @@ double measure_particle(const Parameters& p, ThreadTeam& team) {
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
 /// walls of its vessel by larger particles in it.
-double measure_step(const Parameters& p, double end, ThreadTeam& team) {
+double measure_step(const std::shared_ptr<const Setup>& setup, double end, ThreadTeam& team) {
   constexpr double most = 8000;
-  if (continuum::has_no_bed(p))  // half of what comes in
-    return 0.5 * continuum::forecast(p, end).particles * measure_particle(continuum::sample(p, most), team);
-  const double count = continuum::bed_count(p);
-  if (count <= most) return count * measure_particle(p, team);
-  const double inside = measure_particle(continuum::sample(p, most), team);
-  if (p.vessel.empty()) return count * inside;
-  const Parameters coarse = continuum::coarser(p, most);
+  const auto in_sample = [&] { return measure_particle(std::make_shared<Setup>(sample(*setup, most)), team); };
+  if (setup->has_no_bed()) return 0.5 * continuum::forecast(*setup, end).particles * in_sample();  // half comes in
+  const double count = continuum::bed_count(*setup);
+  if (count <= most) return count * measure_particle(setup, team);
+  const double inside = in_sample();
+  if (setup->given.vessel.empty()) return count * inside;
+  const auto coarse = std::make_shared<Setup>(continuum::coarser(*setup, most));
   const double by_walls = std::max(0.0, measure_particle(coarse, team) - inside);
-  return count * (inside + by_walls * p.bed.spacing / coarse.bed.spacing);
+  return count * (inside + by_walls * setup->given.bed.spacing / coarse->given.bed.spacing);
 }
 
-Problem too_large(const Parameters& p, double available) {
-  const continuum::Forecast f = continuum::forecast(p, 1);
-  const auto count = continuum::lattice_of(p).count;
+Problem too_large(const Setup& setup, double available) {
+  const continuum::Forecast f = continuum::forecast(setup, 1);
+  const auto& count = setup.lattice.count;
+  const double spacing = 1e3 * setup.given.bed.spacing;
   const auto dimensions = static_cast<double>(std::count_if(count.begin(), count.end(), [](auto n) { return n > 1; }));
   const double least = std::pow(continuum::memory_of(f) / available, 1 / std::max(1.0, dimensions));
-  std::string what = fmt::format("{:.4g} mm makes {:.3g} particles", 1e3 * p.bed.spacing, f.particles);
+  std::string what = fmt::format("{:.4g} mm makes {:.3g} particles", spacing, f.particles);
   if (f.cells > 0) what += fmt::format(" and {:.3g} cells of the air", f.cells);
-  return {
-      .key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", 1e3 * p.bed.spacing * least)};
+  return {.key = "bed.spacing", .what = what, .allowed = fmt::format("at least {:.2g} mm", spacing * least)};
 }
 
 /// Reads the files of the vessel before the case is checked, so that their faults are told with the rest.
@@ -169,6 +169,7 @@ std::string digest_of_files(const Parameters& p) {
 
 struct ContinuumCase : ModelCase<Parameters> {
   FilledIn filled;  ///< what follows from other keys
+  std::shared_ptr<const Setup> setup = nullptr;
 };
 
 /// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
@@ -184,10 +185,11 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vec
   reader.check(filled.problems);
   reader.check(std::move(unreadable));
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};
-  read.model = continuum::with_level(read.model);
+  const continuum::Layout layout = continuum::with_level(continuum::Layout(read.model));
+  read.model = layout.given;
   if (!read.model.bed.file.empty())
     read.model.bed.file = std::filesystem::absolute(input_path(file, read.model.bed.file)).lexically_normal();
-  set_from_bed(file, read.model, read.run.end, read.filled);
+  set_from_bed(file, layout, read.run.end, read.model, read.filled);
   if (!file.contains("integration.courant")) {
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
     read.filled.keys.emplace("integration.courant", "method");
@@ -195,7 +197,8 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vec
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
       part.file = std::filesystem::absolute(input_path(file, part.file)).lexically_normal();
-  reader.check(continuum::check_steps(read.model, read.run.end));
+  read.setup = std::make_shared<const Setup>(layout.with(read.model));
+  reader.check(continuum::check_steps(*read.setup, read.run.end));
   reader.throw_problems();
   return read;
 }
@@ -255,25 +258,29 @@ ParameterList continuum_parameters() {
 
 PreparedCase prepare_continuum(const CaseFile& file) {
   ContinuumCase read = read_continuum(file);
-  const Parameters p = read.model;
+  const Parameters& p = read.model;
+  const std::shared_ptr<const Setup> setup = read.setup;
+  const double end = read.run.end;
   PreparedCase prepared = prepared_case("continuum", read);
   prepared.instruction_set = choice_name(resolve(p.integration.instruction_set));
   prepared.seed = p.seed;
   prepared.inputs = digest_of_files(p);
   prepared.filled_in = read.filled.keys;
-  prepared.groups = groups(p);
-  prepared.regime = continuum::regime_of_case(p);
+  prepared.groups = groups(*setup);
+  prepared.regime = continuum::regime_of_case(*setup);
   prepared.remarks = continuum::remarks_of_vessel(p);
-  prepared.regime.push_back(continuum::courant_of_case(p));
-  prepared.start = [p] { return bed_lines(p); };
-  prepared.draw_start = [p, title = read.run.title](const std::filesystem::path& path) { draw_bed(p, title, path); };
-  prepared.make_model = [p] { return run::any_model(Continuum(p)); };
-  prepared.observers = {[p](const Snapshot& snapshot) { return observe_hopper(snapshot, p); }};
-  prepared.forecast = forecast(p, read.run);
-  prepared.measure_evaluation = [p, end = read.run.end](ThreadTeam& team) { return measure_step(p, end, team); };
-  prepared.shortenings = [p, end = read.run.end] { return shorter_runs(p, end); };
-  prepared.too_large = [p](double available) { return too_large(p, available); };
-  prepared.headline = p.plate.height || continuum::outlet_of(p)
+  prepared.regime.push_back(continuum::courant_of_case(*setup));
+  prepared.start = [setup] { return bed_lines(*setup); };
+  prepared.draw_start = [setup, title = read.run.title](const std::filesystem::path& path) {
+    draw_bed(*setup, title, path);
+  };
+  prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
+  prepared.observers = {[setup](const Snapshot& snapshot) { return observe_hopper(snapshot, *setup); }};
+  prepared.forecast = forecast(*setup, read.run);
+  prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };
+  prepared.shortenings = [setup, end] { return shorter_runs(*setup, end); };
+  prepared.too_large = [setup](double available) { return too_large(*setup, available); };
+  prepared.headline = p.plate.height || setup->outlet
                           ? run::Headline{.column = "discharge_rate", .name = "discharge"}
                           : run::Headline{.column = "speed_max", .name = "fastest"};
   prepared.read = std::move(read);
@@ -287,30 +294,31 @@ StudiedRun study_continuum_run(const CaseFile& resolved, const std::filesystem::
 const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
   return runs.of<HopperRun>(folder, [&] {
     const auto* const read = runs.find_case<ContinuumCase>(folder);
-    return read_hopper(folder, hopper_setting(read ? read->model : read_continuum(resolved).model),
+    return read_hopper(folder, hopper_setting(read ? *read->setup : *read_continuum(resolved).setup),
                        runs.snapshot_memory());
   });
 }
 
 Scene scene_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  const Parameters& p = case_of(resolved, folder, runs).model;
-  Scene scene = scene_of(continuum::domain_of(p), 0.5 * p.bed.spacing);
-  for (const auto& [from, to] : section_of_vessel(p)) scene.walls.push_back({from, to});
+  const Setup& setup = *case_of(resolved, folder, runs).setup;
+  Scene scene = scene_of(setup.boundary->domain(), 0.5 * setup.given.bed.spacing);
+  for (const auto& [from, to] : section_of_vessel(setup)) scene.walls.push_back({from, to});
   return scene;
 }
 
 std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                               ReadRuns& runs) {
-  const Parameters& p = case_of(resolved, folder, runs).model;
+  const Setup& setup = *case_of(resolved, folder, runs).setup;
+  const Parameters& p = setup.given;
   const HopperRun& run = hopper_run_of(resolved, folder, runs);
   std::vector<NamedValue> quantities = analyze_continuum(folder, run);
-  write_box_walls(folder, run, p);
+  write_box_walls(folder, run, setup);
   if (!p.vessel.empty()) {
     const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
     const auto within = [&](const Vector3& x) {
       return Vector3{std::clamp(x.x, 0.0, p.box.width), std::clamp(x.y, 0.0, p.box.depth), x.z};
     };
-    write_wall_loads(folder, run, p);
+    write_wall_loads(folder, run, setup);
     write_fields(folder, run, within(around.low), within(around.high));
   }
   return quantities;
@@ -318,7 +326,7 @@ std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const st
 
 std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                          const std::vector<NamedValue>& quantities, ReadRuns& runs) {
-  return answers_of(case_of(resolved, folder, runs).model, quantities, folder);
+  return answers_of(*case_of(resolved, folder, runs).setup, quantities, folder);
 }
 
 std::optional<double> telling_time_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder,

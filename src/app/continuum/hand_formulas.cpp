@@ -21,8 +21,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double usual_angle =
     30 * std::numbers::pi / 180;  // in plane strain, where the law has no friction of its own
 
-double friction_of(const continuum::Parameters& p, const VesselPart& v) {
-  return p.walls.friction == continuum::Friction::none ? 0 : v.friction.value_or(p.walls.coefficient);
+double friction_of(const continuum::Layout& layout, const VesselPart& v) {
+  const auto part = static_cast<std::size_t>(&v - layout.given.vessel.data());
+  return layout.boundary->patches()[layout.boundary->patch_of_part(part)].friction;
 }
 
 double bulk_density(const continuum::Parameters& p) {
@@ -56,19 +57,21 @@ const VesselPart* upright_at(const continuum::Parameters& p, double height) {
 }
 
 /// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
-double janssen_at(const continuum::Parameters& p, double ratio, double top, double height) {
+double janssen_at(const continuum::Layout& layout, double ratio, double top, double height) {
+  const continuum::Parameters& p = layout.given;
   const VesselPart* v = upright_at(p, height);
   if (!v || v->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
-  const double friction = friction_of(p, *v);
+  const double friction = friction_of(layout, *v);
   const double length = friction > 0 ? hydraulic_radius(*v) / (friction * ratio) : infinity;
   return granular::janssen_stress(bulk_density(p) * p.gravity.acceleration, length, top - height);
 }
 
-PressureByHand pressure_of_cone(const continuum::Parameters& p, const VesselPart& v, double ratio, double top,
+PressureByHand pressure_of_cone(const continuum::Layout& layout, const VesselPart& v, double ratio, double top,
                                 double height) {
-  const double angle = std::atan(tangent_of(v)), mu = friction_of(p, v);
+  const continuum::Parameters& p = layout.given;
+  const double angle = std::atan(tangent_of(v)), mu = friction_of(layout, v);
   const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
-  const double above = top > v.top ? janssen_at(p, ratio, top, v.top) : 0;
+  const double above = top > v.top ? janssen_at(layout, ratio, top, v.top) : 0;
   const double weight = bulk_density(p) * p.gravity.acceleration;
   const auto pressure = [&](const granular::ConeBearing& bearing) {
     return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
@@ -90,16 +93,15 @@ const VesselPart* cone_above(const continuum::Parameters& p, const continuum::Ve
 }
 
 /// The cone through which the vessel empties.
-const VesselPart* emptying_cone(const continuum::Parameters& p) {
-  const auto outlet = continuum::outlet_of_vessel(p);
-  return outlet ? cone_above(p, *outlet) : nullptr;
+const VesselPart* emptying_cone(const continuum::Layout& layout) {
+  return layout.vessel_outlets.empty() ? nullptr : cone_above(layout.given, layout.vessel_outlets.front());
 }
 
 /// What a slit of a plate across the box discharges: half of one twice as wide where it begins at a face.
-double discharge_of_slit(const continuum::Parameters& p) {
-  if (!p.plate.height || p.wedge.half_angle || !p.plates.empty()) return 0;
-  const auto outlet = continuum::outlet_of(p);
-  if (!outlet) return 0;
+double discharge_of_slit(const continuum::Layout& layout) {
+  const continuum::Parameters& p = layout.given;
+  const auto& outlet = layout.outlet;
+  if (!p.plate.height || p.wedge.half_angle || !p.plates.empty() || !outlet) return 0;
   const auto cut = [](FaceKind face, double distance) { return face != FaceKind::open && distance <= 0; };
   const double halves = cut(p.box.left, outlet->left) || cut(p.box.right, p.box.width - outlet->right) ? 2 : 1;
   return granular::rectangular_discharge(halves * (outlet->right - outlet->left), p.box.depth, true, bulk_density(p),
@@ -109,7 +111,8 @@ double discharge_of_slit(const continuum::Parameters& p) {
 
 }  // namespace
 
-double discharge_by_hand(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
+double discharge_by_hand(const continuum::Layout& layout, const continuum::VesselOutlet& outlet) {
+  const continuum::Parameters& p = layout.given;
   const auto inside = [](double middle, double width, double extent) {
     return std::max(0.0, std::min(middle + 0.5 * width, extent) - std::max(middle - 0.5 * width, 0.0)) / width;
   };
@@ -127,10 +130,10 @@ double discharge_by_hand(const continuum::Parameters& p, const continuum::Vessel
          granular::orifice_discharge(outlet.width, bulk_density(p), p.gravity.acceleration, p.grains.diameter);
 }
 
-double discharge_by_hand(const continuum::Parameters& p) {
-  if (p.vessel.empty()) return discharge_of_slit(p);
+double discharge_by_hand(const continuum::Layout& layout) {
+  if (layout.given.vessel.empty()) return discharge_of_slit(layout);
   double rate = 0;
-  for (const continuum::VesselOutlet& outlet : continuum::outlets_of_vessel(p)) rate += discharge_by_hand(p, outlet);
+  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets) rate += discharge_by_hand(layout, outlet);
   return rate;
 }
 
@@ -142,22 +145,22 @@ double internal_friction_by_hand(const continuum::Parameters& p) {
                       : usual_angle;
 }
 
-double mass_flow_half_angle_by_hand(const continuum::Parameters& p) {
-  const VesselPart* cone = emptying_cone(p);
-  return cone ? granular::mass_flow_half_angle(friction_of(p, *cone), internal_friction_by_hand(p)) : HopperRun::none;
+double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
+  const VesselPart* cone = emptying_cone(layout);
+  return cone ? granular::mass_flow_half_angle(friction_of(layout, *cone), internal_friction_by_hand(layout.given)) : HopperRun::none;
 }
 
-double half_angle_of_cone(const continuum::Parameters& p) {
-  const VesselPart* cone = emptying_cone(p);
+double half_angle_of_cone(const continuum::Layout& layout) {
+  const VesselPart* cone = emptying_cone(layout);
   return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;
 }
 
-PressureByHand pressure_by_hand(const continuum::Parameters& p, const BandOfWall& band, double ratio, double top,
+PressureByHand pressure_by_hand(const continuum::Layout& layout, const BandOfWall& band, double ratio, double top,
                                 double height) {
   if (!(height < top)) return {};
-  const VesselPart& v = p.vessel[band.patch];
-  if (is_hopper(v)) return pressure_of_cone(p, v, ratio, top, height);
-  const double vertical = janssen_at(p, ratio, top, height);
+  const VesselPart& v = layout.given.vessel[band.patch];
+  if (is_hopper(v)) return pressure_of_cone(layout, v, ratio, top, height);
+  const double vertical = janssen_at(layout, ratio, top, height);
   if (hydraulic_radius(v) > 0) return {ratio * vertical, ratio * vertical};
   return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none} : PressureByHand{};
 }

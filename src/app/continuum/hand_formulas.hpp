@@ -3,17 +3,16 @@
 #pragma once
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/boundary/vessel_outlets.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 
 /// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with round or rectangular outlets; of a
 /// level plate with a slit, which goes on beyond the faces that it ends at. Of an outlet that is cut by planes of
 /// symmetry, what leaves on this side of them. \returns 0 where there is no formula, as for a wedge
-double discharge_by_hand(const continuum::Parameters& parameters);
+double discharge_by_hand(const continuum::Layout& layout);
 /// Of one of the outlets of a vessel; discharge_by_hand() adds them up.
-double discharge_by_hand(const continuum::Parameters& parameters, const continuum::VesselOutlet& outlet);
+double discharge_by_hand(const continuum::Layout& layout, const continuum::VesselOutlet& outlet);
 
 /// The angle of internal friction that Walker's and Jenike's formulas take, rad: that of Mohr's circle in plane strain
 /// (physics/granular/friction_angle.hpp), of the law's friction, which counts up to 1; 30 degrees where it has none.
@@ -21,10 +20,10 @@ double internal_friction_by_hand(const continuum::Parameters& parameters);
 
 /// The largest half angle of mass flow in a cone (physics/granular/silo_pressure.hpp), rad; nan if the vessel empties
 /// through no cone.
-double mass_flow_half_angle_by_hand(const continuum::Parameters& parameters);
+double mass_flow_half_angle_by_hand(const continuum::Layout& layout);
 
 /// The half angle that it has, rad; nan without such a cone.
-double half_angle_of_cone(const continuum::Parameters& parameters);
+double half_angle_of_cone(const continuum::Layout& layout);
 
 /// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {
@@ -34,7 +33,7 @@ struct PressureByHand {
 /// On upright round or square walls K times Janssen's stress; on a level band that stress; on a cone Walker's pressure,
 /// the bed above it a surcharge by Janssen. \param ratio K, as measured in the bed at rest \param top of the bed, m
 /// \param height of the place, m
-PressureByHand pressure_by_hand(const continuum::Parameters& parameters, const BandOfWall& band, double ratio,
+PressureByHand pressure_by_hand(const continuum::Layout& layout, const BandOfWall& band, double ratio,
                                 double top, double height);
 
 }  // namespace talus::app

@@ -6,8 +6,6 @@
 #include <limits>
 
 #include "analysis/particle_field.hpp"
-#include "models/continuum/boundary/vessel_outlets.hpp"
-#include "models/continuum/setup/time_scale.hpp"
 
 namespace talus::app {
 
@@ -24,8 +22,9 @@ double spread_along_z(double distance, double h) {
 
 /// What passes each of several outlets of a vessel, near which it is, spread along z as that of all; empty of one
 /// alone.
-std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuum::Parameters& p, double mass) {
-  const std::vector<continuum::VesselOutlet> outlets = continuum::outlets_of_vessel(p);
+std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuum::Layout& layout) {
+  const std::vector<continuum::VesselOutlet>& outlets = layout.vessel_outlets;
+  const double mass = layout.lattice.mass, spacing = layout.given.bed.spacing;
   std::vector<NamedValue> rates;
   if (outlets.size() < 2) return rates;
   const auto position = snapshot.positions();
@@ -34,8 +33,8 @@ std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuu
     double rate = 0;
     for (std::size_t i = 0; i < position.size(); ++i) {
       const double above = position[i].z - outlet.middle.z;
-      if (std::abs(above) < sph::support * p.bed.spacing && outlet.is_beside(position[i], p.bed.spacing))
-        rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
+      if (std::abs(above) < sph::support * spacing && outlet.is_beside(position[i], spacing))
+        rate -= mass * velocity[i].z * spread_along_z(above, spacing);
     }
     rates.push_back({"discharge_rate_" + outlet.name, "kg/s", rate});
   }
@@ -44,15 +43,16 @@ std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuu
 
 }  // namespace
 
-std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Parameters& p) {
+std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Layout& layout) {
+  const continuum::Parameters& p = layout.given;
   const auto position = snapshot.positions();
   const auto velocity = snapshot.vectors("velocity");
   const auto density = snapshot.scalars("density");
-  const double mass = continuum::lattice_of(p).mass;
+  const double mass = layout.lattice.mass;
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double passed = 0, rate = 0, lowest = infinity, near_floor = 0;
-  const auto outlet = continuum::outlet_of(p);
+  const auto& outlet = layout.outlet;
   const double plate = outlet ? outlet->height : p.plate.height.value_or(-infinity);
   for (std::size_t i = 0; i < position.size(); ++i) {
     const double z = position[i].z, above = z - plate;
@@ -63,13 +63,13 @@ std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum
     if (z < p.bed.spacing) near_floor += mass;
   }
   if (position.empty()) lowest = std::nan("");
-  const std::vector<NamedValue> by_outlet = rates_by_outlet(snapshot, p, mass);
+  const std::vector<NamedValue> by_outlet = rates_by_outlet(snapshot, layout);
 
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
     const Vector3 slit{0.5 * (outlet->left + outlet->right), outlet->middle_y, outlet->height};
-    const double probe_above_slit = share_of_outlet * continuum::outlet_width(p).value_or(0);
+    const double probe_above_slit = share_of_outlet * layout.outlet_width.value_or(0);
     const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
     // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
     auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "app/materials/materials.hpp"
-#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 
@@ -37,15 +36,15 @@ Shortening softer_grains(double modulus) {
       .text = "grains as soft as discharge and loads allow (docs/design/time-steps.md)"};
 }
 
-Shortening larger_particles(const continuum::Parameters& p) {
-  const auto outlet = continuum::outlet_of(p);
-  const double width = outlet ? outlet->across : 0;
+Shortening larger_particles(const continuum::Layout& layout) {
+  const continuum::Parameters& p = layout.given;
+  const double width = layout.outlet ? layout.outlet->across : 0;
   std::vector<double> spacings;
   if (width > 0) spacings.push_back(width / enough_across);
   for (const double factor : larger)
     if (!(width > 0) || factor * p.bed.spacing < width / enough_across) spacings.push_back(factor * p.bed.spacing);
   Shortening s{.alternatives = {}, .text = width > 0 ? "fewer particles across the outlet" : "fewer particles"};
-  const bool is_section = continuum::lattice_of(p).count[1] == 1;
+  const bool is_section = layout.lattice.count[1] == 1;
   for (const double spacing : spacings) {
     if (spacing < 1.05 * p.bed.spacing) continue;
     s.alternatives.push_back({"bed.spacing=" + millimetres(spacing)});
@@ -56,17 +55,18 @@ Shortening larger_particles(const continuum::Parameters& p) {
 
 }  // namespace
 
-std::vector<Shortening> shorter_runs(const continuum::Parameters& p, double end) {
+std::vector<Shortening> shorter_runs(const continuum::Layout& layout, double end) {
+  const continuum::Parameters& p = layout.given;
   std::vector<Shortening> all;
   if (!p.box.sector && !p.vessel.empty()) all.push_back(sector());
   if (p.law.is<granular::CriticalState>()) {
-    const double modulus = bulk_modulus_for(p, end);
+    const double modulus = bulk_modulus_for(layout, end);
     if (modulus > 0 && p.law.of<granular::CriticalState>().bulk_modulus > 1.05 * modulus)
       all.push_back(softer_grains(modulus));
   }
   if (p.integration.pair_precision == continuum::PairPrecision::in_double)
     all.push_back({.alternatives = {{"integration.pair_precision=single"}}, .text = "sums over pairs to some 1e-6"});
-  all.push_back(larger_particles(p));
+  all.push_back(larger_particles(layout));
   return all;
 }
 

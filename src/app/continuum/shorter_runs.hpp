@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "app/case/prepared_case.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 
 /// Changes that leave what the case asks: none makes grains softer than bulk_modulus_for(). Whether the case bears them
 /// (an axisymmetric vessel, enough particles across the outlet) shows when it is read with them.
-std::vector<Shortening> shorter_runs(const continuum::Parameters& parameters, double end);
+std::vector<Shortening> shorter_runs(const continuum::Layout& layout, double end);
 
 }  // namespace talus::app

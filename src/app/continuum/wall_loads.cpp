@@ -15,19 +15,17 @@
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
-#include "models/continuum/setup/layout.hpp"
-#include "models/continuum/state.hpp"
 
 namespace talus::app {
 
-std::vector<BandOfWall> bands_of(const continuum::Parameters& p) {
+std::vector<BandOfWall> bands_of(const continuum::Layout& layout) {
   std::vector<BandOfWall> bands;
-  for (const continuum::LoadBand& band : load_bands(p, load_fields(p, surface_of(p))))
+  for (const continuum::LoadBand& band : load_bands(layout.given, load_fields(layout)))
     bands.push_back({band.name, band.patch, band.low, band.high, band.area, band.sine});
   return bands;
 }
 
-void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Parameters& p) {
+void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Setup& setup) {
   const std::vector<BandOfWall>& bands = run.setting.bands;
   if (bands.empty()) return;
   const Window flow = hopper::while_it_flows(run);
@@ -38,7 +36,7 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   for (const BandOfWall& band : bands) {
     if (!(band.area > 0)) continue;
     const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to, run.setting.averaging_time);
-    const PressureByHand hand = pressure_by_hand(p, band, ratio, top, 0.5 * (band.low + band.high));
+    const PressureByHand hand = pressure_by_hand(setup, band, ratio, top, 0.5 * (band.low + band.high));
     rows.push_back({static_cast<double>(band.patch + 1), band.low, band.high, band.area, load.pressure_at_rest,
                     load.shear_at_rest, load.pressure_in_flow, load.shear_in_flow, load.pressure_largest,
                     load.time_of_largest, hand.at_rest, hand.in_flow});
@@ -73,10 +71,11 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   write_table(folder / "wall_stress.csv", columns, against_time);
 }
 
-void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Parameters& p) {
+void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& run, const continuum::Setup& setup) {
+  const continuum::Parameters& p = setup.given;
   const bool is_apart = p.bed.left || p.bed.right;
   if (!p.vessel.empty() || p.wedge.half_angle || !p.plates.empty() || is_apart || run.series.rows() < 2) return;
-  const double t = run.setting.averaging_time, end = run.end(), bottom = continuum::bed_bottom(p);
+  const double t = run.setting.averaging_time, end = run.end(), bottom = setup.bottom;
   const double side = p.bed.height * p.box.depth, face = p.bed.height * p.box.width, ground = p.box.width * p.box.depth;
   struct Wall {
     const char* name;
@@ -97,9 +96,10 @@ void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& r
     const Curve impulse = scaled(given, (is_low ? -1 : 1) / wall.area);
     const Curve means = mean_rates(impulse, 0.5 * t, 0.05 * t, 0, end);
     const Extremes peak = means.time.empty() ? Extremes{0, HopperRun::none, HopperRun::none} : extremes(means);
+    const auto patches = setup.boundary->patches();
     const auto number =
-        std::find(continuum::wall_names.begin(), continuum::wall_names.end(), std::string_view(wall.name)) -
-        continuum::wall_names.begin();
+        std::find_if(patches.begin(), patches.end(), [&](const auto& patch) { return patch.name == wall.name; }) -
+        patches.begin();
     rows.push_back({static_cast<double>(number + 1), wall.low, wall.high, wall.area, mean_rate(impulse, -t, 0),
                     mean_rate(impulse, flow.from, flow.to), peak.largest, peak.largest_time});
   }

@@ -168,8 +168,9 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 namespace {
 
 /// The depth that the bed and what comes in until the end of the run can have, m.
-double depth_that_may_be_reached(const continuum::Parameters& p, double end) {
-  const double depth = continuum::depth_of_grains(p),
+double depth_that_may_be_reached(const continuum::Layout& layout, double end) {
+  const continuum::Parameters& p = layout.given;
+  const double depth = layout.depth,
                mass = continuum::mass_to_come(p, end, continuum::time_scales_of(p).settling_limit);
   if (!(mass > 0)) return depth;
   double low = 0, high = 0, area = p.box.width * p.box.depth;
@@ -179,22 +180,22 @@ double depth_that_may_be_reached(const continuum::Parameters& p, double end) {
     low = std::max(low, from.z);
   }
   for (const continuum::Inlet& inlet : p.inlets) high = std::max(high, inlet.centre[2]);
-  const double before = continuum::has_no_bed(p) ? 0 : depth;
+  const double before = layout.has_no_bed() ? 0 : depth;
   return std::max(before, std::min(high - low, before + mass / (p.bed.packing * p.grains.density * area)));
 }
 
 /// The largest speed of a free fall from where grains begin to the lowest place that they can reach, m/s.
-double speed_of_fall(const continuum::Parameters& p) {
+double speed_of_fall(const continuum::Layout& layout) {
+  const continuum::Parameters& p = layout.given;
   double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;
   low = std::max(low, p.removal.below.value_or(low));
   const auto speed = [&](double from, const std::array<double, 3>& v) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2] + 2 * p.gravity.acceleration * std::max(0.0, from - low));
   };
   double largest = 0;
-  if (!continuum::has_no_bed(p)) {
-    const auto outlet = continuum::outlet_of(p);
+  if (!layout.has_no_bed()) {
     largest =
-        speed(outlet ? outlet->height : continuum::bed_bottom(p), p.bed.velocity.value_or(std::array<double, 3>{}));
+        speed(layout.outlet ? layout.outlet->height : layout.bottom, p.bed.velocity.value_or(std::array<double, 3>{}));
   }
   for (const continuum::Inlet& inlet : p.inlets) largest = std::max(largest, speed(inlet.centre[2], inlet.velocity));
   return largest;
@@ -202,13 +203,15 @@ double speed_of_fall(const continuum::Parameters& p) {
 
 }  // namespace
 
-double bulk_modulus_for(const continuum::Parameters& p, double end) {
-  const double density = p.bed.packing * p.grains.density, speed = speed_of_fall(p) / max_mach_number_of_fall;
-  return std::max(moduli_over_weight * (density * p.gravity.acceleration * depth_that_may_be_reached(p, end)),
+double bulk_modulus_for(const continuum::Layout& layout, double end) {
+  const continuum::Parameters& p = layout.given;
+  const double density = p.bed.packing * p.grains.density, speed = speed_of_fall(layout) / max_mach_number_of_fall;
+  return std::max(moduli_over_weight * (density * p.gravity.acceleration * depth_that_may_be_reached(layout, end)),
                   density * speed * speed / (1 + 4.0 / 3 * shear_over_bulk));
 }
 
-void set_from_bed(const CaseFile& file, continuum::Parameters& p, double end, FilledIn& filled) {
+void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double end, continuum::Parameters& p,
+                  FilledIn& filled) {
   if (!p.law.is<granular::CriticalState>()) return;
   auto& law = p.law.of<granular::CriticalState>();
   const auto set = [&](const char* key, double& number, double value) {
@@ -216,7 +219,7 @@ void set_from_bed(const CaseFile& file, continuum::Parameters& p, double end, Fi
     number = value;
     filled.keys.insert_or_assign(key, "bed");
   };
-  set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(p, end));
+  set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(layout, end));
   if (p.bed.packing >= law.loosest_packing)
     set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
   set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);

@@ -17,7 +17,7 @@
 #include "base/error.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "physics/granular/friction_angle.hpp"
 
 namespace talus {
@@ -62,7 +62,7 @@ std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& param
 /// times the weight over its area of as deep a bed as the grains at the start and those that come in can make, and so
 /// much that what falls from where it begins to the lowest place has a Mach number of 0.1 at most. \param end of the
 /// run, s
-double bulk_modulus_for(const continuum::Parameters& parameters, double end);
+double bulk_modulus_for(const continuum::Layout& layout, double end);
 
 /// The shear modulus over the bulk modulus, as in the paper's law at zero strain.
 inline constexpr double shear_over_bulk = 0.6;
@@ -70,7 +70,7 @@ inline constexpr double shear_over_bulk = 0.6;
 /// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The
 /// packing at which the grains just touch: the bed's, so that it bears no pressure before its weight, unless so loose
 /// that they do not touch. \param parameters as read \param end of the run, s
-void set_from_bed(const CaseFile& file, continuum::Parameters& parameters, double end, FilledIn& filled);
+void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double end, continuum::Parameters& parameters, FilledIn& filled);
 
 // ------------------------------------------------------------------------------------------------------------------
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "models/continuum/phase.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
 
@@ -45,9 +45,11 @@ std::string inlet_key(std::size_t n, std::string_view name) {
   return fmt::format("inlet.{}.{}", n + 1, name);
 }
 
-InletLayer layer_of(const Parameters& p, const Inlet& inlet, double mass) {
-  const Surface surface = surface_of(p);
-  const Domain domain = domain_of(p);
+InletLayer layer_of(const Layout& layout, const Inlet& inlet) {
+  const Parameters& p = layout.given;
+  const Surface& surface = layout.boundary->vessel();
+  const Domain& domain = layout.boundary->domain();
+  const double mass = layout.lattice.mass;
   InletLayer layer;
   const double room = sph::contact_distance * p.bed.spacing;
   for (const Vector3& x : lattice_in(p, inlet))
@@ -68,13 +70,14 @@ InletLayer layer_of(const Parameters& p, const Inlet& inlet, double mass) {
   return layer;
 }
 
-std::vector<Problem> check_inlets(const Parameters& p) {
+std::vector<Problem> check_inlets(const Layout& layout) {
+  const Parameters& p = layout.given;
   std::vector<Problem> problems;
   const auto refuse = [&](std::string key, std::string what, std::string allowed) {
     problems.push_back({.key = std::move(key), .what = std::move(what), .allowed = std::move(allowed)});
   };
   const bool sized = p.bed.spacing > 0 && p.box.width > 0 && p.box.depth > 0 && p.box.height > 0 &&
-                     (p.bed.height > 0 || has_no_bed(p));
+                     (p.bed.height > 0 || layout.has_no_bed());
   for (std::size_t n = 0; n < p.inlets.size(); ++n) {
     const Inlet& inlet = p.inlets[n];
     const auto& x = inlet.centre;
@@ -87,8 +90,8 @@ std::vector<Problem> check_inlets(const Parameters& p) {
     if (!inlet.to && inlet.clock == InletClock::start && p.gate.opens == GateOpens::when_settled)
       refuse(inlet_key(n, "to"), "is not given: the bed would never settle", "a time, or clock = \"gate\"");
     if (!inside || !(inlet.velocity[2] < 0) || !sized) continue;
-    const double mass = lattice_of(p).mass;
-    const InletLayer layer = layer_of(p, inlet, mass);
+    const double mass = layout.lattice.mass;
+    const InletLayer layer = layer_of(layout, inlet);
     const double most = static_cast<double>(layer.places.size()) * mass * -inlet.velocity[2] / p.bed.spacing;
     if (layer.places.empty())
       refuse(inlet_key(n, "centre"), "leaves no place for grains between the walls", "a place apart from walls");

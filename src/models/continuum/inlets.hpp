@@ -15,7 +15,7 @@
 
 namespace talus::continuum {
 
-struct Parameters;
+struct Layout;
 
 enum class InletShape { rectangle, disc };
 enum class InletClock { start, gate };
@@ -86,7 +86,7 @@ void for_each_parameter_of_inlets(Visit&& visit, I& inlets, R& removal) {
 }
 
 /// Contradictions between these keys that are each valid by themselves.
-std::vector<Problem> check_inlets(const Parameters& parameters);
+std::vector<Problem> check_inlets(const Layout& layout);
 
 /// What comes in together.
 struct InletLayer {
@@ -94,8 +94,8 @@ struct InletLayer {
   std::vector<double> density;  ///< bulk, of each, as the kernel sees it within the stream, kg/m^3
   double interval = 0;          ///< between layers, s
 };
-/// Places on a lattice of bed.spacing, no nearer to a wall than the contact distance. \param mass of a particle, kg
-InletLayer layer_of(const Parameters& parameters, const Inlet& inlet, double mass);
+/// Places on a lattice of bed.spacing, no nearer to a wall than the contact distance.
+InletLayer layer_of(const Layout& layout, const Inlet& inlet);
 
 }  // namespace talus::continuum
 

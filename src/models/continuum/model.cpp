@@ -12,7 +12,6 @@
 #include "models/continuum/population.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"
-#include "models/continuum/setup/time_scale.hpp"
 #include "numerics/snapshot_of.hpp"
 #include "numerics/whole.hpp"
 
@@ -53,11 +52,6 @@ ParticleTotals totals_of_particles(const Box& box, const State& s) {
   totals.momentum = momentum.value(point);
   totals.mass_outside = s.mass * static_cast<double>(outside);
   return totals;
-}
-
-std::string wall_name(const Domain& domain, int wall) {
-  return wall < wall_number(0) ? wall_names[static_cast<std::size_t>(wall)]
-                               : domain.walls()[static_cast<std::size_t>(wall - wall_number(0))].name();
 }
 
 /// Of the particles, without the stress by collisions, Pa.
@@ -123,21 +117,20 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
 
 }  // namespace
 
-Continuum::Continuum(const Parameters& parameters)
-    : parameters_(parameters), state_(initial_state(parameters, Material(parameters))) {}
+Continuum::Continuum(std::shared_ptr<const Setup> setup) : setup_(std::move(setup)), state_(initial_state(*setup_)) {}
 
 void Continuum::begin(ThreadTeam& team) {
   make_workspace();
-  continuum::begin(team, parameters_, state_, *workspace_);
+  continuum::begin(team, *setup_, state_, *workspace_);
 }
 
 void Continuum::resume(ThreadTeam& team) {
   make_workspace();
-  derive(team, parameters_, state_, *workspace_);
+  derive(team, *setup_, state_, *workspace_);
 }
 
 void Continuum::make_workspace() {
-  workspace_ = std::make_unique<Workspace>(parameters_, state_);
+  workspace_ = std::make_unique<Workspace>(*setup_, state_);
   if (domain().sector()) around_whole_.emplace(domain().whole());
   whole_.reset();
   part_.reset();
@@ -146,7 +139,7 @@ void Continuum::make_workspace() {
 void Continuum::advance(ThreadTeam& team) {
   whole_.reset();
   part_.reset();
-  continuum::advance(team, parameters_, state_, *workspace_);
+  continuum::advance(team, *setup_, state_, *workspace_);
 }
 
 double Continuum::time_origin() const {
@@ -155,24 +148,24 @@ double Continuum::time_origin() const {
 
 double Continuum::latest_origin() const {
   if (state_.gate_time >= 0) return state_.gate_time;
-  if (parameters_.gate.opens == GateOpens::from_the_start) return 0;
-  return parameters_.gate.opens == GateOpens::at_time ? parameters_.gate.time
-                                                      : time_scales_of(parameters_).settling_limit;
+  if (setup_->given.gate.opens == GateOpens::from_the_start) return 0;
+  return setup_->given.gate.opens == GateOpens::at_time ? setup_->given.gate.time
+                                                      : setup_->scales.settling_limit;
 }
 
 double Continuum::has_moved_from() const {
-  const double g = parameters_.gravity.acceleration;
-  const double fall = g > 0 ? std::sqrt(2 * parameters_.bed.spacing / g) : 0;
+  const double g = setup_->given.gravity.acceleration;
+  const double fall = g > 0 ? std::sqrt(2 * setup_->given.bed.spacing / g) : 0;
   return std::max(state_.gate_time, fall);
 }
 
 std::optional<std::string> Continuum::ended() const {
-  if (!has_emptied(parameters_, state_)) return std::nullopt;
+  if (!has_emptied(setup_->given, state_)) return std::nullopt;
   return "all grains have left: the vessel has emptied";
 }
 
 NumericalError::Report Continuum::step_limit() const {
-  return continuum::step_limit(parameters_, state_, *workspace_);
+  return continuum::step_limit(*setup_, state_, *workspace_);
 }
 
 Snapshot Continuum::snapshot() const {
@@ -212,11 +205,8 @@ std::vector<NamedValue> Continuum::totals() const {
   add("momentum", particles.momentum);
   add("impulse_gravity", s.gravity_impulse);
   add("impulse_damping", s.damping_impulse);
-  for (int wall = 0; wall < domain().wall_count(); ++wall)
-    if (domain().bears_load(wall))
-      add("impulse_" + wall_name(domain(), wall), s.wall_impulse[static_cast<std::size_t>(wall)]);
-  for (std::size_t n = 0; n < s.vessel_impulse.size(); ++n)
-    add("impulse_" + name_of(parameters_, n), s.vessel_impulse[n]);
+  for (std::size_t n = 0; n < s.patch_impulse.size(); ++n)
+    if (setup_->boundary->bears_load(n)) add("impulse_" + setup_->boundary->patches()[n].name, s.patch_impulse[n]);
   for (NamedValue& value : totals_of(workspace_->load_bands, workspace_->load_fields, s.wall_loads))
     values.push_back(std::move(value));
   if (s.population.is_active) {
@@ -225,7 +215,7 @@ std::vector<NamedValue> Continuum::totals() const {
     add("fed_momentum", s.population.fed_momentum);
     add("removed_momentum", s.population.removed_momentum);
   }
-  if (parameters_.air.enabled) {
+  if (setup_->given.air.enabled) {
     const AirAround& air = s.air;
     const AirTotals cells = totals_of_air(air);
     add("impulse_air", air.impulse);
@@ -245,7 +235,7 @@ std::vector<NamedValue> Continuum::totals() const {
 
 std::optional<GridSnapshot> Continuum::grid() const {
   const AirAround& air = state_.air;
-  if (!parameters_.air.enabled) return std::nullopt;
+  if (!setup_->given.air.enabled) return std::nullopt;
   GridSnapshot snapshot{.time = state_.time,
                         .step = state_.step,
                         .count = air.grid.count,
@@ -275,7 +265,7 @@ std::optional<GridSnapshot> Continuum::grid() const {
 }
 
 std::optional<SurfaceSnapshot> Continuum::walls() const {
-  if (parameters_.vessel.empty()) return std::nullopt;
+  if (setup_->given.vessel.empty()) return std::nullopt;
   SurfaceSnapshot snapshot =
       loads_on(workspace_->load_mesh, workspace_->load_fields, state_.wall_loads, state_.time, state_.gate_time);
   snapshot.step = state_.step;
@@ -284,14 +274,14 @@ std::optional<SurfaceSnapshot> Continuum::walls() const {
 
 std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const State& s = state_;
-  const double c = workspace_->sound_speed;
+  const double c = setup_->sound_speed;
   const auto& lengths = workspace_->smoothing_length;
   // Of an empty vessel that of the bed's particles.
   const double h = lengths.empty()
-                       ? workspace_->pairs.smoothing_length(parameters_.bed.packing * parameters_.grains.density)
+                       ? workspace_->pairs.smoothing_length(setup_->density)
                        : *std::min_element(lengths.begin(), lengths.end());
   const double step =
-      lengths.empty() ? parameters_.integration.step.value_or(parameters_.integration.courant * h / c) : s.last_step;
+      lengths.empty() ? setup_->given.integration.step.value_or(setup_->given.integration.courant * h / c) : s.last_step;
   const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
   constexpr double most_packing = 0.74, slack = 1.02;
@@ -299,9 +289,9 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
                               ? record.series.column("packing_max").front()
                               : std::nan("");
   const double slow = record.value("inertial_share");
-  std::vector<RegimeLine> lines = regime_of_case(parameters_);
+  std::vector<RegimeLine> lines = regime_of_case(*setup_);
   const std::vector<RegimeLine> of_run = {
-      courant_line(parameters_.integration.method, courant),
+      courant_line(setup_->given.integration.method, courant),
       {"sound speed", fmt::format("{:.4g} m/s", c), "upper bound, used for the time step"},
       {"Mach number", fmt::format("{:.3g}", mach), "largest speed of the run over the sound speed", mach > 0.3},
       {"largest packing", fmt::format("{:.3f}", packing),
@@ -315,30 +305,30 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
        slow < 0.5},
   };
   lines.insert(lines.end(), of_run.begin(), of_run.end());
-  if (const double most = workspace_->material.range().largest_pressure; std::isfinite(most)) {
+  if (const double most = setup_->material.range().largest_pressure; std::isfinite(most)) {
     const double pressure = largest_pressure(s);
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
   }
-  if (parameters_.grains.material) {
-    const double pressure = largest_pressure(s), most = parameters_.grains.range.largest_pressure;
+  if (setup_->given.grains.material) {
+    const double pressure = largest_pressure(s), most = setup_->given.grains.range.largest_pressure;
     lines.push_back({"pressure for the material", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("largest at the end; the values of {} hold up to {:.4g} Pa",
-                                 choice_name(*parameters_.grains.material), most),
+                                 choice_name(*setup_->given.grains.material), most),
                      pressure > most});
   }
-  if (const double most = workspace_->material.range().largest_inertial_number; std::isfinite(most)) {
-    const double beyond = share_above_inertial_number(parameters_, s, most);
+  if (const double most = setup_->material.range().largest_inertial_number; std::isfinite(most)) {
+    const double beyond = share_above_inertial_number(setup_->given, s, most);
     lines.push_back({"share of flow too fast for the law", fmt::format("{:.3f}", beyond),
                      fmt::format("at the end, of the particles that bear a pressure those with an inertial number "
                                  "above {:g}, where the range of the law ends",
                                  most),
                      beyond > notable_share});
   }
-  if (parameters_.collisions.form != granular::Collisions::none)
-    lines.push_back(regime_of_collisions(parameters_.collisions, record));
-  if (parameters_.air.enabled)
-    for (RegimeLine& line : regime_of_air(parameters_, s)) lines.push_back(std::move(line));
+  if (setup_->given.collisions.form != granular::Collisions::none)
+    lines.push_back(regime_of_collisions(setup_->given.collisions, record));
+  if (setup_->given.air.enabled)
+    for (RegimeLine& line : regime_of_air(setup_->given, s)) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -23,12 +23,13 @@ class Continuum {
   using State = continuum::State;
 
   /// Fills the bed.
-  explicit Continuum(const Parameters& parameters);
+  explicit Continuum(std::shared_ptr<const Setup> setup);
+  explicit Continuum(const Parameters& parameters) : Continuum(std::make_shared<const Setup>(parameters)) {}
 
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
   /// Where the particles are, its gates as they are now. \pre begun or resumed
-  const Domain& domain() const { return workspace_->domain; }
+  const Domain& domain() const { return workspace_->boundary.domain(); }
   /// When the gate opened, s; infinite while it is shut.
   double time_origin() const;
   double latest_origin() const;
@@ -69,7 +70,7 @@ class Continuum {
   /// sector's axis the lattice of the start may lie closer than grains can. s
   double has_moved_from() const;
 
-  Parameters parameters_;
+  std::shared_ptr<const Setup> setup_;
   State state_;
   std::unique_ptr<Workspace> workspace_;          // made by begin or resume
   std::optional<Domain> around_whole_;            // of a sector, with its workspace

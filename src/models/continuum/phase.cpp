@@ -14,12 +14,11 @@ namespace {
 /// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
 void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double time = s.time - s.gate_time;
-  const bool in_vessel = has_gates_due(p, w.vessel, time);
-  if (!w.domain.has_gates_due(time) && !in_vessel) return;
+  if (!w.boundary.has_gates_due(time)) return;
+  const bool in_vessel = w.boundary.vessel_has_gates_due(time);
   evaluate(team, p, s, w);
   const std::vector<double> before = w.rates.kernel_density;
-  w.domain.open_gates(time);
-  open_gates(p, w.vessel, time);
+  w.boundary.open_gates(time);
   if (in_vessel) {  // who was hidden by the gate is a neighbour now
     set_list_reference(p, s, w);
     w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
@@ -51,8 +50,9 @@ std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& posi
 }
 
 /// How many have left it since the start, those that were taken away among them.
-std::size_t left_vessel(const Parameters& p, const State& s) {
-  const std::size_t before = outside_vessel(p, bed_positions(p)), now = outside_vessel(p, s.position);
+std::size_t left_vessel(const Layout& layout, const State& s) {
+  const std::size_t before = outside_vessel(layout.given, bed_positions(layout)),
+                    now = outside_vessel(layout.given, s.position);
   return (now > before ? now - before : 0) + s.population.removed;
 }
 
@@ -70,12 +70,13 @@ bool draws_by_lasting_rate(const Parameters& p) {
   return !p.vessel.empty() && density_relaxation(p) > 0;
 }
 
-void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+void begin_densities(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+  const Parameters& p = setup.given;
   if (!is_loose_where_free(p)) return;
   // Particles of a file keep the densities that it gives them.
   const std::size_t given = p.bed.given ? p.bed.given->density.size() : 0;
   evaluate(team, p, s, w);
-  const double bed = p.bed.packing * p.grains.density;
+  const double bed = setup.density;
   for_each(team, s.density.size(), [&](std::size_t i) {
     if (static_cast<std::size_t>(s.identity[i]) >= given) s.density[i] = std::min(bed, w.rates.kernel_density[i]);
   });
@@ -83,23 +84,25 @@ void begin_densities(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   find_neighbours(team, p, s, w);
 }
 
-void update_phase(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const double limit = w.scales.settled_speed * w.scales.settled_speed;
+void update_phase(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+  const Parameters& p = setup.given;
+  const TimeScales& scales = setup.scales;
+  const double limit = scales.settled_speed * scales.settled_speed;
   const auto moving = reduce(
       team, s.velocity.size(), std::size_t{0},
       [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
       [](std::size_t a, std::size_t b) { return a + b; });
-  const bool quiet = s.time >= w.loading_time && 100 * moving <= s.velocity.size();
+  const bool quiet = s.time >= setup.loading_time && 100 * moving <= s.velocity.size();
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);
-  const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= w.scales.settled_duration;
+  const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= scales.settled_duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
     begin_flow(s.time, s.wall_loads);
     open_gates(team, p, s, w);
-  } else if (p.gate.opens == GateOpens::when_settled && s.time > w.scales.settling_limit) {
-    const std::size_t left = left_vessel(p, s);
+  } else if (p.gate.opens == GateOpens::when_settled && s.time > scales.settling_limit) {
+    const std::size_t left = left_vessel(setup, s);
     const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";
     const std::string leak = left > 0 ? "first a wall, lid or gate where the vessel is open (talus check names rims of "
                                         "STL files below the top of the bed); then "

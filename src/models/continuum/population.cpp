@@ -94,13 +94,13 @@ bool is_outside(const Parameters& p, const Box& box, const Vector3& x) {
 
 }  // namespace
 
-Population initial_population(const Parameters& p, std::size_t particles) {
+Population initial_population(const Layout& layout, std::size_t particles) {
+  const Parameters& p = layout.given;
   Population population;
   population.is_active = !p.inlets.empty() || p.removal.is_any();
   population.next_identity = particles;
-  const double mass = lattice_of(p).mass;
   for (const Inlet& inlet : p.inlets)
-    population.next_layer.push_back(inlet.from + 0.5 * layer_of(p, inlet, mass).interval);
+    population.next_layer.push_back(inlet.from + 0.5 * layer_of(layout, inlet).interval);
   return population;
 }
 
@@ -134,7 +134,7 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   const FixedPoint point(s.impulse_unit);
   FixedVector taken;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    if (is_outside(p, w.domain.box(), s.position[i]))
+    if (is_outside(p, w.boundary.domain().box(), s.position[i]))
       taken.add(point, s.mass * s.velocity[i]);
     else
       left.push_back(static_cast<std::uint32_t>(i));

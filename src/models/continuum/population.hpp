@@ -10,7 +10,7 @@
 namespace talus::continuum {
 
 /// At the start: nothing has come or gone.
-Population initial_population(const Parameters& parameters, std::size_t particles);
+Population initial_population(const Layout& layout, std::size_t particles);
 
 /// Adds the layers of inlets that are due at the time of the state. \returns whether there are new particles
 bool feed(const Parameters& parameters, State& state, Workspace& workspace);

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/continuum/boundary/vessel_outlets.hpp"
-#include "models/continuum/boundary/vessel_rims.hpp"
-#include "models/continuum/material.hpp"
 #include "models/continuum/setup/bed_report.hpp"
 #include "models/continuum/setup/forecast.hpp"
+#include "models/continuum/setup/open_rims.hpp"
 
 namespace talus::continuum {
 
@@ -21,23 +19,30 @@ constexpr double fewest_across = 12;  // particles
 constexpr double least_outlet_over_axis = 2.8;
 constexpr double notable_share = 0.1;  // of an outlet, of a wall
 
+/// Over its area, Pa.
+double weight_of_bed(const Setup& setup) {
+  return setup.density * setup.given.gravity.acceleration * setup.depth;
+}
+
 /// The law's range: its grains, and the pressure at which its fit ends.
-void add_range_of_law(const Parameters& p, std::vector<RegimeLine>& lines) {
-  const granular::LawRange range = Material(p).range();
+void add_range_of_law(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const Parameters& p = setup.given;
+  const granular::LawRange range = setup.material.range();
   const std::string_view law = choice_name(p.law.name);
   if (const double fitted = range.grain_diameter; fitted > 0)
     lines.push_back({"grain diameter", fmt::format("{:.4g} mm", p.grains.diameter / millimetre),
                      fmt::format("the law {} is a fit to grains of {:.4g} mm", law, fitted / millimetre),
                      p.grains.diameter < 0.5 * fitted || p.grains.diameter > 2 * fitted});
   if (!std::isfinite(range.largest_pressure)) return;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * depth_of_grains(p);
+  const double weight = weight_of_bed(setup);
   lines.push_back({"weight of the bed over its area", fmt::format("{:.4g} Pa", weight),
                    fmt::format("the fit of the law {} ends at a pressure of {:.4g} Pa", law, range.largest_pressure),
                    weight > range.largest_pressure});
 }
 
 /// Where the values of the material hold.
-void add_range_of_material(const Parameters& p, std::vector<RegimeLine>& lines) {
+void add_range_of_material(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const Parameters& p = setup.given;
   if (!p.grains.material) return;
   const MaterialRange& range = p.grains.range;
   const std::string_view name = choice_name(*p.grains.material);
@@ -45,7 +50,7 @@ void add_range_of_material(const Parameters& p, std::vector<RegimeLine>& lines) 
                    fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", name,
                                range.least_diameter / millimetre, range.largest_diameter / millimetre),
                    !(p.grains.diameter >= range.least_diameter && p.grains.diameter <= range.largest_diameter)});
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * depth_of_grains(p);
+  const double weight = weight_of_bed(setup);
   lines.push_back(
       {"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
        fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", name, range.largest_pressure),
@@ -53,12 +58,13 @@ void add_range_of_material(const Parameters& p, std::vector<RegimeLine>& lines) 
 }
 
 /// A bed laid denser than its grains touch is under pressure before it bears its weight.
-void add_pressure_at_start(const Parameters& p, std::vector<RegimeLine>& lines) {
+void add_pressure_at_start(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const Parameters& p = setup.given;
   if (!p.law.is<granular::CriticalState>()) return;
   const auto& law = p.law.of<granular::CriticalState>();
   const double pressure = law.bulk_modulus * std::log(p.bed.packing / law.reference_packing);
   if (!(pressure > 0)) return;
-  const double weight = p.bed.packing * p.grains.density * p.gravity.acceleration * depth_of_grains(p);
+  const double weight = weight_of_bed(setup);
   lines.push_back({"pressure of the bed at the start", fmt::format("{:.4g} Pa", pressure),
                    fmt::format("before it bears its weight, {:.4g} Pa over its area: bed.packing is above "
                                "law.critical-state.reference_packing, {:.4g}",
@@ -67,15 +73,16 @@ void add_pressure_at_start(const Parameters& p, std::vector<RegimeLine>& lines) 
 }
 
 /// What a sector is, and what of the outlet is as coarse as its axis, where its copies stand in a ring.
-void add_sector(const Parameters& p, std::vector<RegimeLine>& lines) {
-  const int copies = copies_of(p);
+void add_sector(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const Parameters& p = setup.given;
+  const int copies = setup.copies;
   if (copies == 1) return;
   lines.push_back(
       {"sector", fmt::format("{:.4g} deg", *p.box.sector * 180 / std::numbers::pi),
        fmt::format("computed in place of the whole vessel, of which it is one of {}; all numbers are those of "
                    "the whole",
                    copies)});
-  const auto outlet = outlet_of(p);
+  const auto& outlet = setup.outlet;
   const double width = outlet ? outlet->across : 0;
   if (!(width > 0)) return;
   const double ring = std::sqrt(copies / std::numbers::pi) * p.bed.spacing, ratio = 0.5 * width / ring;
@@ -103,14 +110,14 @@ void add_outlet(const Parameters& p, double width, const std::string& name, std:
                    "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
 }
 
-void add_outlets(const Parameters& p, std::vector<RegimeLine>& lines) {
-  const std::vector<VesselOutlet> outlets = outlets_of_vessel(p);
-  if (outlets.empty())
-    if (const auto outlet = outlet_of(p)) add_outlet(p, outlet->across, "", lines);
+void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const Parameters& p = setup.given;
+  const std::vector<VesselOutlet>& outlets = setup.vessel_outlets;
+  if (outlets.empty() && setup.outlet) add_outlet(p, setup.outlet->across, "", lines);
   for (const VesselOutlet& outlet : outlets) {
     const std::string name = outlets.size() > 1 ? " " + outlet.name : "";
     add_outlet(p, outlet.narrow, name, lines);
-    if (const double blocked = share_blocked_below(p, outlet); blocked > 0)
+    if (const double blocked = share_blocked_below(setup, outlet); blocked > 0)
       lines.push_back({"share of the outlet" + name + " with a wall below", fmt::format("{:.2g}", blocked),
                        fmt::format("nearer than it is across, {:.4g} mm: grains that do not fall freely there leave "
                                    "more slowly than the analytical estimate says",
@@ -119,7 +126,8 @@ void add_outlets(const Parameters& p, std::vector<RegimeLine>& lines) {
   }
 }
 
-void add_walls_beyond_box(const Parameters& p, std::vector<RegimeLine>& lines) {
+void add_walls_beyond_box(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const Parameters& p = setup.given;
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
     if (const double share = share_in_box(p, n); share < notable_share)
       lines.push_back({"share of " + name_of(p, n) + " within the box", fmt::format("{:.2g}", share),
@@ -127,11 +135,11 @@ void add_walls_beyond_box(const Parameters& p, std::vector<RegimeLine>& lines) {
 }
 
 /// Where grains may leave the vessel of a file before any gate opens.
-void add_rims(const Parameters& p, std::vector<RegimeLine>& lines) {
-  for (const OpenRim& rim : rims_below_bed(p)) {
+void add_rims(const Setup& setup, std::vector<RegimeLine>& lines) {
+  for (const OpenRim& rim : rims_below_bed(setup)) {
     const auto mm = [](double x) { return std::round(1e3 * x / millimetre) / 1e3 + 0.0; };
     lines.push_back(
-        {"rim of " + name_of(p, rim.part) + " below the top of the bed",
+        {"rim of " + name_of(setup.given, rim.part) + " below the top of the bed",
          fmt::format("{:.3g} x {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) mm", mm(rim.length), mm(rim.width),
                      mm(rim.middle.x), mm(rim.middle.y), mm(rim.middle.z)),
          "the surface ends there and nothing covers it: grains leave through it, unless it is meant as an outlet",
@@ -141,19 +149,20 @@ void add_rims(const Parameters& p, std::vector<RegimeLine>& lines) {
 
 }  // namespace
 
-std::vector<RegimeLine> regime_of_case(const Parameters& p) {
+std::vector<RegimeLine> regime_of_case(const Setup& setup) {
+  const Parameters& p = setup.given;
   std::vector<RegimeLine> lines;
-  add_range_of_law(p, lines);
-  add_range_of_material(p, lines);
-  add_pressure_at_start(p, lines);
+  add_range_of_law(setup, lines);
+  add_range_of_material(setup, lines);
+  add_pressure_at_start(setup, lines);
   lines.push_back({"particle spacing over grain diameter", fmt::format("{:.3g}", p.bed.spacing / p.grains.diameter),
                    "a particle stands for many grains; below 1 it would be smaller than one",
                    p.bed.spacing < p.grains.diameter});
-  add_sector(p, lines);
-  for (RegimeLine& line : regime_of_bed(p)) lines.push_back(std::move(line));
-  add_outlets(p, lines);
-  add_walls_beyond_box(p, lines);
-  add_rims(p, lines);
+  add_sector(setup, lines);
+  for (RegimeLine& line : regime_of_bed(setup)) lines.push_back(std::move(line));
+  add_outlets(setup, lines);
+  add_walls_beyond_box(setup, lines);
+  add_rims(setup, lines);
   return lines;
 }
 
@@ -164,8 +173,8 @@ RegimeLine courant_line(Method method, double courant) {
           courant > (method == Method::runge_kutta ? 0.5 : 1.5)};
 }
 
-RegimeLine courant_of_case(const Parameters& p) {
-  return courant_line(p.integration.method, courant_number(p));
+RegimeLine courant_of_case(const Setup& setup) {
+  return courant_line(setup.given.integration.method, courant_number(setup));
 }
 
 }  // namespace talus::continuum

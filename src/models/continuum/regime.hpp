@@ -5,17 +5,17 @@
 
 #include <vector>
 
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/setup.hpp"
 #include "numerics/named_value.hpp"
 
 namespace talus::continuum {
 
-std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
+std::vector<RegimeLine> regime_of_case(const Setup& setup);
 
 /// The line of a time step's Courant number. \param courant step times speed of sound over smoothing length
 RegimeLine courant_line(Method method, double courant);
 
 /// The same of the step that the case gives, before the run.
-RegimeLine courant_of_case(const Parameters& parameters);
+RegimeLine courant_of_case(const Setup& setup);
 
 }  // namespace talus::continuum

@@ -66,10 +66,11 @@ std::vector<Problem> check_sector(const Parameters& p) {
   return problems;
 }
 
-std::vector<Problem> check_symmetry(const Parameters& p) {
-  const std::optional<Sector> sector = sector_of(p);
+std::vector<Problem> check_symmetry(const Layout& layout) {
+  const Parameters& p = layout.given;
+  const std::optional<Sector>& sector = layout.sector();
   if (!sector || p.vessel.empty()) return {};
-  const Surface surface = surface_of(p);
+  const Surface& surface = layout.boundary->vessel();
   std::vector<Vector3> middles;
   for (const Triangle& t : surface.triangles()) middles.push_back(t.middle());
   const double slack = 1e-6 * norm(surface.high() - surface.low());

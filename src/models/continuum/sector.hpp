@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/snapshot.hpp"
@@ -17,7 +17,7 @@ namespace talus::continuum {
 /// What of a case with box.sector contradicts it, key by key.
 std::vector<Problem> check_sector(const Parameters& parameters);
 /// Walls of the vessel that do not turn into themselves. \pre a vessel without faults
-std::vector<Problem> check_symmetry(const Parameters& parameters);
+std::vector<Problem> check_symmetry(const Layout& layout);
 
 /// Turns particles that have left the sector back into it, with all that they carry.
 void return_to_sector(const Domain& domain, const Material& material, State& state);

@@ -23,11 +23,6 @@ struct MaterialColumns {
   std::vector<std::vector<double>> history;        ///< one column per slot of the law
 };
 
-/// The names of the walls that may bear load, and of the columns of their impulses.
-inline constexpr std::array<const char*, most_walls> wall_names = {
-    "left",    "right",   "front",   "rear",    "floor",   "top",     "plate",   "plate_2",
-    "plate_3", "plate_4", "plate_5", "plate_6", "plate_7", "plate_8", "plate_9", "plate_10"};
-
 /// The air around the particles, and what it does to them until its next step.
 struct AirAround {
   Grid grid;           ///< from the case, not a field
@@ -92,10 +87,8 @@ struct State {
   /// D at the midpoint of the last step, 1/s: xx yy zz xy yz zx; empty unless what it does not explain is damped.
   std::array<std::vector<double>, 6> deformation_rate;
 
-  // What the boundaries received since the start, N s: by wall, the normal load and the friction along it.
-  std::array<Vector3, most_walls> wall_impulse{};
-  std::vector<Vector3> vessel_impulse;  ///< the same by patch of the vessel; empty without one
-  WallLoads wall_loads;                 ///< the same by field of its surface
+  std::vector<Vector3> patch_impulse;  ///< received by each patch of the boundary since the start, N s
+  WallLoads wall_loads;                ///< the same by field of the vessel's surface
   Vector3 damping_impulse;              ///< what the damping of the settling bed took, N s
   Vector3 gravity_impulse;              ///< what gravity gave, N s
 
@@ -139,13 +132,6 @@ inline constexpr std::array<AirNames, 3> air_names{
       "impulse_air_y"},
      {"air_velocity_z", "air_momentum_z", "air_momentum_before_z", "air_drag_z", "air_solid_flux_z", "air_force_z",
       "impulse_air_z"}}};
-inline const std::array<std::array<std::string, 3>, most_walls> impulse_names = [] {
-  std::array<std::array<std::string, 3>, most_walls> names;
-  for (std::size_t wall = 0; wall < most_walls; ++wall)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      names[wall][axis] = std::string("impulse_") + wall_names[wall] + "_" + "xyz"[axis];
-  return names;
-}();
 }  // namespace detail
 
 template <class Visit, class A>
@@ -232,15 +218,11 @@ void for_each_field(Visit&& visit, S& s) {
     visit(FieldInfo{detail::lasting_names[c], "1/s", FieldRole::kept, false}, s.lasting_rate[c]);
   for (std::size_t c = 0; c < 6 && s.has.deformation_rate; ++c)
     visit(FieldInfo{detail::rate_names[c], "1/s", FieldRole::kept, false}, s.deformation_rate[c]);
-  for (std::size_t wall = 0; wall < most_walls; ++wall)
-    for (int axis = 0; axis < 3; ++axis)
-      visit(FieldInfo{detail::impulse_names[wall][static_cast<std::size_t>(axis)], "N s"}, s.wall_impulse[wall][axis]);
   for (int axis = 0; axis < 3; ++axis) {
     visit(FieldInfo{detail::damping_names[axis], "N s"}, s.damping_impulse[axis]);
     visit(FieldInfo{detail::gravity_names[axis], "N s"}, s.gravity_impulse[axis]);
   }
-  if (!s.vessel_impulse.empty())
-    visit(FieldInfo{"vessel_impulse", "N s", FieldRole::kept, false, false}, s.vessel_impulse);
+  visit(FieldInfo{"patch_impulse", "N s", FieldRole::kept, false, false}, s.patch_impulse);
   if (s.population.is_active) for_each_field_of_population(visit, s.population);
   if (!s.wall_loads.push.empty()) for_each_field_of_loads(visit, s.wall_loads);
   visit(FieldInfo{"gate_time", "s"}, s.gate_time);

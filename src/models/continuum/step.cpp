@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "base/exact_sum.hpp"
-#include "models/continuum/boundary/vessel_contact.hpp"
-#include "models/continuum/boundary/walls.hpp"
+#include "models/continuum/boundary/contact.hpp"
 #include "models/continuum/check_state.hpp"
 #include "models/continuum/pairs/displacement.hpp"
 #include "models/continuum/pairs/stress_regularisation.hpp"
@@ -26,10 +25,11 @@ namespace {
 /// stage toggles a branch of the law.
 struct Step {
   ThreadTeam& team;
-  const Parameters& p;
+  const Setup& setup;
   State& s;
   Workspace& w;
   double dt;  ///< s
+  const Parameters& p = setup.given;
 
   // Stages of both integrators.
   void air() const;
@@ -47,6 +47,7 @@ struct Step {
   // Of the midpoint rule.
   void half() const;
   void momentum() const;
+  ContactSetting walls() const { return {p, w.boundary, w.load_fields, w.contact_distance}; }
   // Parts of `end`.
   void damping() const;
   void clock() const;
@@ -90,16 +91,16 @@ void advance_midpoint(const Step& step) {
   measure_shear_rate(step.team, s, w);
 }
 
-double step_length(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w);
+double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w);
 
 }  // namespace
 
 /// On entry and exit the rates, packing and neighbour lists belong to the state.
-void advance(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+void advance(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
   if (w.air && w.air->is_due(s)) w.air->take_grains(team, w.smoothing_length, s);
-  const Step step{team, p, s, w, step_length(team, p, s, w)};
+  const Step step{team, setup, s, w, step_length(team, setup, s, w)};
   step.air();
-  p.integration.method == Method::runge_kutta ? advance_midpoint(step) : advance_leapfrog(step);
+  setup.given.integration.method == Method::runge_kutta ? advance_midpoint(step) : advance_leapfrog(step);
 }
 
 namespace {
@@ -120,7 +121,7 @@ GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& 
       [&](std::size_t i, GrainLimits& limits) {
         limits.min_smoothing_length = std::min(limits.min_smoothing_length, w.smoothing_length[i]);
         const double square = dot(s.velocity[i], s.velocity[i]);
-        if (square > limits.max_square_speed && w.domain.box().contains(s.position[i]))
+        if (square > limits.max_square_speed && w.boundary.domain().box().contains(s.position[i]))
           limits.max_square_speed = square;
       },
       [](const GrainLimits& a, const GrainLimits& b) {
@@ -136,23 +137,24 @@ double step_of_speed(const Parameters& p, const GrainLimits& limits) {
 
 /// The step that pressure waves and the speed of the grains allow, s, or the fixed one; without particles that of the
 /// bed's.
-double step_of_grains(const Parameters& p, const GrainLimits& limits, const Workspace& w) {
+double step_of_grains(const Setup& setup, const GrainLimits& limits, const Workspace& w) {
+  const Parameters& p = setup.given;
   if (p.integration.step) return *p.integration.step;
   if (w.smoothing_length.empty())
-    return p.integration.courant * w.pairs.smoothing_length(p.bed.packing * p.grains.density) / w.sound_speed;
-  return std::min(p.integration.courant * limits.min_smoothing_length / w.sound_speed, step_of_speed(p, limits));
+    return p.integration.courant * w.pairs.smoothing_length(setup.density) / setup.sound_speed;
+  return std::min(p.integration.courant * limits.min_smoothing_length / setup.sound_speed, step_of_speed(p, limits));
 }
 
 /// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
 /// the air; until the end of that step unchanged.
-double step_length(ThreadTeam& team, const Parameters& p, const State& s, const Workspace& w) {
+double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w) {
   if (w.air && !w.air->is_due(s)) return s.last_step;
-  const double of_grains = step_of_grains(p, limits_of_grains(team, s, w), w);
+  const double of_grains = step_of_grains(setup, limits_of_grains(team, s, w), w);
   return w.air ? std::min(of_grains, w.air->longest_step()) : of_grains;
 }
 
-Vector3 gravity(const Parameters& p, const Workspace& w, double time) {
-  return {0, 0, -share_of_gravity(time, w.loading_time) * p.gravity.acceleration};
+Vector3 gravity(const Setup& setup, double time) {
+  return {0, 0, -share_of_gravity(time, setup.loading_time) * setup.given.gravity.acceleration};
 }
 
 /// Acceleration by the air, constant during a step of the air.
@@ -172,16 +174,14 @@ void Step::air() const {
 
 /// The state at the midpoint of the step, in the workspace, from the rates at its start.
 void Step::half() const {
-  const Vector3 start = gravity(p, w, s.time);
+  const Vector3 start = gravity(setup, s.time);
   for_each(team, s.position.size(), [&](std::size_t i) {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
     w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
     w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i]);
   });
-  const ContactStep step{dt, dt, w.contact_distance};
-  hold_off_walls(team, w.domain, w.rates, s.position, step, w.velocity);
-  hold_off_vessel(team, w.rates, s.position, step, w.pairs, w.velocity);
+  prevent_approach(team, walls(), w.rates, s.position, dt, w.pairs, w.velocity);
   measure_strain_at(team, s, w, w.position);
   w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, w.density, 0.5 * dt, w.columns,
                     false);
@@ -196,7 +196,7 @@ void Step::gradients(std::span<const Vector3> velocity, std::span<const double> 
 /// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.
 void Step::kick() const {
   const double duration = 0.5 * (s.last_step + dt);
-  const Vector3 g = gravity(p, w, s.time);
+  const Vector3 g = gravity(setup, s.time);
   for_each(team, s.velocity.size(),
            [&](std::size_t i) { s.velocity[i] += duration * (w.rates.acceleration[i] + g) + dt * by_air(s, i); });
   s.gravity_impulse += (duration * s.mass * static_cast<double>(s.velocity.size())) * g;
@@ -204,7 +204,7 @@ void Step::kick() const {
 
 /// Eq. 17 with the forces at the midpoint of the step.
 void Step::momentum() const {
-  const Vector3 g = gravity(p, w, s.time + 0.5 * dt);
+  const Vector3 g = gravity(setup, s.time + 0.5 * dt);
   for_each(team, s.velocity.size(),
            [&](std::size_t i) { s.velocity[i] += dt * (w.rates.acceleration[i] + g + by_air(s, i)); });
   s.gravity_impulse += (dt * s.mass * static_cast<double>(s.velocity.size())) * g;
@@ -226,7 +226,7 @@ void Step::drift(std::span<const Vector3> velocity) const {
 /// where there are none, beyond a wall above all, would thin it out without end, the more the farther its kernel then
 /// reaches: it is held where the kernel is three times as wide as the bed's.
 void Step::density() const {
-  const double thinnest = p.bed.packing * p.grains.density / 27, relaxation = density_relaxation(p);
+  const double thinnest = setup.density / 27, relaxation = density_relaxation(p);
   const bool by_lasting_rate = !s.lasting_rate[0].empty();
   for_each(team, s.density.size(), [&](std::size_t i) {
     double after = sph::density_after(s.density[i], dt * w.rates.density_rate[i]);
@@ -255,19 +255,16 @@ void Step::stress() const {
 
 /// Contact with walls, friction, and their loads. \param position of the particles that the rates are of
 void Step::contact(double duration, std::span<const Vector3> position) const {
-  const ContactStep step{duration, dt, w.contact_distance};
-  apply_wall_contact(team, p, w.domain, w.rates, position, step, s);
-  apply_vessel_contact(team, p, w.load_fields, w.rates, step, w.pairs, s);
+  apply_contact(team, walls(), w.rates, position, {duration, dt}, w.pairs, s);
 }
 
 /// What ends a step: particles that crossed a boundary come back, the clock moves on, phases change.
 void Step::end() const {
-  reflect_at_walls(team, p, w.material, w.domain, w.position, s);
-  reflect_at_vessel(team, p, w.vessel, w.pairs.neighbourhood(), w.load_fields, w.position, s);
+  reflect(team, walls(), w.material, w.pairs.neighbourhood(), w.position, s);
   damping();
   clock();
-  check_state(team, p, w.domain, s, dt);
-  update_phase(team, p, s, w);
+  check_state(team, p, w.boundary.domain(), s, dt);
+  update_phase(team, setup, s, w);
 }
 
 /// Feeds inlets; builds the neighbour lists where they no longer hold, and removes what has left.
@@ -296,37 +293,36 @@ void Step::damping() const {
 
 void Step::clock() const {
   s.time += dt;
-  close_window(w.load_fields, s.time, w.scales.peak_time(), s.wall_loads);
+  close_window(w.load_fields, s.time, setup.scales.peak_time(), s.wall_loads);
   s.last_step = dt;
   ++s.step;
 }
 
 }  // namespace
 
-void begin(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+  const Parameters& p = setup.given;
   if (p.gate.opens == GateOpens::from_the_start) {
     s.gate_time = 0;
-    open_gates(p, w.vessel, 0);
+    w.boundary.open_gates(0);
   }
   update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
-  begin_densities(team, p, s, w);
+  begin_densities(team, setup, s, w);
   if (w.air) w.air->begin(team, w.smoothing_length, s);
   evaluate(team, p, s, w);
   measure_shear_rate(team, s, w);
 }
 
-void derive(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (s.gate_time >= 0) {
-    w.domain.open_gates(s.time - s.gate_time);
-    open_gates(p, w.vessel, s.time - s.gate_time);
-  }
+void derive(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+  if (s.gate_time >= 0) w.boundary.open_gates(s.time - s.gate_time);
   update_smoothing_lengths(team, s, w);
   w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
-  evaluate(team, p, s, w);
+  evaluate(team, setup.given, s, w);
 }
 
-NumericalError::Report step_limit(const Parameters& p, const State& s, const Workspace& w) {
+NumericalError::Report step_limit(const Setup& setup, const State& s, const Workspace& w) {
+  const Parameters& p = setup.given;
   NumericalError::Report report{};
   if (s.position.empty()) {
     report.term = "step without particles", report.place = "an empty vessel", report.advice = "integration.courant";
@@ -339,10 +335,10 @@ NumericalError::Report step_limit(const Parameters& p, const State& s, const Wor
     const double square = dot(s.velocity[i], s.velocity[i]);
     if (w.smoothing_length[i] < limits.min_smoothing_length)
       limits.min_smoothing_length = w.smoothing_length[densest = i];
-    if (square > limits.max_square_speed && w.domain.box().contains(s.position[i]))
+    if (square > limits.max_square_speed && w.boundary.domain().box().contains(s.position[i]))
       limits.max_square_speed = square, fastest = i;
   }
-  const double of_grains = step_of_grains(p, limits, w);
+  const double of_grains = step_of_grains(setup, limits, w);
   if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
   const bool by_speed = !(of_grains < step_of_speed(p, limits));
   const std::size_t i = by_speed ? fastest : densest;

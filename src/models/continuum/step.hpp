@@ -7,16 +7,16 @@
 namespace talus::continuum {
 
 /// Completes a new state: neighbour lists, rates, derived columns.
-void begin(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+void begin(ThreadTeam& team, const Setup& setup, State& state, Workspace& workspace);
 
 /// Recomputes derived fields after a checkpoint was read.
-void derive(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+void derive(ThreadTeam& team, const Setup& setup, State& state, Workspace& workspace);
 
 /// The condition that limits the last step, and where: the Courant number of the grains, or the air.
-NumericalError::Report step_limit(const Parameters& parameters, const State& state, const Workspace& workspace);
+NumericalError::Report step_limit(const Setup& setup, const State& state, const Workspace& workspace);
 
 /// Advances by one step.
 /// \throws NumericalError for a velocity or density that is not finite, or a bed that does not settle in time
-void advance(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+void advance(ThreadTeam& team, const Setup& setup, State& state, Workspace& workspace);
 
 }  // namespace talus::continuum

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "models/continuum/sector.hpp"
-#include "models/continuum/setup/loading.hpp"
 #include "models/continuum/sort.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
@@ -20,24 +19,20 @@ constexpr double edge_of_drawn_field = 3;  // in spacings
 
 }  // namespace
 
-Workspace::Workspace(const Parameters& parameters, const State& state)
-    : domain(domain_of(parameters)),
-      material(parameters),
-      sound_speed(material.sound_speed(parameters.bed.packing * parameters.grains.density)),
-      scales(time_scales_of(parameters)),
-      loading_time(continuum::loading_time(parameters, sound_speed)),
-      contact_distance(sph::contact_distance *
-                       sph::smoothing_length(state.mass, parameters.bed.packing * parameters.grains.density)),
-      lasting_time(passages_that_last * parameters.bed.spacing / sound_speed),
-      vessel(surface_of(parameters)),
-      load_fields(continuum::load_fields(parameters, vessel)),
-      load_bands(continuum::load_bands(parameters, load_fields)),
-      load_mesh(mesh_of(vessel, load_fields, edge_of_drawn_field * parameters.bed.spacing)),
-      pairs(parameters, domain, state.mass, sound_speed, vessel, &load_fields),
-      air(parameters.air.enabled ? std::make_unique<Atmosphere>(parameters, domain, vessel) : nullptr),
+Workspace::Workspace(const Setup& setup, const State& state)
+    : boundary(*setup.boundary),
+      material(setup.material),
+      contact_distance(sph::contact_distance * sph::smoothing_length(state.mass, setup.density)),
+      lasting_time(passages_that_last * setup.given.bed.spacing / setup.sound_speed),
+      load_fields(continuum::load_fields(setup)),
+      load_bands(continuum::load_bands(setup.given, load_fields)),
+      load_mesh(mesh_of(boundary.vessel(), load_fields, edge_of_drawn_field * setup.given.bed.spacing)),
+      pairs(setup, boundary, &load_fields),
+      air(setup.given.air.enabled ? std::make_unique<Atmosphere>(setup.given, boundary) : nullptr),
       position(state.position.size()),
       smoothing_length(state.position.size()) {
-  for (const Inlet& inlet : parameters.inlets) inlets.push_back(layer_of(parameters, inlet, state.mass));
+  const Parameters& parameters = setup.given;
+  for (const Inlet& inlet : parameters.inlets) inlets.push_back(layer_of(setup, inlet));
   if (parameters.integration.method != Method::runge_kutta) return;
   velocity.resize(state.position.size());
   density.resize(state.position.size());
@@ -60,13 +55,13 @@ void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  return_to_sector(w.domain, w.material, s);
+  return_to_sector(w.boundary.domain(), w.material, s);
   if (s.list_builds % builds_between_sorts == 0) {
     sort_for_locality(s, sph::support * p.bed.spacing);
     update_smoothing_lengths(team, s, w);
   }
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const Vector3 wrapped = w.domain.wrap(s.position[i]);
+    const Vector3 wrapped = w.boundary.domain().wrap(s.position[i]);
     if (!s.reset_position.empty()) s.reset_position[i] += wrapped - s.position[i];
     s.position[i] = wrapped;
   }

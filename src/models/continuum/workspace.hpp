@@ -9,25 +9,20 @@
 #include "base/parallel.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
-#include "models/continuum/material.hpp"
+#include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/pairs/pair_sums.hpp"
-#include "models/continuum/setup/parameters.hpp"
-#include "models/continuum/setup/time_scale.hpp"
+#include "models/continuum/setup/setup.hpp"
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
 
-/// Recomputed from the state when a run is resumed. It owns the only Domain of the model: the pair sums, the air and
-/// observers refer to it, so that a gate is opened for all of them at once.
+/// Recomputed from the state when a run is resumed. It owns the only boundary of the model whose gates open: the pair
+/// sums, the air and observers refer to it, so that a gate is opened for all of them at once.
 struct Workspace {
-  Domain domain;
-  Material material;
-  double sound_speed;  ///< bound for the time step, m/s
-  TimeScales scales;
-  double loading_time;      ///< over which gravity is raised, s
+  Boundary boundary;
+  const Material& material;
   double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
   double lasting_time;      ///< a shear that turns back sooner draws no density, s
-  Surface vessel;           ///< empty without one
   std::vector<InletLayer> inlets;
   SurfaceFields load_fields;  ///< of the vessel
   std::vector<LoadBand> load_bands;
@@ -47,7 +42,8 @@ struct Workspace {
   std::vector<SymmetricTensor3<>> measured_strain;
   std::vector<double> resets;  ///< of each particle at the start of the step
 
-  Workspace(const Parameters& parameters, const State& state);
+  /// \param setup outlives it
+  Workspace(const Setup& setup, const State& state);
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 };

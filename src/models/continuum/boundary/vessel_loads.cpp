@@ -36,8 +36,8 @@ bool is_inside(const Parameters& p, const Vector3& x) {
 
 }  // namespace
 
-SurfaceFields load_fields(const Parameters& p, const Surface& surface) {
-  return {surface, size_of_field * p.bed.spacing, sector_of(p)};
+SurfaceFields load_fields(const Layout& layout) {
+  return {layout.boundary->vessel(), size_of_field * layout.given.bed.spacing, layout.sector()};
 }
 
 WallLoads no_loads(std::size_t fields, double unit) {

@@ -52,7 +52,7 @@ struct LoadOfField {
 };
 
 /// The fields of a vessel's walls: twice the spacing of the particles wide.
-SurfaceFields load_fields(const Parameters& parameters, const Surface& surface);
+SurfaceFields load_fields(const Layout& layout);
 
 /// Without load. \param fields their number \param unit State::impulse_unit, N s
 WallLoads no_loads(std::size_t fields, double unit);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::continuum {
 
@@ -163,14 +163,11 @@ std::vector<VesselOutlet> outlets_of_vessel(const Parameters& p) {
   return outlets;
 }
 
-std::optional<VesselOutlet> outlet_of_vessel(const Parameters& p) {
-  const std::vector<VesselOutlet> all = outlets_of_vessel(p);
-  return all.empty() ? std::nullopt : std::optional(all.front());
-}
-
-double share_blocked_below(const Parameters& p, const VesselOutlet& outlet) {
-  Surface surface = surface_of(p);
-  open_gates(p, surface, std::numeric_limits<double>::infinity());
+double share_blocked_below(const Layout& layout, const VesselOutlet& outlet) {
+  const Parameters& p = layout.given;
+  Boundary boundary = *layout.boundary;
+  boundary.open_gates(std::numeric_limits<double>::infinity());
+  const Surface& surface = boundary.vessel();
   constexpr int across = 16;
   const double height = outlet.narrow, start = 0.01 * height;
   const bool floor = is_mirror(p.box.floor) && outlet.middle.z < height;

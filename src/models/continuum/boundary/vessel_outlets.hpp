@@ -12,6 +12,7 @@
 namespace talus::continuum {
 
 struct Parameters;
+struct Layout;
 
 struct VesselOutlet {
   std::string name;             ///< of the part that it is an opening of, or that shuts it
@@ -30,15 +31,12 @@ struct VesselOutlet {
 /// a cone or a pyramid, the hole of a disc, or a level rim of an STL file, at its height and no larger than it. Without
 /// such a gate the lowest of these holes but for those of files, and others at its height.
 std::vector<VesselOutlet> outlets_of_vessel(const Parameters& parameters);
-/// The first.
-std::optional<VesselOutlet> outlet_of_vessel(const Parameters& parameters);
-
 /// How far the walls are apart between which a slot ends at two faces of the box: with a mirror at one of them it is
 /// twice their distance, with mirrors at both there are none. m
 double distance_of_walls(FaceKind a, FaceKind b, double extent);
 
 /// Share of an outlet below which a wall of the vessel or the floor is nearer than the outlet is across, 0 to 1: grains
 /// do not fall freely there. Gates are taken to be open.
-double share_blocked_below(const Parameters& parameters, const VesselOutlet& outlet);
+double share_blocked_below(const Layout& layout, const VesselOutlet& outlet);
 
 }  // namespace talus::continuum

@@ -21,23 +21,16 @@ air::Parameters gas_of(const Parameters& p) {
 
 }  // namespace
 
-Atmosphere::Atmosphere(const Parameters& p, const Domain& domain, const Surface& vessel)
-    : domain_(domain),
-      vessel_(vessel),
-      openings_(openings()),
+Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary)
+    : boundary_(boundary),
+      openings_(boundary.openings()),
       grain_density_(p.grains.density),
       most_solid_(std::max(random_close_packing, p.bed.packing)),
       medium_(gas_of(p).medium()),
-      deposition_(air_grid(p), domain_, vessel_),
-      flow_(air_grid(p), gas_of(p), domain_.walls(), vessel_),
+      deposition_(air_grid(p), boundary_.domain(), boundary_.vessel()),
+      flow_(air_grid(p), gas_of(p), boundary_.domain().walls(), boundary_.vessel()),
       per_solid_volume_(air_grid(p).face_field()),
       slip_square_(air_grid(p).cell_field()) {}
-
-int Atmosphere::openings() const {
-  int open = domain_.openings();
-  for (std::size_t n = 0; n < vessel_.patches(); ++n) open += vessel_.is_open(n);
-  return open;
-}
 
 void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
   if (is_due(s)) move_air(team, dt, s);
@@ -47,9 +40,9 @@ void Atmosphere::advance(ThreadTeam& team, double dt, State& s) {
 
 void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
   AirAround& a = s.air;
-  if (openings_ != openings()) {
-    openings_ = openings();
-    flow_.set_walls(domain_.walls(), vessel_);
+  if (openings_ != boundary_.openings()) {
+    openings_ = boundary_.openings();
+    flow_.set_walls(boundary_.domain().walls(), boundary_.vessel());
   }
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] += a.solids.fraction[static_cast<std::size_t>(c)];
@@ -96,7 +89,7 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
   deposition_.find_weights(team, s.position, smoothing_length);
   deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
-  if (!vessel_.is_empty()) leave_overfull(s.air.solids);
+  if (!boundary_.vessel().is_empty()) leave_overfull(s.air.solids);
 }
 
 /// A cell whose centre is within the vessel has the grains of the cells next to it that the wall cuts, too. What is

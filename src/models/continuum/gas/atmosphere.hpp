@@ -10,10 +10,9 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "models/air/flow.hpp"
+#include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
-#include "numerics/geometry/domain.hpp"
-#include "numerics/surface/surface.hpp"
 #include "physics/coupling/deposition.hpp"
 
 namespace talus::continuum {
@@ -27,8 +26,8 @@ std::vector<Problem> check_air(const Parameters& parameters);
 
 class Atmosphere {
  public:
-  /// \param domain, vessel outlive the atmosphere; gates opened in them are open to the air from its next step on
-  Atmosphere(const Parameters& parameters, const Domain& domain, const Surface& vessel);
+  /// \param boundary outlives the atmosphere; gates opened in it are open to the air from its next step on
+  Atmosphere(const Parameters& parameters, const Boundary& boundary);
 
   /// Air at rest around the particles of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
@@ -58,11 +57,8 @@ class Atmosphere {
   void leave_overfull(air::Solids& solids);
   void measure_slip(ThreadTeam& team, State& state);
 
-  int openings() const;
-
-  const Domain& domain_;
-  const Surface& vessel_;
-  int openings_;  // of both, known to the air
+  const Boundary& boundary_;
+  int openings_;  // known to the air
   double grain_density_;
   double most_solid_;  // of a cell beside the vessel
   struct Overfull {

@@ -21,33 +21,30 @@ void Rates::resize(std::size_t count) {
   kernel_density.resize(count);
 }
 
-PairSums::PairSums(const Parameters& p, const Domain& domain, double mass, double sound_speed, const Surface& vessel,
-                   const SurfaceFields* fields)
-    : mass_(mass),
-      smoothing_ratio_(p.sph.smoothing_ratio),
-      fixed_smoothing_length_(p.sph.smoothing == Smoothing::fixed
-                                  ? smoothing_ratio_ * sph::smoothing_length(mass, p.bed.packing * p.grains.density)
-                                  : 0.0),
-      grain_density_(p.grains.density),
-      skin_(p.integration.skin * p.bed.spacing),
-      stress_form_(p.sph.stress_form),
-      corrected_continuity_(p.sph.continuity == Continuity::corrected),
-      asks_stress_around_(stress_regularisation(p) > 0),
-      precision_(p.integration.pair_precision),
-      constants_{.mass = mass,
-                 .sound_speed = sound_speed,
-                 .viscosity_alpha = p.sph.viscosity_alpha,
-                 .viscosity_beta = p.sph.viscosity_beta,
-                 .density_diffusion = 2 * p.sph.density_diffusion * sound_speed,
-                 .hourglass_damping = p.sph.hourglass_damping * sound_speed},
-      diffuses_(p.sph.density_diffusion > 0),
-      damps_(p.sph.hourglass_damping > 0 || p.sph.viscosity_speed == ViscositySpeed::local),
-      local_sound_speed_(p.sph.viscosity_speed == ViscositySpeed::local),
-      lists_(domain, vessel),
-      vessel_(vessel, p.bed.spacing, resolve(p.integration.instruction_set), fields, sector_of(p)),
+PairSums::PairSums(const Setup& setup, const Boundary& boundary, const SurfaceFields* fields)
+    : mass_(setup.lattice.mass),
+      smoothing_ratio_(setup.given.sph.smoothing_ratio),
+      fixed_smoothing_length_(setup.given.sph.smoothing == Smoothing::fixed ? setup.smoothing_length : 0.0),
+      grain_density_(setup.given.grains.density),
+      skin_(setup.given.integration.skin * setup.given.bed.spacing),
+      stress_form_(setup.given.sph.stress_form),
+      corrected_continuity_(setup.given.sph.continuity == Continuity::corrected),
+      asks_stress_around_(stress_regularisation(setup.given) > 0),
+      precision_(setup.given.integration.pair_precision),
+      constants_{.mass = mass_,
+                 .sound_speed = setup.sound_speed,
+                 .viscosity_alpha = setup.given.sph.viscosity_alpha,
+                 .viscosity_beta = setup.given.sph.viscosity_beta,
+                 .density_diffusion = 2 * setup.given.sph.density_diffusion * setup.sound_speed,
+                 .hourglass_damping = setup.given.sph.hourglass_damping * setup.sound_speed},
+      diffuses_(setup.given.sph.density_diffusion > 0),
+      damps_(setup.given.sph.hourglass_damping > 0 || setup.given.sph.viscosity_speed == ViscositySpeed::local),
+      local_sound_speed_(setup.given.sph.viscosity_speed == ViscositySpeed::local),
+      lists_(boundary.domain(), boundary.vessel()),
+      vessel_(boundary.vessel(), setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields, setup.sector()),
       walls_(vessel_, lists_, constants_, local_sound_speed_),
-      records_({mass, grain_density_, stress_form_, precision_, !vessel.is_empty()}) {
-  const InstructionSet set = resolve(p.integration.instruction_set);
+      records_({mass_, grain_density_, stress_form_, precision_, !boundary.vessel().is_empty()}) {
+  const InstructionSet set = resolve(setup.given.integration.instruction_set);
   const auto choose = [&](PairTerms terms, StressGradient stress_gradient) {
     return TALUS_COMPILED_FOR(set, sum_neighbours)(
         terms, are_stabilised(terms) ? Stabilisers::acting : Stabilisers::none, precision_,

@@ -15,17 +15,15 @@
 #include "models/continuum/pairs/pair_records.hpp"
 #include "models/continuum/pairs/rates.hpp"
 #include "models/continuum/pairs/wall_sums.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/setup.hpp"
 
 namespace talus::continuum {
 
 class PairSums {
  public:
-  /// \param domain, vessel, fields outlive the sums; \param fields of the vessel that note loads, null: none; \param
-  /// mass of a particle, kg; \param sound_speed of the viscosity, m/s \throws InputError if the processor does not have
-  /// the case's instruction set
-  PairSums(const Parameters& parameters, const Domain& domain, double mass, double sound_speed,
-           const Surface& vessel = Surface::none(), const SurfaceFields* fields = nullptr);
+  /// \param boundary, fields outlive the sums; \param fields of the vessel that note loads, null: none
+  /// \throws InputError if the processor does not have the case's instruction set
+  PairSums(const Setup& setup, const Boundary& boundary, const SurfaceFields* fields = nullptr);
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;

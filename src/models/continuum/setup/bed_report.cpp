@@ -10,16 +10,16 @@
 #include <queue>
 #include <tuple>
 
-#include "models/continuum/boundary/vessel_places.hpp"
 #include "models/continuum/setup/forecast.hpp"
+#include "models/continuum/setup/vessel_bed.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double most_reported = 1e6;          // particles
-constexpr double most_places = 3e5;            // of a region that is looked at
+constexpr double max_reported = 1e6;          // particles
+constexpr double max_positions = 3e5;          // of a region that is examined
 constexpr double beside = 0.8;                 // of a wall, in spacings
 constexpr double margin = 2;                   // of the region around the vessel, in spacings
 constexpr double wide_open = 6;                // in spacings
@@ -85,7 +85,7 @@ bool is_between_walls(const Surface& surface, const Vector3& x) {
 std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& around,
                                const std::vector<VesselPlaces::Index>& bed) {
   using Index = VesselPlaces::Index;
-  const double most = wide_open * places.parameters.bed.spacing;
+  const double most = wide_open * places.layout.given.bed.spacing;
   const auto clearance = [&](const Vector3& x) {
     const auto foot = places.surface.nearest(x, most);
     return foot ? foot->distance : most;
@@ -133,30 +133,31 @@ bool is_above(const Surface& surface, const LevelOpening& opening, double spacin
   return !surface.blocks(x, opening.middle + Vector3{0, 0, 0.01 * spacing});
 }
 
-/// With particles so large that the region has no more than most_places.
+/// With particles so large that the region has no more than max_positions.
 Surroundings around_bed(const Parameters& p) {
   Parameters q = p;
   q.bed.mass = std::nullopt;
   while (true) {
     Surroundings around(q);
-    if (places_of(lattice_of(around.parameters)) <= most_places) return around;
+    if (lattice_of(around.parameters).positions() <= max_positions) return around;
     q.bed.spacing *= std::cbrt(2.0);
   }
 }
 
 }  // namespace
 
-BedReport report_of_bed(const Parameters& p) {
+BedReport report_of_bed(const Layout& layout) {
+  const Parameters& p = layout.given;
+  const double count = bed_count(layout);
   BedReport report;
-  report.particles = copies_of(p) * bed_count(p);
-  report.mass = report.particles * lattice_of(p).mass;
-  const bool many = bed_count(p) > most_reported;
-  const Parameters shown = many ? coarser(p, most_reported) : p;
+  report.particles = layout.copies * count;
+  report.mass = report.particles * layout.lattice.mass;
+  const Layout shown = count > max_reported ? Layout(coarser(layout, max_reported)) : layout;
   const std::vector<Vector3> positions = bed_positions(shown);
   if (positions.empty()) return report;
-  const double spacing = shown.bed.spacing, half = 0.5 * spacing;
-  const Surface surface = surface_of(shown);
-  const Domain domain = domain_of(shown);
+  const double spacing = shown.given.bed.spacing, half = 0.5 * spacing;
+  const Surface& surface = shown.boundary->vessel();
+  const Domain& domain = shown.boundary->domain();
   const Vector3 size{p.box.width, p.box.depth, p.box.height};
   std::vector<char> of_vessel(p.vessel.size()), of_domain(static_cast<std::size_t>(domain.wall_count()));
   report.low = report.high = positions.front();
@@ -200,14 +201,17 @@ BedReport report_of_bed(const Parameters& p) {
 namespace {
 
 /// Of a bed alone. \returns whether it lies above a gate
-bool look_at_bed(const Parameters& p, std::vector<RegimeLine>& lines) {
+bool examine_bed(const Layout& layout, std::vector<RegimeLine>& lines) {
+  const Parameters& p = layout.given;
   const Surroundings around = around_bed(p);
+  const Layout region =
+      around.parameters.bed.spacing > p.bed.spacing ? Layout(around.parameters) : layout.with(around.parameters);
   std::vector<Vector3> bed;
-  const Surface surface = surface_of(around.parameters);
+  const Surface& surface = region.boundary->vessel();
   if (p.bed.given) {
     bed = p.bed.given->position;
   } else {
-    VesselPlaces places(around.parameters);
+    VesselPlaces places(region);
     places.fill();
     bool passes_out = false;
     std::vector<VesselPlaces::Index> within;
@@ -232,7 +236,7 @@ bool look_at_bed(const Parameters& p, std::vector<RegimeLine>& lines) {
                        "hole or a gap between walls, a rim below the bed's top, or an outlet without a gate",
                        true});
   }
-  const std::vector<LevelOpening> openings = level_openings(p);
+  const std::vector<LevelOpening> openings = level_openings(layout);
   return std::any_of(openings.begin(), openings.end(), [&](const LevelOpening& opening) {
     return std::any_of(bed.begin(), bed.end(),
                        [&](const Vector3& x) { return is_above(surface, opening, around.parameters.bed.spacing, x); });
@@ -241,12 +245,12 @@ bool look_at_bed(const Parameters& p, std::vector<RegimeLine>& lines) {
 
 }  // namespace
 
-std::vector<RegimeLine> regime_of_bed(const Parameters& p) {
+std::vector<RegimeLine> regime_of_bed(const Layout& layout) {
   std::vector<RegimeLine> lines;
-  if (p.vessel.empty() || has_no_bed(p)) return lines;
+  if (layout.given.vessel.empty() || layout.has_no_bed()) return lines;
   bool above = false;
-  for (const std::size_t n : beds_of(p)) above = look_at_bed(with_bed_alone(p, n), lines) || above;
-  const std::vector<LevelOpening> openings = level_openings(p);
+  for (const std::size_t n : layout.beds) above = examine_bed(layout.with_bed_alone(n), lines) || above;
+  const std::vector<LevelOpening> openings = level_openings(layout);
   if (!above && !openings.empty() && openings.front().is_gate)
     lines.push_back({"gate without grains", openings.front().name,
                      fmt::format("no grain lies above the gate at {}: bed.inside is a place within the bed",

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "numerics/run_record.hpp"
 
 namespace talus::continuum {
@@ -16,12 +16,12 @@ struct BedReport {
   std::vector<std::string> beside;  ///< the walls and faces that it lies against
 };
 /// Of a bed of millions of particles those of a coarser one are looked at. \pre the parameters are valid, no [[beds]]
-BedReport report_of_bed(const Parameters& parameters);
+BedReport report_of_bed(const Layout& layout);
 
 /// Warnings of beds in a vessel: the region of one passes out of the vessel, lies outside all walls, or none is above a
 /// gate. The region passes out where it reaches beyond the vessel's extent along x or y, which bounds a bed by default,
 /// or below its bottom while gates are shut; the place is the narrowest of the widest way out. \pre the parameters are
 /// valid
-std::vector<RegimeLine> regime_of_bed(const Parameters& parameters);
+std::vector<RegimeLine> regime_of_bed(const Layout& layout);
 
 }  // namespace talus::continuum

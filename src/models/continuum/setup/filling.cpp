@@ -10,7 +10,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double most_places = 2e7;  // of a lattice that is looked at
+constexpr double max_positions = 2e7;  // of a lattice that is looked at
 
 Parameters with_layers(const Parameters& p, std::int64_t layers) {
   Parameters q = p;
@@ -20,13 +20,13 @@ Parameters with_layers(const Parameters& p, std::int64_t layers) {
 }
 
 /// Layers from the bottom of the bed to the top of vessel or box; 0 where that cannot be said.
-std::int64_t most_layers(const Parameters& p) {
+std::int64_t max_layers(const Parameters& p) {
   const bool sized = p.bed.spacing > 0 && p.box.width > 0 && p.box.depth > 0 && p.box.height > 0;
   if (!sized) return 0;
   const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
   const double layers = std::floor((top - bed_bottom(p)) / p.bed.spacing + 1e-9);
-  if (!(layers >= 1 && layers < most_places)) return 0;
-  return places_of(lattice_of(with_layers(p, static_cast<std::int64_t>(layers)))) <= most_places
+  if (!(layers >= 1 && layers < max_positions)) return 0;
+  return lattice_of(with_layers(p, static_cast<std::int64_t>(layers))).positions() <= max_positions
              ? static_cast<std::int64_t>(layers)
              : 0;
 }
@@ -34,42 +34,44 @@ std::int64_t most_layers(const Parameters& p) {
 }  // namespace
 
 double count_of_mass(const Parameters& p) {
-  return std::round(*p.bed.mass / (copies_of(p) * lattice_of(with_layers(p, 1)).mass));
+  const auto sector = sector_of(p);
+  return std::round(*p.bed.mass / ((sector ? sector->copies() : 1) * lattice_of(with_layers(p, 1)).mass));
 }
 
-Parameters with_level(const Parameters& p) {
+Layout with_level(const Layout& layout) {
+  const Parameters& p = layout.given;
+  Parameters filled = p;
   if (!p.beds.empty()) {
-    Parameters filled = p;
-    filled.bed.height = with_level(with_bed_alone(p, 0)).bed.height;
+    filled.bed.height = with_level(layout.with_bed_alone(0)).given.bed.height;
     for (std::size_t n = 0; n < p.beds.size(); ++n)
-      filled.beds[n].height = with_level(with_bed_alone(p, n + 1)).bed.height;
-    return filled;
+      filled.beds[n].height = with_level(layout.with_bed_alone(n + 1)).given.bed.height;
+    return layout.with(filled);
   }
   if (p.bed.given) {
-    Parameters filled = p;
     filled.bed.height = p.bed.given->high.z - p.bed.given->low.z + p.bed.spacing;
-    return filled;
+    return layout.with(filled);
   }
-  if (!p.bed.mass) return p;
-  const std::int64_t most = most_layers(p);
-  if (most == 0) return p;
+  if (!p.bed.mass) return layout;
+  const std::int64_t most = max_layers(p);
+  if (most == 0) return layout;
   const double wanted = count_of_mass(p);
-  const auto holds = [&](std::int64_t layers) { return bed_count(with_layers(p, layers)) >= wanted; };
+  const auto holds = [&](std::int64_t layers) { return bed_count(layout.with(with_layers(p, layers))) >= wanted; };
   std::int64_t low = 0, high = most;  // low does not hold it
   while (high - low > 1) {
     const std::int64_t middle = (low + high) / 2;
     (holds(middle) ? high : low) = middle;
   }
-  Parameters filled = p;
   filled.bed.height = with_layers(p, high).bed.height;
-  return filled;
+  return layout.with(filled);
 }
 
-std::vector<Problem> check_mass(const Parameters& p) {
+std::vector<Problem> check_mass(const Layout& layout) {
+  const Parameters& p = layout.given;
   if (!p.bed.mass || !(p.bed.height > 0)) return {};
   Parameters whole = p;
   whole.bed.mass = std::nullopt;
-  const double room = bed_count(whole), wanted = count_of_mass(p), least = copies_of(p) * lattice_of(whole).mass;
+  const Layout full = layout.with(whole);
+  const double room = bed_count(full), wanted = count_of_mass(p), least = layout.copies * full.lattice.mass;
   if (wanted >= 1 && wanted <= room) return {};
   return {{.key = "bed.mass",
            .what = wanted < 1 ? fmt::format("{:.4g} kg is less than a particle", *p.bed.mass)

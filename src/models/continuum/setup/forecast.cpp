@@ -9,27 +9,15 @@
 
 #include "models/continuum/boundary/vessel_walls.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
-#include "models/continuum/material.hpp"
 #include "models/continuum/population.hpp"
-#include "models/continuum/setup/loading.hpp"
-#include "models/continuum/setup/time_scale.hpp"
-#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
-constexpr double most_steps = 1e12;  // at a microsecond each, twelve days
+constexpr double max_steps = 1e12;  // at a microsecond each, twelve days
 constexpr double hopeless_courant =
     50;  // of a fixed step, with the bound on the speed of waves; 5 may yet hold in a loose bed
-
-double wave_speed(const Parameters& p) {
-  return Material(p).sound_speed(p.bed.packing * p.grains.density);
-}
-
-double smoothing_length(const Parameters& p) {
-  return p.sph.smoothing_ratio * sph::smoothing_length(lattice_of(p).mass, p.bed.packing * p.grains.density);
-}
 
 struct SettlingTime {
   double least = 0, most = 0;  ///< s; of an undamped bed far apart
@@ -40,13 +28,14 @@ struct SettlingTime {
 /// n^2) of that left. Damping of time tau makes it die out with the slower root of s^2 - s/tau + omega^2, until hardly
 /// a particle is faster than settle.speed. Without damping it dies out by friction and by the scheme's own viscosity,
 /// in a time that no closed form gives: settle.longest bounds it.
-SettlingTime settling_time(const Parameters& p) {
+SettlingTime settling_time(const Setup& setup) {
+  const Parameters& p = setup.given;
   const auto known = [&](double time) { return SettlingTime{time, time}; };
   if (p.gate.opens == GateOpens::from_the_start) return known(0);
   if (p.gate.opens == GateOpens::at_time) return known(p.gate.time);
   constexpr double pi = std::numbers::pi;
-  const TimeScales scales = time_scales_of(p);
-  const double frequency = 0.5 * pi * wave_speed(p) / depth_of_grains(p), loading = loading_time(p, wave_speed(p));
+  const TimeScales& scales = setup.scales;
+  const double frequency = 0.5 * pi * setup.sound_speed / setup.depth, loading = setup.loading_time;
   const double periods = loading * frequency / (2 * pi);
   const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
   const double excess = std::log(std::max(1.0, speed / scales.settled_speed)),
@@ -79,18 +68,20 @@ double points_on_square() {
 
 }  // namespace
 
-double time_step_of(const Parameters& p) {
-  return p.integration.step.value_or(p.integration.courant * smoothing_length(p) / wave_speed(p));
+double time_step_of(const Setup& setup) {
+  const auto& integration = setup.given.integration;
+  return integration.step.value_or(integration.courant * setup.smoothing_length / setup.sound_speed);
 }
 
-Forecast forecast(const Parameters& p, double end) {
+Forecast forecast(const Setup& setup, double end) {
+  const Parameters& p = setup.given;
   const Triangles triangles = triangles_of_vessel(p);
-  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(p);
-  const double step = time_step_of(p);
-  const SettlingTime settling = settling_time(p);
-  const double particles = bed + mass_to_come(p, end, settling.most) / lattice_of(p).mass;
+  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(setup);
+  const double step = time_step_of(setup);
+  const SettlingTime settling = settling_time(setup);
+  const double particles = bed + mass_to_come(p, end, settling.most) / setup.lattice.mass;
   return {.particles = particles,
-          .written = copies_of(p) * particles,
+          .written = setup.copies * particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
           .wall_points = points_on_square() * squares,
           .triangles = triangles.count,
@@ -99,13 +90,14 @@ Forecast forecast(const Parameters& p, double end) {
           .flow_steps = std::ceil(end / step)};
 }
 
-double courant_number(const Parameters& p) {
-  return time_step_of(p) * wave_speed(p) / smoothing_length(p);
+double courant_number(const Setup& setup) {
+  return time_step_of(setup) * setup.sound_speed / setup.smoothing_length;
 }
 
-std::vector<Problem> check_steps(const Parameters& p, double end) {
+std::vector<Problem> check_steps(const Setup& setup, double end) {
+  const Parameters& p = setup.given;
   std::vector<Problem> problems;
-  const double length = smoothing_length(p), speed = wave_speed(p), step = time_step_of(p);
+  const double length = setup.smoothing_length, speed = setup.sound_speed, step = time_step_of(setup);
   if (p.integration.step && step > hopeless_courant * length / speed)
     problems.push_back(
         {.key = "integration.step",
@@ -121,18 +113,18 @@ std::vector<Problem> check_steps(const Parameters& p, double end) {
                         .allowed = "a step above 0 s"});
     return problems;
   }
-  const double settling = settling_time(p).least;
+  const double settling = settling_time(setup).least;
   const char* const key = p.integration.step ? "integration.step"
                           : settling <= end  ? "run.end"
                           : p.gate.time > 0  ? "gate.time"
-                          : p.settle.loading_time.value_or(0) > time_scales_of(p).settled_duration
+                          : p.settle.loading_time.value_or(0) > setup.scales.settled_duration
                               ? "settle.loading_time"
                               : "settle.duration";
-  if (!((end + settling) / step <= most_steps))
+  if (!((end + settling) / step <= max_steps))
     problems.push_back(
         {.key = key,
          .what = fmt::format("{:.3g} s take {:.2g} steps of {:.2g} s", end + settling, (end + settling) / step, step),
-         .allowed = fmt::format("at most {:.0e} steps", most_steps)});
+         .allowed = fmt::format("at most {:.0e} steps", max_steps)});
   return problems;
 }
 
@@ -147,9 +139,10 @@ double memory_of(const Forecast& f) {
                                                         350 * f.wall_points + kept * f.triangles);
 }
 
-Parameters coarser(const Parameters& p, double particles) {
+Parameters coarser(const Layout& layout, double particles) {
+  const Parameters& p = layout.given;
   Parameters q = p;
-  q.bed.spacing *= std::cbrt(bed_count(p) / particles);
+  q.bed.spacing *= std::cbrt(bed_count(layout) / particles);
   if (!p.bed.given) return q;
   const Extent x = bed_along_x(p), y = bed_along_y(p);  // where the file's particles lie
   q.bed.left = x.low, q.bed.right = x.high, q.bed.front = y.low, q.bed.rear = y.high, q.bed.bottom = bed_bottom(p);
@@ -157,11 +150,12 @@ Parameters coarser(const Parameters& p, double particles) {
   return q;
 }
 
-Parameters sample(const Parameters& p, double particles) {
-  const Lattice lattice = lattice_of(p);
-  constexpr double most_layers = 20;
-  const double layers = std::min(most_layers, static_cast<double>(lattice.count[1]));
-  const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(p)) / layers)));
+Parameters sample(const Layout& layout, double particles) {
+  const Parameters& p = layout.given;
+  const Lattice& lattice = layout.lattice;
+  constexpr double max_layers = 20;
+  const double layers = std::min(max_layers, static_cast<double>(lattice.count[1]));
+  const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(layout)) / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
   q.inlets.clear(), q.removal = {}, q.beds.clear(), q.bed.mass = std::nullopt;

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/setup.hpp"
 
 namespace talus::continuum {
 
 /// Of the bed at the start, s.
-double time_step_of(const Parameters& parameters);
+double time_step_of(const Setup& setup);
 
 struct Forecast {
   double particles = 0;       ///< that are computed
@@ -25,24 +25,24 @@ struct Forecast {
 };
 
 /// \param end s, from the opening of the gate; \pre the case is valid: check()
-Forecast forecast(const Parameters& parameters, double end);
+Forecast forecast(const Setup& setup, double end);
 
 /// Problems of a time step with a case that is valid otherwise: one that no run survives, or so short that no machine
 /// comes to run.end.
-std::vector<Problem> check_steps(const Parameters& parameters, double end);
+std::vector<Problem> check_steps(const Setup& setup, double end);
 
 /// Of the particles' time step: sound speed times step over smoothing length, in the bed as it is laid.
-double courant_number(const Parameters& parameters);
+double courant_number(const Setup& setup);
 
 /// Bytes that a run takes, the program itself among them.
 double memory_of(const Forecast& forecast);
 
 /// The same vessel and bed with about so many, larger particles. The share of them beside the walls is that of the case
 /// times the ratio of the spacings. \pre the case has more
-Parameters coarser(const Parameters& parameters, double particles);
+Parameters coarser(const Layout& layout, double particles);
 
 /// A bed of the same particles and cells in a plain box, so small that a machine's speed is measured in a moment.
 /// \param particles about so many, or as many as the case has if these are fewer
-Parameters sample(const Parameters& parameters, double particles);
+Parameters sample(const Layout& layout, double particles);
 
 }  // namespace talus::continuum

@@ -25,9 +25,10 @@ std::int64_t tag_of(const Parameters& parameters, std::size_t bed) {
   return bed == 0 ? 0 : parameters.beds[bed - 1].tag;
 }
 
-/// Particles of a bed after those that are there. \param one the case with this bed alone
-void add_bed(const Parameters& one, std::int64_t tag, State& state) {
-  const std::vector<Vector3> positions = bed_positions(one);
+/// Particles of a bed after those that are there. \param layout of the case with this bed alone
+void add_bed(const Layout& layout, std::int64_t tag, State& state) {
+  const Parameters& one = layout.given;
+  const std::vector<Vector3> positions = bed_positions(layout);
   const std::size_t count = state.position.size() + positions.size();
   state.position.insert(state.position.end(), positions.begin(), positions.end());
   const std::array<double, 3> velocity = one.bed.velocity.value_or(std::array<double, 3>{});
@@ -44,17 +45,19 @@ void add_bed(const Parameters& one, std::int64_t tag, State& state) {
 
 }  // namespace
 
-State initial_state(const Parameters& parameters, const Material& material) {
+State initial_state(const Setup& setup) {
+  const Parameters& parameters = setup.given;
+  const Material& material = setup.material;
   State state;
-  state.mass = lattice_of(parameters).mass;
-  state.impulse_unit = state.mass * material.sound_speed(parameters.bed.packing * parameters.grains.density);
+  state.mass = setup.lattice.mass;
+  state.impulse_unit = state.mass * setup.sound_speed;
   state.has = {.tag = !parameters.beds.empty(),
                .collisional = parameters.collisions.form != granular::Collisions::none,
                .reset_position = material.by_displacements(),
-               .sector_turns = sector_of(parameters).has_value(),
+               .sector_turns = setup.sector().has_value(),
                .lasting_rate = draws_by_lasting_rate(parameters),
                .deformation_rate = parameters.sph.hourglass_damping > 0};
-  for (const std::size_t n : beds_of(parameters)) add_bed(with_bed_alone(parameters, n), tag_of(parameters, n), state);
+  for (const std::size_t n : setup.beds) add_bed(setup.with_bed_alone(n), tag_of(parameters, n), state);
   displace(parameters, state.position);
   const std::size_t count = state.position.size();
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
@@ -65,11 +68,11 @@ State initial_state(const Parameters& parameters, const Material& material) {
     for (auto& column : state.deformation_rate) column.assign(count, 0.0);
   if (state.has.collisional)
     for (auto& column : state.material.collisional) column.assign(count, 0.0);
-  state.vessel_impulse.assign(parameters.vessel.size(), Vector3{});
-  state.wall_loads = no_loads(load_fields(parameters, surface_of(parameters)).count(), state.impulse_unit);
+  state.patch_impulse.assign(setup.boundary->patches().size(), Vector3{});
+  state.wall_loads = no_loads(load_fields(setup).count(), state.impulse_unit);
   if (state.has.reset_position) state.reset_position = state.position;
   if (state.has.sector_turns) state.sector_turns.assign(count, 0);
-  state.population = initial_population(parameters, count);
+  state.population = initial_population(setup, count);
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));
   if (parameters.air.enabled) {

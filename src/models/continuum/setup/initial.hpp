@@ -2,16 +2,15 @@
 /// The grains at the start: particles on a regular lattice, at rest, or those of a file; without stress.
 #pragma once
 
-#include "models/continuum/material.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/setup.hpp"
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
 
-/// Fills the bed of the case with the lattice of lattice_of(). Source: Yuu & Umekage 2011, section 3 ("The initial
+/// Fills the bed of the case with the lattice of the layout. Source: Yuu & Umekage 2011, section 3 ("The initial
 /// imaginary particle configuration is regular and uniform"); bed.disorder then moves each particle by so much, at
 /// random by the case's seed. Particles of bed.file have their own positions, and velocities and densities where the
 /// file has them.
-State initial_state(const Parameters& parameters, const Material& material);
+State initial_state(const Setup& setup);
 
 }  // namespace talus::continuum

@@ -9,65 +9,17 @@
 #include <numbers>
 #include <string>
 
-#include "models/continuum/boundary/vessel_outlets.hpp"
 #include "models/continuum/setup/filling.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/vessel_bed.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
-constexpr std::int64_t most_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
-constexpr double most_places_looked_at = 1e6;                   // to count the particles of a bed
-constexpr double most_places_of_vessel = 2e6;                   // to count those in a vessel
-
-using Openings = std::vector<Wall::Opening>;
-
-/// From `begin` to `end` along a wall. The rim of an opening is solid: one that ends where the wall does has none
-/// there.
-Wall::Opening opening(double begin, double end, double length, bool shut, double opens_after = 0) {
-  return {.begin = begin > 0 ? begin : -length,
-          .end = end < length ? end : 2 * length,
-          .shut = shut,
-          .opens_after = opens_after};
-}
-
-/// What [plate], [wedge] and [[plates]] put into the box.
-std::vector<Wall> walls_of(const Parameters& p) {
-  std::vector<Wall> walls;
-  const bool gated = p.gate.opens != GateOpens::from_the_start;
-  const auto outlet = outlet_of(p);
-  if (p.plate.height) {
-    Openings slit;
-    if (outlet) slit.push_back(opening(outlet->left, outlet->right, p.box.width, gated));
-    walls.emplace_back("plate", Vector3{0, 0, *p.plate.height}, Vector3{p.box.width, 0, *p.plate.height}, slit);
-  }
-  if (p.wedge.half_angle) {
-    const double top = outlet->height + outlet->left / std::tan(*p.wedge.half_angle);
-    const Vector3 left{outlet->left, 0, outlet->height}, right{outlet->right, 0, outlet->height};
-    walls.emplace_back("wedge_left", left, Vector3{0, 0, top});
-    walls.emplace_back("wedge_right", right, Vector3{p.box.width, 0, top});
-    // Its ends are the ends of the walls: all of it goes.
-    if (gated && p.wedge.outlet > 0)
-      walls.emplace_back("wedge_gate", left, right, Openings{opening(0, p.box.width, p.box.width, true)});
-  }
-  for (std::size_t n = 0; n < p.plates.size(); ++n) {
-    const auto& given = p.plates[n];
-    const Vector3 from{given.from[0], 0, given.from[1]}, to{given.to[0], 0, given.to[1]};
-    Openings openings;
-    for (std::size_t k = 0; k + 1 < given.openings.size(); k += 2)
-      openings.push_back(opening(given.openings[k], given.openings[k + 1], std::hypot(to.x - from.x, to.z - from.z),
-                                 given.opens_after && (gated || *given.opens_after > 0),
-                                 given.opens_after.value_or(0)));
-    walls.emplace_back(fmt::format("plates_{}", n + 1), from, to, openings);
-  }
-  return walls;
-}
-
-}  // namespace
-
-namespace {
+constexpr std::int64_t max_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
+constexpr double max_tried = 1e6;                               // positions, to count the particles of a bed
+constexpr double max_in_vessel = 2e6;                           // the same in a vessel
 
 /// Along an axis: what bed.file holds with half a spacing around it; else from key to key, where these are left out the
 /// faces, or the vessel where it stands apart from both.
@@ -117,13 +69,9 @@ std::vector<std::size_t> beds_of(const Parameters& p) {
   return beds;
 }
 
-bool has_no_bed(const Parameters& p) {
-  return beds_of(p).empty();
-}
-
 double depth_of_grains(const Parameters& p) {
-  if (p.beds.empty() && !has_no_bed(p)) return p.bed.height;
-  if (has_no_bed(p)) {
+  if (p.beds.empty() && !beds_of(p).empty()) return p.bed.height;
+  if (beds_of(p).empty()) {
     const double top = p.vessel.empty() ? p.box.height : std::min(p.box.height, bounds_of_vessel(p).high.z);
     return std::max(p.bed.spacing, top - bed_bottom(p));
   }
@@ -135,10 +83,7 @@ double depth_of_grains(const Parameters& p) {
   return high - low;
 }
 
-std::optional<Outlet> outlet_of(const Parameters& p) {
-  if (const auto outlet = outlet_of_vessel(p))
-    return Outlet{outlet->middle.z, outlet->middle.x - 0.5 * outlet->width, outlet->middle.x + 0.5 * outlet->width,
-                  outlet->narrow, outlet->middle.y};
+std::optional<Outlet> slit_of(const Parameters& p) {
   const auto slit = [&](double height, double left, double right) {
     const double across = std::min(right - left, distance_of_walls(p.box.front, p.box.rear, p.box.depth));
     return Outlet{height, left, right, across, 0.5 * p.box.depth};
@@ -157,21 +102,6 @@ std::optional<Sector> sector_of(const Parameters& p) {
   return Sector({0.5 * p.box.width, 0.5 * p.box.depth, 0}, static_cast<int>(copies));
 }
 
-int copies_of(const Parameters& p) {
-  const std::optional<Sector> sector = sector_of(p);
-  return sector ? sector->copies() : 1;
-}
-
-Domain domain_of(const Parameters& p) {
-  Box box{.low = {0, 0, 0},
-          .high = {p.box.width, p.box.depth, p.box.height},
-          .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
-  const std::optional<Sector> sector = sector_of(p);
-  if (!sector) return Domain(box, walls_of(p), least_distance_of_layers(p));
-  std::fill_n(box.faces.begin(), 4, FaceKind::open);  // no grains come so far
-  return Domain(box, {}, 0, sector);
-}
-
 double least_distance_of_layers(const Parameters& p) {
   // Images reach twice the support and the skin; particles grow as they thin out, so some room is left.
   return 3 * sph::support * p.sph.smoothing_ratio * p.bed.spacing;
@@ -184,12 +114,12 @@ Lattice lattice_of(const Parameters& p) {
   Lattice lattice{.corner = {x.low, y.low, bed_bottom(p)}, .spacing = {}, .count = {}, .mass = 0};
   for (int axis = 0; axis < 3; ++axis) {
     const double spacings = extent[axis] / p.bed.spacing;
-    const auto count = spacings < most_along_an_axis ? std::max<std::int64_t>(1, std::llround(spacings))
-                                                     : std::int64_t{most_along_an_axis};
+    const auto count = spacings < max_along_an_axis ? std::max<std::int64_t>(1, std::llround(spacings))
+                                                     : std::int64_t{max_along_an_axis};
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }
-  const bool empty = has_no_bed(p);
+  const bool empty = beds_of(p).empty();
   if (empty) lattice.count[2] = 0;
   if (empty || p.bed.given) {
     lattice.spacing = {p.bed.spacing, p.bed.spacing, p.bed.spacing};
@@ -197,7 +127,8 @@ Lattice lattice_of(const Parameters& p) {
     return lattice;
   }
   lattice.mass = p.bed.packing * p.grains.density * lattice.spacing.x * lattice.spacing.y * lattice.spacing.z;
-  if (const int copies = copies_of(p); copies > 1) {  // of the circle a whole number in each sector
+  if (const auto sector = sector_of(p); sector && sector->copies() > 1) {  // of the circle a whole number in each
+    const int copies = sector->copies();
     const double circle = 0.25 * std::numbers::pi * extent.x * extent.x;
     const double places = std::max(1.0, std::round(circle / (copies * lattice.spacing.x * lattice.spacing.y)));
     lattice.mass = p.bed.packing * p.grains.density * (circle / (copies * places)) * lattice.spacing.z;
@@ -207,12 +138,37 @@ Lattice lattice_of(const Parameters& p) {
 
 namespace {
 
-/// The places of the lattice and which of them hold particles: walls go through the whole depth, so all places along y
-/// are alike. The bed may stand on both sides of a [plate], and on one side only of other walls.
+/// Of a slit that a plane of symmetry cuts the whole width.
+std::optional<double> width_of(const Parameters& p, const std::optional<Outlet>& outlet) {
+  if (!outlet || !(outlet->right > outlet->left)) return std::nullopt;
+  const bool halved = p.vessel.empty() && ((p.box.left == FaceKind::symmetry && outlet->left <= 0) ||
+                                           (p.box.right == FaceKind::symmetry && outlet->right >= p.box.width));
+  if (!halved) return outlet->across;
+  return std::min(2 * (outlet->right - outlet->left), distance_of_walls(p.box.front, p.box.rear, p.box.depth));
+}
+
+std::optional<Outlet> outlet_of(const Parameters& p, const std::vector<VesselOutlet>& of_vessel) {
+  if (of_vessel.empty()) return slit_of(p);
+  const VesselOutlet& lowest = of_vessel.front();
+  return Outlet{lowest.middle.z, lowest.middle.x - 0.5 * lowest.width, lowest.middle.x + 0.5 * lowest.width,
+                lowest.narrow, lowest.middle.y};
+}
+
+}  // namespace
+
+std::optional<double> outlet_width_of(const Parameters& p) {
+  return width_of(p, outlet_of(p, outlets_of_vessel(p)));
+}
+
+namespace {
+
+/// The lattice and which of its positions hold particles: walls go through the whole depth, so all positions along y
+/// are alike. The bed may lie on both sides of a [plate], and on one side only of other walls.
 struct Bed {
-  const Parameters& parameters;
-  Lattice lattice = lattice_of(parameters);
-  Domain domain = domain_of(parameters);
+  const Layout& layout;
+  const Parameters& parameters = layout.given;
+  const Lattice& lattice = layout.lattice;
+  const Domain& domain = layout.boundary->domain();
   Vector3 seed = parameters.bed.inside ? Vector3{(*parameters.bed.inside)[0], 0, (*parameters.bed.inside)[2]}
                                        : at(0.5 * static_cast<double>(lattice.count[0] - 1), 0,
                                             static_cast<double>(lattice.count[2] - 1));
@@ -229,24 +185,43 @@ struct Bed {
 
 }  // namespace
 
-std::vector<Vector3> bed_positions(const Parameters& p) {
+Layout::Layout(Parameters parameters) : Layout(parameters, std::make_shared<const Boundary>(parameters)) {}
+
+Layout::Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary)
+    : given(std::move(parameters)),
+      boundary(std::move(same_boundary)),
+      vessel_outlets(outlets_of_vessel(given)),
+      outlet(outlet_of(given, vessel_outlets)),
+      outlet_width(width_of(given, outlet)),
+      copies(sector() ? sector()->copies() : 1),
+      beds(beds_of(given)),
+      lattice(lattice_of(given)),
+      bottom(bed_bottom(beds.empty() ? given : continuum::with_bed_alone(given, beds.front()))),
+      depth(depth_of_grains(given)) {}
+
+Layout Layout::with_bed_alone(std::size_t bed) const {
+  return with(continuum::with_bed_alone(given, bed));
+}
+
+std::vector<Vector3> bed_positions(const Layout& layout) {
+  const Parameters& p = layout.given;
   if (!p.beds.empty()) {
     std::vector<Vector3> positions;
-    for (const std::size_t n : beds_of(p))
-      for (const Vector3& x : bed_positions(with_bed_alone(p, n))) positions.push_back(x);
+    for (const std::size_t n : layout.beds)
+      for (const Vector3& x : bed_positions(layout.with_bed_alone(n))) positions.push_back(x);
     return positions;
   }
   if (p.bed.given) return p.bed.given->position;
-  if (has_no_bed(p)) return {};
+  if (layout.has_no_bed()) return {};
   if (p.bed.mass) {  // the lowest of them
     Parameters whole = p;
     whole.bed.mass = std::nullopt;
-    std::vector<Vector3> positions = bed_positions(whole);
+    std::vector<Vector3> positions = bed_positions(layout.with(whole));
     positions.resize(std::min(positions.size(), static_cast<std::size_t>(count_of_mass(p))));
     return positions;
   }
-  if (!p.vessel.empty()) return bed_in_vessel(p);
-  const Bed bed{p};
+  if (!p.vessel.empty()) return bed_in_vessel(layout);
+  const Bed bed{layout};
   const auto& count = bed.lattice.count;
   std::vector<Vector3> positions;
   for (std::int64_t k = 0; k < count[2]; ++k)
@@ -256,36 +231,32 @@ std::vector<Vector3> bed_positions(const Parameters& p) {
   return positions;
 }
 
-double places_of(const Lattice& lattice) {
-  return static_cast<double>(lattice.count[0]) * static_cast<double>(lattice.count[1]) *
-         static_cast<double>(lattice.count[2]);
-}
-
-double bed_count(const Parameters& p) {
+double bed_count(const Layout& layout) {
+  const Parameters& p = layout.given;
   if (!p.beds.empty()) {
     double count = 0;
-    for (const std::size_t n : beds_of(p)) count += bed_count(with_bed_alone(p, n));
+    for (const std::size_t n : layout.beds) count += bed_count(layout.with_bed_alone(n));
     return count;
   }
   if (p.bed.given) return static_cast<double>(p.bed.given->position.size());
-  if (has_no_bed(p)) return 0;
+  if (layout.has_no_bed()) return 0;
   if (p.bed.mass) return count_of_mass(p);
   if (!p.vessel.empty()) {
-    if (places_of(lattice_of(p)) <= most_places_of_vessel) return static_cast<double>(bed_in_vessel(p).size());
+    if (layout.lattice.positions() <= max_in_vessel) return static_cast<double>(bed_in_vessel(layout).size());
     Parameters coarser = p;
     coarser.bed.spacing *= 2;
-    return 8 * bed_count(coarser);
+    return 8 * bed_count(Layout(coarser));
   }
-  const Bed bed{p};
+  const Bed bed{layout};
   const auto& count = bed.lattice.count;
-  if (bed.is_whole) return places_of(bed.lattice);
+  if (bed.is_whole) return bed.lattice.positions();
   const double layer = static_cast<double>(count[0]) * static_cast<double>(count[2]);
-  const auto stride = static_cast<std::int64_t>(std::ceil(std::sqrt(std::max(1.0, layer / most_places_looked_at))));
-  double held = 0, looked_at = 0;
+  const auto stride = static_cast<std::int64_t>(std::ceil(std::sqrt(std::max(1.0, layer / max_tried))));
+  double held = 0, tried = 0;
   for (std::int64_t k = stride / 2; k < count[2]; k += stride)
-    for (std::int64_t i = stride / 2; i < count[0]; i += stride, ++looked_at)
+    for (std::int64_t i = stride / 2; i < count[0]; i += stride, ++tried)
       held += bed.holds(bed.at(double(i), 0, double(k))) ? 1 : 0;
-  return looked_at > 0 ? std::round(held / looked_at * layer) * static_cast<double>(count[1]) : 0;
+  return tried > 0 ? std::round(held / tried * layer) * static_cast<double>(count[1]) : 0;
 }
 
 }  // namespace talus::continuum

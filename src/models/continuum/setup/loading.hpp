@@ -5,13 +5,13 @@
 /// goes by the clock, or that has none, has it all. docs/design/time-steps.md
 #pragma once
 
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 
 namespace talus::continuum {
 
 /// Time over which gravity comes on while the bed settles, s; 0 in a case without settling.
-/// \param sound_speed of pressure waves in the bed, m/s
-double loading_time(const Parameters& parameters, double sound_speed);
+/// \param depth of the grains, m \param sound_speed of pressure waves in the bed, m/s
+double loading_time(const Parameters& parameters, double depth, const TimeScales& scales, double sound_speed);
 
 /// Share of gravity that the bed feels, 0 to 1, at a time from the start, s.
 double share_of_gravity(double time, double loading_time);

@@ -9,12 +9,12 @@
 #include <functional>
 #include <string>
 
-#include "models/continuum/boundary/vessel_places.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/sector.hpp"
 #include "models/continuum/setup/filling.hpp"
 #include "models/continuum/setup/given_bed.hpp"
 #include "models/continuum/setup/time_scale.hpp"
+#include "models/continuum/setup/vessel_bed.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
@@ -23,7 +23,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double most_particles = 1e9;  // they and their images are numbered with 32 bits
+constexpr double max_particles = 1e9;  // they and their images are numbered with 32 bits
 
 void check_faces(const Parameters& p, std::vector<Problem>& problems) {
   const auto pair = [&](const char* first, FaceKind a, const char* second, FaceKind b) {
@@ -65,14 +65,14 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
 /// the spacing where none is.
 bool check_size(const Parameters& p, std::vector<Problem>& problems) {
   const Lattice lattice = lattice_of(p);
-  const double count = places_of(lattice);
-  if (count <= most_particles) return true;
+  const double count = lattice.positions();
+  if (count <= max_particles) return true;
   const char* const keys[3] = {p.bed.right ? "bed.right" : "box.width", p.bed.rear ? "bed.rear" : "box.depth",
                                "bed.height"};
   const auto longest =
       static_cast<std::size_t>(std::max_element(lattice.count.begin(), lattice.count.end()) - lattice.count.begin());
   const double extent = lattice.spacing[static_cast<int>(longest)] * static_cast<double>(lattice.count[longest]);
-  const double over = count / most_particles;
+  const double over = count / max_particles;
   std::array<std::int64_t, 3> sorted = lattice.count;
   std::sort(sorted.begin(), sorted.end());
   if (sorted[2] > 100 * sorted[1]) {
@@ -80,7 +80,7 @@ bool check_size(const Parameters& p, std::vector<Problem>& problems) {
                         .what = fmt::format("{:.4g} m is {:.3g} spacings: the bed would hold {:.3g} particles", extent,
                                             static_cast<double>(lattice.count[longest]), count),
                         .allowed = fmt::format("at most {:.3g} m with this bed.spacing: {:.0e} particles",
-                                               extent / over, most_particles)});
+                                               extent / over, max_particles)});
   } else {
     const double dimensions = static_cast<double>(
         std::count_if(lattice.count.begin(), lattice.count.end(), [](std::int64_t n) { return n > 1; }));
@@ -88,7 +88,7 @@ bool check_size(const Parameters& p, std::vector<Problem>& problems) {
         {.key = "bed.spacing",
          .what = fmt::format("{:.4g} mm makes {:.3g} particles", p.bed.spacing / millimetre, count),
          .allowed = fmt::format("at least {:.3g} mm: {:.0e} particles",
-                                p.bed.spacing * std::pow(over, 1 / dimensions) / millimetre, most_particles)});
+                                p.bed.spacing * std::pow(over, 1 / dimensions) / millimetre, max_particles)});
   }
   return false;
 }
@@ -122,7 +122,8 @@ bool check_extent(const Parameters& p, int axis, const Add& add) {
 }
 
 /// Whether the bed begins somewhere.
-void check_inside(const Parameters& p, const Add& add) {
+void check_inside(const Layout& layout, const Add& add) {
+  const Parameters& p = layout.given;
   // Of a file that cannot be read nothing follows.
   for (const VesselPart& part : p.vessel)
     if (part.shape == VesselShape::stl && !part.drawn) return;
@@ -141,7 +142,7 @@ void check_inside(const Parameters& p, const Add& add) {
                              along_x.low / millimetre, along_x.high / millimetre, along_y.low / millimetre,
                              along_y.high / millimetre, bed_bottom(p) / millimetre));
   }
-  const bool begins = p.vessel.empty() ? bed_count(p) > 0 : !VesselPlaces(p).seeds().empty();
+  const bool begins = p.vessel.empty() ? bed_count(layout) > 0 : !VesselPlaces(layout).seeds().empty();
   if (!begins)
     add(p.bed.inside ? "bed.inside" : "bed.height",
         p.bed.inside ? "sees no place for a particle: walls are too near"
@@ -158,7 +159,7 @@ void check_bed(const Parameters& p, std::vector<Problem>& problems) {
     return;
   }
   const bool along_x = check_extent(p, 0, add), along_y = check_extent(p, 1, add);
-  if (!along_x || !along_y || has_no_bed(p)) return;
+  if (!along_x || !along_y || beds_of(p).empty()) return;
   const double top = bed_bottom(p) + p.bed.height;
   constexpr double rounding = 1 + 1e-12;
   if (top > rounding * p.box.height)
@@ -266,27 +267,27 @@ std::vector<Problem> renamed(std::vector<Problem> problems, std::size_t bed) {
 }
 
 /// Beds of particles of another mass, or in each other. \pre each is sound
-void check_beds_together(const Parameters& p, std::vector<Problem>& problems) {
-  constexpr double most_difference = 0.02, least_apart = 0.5;  // of the mass; in spacings
-  const std::vector<std::size_t> beds = beds_of(p);
+void check_beds_together(const Layout& layout, std::vector<Problem>& problems) {
+  const Parameters& p = layout.given;
+  constexpr double max_difference = 0.02, min_apart = 0.5;  // of the mass; in spacings
   std::vector<Vector3> positions;
   std::vector<std::size_t> bed_of;
   const auto name = [](std::size_t n) { return n == 0 ? std::string("[bed]") : fmt::format("[[beds]] {}", n); };
-  const double mass = lattice_of(p).mass;
-  for (const std::size_t n : beds) {
-    const Parameters one = with_bed_alone(p, n);
-    if (const double own = lattice_of(one).mass; !(std::abs(own / mass - 1) <= most_difference))
+  const double mass = layout.lattice.mass;
+  for (const std::size_t n : layout.beds) {
+    const Layout one = layout.with_bed_alone(n);
+    if (const double own = one.lattice.mass; !(std::abs(own / mass - 1) <= max_difference))
       problems.push_back({.key = beds_key(n - 1, "height"),
                           .what = fmt::format("particles of {} would have {:.3g} times the mass of those of {}",
-                                              name(n), own / mass, name(beds.front())),
+                                              name(n), own / mass, name(layout.beds.front())),
                           .allowed = "extents of the beds that are whole numbers of bed.spacing"});
     for (const Vector3& x : bed_positions(one)) positions.push_back(x), bed_of.push_back(n);
   }
   if (positions.empty()) return;
-  const CellGrid grid(positions, least_apart * p.bed.spacing);
+  const CellGrid grid(positions, min_apart * p.bed.spacing);
   for (std::size_t i = 0; i < positions.size(); ++i)
     grid.for_each_candidate(positions[i], [&](std::uint32_t j) {
-      if (bed_of[j] <= bed_of[i] || norm(positions[i] - positions[j]) >= least_apart * p.bed.spacing) return;
+      if (bed_of[j] <= bed_of[i] || norm(positions[i] - positions[j]) >= min_apart * p.bed.spacing) return;
       const std::string key = beds_key(bed_of[j] - 1, "bottom");
       const bool told = std::any_of(problems.begin(), problems.end(), [&](const Problem& q) { return q.key == key; });
       if (told) return;
@@ -311,44 +312,52 @@ std::vector<Problem> check(const Parameters& given) {
   of_vessel.insert(of_vessel.end(), outside.begin(), outside.end());
   problems.insert(problems.end(), of_vessel.begin(), of_vessel.end());
   for (const Problem& problem : check_sector(given)) problems.push_back(problem);
-  if (problems.empty()) problems = check_symmetry(given);
-  // How far a mass fills a vessel can be said of a sound vessel only.
-  const Parameters p = problems.empty() ? with_level(given) : given;
+  // The layout of a sound boundary, with beds as high as their mass makes them.
+  std::optional<Layout> layout;
+  const bool sized = given.bed.spacing > 0 && given.box.width > 0 && given.box.depth > 0 && given.box.height > 0;
+  if (problems.empty() && sized) {
+    layout.emplace(given);
+    problems = check_symmetry(*layout);
+    if (problems.empty()) layout = with_level(*layout);
+  }
+  const Parameters& p = layout ? layout->given : given;
   const std::vector<std::size_t> beds = p.beds.empty() ? std::vector<std::size_t>{0} : beds_of(p);
   const auto check_each = [&](auto&& check_one) {
     for (const std::size_t n : beds)
-      for (Problem& problem : renamed(check_one(with_bed_alone(p, n)), n)) problems.push_back(std::move(problem));
+      for (Problem& problem : renamed(check_one(n), n)) problems.push_back(std::move(problem));
   };
-  check_each([&](const Parameters& one) {
+  check_each([&](std::size_t n) {
+    const Parameters one = with_bed_alone(p, n);
     std::vector<Problem> of_bed;
     // A bed in walls that are elsewhere has faults of its own.
     if (outside.empty() && (!one.bed.mass || one.bed.height > 0)) check_bed(one, of_bed);
     return of_bed;
   });
   check_materials(p, problems);
-  if (p.settle.loading_time && *p.settle.loading_time >= time_scales_of(p).settling_limit)
+  if (const double limit = time_scales_of(p).settling_limit; p.settle.loading_time && *p.settle.loading_time >= limit)
     problems.push_back({.key = "settle.loading_time",
                         .what = fmt::format("{:g} s: the bed could not settle before", *p.settle.loading_time),
-                        .allowed = fmt::format("less than settle.longest, {:g} s", time_scales_of(p).settling_limit)});
+                        .allowed = fmt::format("less than settle.longest, {:g} s", limit)});
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   for (const Problem& problem : check_air(p)) problems.push_back(problem);
   if (p.collisions.form != granular::Collisions::none && !(p.gravity.acceleration > 0))
     problems.push_back({.key = "collisions.form",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
                         .allowed = "none without gravity"});
+  if (!problems.empty() || !layout) return problems;
+  check_each([&](std::size_t n) { return check_mass(layout->with_bed_alone(n)); });
+  for (const Problem& problem : check_inlets(*layout)) problems.push_back(problem);
   if (!problems.empty()) return problems;
-  check_each(check_mass);
-  for (const Problem& problem : check_inlets(p)) problems.push_back(problem);
-  if (!problems.empty()) return problems;
-  check_each([](const Parameters& one) {
+  check_each([&](std::size_t n) {
+    const Layout one = layout->with_bed_alone(n);
     std::vector<Problem> of_bed;
-    if (one.bed.given || has_no_bed(one)) return of_bed;
+    if (one.given.bed.given || one.has_no_bed()) return of_bed;
     check_inside(one, [&](const char* key, std::string what, std::string allowed) {
       of_bed.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
     });
     return of_bed;
   });
-  if (problems.empty() && !p.beds.empty()) check_beds_together(p, problems);
+  if (problems.empty() && !p.beds.empty()) check_beds_together(*layout, problems);
   return problems;
 }
 

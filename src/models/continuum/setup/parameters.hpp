@@ -18,7 +18,6 @@
 #include "models/continuum/inlets.hpp"
 #include "models/continuum/setup/bed.hpp"
 #include "models/continuum/setup/choices.hpp"
-#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/setup/material_names.hpp"
 #include "models/continuum/setup/vessel.hpp"
 #include "numerics/geometry/domain.hpp"
@@ -101,9 +100,6 @@ struct Parameters {
     PairPrecision pair_precision = PairPrecision::in_double;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
-
-  /// Of the vessel, for surface_of(). Not a key.
-  std::shared_ptr<VesselSurface> surface = std::make_shared<VesselSurface>();
 };
 
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.

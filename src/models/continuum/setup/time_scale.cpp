@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/continuum/boundary/vessel_outlets.hpp"
 #include "models/continuum/setup/layout.hpp"
 
 namespace talus::continuum {
@@ -24,18 +23,9 @@ double end_of_filling(const Parameters& p) {
 
 }  // namespace
 
-std::optional<double> outlet_width(const Parameters& p) {
-  const auto outlet = outlet_of(p);
-  if (!outlet || !(outlet->right > outlet->left)) return std::nullopt;
-  const bool halved = p.vessel.empty() && ((p.box.left == FaceKind::symmetry && outlet->left <= 0) ||
-                                           (p.box.right == FaceKind::symmetry && outlet->right >= p.box.width));
-  if (!halved) return outlet->across;
-  return std::min(2 * (outlet->right - outlet->left), distance_of_walls(p.box.front, p.box.rear, p.box.depth));
-}
-
 TimeScales time_scales_of(const Parameters& p) {
   const double bed = depth_of_grains(p);
-  const double length = outlet_width(p).value_or(bed);
+  const double length = outlet_width_of(p).value_or(bed);
   const double g = p.gravity.acceleration > 0 ? p.gravity.acceleration : standard_gravity;
   const double time = std::sqrt(length / g);
   return {.length = length,

@@ -4,15 +4,9 @@
 /// laboratory is.
 #pragma once
 
-#include <optional>
-
 #include "models/continuum/setup/parameters.hpp"
 
 namespace talus::continuum {
-
-/// The narrower side of the outlet, or its diameter, m; of a slit that a plane of symmetry cuts, the whole width.
-/// Nothing without an outlet.
-std::optional<double> outlet_width(const Parameters& parameters);
 
 /// SI.
 struct TimeScales {

@@ -10,10 +10,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "models/continuum/boundary/vessel_motion.hpp"
-#include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/boundary/boundary.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/setup/vessel_file.hpp"
-#include "models/continuum/state.hpp"
 
 namespace talus::continuum {
 
@@ -52,7 +51,7 @@ std::size_t sides(const Parameters& p) {
   double radius = 0;
   for (const VesselPart& v : p.vessel) radius = std::max({radius, v.radius, v.lower_radius, v.upper_radius});
   const double angle = std::acos(std::max(0.0, 1 - round_off * p.bed.spacing / radius));  // half of a side's
-  const int multiple = std::lcm(4, copies_of(p));  // so that a sector ends at corners
+  const int multiple = std::lcm(4, sector_of(p) ? sector_of(p)->copies() : 1);  // so that a sector ends at corners
   const double fewest = std::ceil(24.0 / multiple), most = std::ceil(4000.0 / multiple);
   return static_cast<std::size_t>(multiple) *
          static_cast<std::size_t>(std::clamp(std::ceil(std::numbers::pi / angle / multiple), fewest, most));
@@ -197,16 +196,33 @@ VesselBounds bounds_of_vessel(const Parameters& p) {
   return all;
 }
 
-bool has_gates_due(const Parameters& p, const Surface& surface, double time) {
-  for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    if (p.vessel[n].gate && !surface.is_open(n) && time >= p.vessel[n].opens_after) return true;
+bool is_moving(const VesselPart& v) {
+  return v.spin != 0 || v.slide != 0 || v.belt;
+}
+
+namespace {
+
+constexpr double in_plane = 1e-6;  // of a belt's speed
+
+/// A belt that would leave its plane.
+void check_motion(const VesselPart& v, std::size_t number, std::vector<Problem>& problems) {
+  if (!v.belt) return;
+  const Vector3 normal = cross(vector_of(v.first_edge), vector_of(v.second_edge)), belt = vector_of(*v.belt);
+  if (std::abs(dot(normal, belt)) > in_plane * norm(normal) * norm(belt))
+    problems.push_back({.key = vessel_key(number, "belt"),
+                        .what = "would move the plate itself",
+                        .allowed = "a velocity along the plate"});
+}
+
+/// Whether a name is one of a face or a plate.
+bool names_another_wall(const Parameters& p, const std::string& name) {
+  if (std::find(face_names.begin(), face_names.end(), name) != face_names.end() || name == "plate") return true;
+  for (std::size_t n = 0; n < p.plates.size(); ++n)
+    if (name == fmt::format("plates_{}", n + 1)) return true;
   return false;
 }
 
-void open_gates(const Parameters& p, Surface& surface, double time) {
-  for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    if (p.vessel[n].gate && time >= p.vessel[n].opens_after) surface.open(n);
-}
+}  // namespace
 
 std::vector<Problem> check_vessel(const Parameters& p) {
   std::vector<Problem> problems;
@@ -234,7 +250,7 @@ std::vector<Problem> check_vessel(const Parameters& p) {
       add("second_edge", "the plate has no area", "an edge at an angle to first_edge");
     if (!std::all_of(v.name.begin(), v.name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; }))
       add("name", fmt::format("\"{}\" cannot name a column", v.name), "letters, digits and _");
-    if (std::find(wall_names.begin(), wall_names.end(), v.name) != wall_names.end())
+    if (names_another_wall(p, v.name))
       add("name", fmt::format("\"{}\" is a wall of the box", v.name), "a name of its own");
     for (std::size_t m = 0; m < n; ++m)
       if (name_of(p, m) == name_of(p, n)) add("name", "is that of another wall too", "a name of its own");

@@ -246,39 +246,16 @@ std::vector<std::string> remarks_of_vessel(const Parameters& parameters);
 /// Of a part: that of its key, or its shape and number.
 std::string name_of(const Parameters& parameters, std::size_t part);
 
-/// The surface of the vessel, patch n of part n, all gates shut; empty without a vessel. It is made when it is first
-/// asked for (VesselSurface).
-/// Round parts are polygons whose sides are nowhere farther from the circle than a fiftieth of bed.spacing, and whose
-/// area of cross-section is the circle's.
-Surface surface_of(const Parameters& parameters);
-
-/// A surface and what it was made of. Parameters and their copies hold one together, so that a fine surface is made
-/// once, whoever asks for it; a vessel of other triangles, as that of a coarser bed, takes its place.
-class VesselSurface {
- public:
-  Surface of(const Parameters& parameters);
-
- private:
-  struct Part {
-    std::shared_ptr<const DrawnSurface> drawn;  // of a file, whose triangles need not be compared
-    FileUnit unit;
-    Turn turn;
-    double scale;
-    std::array<double, 3> move;
-    std::vector<Triangle> triangles;  // of others
-    bool operator==(const Part&) const = default;
-  };
-  std::mutex mutex_;
-  std::vector<Part> parts_;
-  Surface surface_;
-};
-
 /// A place of a round part from one of a part whose axis is z.
 Vector3 placed(const VesselPart& part, const Vector3& place);
 /// A place on the axis of a round part, m.
 Vector3 on_axis(const Parameters& parameters, const VesselPart& part);
 
-/// The triangles of one part.
+/// Whether the surface of a wall moves.
+bool is_moving(const VesselPart& part);
+
+/// The triangles of one part, whose patch is its number. Round parts are polygons whose sides are nowhere farther from
+/// the circle than a fiftieth of bed.spacing, and whose area of cross-section is the circle's.
 std::vector<Triangle> triangles_of(const Parameters& parameters, std::size_t part);
 
 /// The box around a part, m, and around the vessel, without making its surface.
@@ -293,19 +270,6 @@ std::vector<Triangle> placed_triangles(const VesselPart& part);
 VesselBounds placed_bounds(const VesselPart& part);
 /// Rims of its surface, with the numbers of the triangles there.
 std::vector<Rim> placed_rims(const VesselPart& part);
-
-/// The places of a lattice that the bed of the case fills: those that are connected with bed.inside, else with what
-/// lies above the level gates or the outlet, else with the middle of its top as far as the vessel takes it in, by steps
-/// from place to place that no wall crosses; those nearer to a wall than the contact distance
-/// (physics/sph/wall_contact.hpp) are moved off it to that distance. In a sector the places of a layer stand on rings
-/// about the axis, all of one area and evenly spread along each, so that they are as far from its faces as from each
-/// other.
-std::vector<Vector3> bed_in_vessel(const Parameters& parameters);
-
-/// Whether a gate is still shut whose time has come. \param time from the opening of the gate of the case, s
-bool has_gates_due(const Parameters& parameters, const Surface& surface, double time);
-/// Opens these, for good.
-void open_gates(const Parameters& parameters, Surface& surface, double time);
 
 }  // namespace talus::continuum
 

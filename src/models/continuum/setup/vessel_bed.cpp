@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/boundary/vessel_places.hpp"
+#include "models/continuum/setup/vessel_bed.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "models/continuum/boundary/vessel_outlets.hpp"
 #include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
@@ -100,7 +99,8 @@ Layer layer_of_rings(const Parameters& p, const Lattice& lattice, const Sector& 
 
 }  // namespace
 
-std::vector<LevelOpening> level_openings(const Parameters& p) {
+std::vector<LevelOpening> level_openings(const Layout& layout) {
+  const Parameters& p = layout.given;
   std::vector<LevelOpening> openings;
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     if (!p.vessel[n].gate) continue;
@@ -119,23 +119,25 @@ std::vector<LevelOpening> level_openings(const Parameters& p) {
                         .is_gate = true});
   }
   if (!openings.empty()) return openings;
-  if (const auto outlet = outlet_of_vessel(p)) {
-    const Vector3 half{0.5 * outlet->width, 0.5 * outlet->depth, 0};
+  if (!layout.vessel_outlets.empty()) {
+    const VesselOutlet& outlet = layout.vessel_outlets.front();
+    const Vector3 half{0.5 * outlet.width, 0.5 * outlet.depth, 0};
     openings.push_back({.name = "outlet",
-                        .middle = outlet->middle,
-                        .low = outlet->middle - half,
-                        .high = outlet->middle + half,
+                        .middle = outlet.middle,
+                        .low = outlet.middle - half,
+                        .high = outlet.middle + half,
                         .is_gate = false});
   }
   return openings;
 }
 
-VesselPlaces::VesselPlaces(const Parameters& p)
-    : parameters(p),
-      lattice(lattice_of(p)),
-      surface(surface_of(p)),
-      domain(domain_of(p)),
-      layer(domain.sector() ? layer_of_rings(p, lattice, *domain.sector()) : layer_of_lattice(p, lattice)),
+VesselPlaces::VesselPlaces(const Layout& of_case)
+    : layout(of_case),
+      lattice(layout.lattice),
+      surface(layout.boundary->vessel()),
+      domain(layout.boundary->domain()),
+      layer(domain.sector() ? layer_of_rings(layout.given, lattice, *domain.sector())
+                            : layer_of_lattice(layout.given, lattice)),
       layers(static_cast<std::size_t>(lattice.count[2])),
       taken(layer.places.size() * layers) {}
 
@@ -153,12 +155,12 @@ Vector3 VesselPlaces::at(const Index& n) const {
 }
 
 bool VesselPlaces::is_clear(const Vector3& x) const {
-  return !surface.nearest(x, on_the_wall * parameters.bed.spacing) &&
-         !domain.is_near_wall(x, 0.25 * parameters.bed.spacing);
+  return !surface.nearest(x, on_the_wall * layout.given.bed.spacing) &&
+         !domain.is_near_wall(x, 0.25 * layout.given.bed.spacing);
 }
 
 Vector3 VesselPlaces::moved_off(const Vector3& x) const {
-  const double room = sph::contact_distance * parameters.bed.spacing;
+  const double room = sph::contact_distance * layout.given.bed.spacing;
   const auto foot = surface.nearest(x, room);
   return foot ? foot->place + (room / foot->distance) * (x - foot->place) : x;
 }
@@ -169,7 +171,7 @@ bool VesselPlaces::is_hidden(const Vector3& a, const Vector3& b) const {
 
 std::optional<Index> VesselPlaces::visible_from(const Vector3& x) const {
   const auto& sector = domain.sector();
-  const double reach = around_seed * parameters.bed.spacing;
+  const double reach = around_seed * layout.given.bed.spacing;
   std::vector<std::pair<double, std::uint32_t>> near;  // as they are seen from above
   for (std::uint32_t n = 0; n < layer.places.size(); ++n) {
     const Vector3 d = layer.places[n] - x;
@@ -203,12 +205,12 @@ std::vector<Index> VesselPlaces::seeds() const {
   const auto add = [&](const Vector3& x) {
     if (const auto seen = visible_from(x)) seeds.push_back(*seen);
   };
-  if (const auto& inside = parameters.bed.inside) {
+  if (const auto& inside = layout.given.bed.inside) {
     add({(*inside)[0], (*inside)[1], (*inside)[2]});
     return seeds;
   }
-  for (const LevelOpening& opening : level_openings(parameters))
-    add(opening.middle + Vector3{0, 0, above_gate * parameters.bed.spacing});
+  for (const LevelOpening& opening : level_openings(layout))
+    add(opening.middle + Vector3{0, 0, above_gate * layout.given.bed.spacing});
   if (!seeds.empty()) return seeds;
   if (const Index top{layer.middle, layers - 1}; is_clear(at(top))) seeds.push_back(top);
   return seeds;
@@ -234,8 +236,8 @@ void VesselPlaces::fill() {
   }
 }
 
-std::vector<Vector3> bed_in_vessel(const Parameters& p) {
-  VesselPlaces places{p};
+std::vector<Vector3> bed_in_vessel(const Layout& layout) {
+  VesselPlaces places(layout);
   places.fill();
   std::vector<Vector3> positions;
   for (Index n{0, 0}; n.layer < places.layers; ++n.layer)

@@ -9,7 +9,7 @@
 
 namespace talus::continuum {
 
-struct Parameters;
+struct Layout;
 
 /// What of a rim is open.
 struct OpenRim {
@@ -23,6 +23,6 @@ struct OpenRim {
 /// the bed or deeper, and nothing blocks the way around the edge at 0.6 spacings from it, neither another part nor a
 /// face of the box that is not open. So the top of a vessel, an outlet on a gate, a plate within the bed and gaps
 /// narrower than that are none. The bed is laid with these rims closed for that.
-std::vector<OpenRim> rims_below_bed(const Parameters& parameters);
+std::vector<OpenRim> rims_below_bed(const Layout& layout);
 
 }  // namespace talus::continuum

@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "models/continuum/setup/layout.hpp"
-#include "models/continuum/setup/parameters.hpp"
-#include "models/continuum/setup/vessel.hpp"
 
 namespace talus::continuum {
 
@@ -20,7 +18,7 @@ struct LevelOpening {
   bool is_gate;
 };
 /// The gates of the vessel that are more level than upright; without any its outlet, if it has one (outlet_of_vessel).
-std::vector<LevelOpening> level_openings(const Parameters& parameters);
+std::vector<LevelOpening> level_openings(const Layout& layout);
 
 /// The places of all layers and which of them hold particles, layer by layer.
 struct VesselPlaces {
@@ -36,16 +34,17 @@ struct VesselPlaces {
     std::size_t layer;
   };
 
-  const Parameters& parameters;
-  Lattice lattice;
-  Surface surface;
-  Domain domain;
+  const Layout& layout;
+  const Lattice& lattice;
+  const Surface& surface;
+  const Domain& domain;
   Layer layer;
   std::size_t layers;
   std::vector<char> taken;
 
-  /// \param parameters must outlive it
-  explicit VesselPlaces(const Parameters& parameters);
+  /// \param layout must outlive it
+  explicit VesselPlaces(const Layout& layout);
+  VesselPlaces(Layout&&) = delete;
 
   std::size_t number(const Index& n) const { return n.layer * layer.places.size() + n.place; }
   Vector3 at(const Index& n) const;
@@ -66,5 +65,13 @@ struct VesselPlaces {
     if (n.layer + 1 < layers) visit(Index{n.place, n.layer + 1});
   }
 };
+
+/// The places of a lattice that the bed of the case fills: those that are connected with bed.inside, else with what
+/// lies above the level gates or the outlet, else with the middle of its top as far as the vessel takes it in, by steps
+/// from place to place that no wall crosses; those nearer to a wall than the contact distance
+/// (physics/sph/wall_contact.hpp) are moved off it to that distance. In a sector the places of a layer stand on rings
+/// about the axis, all of one area and evenly spread along each, so that they are as far from its faces as from each
+/// other.
+std::vector<Vector3> bed_in_vessel(const Layout& layout);
 
 }  // namespace talus::continuum

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/boundary/vessel_rims.hpp"
+#include "models/continuum/setup/open_rims.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "models/continuum/setup/layout.hpp"
-#include "models/continuum/setup/parameters.hpp"
 #include "numerics/cell_grid.hpp"
 
 namespace talus::continuum {
@@ -17,7 +16,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double around = 0.6, beside = 0.9, near = 1.2, deep = 1, least_length = 2;  // in spacings
-constexpr double most_places = 2e5;  // of a lattice; a coarser one tells holes that matter as well
+constexpr double max_positions = 2e5;  // of a lattice; a coarser one reports holes that matter as well
 
 /// A place on a rim.
 struct Sample {
@@ -90,26 +89,30 @@ std::vector<Vector3> bed_behind(const Parameters& p, const std::vector<Candidate
     caps.insert(caps.end(), cap.begin(), cap.end());
   }
   Parameters closed = p;
-  closed.surface = std::make_shared<VesselSurface>();
   VesselPart part;
   part.name = "caps", part.shape = VesselShape::stl, part.unit = FileUnit::m;
   part.drawn = std::make_shared<DrawnSurface>(std::move(caps));
   if (!part.drawn->triangles().empty()) closed.vessel.push_back(std::move(part));
-  return bed_positions(closed);
+  return bed_positions(Layout(closed));
 }
 
 }  // namespace
 
-std::vector<OpenRim> rims_below_bed(const Parameters& given) {
-  Parameters p = given;
-  while (places_of(lattice_of(p)) > most_places) p.bed.spacing *= 2, p.surface = std::make_shared<VesselSurface>();
+std::vector<OpenRim> rims_below_bed(const Layout& of_case) {
+  const bool any = std::any_of(of_case.given.vessel.begin(), of_case.given.vessel.end(),
+                               [](const VesselPart& v) { return v.shape == VesselShape::stl && !v.gate; });
+  if (!any) return {};
+  Parameters coarse = of_case.given;
+  while (lattice_of(coarse).positions() > max_positions) coarse.bed.spacing *= 2;
+  const Layout layout = coarse.bed.spacing > of_case.given.bed.spacing ? Layout(coarse) : of_case;
+  const Parameters& p = layout.given;
   double top = 0;
   for (const std::size_t n : beds_of(p)) {
     const Parameters one = with_bed_alone(p, n);
     top = std::max(top, bed_bottom(one) + one.bed.height);
   }
-  const Surface surface = surface_of(p);
-  const Domain domain = domain_of(p);
+  const Surface& surface = layout.boundary->vessel();
+  const Domain& domain = layout.boundary->domain();
   std::vector<Candidate> candidates;
   for (std::size_t part = 0; part < p.vessel.size(); ++part) {
     if (p.vessel[part].shape != VesselShape::stl || p.vessel[part].gate) continue;
