@@ -14,6 +14,13 @@
 namespace talus::continuum {
 namespace {
 
+/// With a speed of sound of 100 m/s.
+Setup setup_of(const Parameters& p) {
+  Setup setup(p);
+  setup.sound_speed = 100;
+  return setup;
+}
+
 /// The bed at rest on an open slit, its particles a little out of place.
 struct Bed {
   Parameters parameters;
@@ -58,11 +65,11 @@ struct Bed {
 
   explicit Bed(const benchmark::State& run)
       : parameters(hopper(run)),
-        state(initial_state(parameters, Material(parameters))),
+        state(initial_state(Setup(parameters))),
         material(parameters),
         team(static_cast<int>(run.range(3))),
-        domain(domain_of(parameters)),
-        pairs(parameters, domain, state.mass, 100) {
+        domain(Boundary(parameters).domain()),
+        pairs(setup_of(parameters), domain) {
     Random random(1);
     const auto shift = [&] { return 0.1 * parameters.bed.spacing * random.uniform(-1, 1); };
     for (Vector3& x : state.position) x += Vector3{shift(), shift(), shift()};

@@ -112,6 +112,13 @@ double processor_time() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+/// With a speed of sound of 100 m/s.
+Setup setup_of(const Parameters& p) {
+  Setup setup(p);
+  setup.sound_speed = 100;
+  return setup;
+}
+
 /// A bed that bears the weight above each of its particles.
 struct Bed {
   Parameters parameters;
@@ -126,9 +133,9 @@ struct Bed {
   explicit Bed(const Parameters& p)
       : parameters(p),
         model(p),
-        domain(domain_of(p)),
-        surface(surface_of(p)),
-        pairs(p, domain, model.state().mass, 100, surface) {
+        domain(Boundary(p).domain()),
+        surface(Boundary(p).vessel()),
+        pairs(setup_of(p), domain, surface) {
     State& s = model.mutable_state();
     double top = 0;
     for (const Vector3& x : s.position) top = std::max(top, x.z);

@@ -117,10 +117,10 @@ void read_continuum(const CaseFile& file) {
   continuum::for_each_parameter(reader, p);
   reader.check(continuum::check(p));
   reader.finish();
-  reader.check(continuum::check_steps(p, run.end));
+  reader.check(continuum::check_steps(continuum::Setup(p), run.end));
   reader.throw_problems();
-  if (continuum::places_of(continuum::lattice_of(p)) > 1e4) return;  // counting them takes its time
-  const continuum::Forecast f = continuum::forecast(p, run.end);
+  if (continuum::lattice_of(p).positions() > 1e4) return;  // counting them takes its time
+  const continuum::Forecast f = continuum::forecast(continuum::Setup(p), run.end);
   demand(f.flow_steps > 0 && f.settling_steps >= 0 && f.flow_steps + f.settling_steps < 1e13, "a forecast is a number");
   continuum::Parameters again;
   again.plates.resize(p.plates.size());

@@ -97,9 +97,10 @@ class FlowAnswers {
     if (std::isfinite(emptied))
       answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
     else if (std::isfinite(stopped))
-      answer.answer = fmt::format(
-          "has stopped after {} with {}: {}", time_text(stopped), rest,
-          of("outlet_packing") >= arch * setup_.given.bed.packing ? "arch over the outlet" : "stagnant at its angle of repose");
+      answer.answer =
+          fmt::format("has stopped after {} with {}: {}", time_text(stopped), rest,
+                      of("outlet_packing") >= arch * setup_.given.bed.packing ? "arch over the outlet"
+                                                                              : "stagnant at its angle of repose");
     else if (!(discharged() > 1e-9))
       answer.answer = fmt::format("has not started: {}", rest);
     else
@@ -115,9 +116,9 @@ class FlowAnswers {
       answer.answer = discharged() < hopper::share_of_regime ? too_little() : "not known: no snapshots while it flowed";
     const double own = half_angle_of_cone(setup_) * 180 / std::numbers::pi, most = of("mass_flow_half_angle_jenike");
     if (std::isfinite(own) && std::isfinite(most))
-      answer.by_hand =
-          fmt::format("{}, half angle {:.3g}° of at most {:.0f}° (Jenike, grains of {:.3g}° in plane strain)",
-                      regime_of(own <= most), own, most, internal_friction_by_hand(setup_.given) * 180 / std::numbers::pi);
+      answer.by_hand = fmt::format(
+          "{}, half angle {:.3g}° of at most {:.0f}° (Jenike, grains of {:.3g}° in plane strain)",
+          regime_of(own <= most), own, most, internal_friction_by_hand(setup_.given) * 180 / std::numbers::pi);
     return answer;
   }
 

@@ -280,9 +280,8 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };
   prepared.shortenings = [setup, end] { return shorter_runs(*setup, end); };
   prepared.too_large = [setup](double available) { return too_large(*setup, available); };
-  prepared.headline = p.plate.height || setup->outlet
-                          ? run::Headline{.column = "discharge_rate", .name = "discharge"}
-                          : run::Headline{.column = "speed_max", .name = "fastest"};
+  prepared.headline = p.plate.height || setup->outlet ? run::Headline{.column = "discharge_rate", .name = "discharge"}
+                                                      : run::Headline{.column = "speed_max", .name = "fastest"};
   prepared.read = std::move(read);
   return prepared;
 }

@@ -147,7 +147,8 @@ double internal_friction_by_hand(const continuum::Parameters& p) {
 
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
   const VesselPart* cone = emptying_cone(layout);
-  return cone ? granular::mass_flow_half_angle(friction_of(layout, *cone), internal_friction_by_hand(layout.given)) : HopperRun::none;
+  return cone ? granular::mass_flow_half_angle(friction_of(layout, *cone), internal_friction_by_hand(layout.given))
+              : HopperRun::none;
 }
 
 double half_angle_of_cone(const continuum::Layout& layout) {

@@ -33,7 +33,7 @@ struct PressureByHand {
 /// On upright round or square walls K times Janssen's stress; on a level band that stress; on a cone Walker's pressure,
 /// the bed above it a surcharge by Janssen. \param ratio K, as measured in the bed at rest \param top of the bed, m
 /// \param height of the place, m
-PressureByHand pressure_by_hand(const continuum::Layout& layout, const BandOfWall& band, double ratio,
-                                double top, double height);
+PressureByHand pressure_by_hand(const continuum::Layout& layout, const BandOfWall& band, double ratio, double top,
+                                double height);
 
 }  // namespace talus::app

@@ -70,7 +70,8 @@ inline constexpr double shear_over_bulk = 0.6;
 /// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The
 /// packing at which the grains just touch: the bed's, so that it bears no pressure before its weight, unless so loose
 /// that they do not touch. \param parameters as read \param end of the run, s
-void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double end, continuum::Parameters& parameters, FilledIn& filled);
+void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double end, continuum::Parameters& parameters,
+                  FilledIn& filled);
 
 // ------------------------------------------------------------------------------------------------------------------
 

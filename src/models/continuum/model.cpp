@@ -149,8 +149,7 @@ double Continuum::time_origin() const {
 double Continuum::latest_origin() const {
   if (state_.gate_time >= 0) return state_.gate_time;
   if (setup_->given.gate.opens == GateOpens::from_the_start) return 0;
-  return setup_->given.gate.opens == GateOpens::at_time ? setup_->given.gate.time
-                                                      : setup_->scales.settling_limit;
+  return setup_->given.gate.opens == GateOpens::at_time ? setup_->given.gate.time : setup_->scales.settling_limit;
 }
 
 double Continuum::has_moved_from() const {
@@ -277,11 +276,11 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   const double c = setup_->sound_speed;
   const auto& lengths = workspace_->smoothing_length;
   // Of an empty vessel that of the bed's particles.
-  const double h = lengths.empty()
-                       ? workspace_->pairs.smoothing_length(setup_->density)
-                       : *std::min_element(lengths.begin(), lengths.end());
-  const double step =
-      lengths.empty() ? setup_->given.integration.step.value_or(setup_->given.integration.courant * h / c) : s.last_step;
+  const double h = lengths.empty() ? workspace_->pairs.smoothing_length(setup_->density)
+                                   : *std::min_element(lengths.begin(), lengths.end());
+  const double step = lengths.empty()
+                          ? setup_->given.integration.step.value_or(setup_->given.integration.courant * h / c)
+                          : s.last_step;
   const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
   constexpr double most_packing = 0.74, slack = 1.02;

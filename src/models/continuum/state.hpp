@@ -89,8 +89,8 @@ struct State {
 
   std::vector<Vector3> patch_impulse;  ///< received by each patch of the boundary since the start, N s
   WallLoads wall_loads;                ///< the same by field of the vessel's surface
-  Vector3 damping_impulse;              ///< what the damping of the settling bed took, N s
-  Vector3 gravity_impulse;              ///< what gravity gave, N s
+  Vector3 damping_impulse;             ///< what the damping of the settling bed took, N s
+  Vector3 gravity_impulse;             ///< what gravity gave, N s
 
   Population population;
   AirAround air;

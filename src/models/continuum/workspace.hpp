@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
-#include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/setup.hpp"
 #include "models/continuum/state.hpp"

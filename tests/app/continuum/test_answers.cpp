@@ -38,7 +38,7 @@ class Answers : public ::testing::Test {
     for (NamedValue& q : quantities)
       if (q.name == name) q.value = value;
   }
-  std::vector<Answer> all() const { return answers_of(small_silo(), quantities, folder); }
+  std::vector<Answer> all() const { return answers_of(continuum::Setup(small_silo()), quantities, folder); }
   Answer find(const std::string& question) const {
     for (const Answer& answer : all())
       if (answer.question == question) return answer;
@@ -139,7 +139,9 @@ TEST_F(Answers, OfABoxAreThoseOfItsWalls) {
                {"time_of_largest", "s"}},
               {{1, 0, 0.2, 1500, 1200, 2000, 0.1}, {5, 0, 0, 3000, none, 3100, 0.2}});
   quantities.clear();
-  const std::vector<Answer> answers = answers_of(continuum::Parameters{}, quantities, folder);
+  continuum::Parameters p;
+  p.box.width = p.box.depth = p.box.height = p.bed.height = 1, p.bed.spacing = 0.1;
+  const std::vector<Answer> answers = answers_of(continuum::Setup(p), quantities, folder);
   ASSERT_EQ(answers.size(), 4u);
   EXPECT_EQ(answers[0].question, "Pressure at rest, left");
   EXPECT_EQ(answers[0].answer, "1.5 kPa at z = 100 mm");

@@ -21,9 +21,9 @@ TEST(DischargeByHand, OfAConeIsBeverloosTimesRoseAndTanakas) {
   continuum::Parameters p = small_silo();
   const double whole = granular::orifice_discharge(2 * p.vessel[1].lower_radius, 1500, 9.81, p.grains.diameter) *
                        granular::factor_of_cone(std::tan(std::numbers::pi / 6));
-  EXPECT_NEAR(discharge_by_hand(p), whole, 1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)), whole, 1e-12);
   for (continuum::VesselPart& v : p.vessel) v.centre = {0, 0};
-  EXPECT_NEAR(discharge_by_hand(p), 0.25 * whole, 1e-12) << "a quarter between planes of symmetry";
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)), 0.25 * whole, 1e-12) << "a quarter between planes of symmetry";
 }
 
 TEST(DischargeByHand, OfARectangularGateHasEdgesOnFourSides) {
@@ -32,8 +32,8 @@ TEST(DischargeByHand, OfARectangularGateHasEdgesOnFourSides) {
   p.vessel[1].shape = continuum::VesselShape::plate;
   p.vessel[1].corner = {0.04, 0.045, 0.09}, p.vessel[1].first_edge = {0.02, 0, 0},
   p.vessel[1].second_edge = {0, 0.01, 0};
-  EXPECT_NEAR(discharge_by_hand(p), granular::rectangular_discharge(0.02, 0.01, false, 1500, 9.81, p.grains.diameter),
-              1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)),
+              granular::rectangular_discharge(0.02, 0.01, false, 1500, 9.81, p.grains.diameter), 1e-12);
 }
 
 /// A level gate in a box of 0.1 x 0.1 m.
@@ -48,34 +48,37 @@ continuum::Parameters gated(std::array<double, 3> corner, double width, double d
 }
 
 TEST(DischargeByHand, OfARectangleIsTheSameTurnedByAQuarter) {
-  const double along_x = discharge_by_hand(gated({0.035, 0.046, 0.1}, 0.03, 0.008));
+  const double along_x = discharge_by_hand(continuum::Layout(gated({0.035, 0.046, 0.1}, 0.03, 0.008)));
   EXPECT_NEAR(along_x, granular::rectangular_discharge(0.008, 0.03, false, 1500, 9.81, 200e-6), 1e-12);
-  EXPECT_NEAR(discharge_by_hand(gated({0.046, 0.035, 0.1}, 0.008, 0.03)), along_x, 1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(gated({0.046, 0.035, 0.1}, 0.008, 0.03))), along_x, 1e-12);
 }
 
 TEST(DischargeByHand, OfAGateFromFaceToFaceIsThatOfAnEndlessSlot) {
   const double slot = granular::rectangular_discharge(0.02, 0.1, true, 1500, 9.81, 200e-6);
-  EXPECT_NEAR(discharge_by_hand(gated({0.04, -0.005, 0.1}, 0.02, 0.11)), slot, 1e-12) << "it sticks out";
-  EXPECT_NEAR(discharge_by_hand(gated({0, 0.01, 0.1}, 0.1, 0.02)), slot, 1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(gated({0.04, -0.005, 0.1}, 0.02, 0.11))), slot, 1e-12)
+      << "it sticks out";
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(gated({0, 0.01, 0.1}, 0.1, 0.02))), slot, 1e-12);
   continuum::Parameters p = gated({-0.01, 0, 0.1}, 0.02, 0.1);
-  EXPECT_NEAR(discharge_by_hand(p), 0.5 * slot, 1e-12) << "half of it, cut by its plane of symmetry";
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)), 0.5 * slot, 1e-12) << "half of it, cut by its plane of symmetry";
   p = gated({0.04, -0.005, 0.1}, 0.02, 0.11);
   p.box.rear = FaceKind::open;
-  EXPECT_LT(discharge_by_hand(p), slot) << "it ends there";
+  EXPECT_LT(discharge_by_hand(continuum::Layout(p)), slot) << "it ends there";
 }
 
 TEST(DischargeByHand, OfSeveralOutletsIsTheirSum) {
   continuum::Parameters p = gated({0.01, 0.01, 0.1}, 0.03, 0.02);
-  const double first = discharge_by_hand(p);
+  const double first = discharge_by_hand(continuum::Layout(p));
   continuum::VesselPart second = p.vessel[0];
   second.name = "second", second.corner = {0.06, 0.07, 0.1}, second.first_edge = {0.02, 0, 0};
   p.vessel.push_back(second);
   const auto outlets = continuum::outlets_of_vessel(p);
   ASSERT_EQ(outlets.size(), 2u);
-  EXPECT_NEAR(discharge_by_hand(p, outlets[0]), first, 1e-12);
-  EXPECT_NEAR(discharge_by_hand(p, outlets[1]), granular::rectangular_discharge(0.02, 0.02, false, 1500, 9.81, 200e-6),
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p), outlets[0]), first, 1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p), outlets[1]),
+              granular::rectangular_discharge(0.02, 0.02, false, 1500, 9.81, 200e-6), 1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)),
+              discharge_by_hand(continuum::Layout(p), outlets[0]) + discharge_by_hand(continuum::Layout(p), outlets[1]),
               1e-12);
-  EXPECT_NEAR(discharge_by_hand(p), discharge_by_hand(p, outlets[0]) + discharge_by_hand(p, outlets[1]), 1e-12);
 }
 
 TEST(DischargeByHand, OfASlitInAPlateIsThatOfAnEndlessOne) {
@@ -83,12 +86,13 @@ TEST(DischargeByHand, OfASlitInAPlateIsThatOfAnEndlessOne) {
   p.box.width = 0.1, p.box.depth = 5e-3, p.box.height = 0.25;
   p.plate.height = 0.1, p.plate.slit_left = 0.03, p.plate.slit_right = 0.07;
   const double whole = granular::rectangular_discharge(0.04, 5e-3, true, 1500, 9.81, p.grains.diameter);
-  EXPECT_NEAR(discharge_by_hand(p), whole, 1e-12);
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)), whole, 1e-12);
   EXPECT_NEAR(whole, 0.19, 0.01) << "the paper's hopper";
   p.plate.slit_left = 0, p.plate.slit_right = 0.02;
-  EXPECT_NEAR(discharge_by_hand(p), 0.5 * whole, 1e-12) << "half of it, cut by its plane of symmetry";
+  EXPECT_NEAR(discharge_by_hand(continuum::Layout(p)), 0.5 * whole, 1e-12)
+      << "half of it, cut by its plane of symmetry";
   p.plate.slit_left.reset(), p.plate.slit_right.reset();
-  EXPECT_EQ(discharge_by_hand(p), 0);
+  EXPECT_EQ(discharge_by_hand(continuum::Layout(p)), 0);
 }
 
 TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
@@ -96,11 +100,11 @@ TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
   EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 6) << "a law without a friction of its own";
   p.law = granular::CriticalState::Parameters{.friction = std::tan(std::numbers::pi / 6)};
   EXPECT_NEAR(internal_friction_by_hand(p) * 180 / std::numbers::pi, 35.26, 0.01);
-  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p),
+  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(continuum::Layout(p)),
                    granular::mass_flow_half_angle(friction, internal_friction_by_hand(p)));
-  const std::vector<BandOfWall> bands = bands_of(p);
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
   const double above = granular::janssen_stress(weight, 0.06 / (4 * friction * ratio), top - 0.09);
-  EXPECT_NEAR(pressure_by_hand(p, bands[10], ratio, top, 0.09).in_flow,
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands[10], ratio, top, 0.09).in_flow,
               granular::cone_in_flow(std::numbers::pi / 6, friction, internal_friction_by_hand(p)).ratio * above, 1e-6);
   p.law = granular::DruckerPrager::Parameters{.friction = 1.5};
   EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 2);
@@ -108,37 +112,40 @@ TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
 
 TEST(MassFlowByHand, IsOfTheConeAndItsWall) {
   continuum::Parameters p = small_silo();
-  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p), granular::mass_flow_half_angle(friction, std::numbers::pi / 6));
+  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(continuum::Layout(p)),
+                   granular::mass_flow_half_angle(friction, std::numbers::pi / 6));
   p.vessel[1].friction = 0.1;
-  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(p), granular::mass_flow_half_angle(0.1, std::numbers::pi / 6));
+  EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(continuum::Layout(p)),
+                   granular::mass_flow_half_angle(0.1, std::numbers::pi / 6));
   p.vessel.erase(p.vessel.begin() + 1);
-  EXPECT_TRUE(std::isnan(mass_flow_half_angle_by_hand(p)));
+  EXPECT_TRUE(std::isnan(mass_flow_half_angle_by_hand(continuum::Layout(p))));
 }
 
 TEST(PressureByHand, IsJanssensAndWalkers) {
   const continuum::Parameters p = small_silo();
-  const std::vector<BandOfWall> bands = bands_of(p);
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
   const double length = 0.06 / (4 * friction * ratio);
-  const PressureByHand upright = pressure_by_hand(p, bands[2], ratio, top, 0.11);
+  const PressureByHand upright = pressure_by_hand(continuum::Layout(p), bands[2], ratio, top, 0.11);
   EXPECT_NEAR(upright.at_rest, ratio * granular::janssen_stress(weight, length, top - 0.11), 1e-9);
   EXPECT_EQ(upright.at_rest, upright.in_flow);
-  EXPECT_TRUE(std::isnan(pressure_by_hand(p, bands[7], ratio, top, 0.16).at_rest)) << "above the bed";
+  EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands[7], ratio, top, 0.16).at_rest))
+      << "above the bed";
   // At the cone's top the bed above is all that it bears.
   const double above = granular::janssen_stress(weight, length, top - 0.09), angle = continuum::half_turn / 6;
-  const PressureByHand cone = pressure_by_hand(p, bands[10], ratio, top, 0.09);
+  const PressureByHand cone = pressure_by_hand(continuum::Layout(p), bands[10], ratio, top, 0.09);
   EXPECT_NEAR(cone.at_rest, granular::cone_at_rest(angle, friction).ratio * above, 1e-6);
   EXPECT_NEAR(cone.in_flow, granular::cone_in_flow(angle, friction, 30 * continuum::half_turn / 180).ratio * above,
               1e-6);
-  EXPECT_TRUE(std::isnan(pressure_by_hand(p, bands.back(), ratio, top, 0.06).at_rest))
+  EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.06).at_rest))
       << "no formula of the lid of a cone";
 }
 
 TEST(PressureByHand, IsNotThatOfUprightWallsWhereTheyLie) {
   continuum::Parameters p = small_silo();
-  const std::vector<BandOfWall> bands = bands_of(p);
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
   for (continuum::VesselPart& wall : p.vessel) wall.along = continuum::Along::y;
   for (const std::size_t band : {2, 10})
-    EXPECT_TRUE(std::isnan(pressure_by_hand(p, bands[band], ratio, top, 0.1).at_rest));
+    EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands[band], ratio, top, 0.1).at_rest));
 }
 
 TEST(PressureByHand, SmoothWallsLeaveTheWholeWeightToTheFloor) {
@@ -146,8 +153,9 @@ TEST(PressureByHand, SmoothWallsLeaveTheWholeWeightToTheFloor) {
   p.walls.friction = continuum::Friction::none;
   p.vessel[2].height = 0.09, p.vessel[2].radius = 0.03;
   p.vessel.erase(p.vessel.begin() + 1);
-  const std::vector<BandOfWall> bands = bands_of(p);
-  EXPECT_NEAR(pressure_by_hand(p, bands.back(), ratio, top, 0.09).at_rest, weight * (top - 0.09), 1e-9);
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
+  EXPECT_NEAR(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.09).at_rest, weight * (top - 0.09),
+              1e-9);
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ TEST(HopperObservers, SeeTheGateAsTheGrainsDo) {
   ThreadTeam team(1);
   const auto model = run::any_model(continuum::Continuum(p));
   model->begin(team);
-  const auto slit_velocity = [&] { return value_of(observe_hopper(model->snapshot(), p), "slit_velocity"); };
+  const auto slit_velocity = [&] {
+    return value_of(observe_hopper(model->snapshot(), continuum::Layout(p)), "slit_velocity");
+  };
   double slowest = 0;
   while (model->time() < 0.0095) {
     model->advance(team);
@@ -45,7 +47,7 @@ void expect_probes_of_all(const continuum::Parameters& p) {
   model->begin(team);
   while (model->time() < 0.02) model->advance(team);
   const Snapshot snapshot = model->snapshot();
-  const auto outlet = continuum::outlet_of(p);
+  const auto outlet = continuum::Layout(p).outlet;
   ASSERT_TRUE(outlet.has_value());
   const auto density = snapshot.scalars("density");
   const ParticleField all(
@@ -53,9 +55,9 @@ void expect_probes_of_all(const continuum::Parameters& p) {
       *snapshot.domain);
   const Vector3 slit{0.5 * (outlet->left + outlet->right), 0.5 * p.box.depth, outlet->height};
   ASSERT_EQ(outlet->middle_y, slit.y);
-  const auto values = observe_hopper(snapshot, p);
+  const auto values = observe_hopper(snapshot, continuum::Layout(p));
   const double velocity = all.value(slit, snapshot.vectors("velocity")).z;
-  const double above = all.value(slit + Vector3{0, 0, 0.125 * continuum::outlet_width(p).value()}, density);
+  const double above = all.value(slit + Vector3{0, 0, 0.125 * continuum::outlet_width_of(p).value()}, density);
   ASSERT_LT(velocity, 0);
   EXPECT_NEAR(value_of(values, "slit_velocity"), velocity, -1e-12 * velocity);
   EXPECT_NEAR(value_of(values, "probe_density"), above, 1e-12 * above);
@@ -92,20 +94,20 @@ TEST(HopperObservers, EachOfSeveralOutletsHasARate) {
                     {"density", "kg/m3", density},
                     {"stress_zz", "Pa", zero},
                     {"strain", "1", zero}};
-  const Domain domain = continuum::domain_of(p);
+  const Domain domain = continuum::Boundary(p).domain();
   Snapshot snapshot = points.view();
   snapshot.domain = &domain;
   const auto has = [&](const std::vector<NamedValue>& values, const std::string& name) {
     return std::any_of(values.begin(), values.end(), [&](const NamedValue& v) { return v.name == name; });
   };
   for (continuum::VesselPart& part : p.vessel) part.gate = true;
-  const auto values = observe_hopper(snapshot, p);
+  const auto values = observe_hopper(snapshot, continuum::Layout(p));
   const double column = continuum::lattice_of(p).mass / spacing;  // of one row of particles
   EXPECT_NEAR(value_of(values, "discharge_rate_west"), 36 * column * 0.1, 1e-9 * column);
   EXPECT_NEAR(value_of(values, "discharge_rate_east"), 24 * column * 0.3, 1e-9 * column);
   EXPECT_NEAR(value_of(values, "slit_velocity"), -0.1, 1e-9) << "of the lowest, where it is along y too";
   p.vessel.pop_back();
-  EXPECT_FALSE(has(observe_hopper(snapshot, p), "discharge_rate_west")) << "one is all";
+  EXPECT_FALSE(has(observe_hopper(snapshot, continuum::Layout(p)), "discharge_rate_west")) << "one is all";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace talus::app {
 namespace {
 
 TEST(WallLoads, BandsAreThoseOfTheWalls) {
-  const std::vector<BandOfWall> bands = bands_of(small_silo());
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(small_silo()));
   ASSERT_EQ(bands.size(), 8u + 3u + 1u);
   EXPECT_EQ(bands[0].name, "cylinder.1");
   EXPECT_TRUE(bands[0].is_upright());

@@ -108,20 +108,26 @@ TEST(Materials, WallsRubAsTheirMaterialSays) {
   EXPECT_THAT(filled.problems[0].allowed, testing::HasSubstr("steel, acrylic, concrete"));
 }
 
+Parameters in_a_box() {
+  Parameters p;
+  p.box.width = p.box.depth = 1, p.box.height = 3, p.bed.spacing = 0.1, p.bed.height = 1;
+  return p;
+}
+
 TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
   const CaseFile file = a_case("[grains]\nmaterial = \"wheat\"\n");
-  Parameters p;
+  Parameters p = in_a_box();
   p.grains.material = GrainMaterial::wheat;
   FilledIn filled = fill_in_material(file, p);
   p.bed.height = 2;
   p.gravity.acceleration = 10;
-  set_from_bed(file, p, 1, filled);
+  set_from_bed(file, continuum::Layout(p), 1, p, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_NEAR(law.bulk_modulus, 1000 * 0.6 * 1350 * 10 * 2, 1e-3);
   EXPECT_NEAR(law.shear_modulus, 0.6 * law.bulk_modulus, 1e-3);
   const CaseFile given = a_case("[grains]\nmaterial = \"wheat\"\n[law.critical-state]\nbulk_modulus = \"1 MPa\"\n");
   p.law.of<granular::CriticalState>().bulk_modulus = 1e6;
-  set_from_bed(given, p, 1, filled);
+  set_from_bed(given, continuum::Layout(p), 1, p, filled);
   EXPECT_EQ(law.bulk_modulus, 1e6);
   EXPECT_NEAR(law.shear_modulus, 0.6e6, 1e-6);
 }
@@ -129,11 +135,11 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
 TEST(Materials, TheStiffnessFollowsWithoutAMaterialToo) {
   const CaseFile file = a_case("[grains]\ndensity = \"2000 kg/m3\"\n");
   const auto taken = [&](double packing, double gravity) {
-    Parameters p;
+    Parameters p = in_a_box();
     p.grains.density = 2000;
     p.bed.height = 2, p.bed.packing = packing, p.gravity.acceleration = gravity;
     FilledIn filled;
-    set_from_bed(file, p, 1, filled);
+    set_from_bed(file, continuum::Layout(p), 1, p, filled);
     return std::pair{p.law.of<granular::CriticalState>(), filled.keys};
   };
   const auto [law, keys] = taken(0.58, 10);
@@ -149,16 +155,16 @@ TEST(Materials, TheStiffnessFollowsWithoutAMaterialToo) {
 
 TEST(Materials, TheBedBearsNoPressureBeforeItsWeight) {
   const CaseFile file = a_case("[grains]\nmaterial = \"maize\"\n[bed]\npacking = 0.64\n");
-  Parameters p;
+  Parameters p = in_a_box();
   p.grains.material = GrainMaterial::maize;
   FilledIn filled = fill_in_material(file, p);
   p.bed.packing = 0.64;
-  set_from_bed(file, p, 1, filled);
+  set_from_bed(file, continuum::Layout(p), 1, p, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_EQ(law.reference_packing, 0.64);
   const CaseFile given = a_case("[grains]\nmaterial = \"maize\"\n[law.critical-state]\nreference_packing = 0.6\n");
   p.law.of<granular::CriticalState>().reference_packing = 0.6;
-  set_from_bed(given, p, 1, filled);
+  set_from_bed(given, continuum::Layout(p), 1, p, filled);
   EXPECT_EQ(law.reference_packing, 0.6);
 }
 

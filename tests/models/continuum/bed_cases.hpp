@@ -46,7 +46,7 @@ inline std::size_t count_within(const std::vector<Vector3>& bed, double x, doubl
 
 inline std::vector<std::string> warnings(const Parameters& p) {
   std::vector<std::string> quantities;
-  for (const RegimeLine& line : regime_of_bed(p)) quantities.push_back(line.quantity);
+  for (const RegimeLine& line : regime_of_bed(Layout(p))) quantities.push_back(line.quantity);
   return quantities;
 }
 

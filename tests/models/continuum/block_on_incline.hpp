@@ -14,9 +14,9 @@ namespace talus::continuum {
 inline double acceleration_of_block(Continuum& model, const State& one, const Vector3& foot, double angle,
                                     ThreadTeam& team) {
   State& s = model.mutable_state();
-  const auto impulses = s.vessel_impulse;
+  const auto impulses = s.patch_impulse;
   s = one;
-  s.vessel_impulse = impulses;
+  s.patch_impulse = impulses;
   // Ten particles in a row and three layers, half a spacing above the incline.
   const Vector3 down{std::cos(angle), 0, -std::sin(angle)}, up{std::sin(angle), 0, std::cos(angle)};
   const auto repeat = [&](auto& column) { column.assign(30, column[0]); };

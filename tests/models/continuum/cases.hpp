@@ -100,11 +100,27 @@ inline Vector3 momentum(const State& s) {
   return s.mass * sum;
 }
 
+/// In a TEST the name of the type is one of Google Test's.
+inline Setup setup_of(const Parameters& p) {
+  return Setup(p);
+}
+
+/// The setup of a case with another speed of sound, m/s.
+inline Setup setup_with(const Parameters& p, double sound_speed) {
+  Setup setup(p);
+  setup.sound_speed = sound_speed;
+  return setup;
+}
+
+/// What the parts of a vessel received, N s. \pre no plates
+inline std::span<const Vector3> vessel_impulse(const State& s) {
+  return std::span(s.patch_impulse).subspan(6);
+}
+
 /// Momentum of the particles less all that they were given: zero but for round-off.
 inline Vector3 momentum_error(const State& s) {
   Vector3 error = momentum(s) - s.gravity_impulse + s.damping_impulse - s.air.impulse;
-  for (const Vector3& impulse : s.wall_impulse) error += impulse;
-  for (const Vector3& impulse : s.vessel_impulse) error += impulse;
+  for (const Vector3& impulse : s.patch_impulse) error += impulse;
   return error;
 }
 
@@ -127,19 +143,20 @@ inline void expect_same_for_any_threads_and_resumed(const Parameters& p, int ste
     EXPECT_EQ(a.state().position, other->state().position);
     EXPECT_EQ(a.state().velocity, other->state().velocity);
     EXPECT_EQ(a.state().material.stress, other->state().material.stress);
-    EXPECT_EQ(a.state().wall_impulse, other->state().wall_impulse);
+    EXPECT_EQ(a.state().patch_impulse, other->state().patch_impulse);
   }
 }
 
 /// Lets the bed settle, and go on for a while. \returns mean force on each wall over that while, N
-inline std::array<Vector3, most_walls> settled_wall_forces(Continuum& model, ThreadTeam& team, double duration) {
+inline std::vector<Vector3> settled_wall_forces(Continuum& model, ThreadTeam& team, double duration) {
   const State& s = model.state();
   while (s.gate_time < 0) model.advance(team);
-  const auto before = s.wall_impulse;
+  const auto before = s.patch_impulse;
   const double begin = s.time;
   while (s.time < begin + duration) model.advance(team);
-  std::array<Vector3, most_walls> force{};
-  for (std::size_t w = 0; w < most_walls; ++w) force[w] = (1 / (s.time - begin)) * (s.wall_impulse[w] - before[w]);
+  std::vector<Vector3> force;
+  for (std::size_t w = 0; w < before.size(); ++w)
+    force.push_back((1 / (s.time - begin)) * (s.patch_impulse[w] - before[w]));
   return force;
 }
 

@@ -27,9 +27,9 @@ struct Evaluation {
   explicit Evaluation(const Parameters& p)
       : parameters(p),
         material(p),
-        state(initial_state(p, material)),
-        domain(domain_of(p)),
-        pairs(p, domain, state.mass, 50) {}
+        state(initial_state(setup_of(p))),
+        domain(Boundary(p).domain()),
+        pairs(setup_with(p, 50), domain) {}
 
   /// Moves every particle at random by up to a share of the spacing.
   void disturb(double share) {

@@ -25,9 +25,10 @@ Parameters layer_on_a_plate() {
 template <class Sign>
 double share_that_lasts(const Parameters& p, Sign sign) {
   ThreadTeam team(1);
-  State s = initial_state(p, Material(p));
-  Workspace w(p, s);
-  begin(team, p, s, w);
+  const Setup setup = setup_of(p);
+  State s = initial_state(setup);
+  Workspace w(setup, s);
+  begin(team, setup, s, w);
   constexpr int steps_of_time = 100;
   s.last_step = w.lasting_time / steps_of_time;
   for (int n = 0; n < 10 * steps_of_time; ++n) {
@@ -78,7 +79,7 @@ TEST(LastingRate, OfAJitterDrawsNoDensityThatOfAFlowDoes) {
 }
 
 TEST(LastingRate, IsThereOnlyWhereItDraws) {
-  const auto has_one = [](const Parameters& p) { return !initial_state(p, Material(p)).lasting_rate[0].empty(); };
+  const auto has_one = [](const Parameters& p) { return !initial_state(setup_of(p)).lasting_rate[0].empty(); };
   Parameters p = layer_on_a_plate();
   EXPECT_TRUE(has_one(p));
   p.sph.density_relaxation = 0;

@@ -50,7 +50,7 @@ TEST(Filling, AMassFillsTheVesselFromBelow) {
     by_mass.bed.height = 0;
     by_mass.bed.mass = share * whole;
     ASSERT_THAT(check(by_mass), testing::IsEmpty());
-    const Parameters filled = with_level(by_mass);
+    const Parameters filled = with_level(Layout(by_mass)).given;
     const State s = Continuum(filled).state();
     EXPECT_NEAR(mass_of(s), share * whole, 0.5001 * s.mass);
     double top = 0;

@@ -27,7 +27,7 @@ Parameters hopper() {
 
 std::vector<std::string> names(const Parameters& p) {
   std::vector<std::string> names;
-  for (const Warning& warning : warnings_of(regime_of_case(p))) names.push_back(warning.id);
+  for (const Warning& warning : warnings_of(regime_of_case(setup_of(p)))) names.push_back(warning.id);
   return names;
 }
 bool warns(const Parameters& p, const std::string& name) {
@@ -87,7 +87,7 @@ TEST(RegimeOfCase, SaysWhichSpacingANarrowOutletNeeds) {
   Parameters p = hopper();
   p.plate.slit_right = 0.03 + 6 * p.bed.spacing;
   const auto meaning = [&] {
-    for (const RegimeLine& line : regime_of_case(p))
+    for (const RegimeLine& line : regime_of_case(setup_of(p)))
       if (line.quantity == "particles across the outlet") return line.meaning;
     return std::string();
   };
@@ -115,7 +115,7 @@ TEST(RegimeOfCase, StandsOnTheCardOfTheRun) {
   p.grains.diameter = 2 * spacing;
   ThreadTeam team(1);
   const auto of_run = started(p, team).regime(RunRecord{});
-  const auto of_case = regime_of_case(p);
+  const auto of_case = regime_of_case(setup_of(p));
   ASSERT_GT(of_run.size(), of_case.size());
   for (std::size_t k = 0; k < of_case.size(); ++k) EXPECT_EQ(of_run[k].quantity, of_case[k].quantity);
   EXPECT_TRUE(of_case[0].warning);

@@ -68,7 +68,7 @@ TEST(Sector, FeelsWhatAWholeCircleOfItsCopiesFeels) {
       const State whole = unfolded(s, sector);
       const std::size_t own = s.position.size();
       ASSERT_EQ(whole.position.size(), own * static_cast<std::size_t>(sector.copies()));
-      const Domain part = domain_of(p);
+      const Domain part = Boundary(p).domain();
       const Sums of_part(p, part, s, walls), of_whole(p, part.whole(), whole, walls);
       double largest = 0, most_open = 0;
       for (std::size_t i = 0; i < own; ++i) {
@@ -96,7 +96,7 @@ TEST(Sector, AParticleThatLeavesItGoesOnInTheNextCopy) {
   p.sph.hourglass_damping = 0.1;
   State s = disordered(p);
   const Sector sector = *sector_of(p);
-  const Domain domain = domain_of(p);
+  const Domain domain = Boundary(p).domain();
   const auto by_identity = [&] {
     std::map<std::int64_t, std::pair<Vector3, Vector3>> all;
     const PointSet points = talus::whole_of(part_of(s, sector).view());
@@ -131,11 +131,11 @@ TEST(Sector, TheBedIsThatOfTheWholeVessel) {
   for (const double degrees : {90.0, 45.0, 20.0, 10.0}) {
     Parameters p = cylinder_with_floor(degrees);
     ASSERT_THAT(check(p), testing::IsEmpty());
-    const State s = initial_state(p, Material(p));
-    const double whole = copies_of(p) * s.mass * double(s.position.size());
+    const State s = initial_state(setup_of(p));
+    const double whole = Layout(p).copies * s.mass * double(s.position.size());
     const double expected = bulk_density(p) * pi * std::pow(radius * spacing, 2) * p.bed.height;
     EXPECT_NEAR(whole, expected, 1e-9 * expected) << "whole rings of one area";
-    EXPECT_EQ(bed_count(p), double(s.position.size()));
+    EXPECT_EQ(bed_count(Layout(p)), double(s.position.size()));
     double nearest = 1;
     const State all = unfolded(s, *sector_of(p));
     for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -147,11 +147,11 @@ TEST(Sector, TheBedIsThatOfTheWholeVessel) {
     EXPECT_GT(nearest, 0.6) << "also across the faces";
     p.bed.mass = 0.37 * whole;
     p.bed.height = 0;
-    const Parameters filled = with_level(p);
+    const Parameters filled = with_level(Layout(p)).given;
     ASSERT_THAT(check(filled), testing::IsEmpty());
-    const State part = initial_state(filled, Material(filled));
-    EXPECT_NEAR(copies_of(p) * part.mass * double(part.position.size()), 0.37 * whole,
-                0.5001 * copies_of(p) * part.mass);
+    const State part = initial_state(setup_of(filled));
+    EXPECT_NEAR(Layout(p).copies * part.mass * double(part.position.size()), 0.37 * whole,
+                0.5001 * Layout(p).copies * part.mass);
   }
 }
 
@@ -269,7 +269,7 @@ TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
   EXPECT_NEAR(loads.pressing_on_cylinder / loads.weight, expected.pressing_on_cylinder / expected.weight,
               0.08 * expected.pressing_on_cylinder / expected.weight);
   // Fields of all copies bear the same, turned.
-  const SurfaceFields fields = load_fields(p, surface_of(p));
+  const SurfaceFields fields = load_fields(Layout(p));
   for (std::uint32_t n = 0; n < fields.count(); ++n) {
     const std::uint32_t next = fields.in_copy(n, 1);
     EXPECT_NEAR(noted.push_of(next), noted.push_of(n), 1e-12 * noted.push_of(n));
@@ -344,7 +344,7 @@ TEST(SectorRegime, SaysWhatIsComputedAndWarnsOfACoarseAxis) {
     Parameters p = silo(degrees);
     p.bed.spacing /= finer;
     std::map<std::string, RegimeLine> lines;
-    for (const RegimeLine& line : regime_of_case(p)) lines[line.quantity] = line;
+    for (const RegimeLine& line : regime_of_case(setup_of(p))) lines[line.quantity] = line;
     return lines;
   };
   EXPECT_EQ(lines_of(20).at("sector").value, "20 deg");

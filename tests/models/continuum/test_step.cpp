@@ -77,13 +77,13 @@ TEST(Advance, ABedSettlesOnItsFloorWhichThenCarriesItsWeight) {
     while (model.state().gate_time < 0) model.advance(team);
     const State& s = model.state();
     const double weight = s.mass * 80 * 9.81;
-    const double before = s.wall_impulse[4].z, begin = s.time;
+    const double before = s.patch_impulse[4].z, begin = s.time;
     double sideways = 0;
     while (s.time < begin + 2e-3) {
       model.advance(team);
       for (const Vector3& v : s.velocity) sideways = std::max(sideways, std::hypot(v.x, v.y));
     }
-    EXPECT_NEAR(-(s.wall_impulse[4].z - before) / (s.time - begin), weight, 0.001 * weight);
+    EXPECT_NEAR(-(s.patch_impulse[4].z - before) / (s.time - begin), weight, 0.001 * weight);
     EXPECT_LT(sideways, 1e-12);
     const std::vector<double> stress = stress_between_layers(s, 20);
     for (int k = 1; k < 17; ++k) {
@@ -265,9 +265,9 @@ TEST(Advance, MomentumIsWhatGravityAndTheWallsGave) {
     EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
     std::size_t below = 0;
     for (const Vector3& x : s.position) below += x.z < *p.plate.height;
-    EXPECT_GT(below, 10u);                        // through the slit
-    EXPECT_LT(below, s.position.size() - 40);     // and not through the plate
-    EXPECT_GT(std::abs(s.wall_impulse[6].x), 0);  // friction at the plate
+    EXPECT_GT(below, 10u);                         // through the slit
+    EXPECT_LT(below, s.position.size() - 40);      // and not through the plate
+    EXPECT_GT(std::abs(s.patch_impulse[6].x), 0);  // friction at the plate
     for (const Vector3& x : s.position) {
       EXPECT_GE(x.z, 0);
       EXPECT_TRUE(x.x >= 0 && x.x <= p.box.width);
@@ -310,7 +310,7 @@ TEST(Advance, SameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(a.state().position, b.state().position);
     EXPECT_EQ(a.state().velocity, b.state().velocity);
     EXPECT_EQ(a.state().material.stress, b.state().material.stress);
-    EXPECT_EQ(a.state().wall_impulse, b.state().wall_impulse);
+    EXPECT_EQ(a.state().patch_impulse, b.state().patch_impulse);
   }
 }
 
@@ -343,7 +343,7 @@ TEST(Advance, AResumedRunTakesTheSameSteps) {
       EXPECT_EQ(whole.state().position, resumed.state().position);
       EXPECT_EQ(whole.state().velocity, resumed.state().velocity);
       EXPECT_EQ(whole.state().list_builds, resumed.state().list_builds);
-      EXPECT_EQ(whole.state().wall_impulse, resumed.state().wall_impulse);
+      EXPECT_EQ(whole.state().patch_impulse, resumed.state().patch_impulse);
     }
   }
 }

@@ -24,9 +24,9 @@ struct Sums {
 
   Sums(const Parameters& p, const Domain& around, const State& s, bool walls)
       : domain(around),
-        vessel(walls ? surface_of(p) : Surface()),
-        fields(load_fields(p, vessel)),
-        pairs(p, domain, s.mass, 50, vessel, &fields) {
+        vessel(walls ? Boundary(p).vessel() : Surface()),
+        fields(load_fields(Layout(p))),
+        pairs(setup_with(p, 50), domain, vessel, &fields) {
     std::vector<double> h;
     for (const double rho : s.density) h.push_back(pairs.smoothing_length(rho));
     pairs.find_neighbours(team, s.position, h);
@@ -36,7 +36,7 @@ struct Sums {
 
 /// The bed of a case in disorder: densities, velocities, stresses and rates of any size.
 inline State disordered(const Parameters& p) {
-  State s = initial_state(p, Material(p));
+  State s = initial_state(setup_of(p));
   Random random(7);
   const auto some = [&](double size) { return random.uniform(-size, size); };
   for (std::size_t i = 0; i < s.position.size(); ++i) {

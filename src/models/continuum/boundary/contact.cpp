@@ -45,11 +45,11 @@ class Loads {
   /// Calls meet(i, received) for all particles and adds what walls received to the state.
   template <class Meet>
   void collect(ThreadTeam& team, Meet&& meet) {
-    const Impulses all = accumulate(
-        team, state_.position.size(), Impulses(state_.patch_impulse.size()), meet, [](Impulses a, const Impulses& b) {
-          for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
-          return a;
-        });
+    const Impulses all = accumulate(team, state_.position.size(), Impulses(state_.patch_impulse.size()), meet,
+                                    [](Impulses a, const Impulses& b) {
+                                      for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
+                                      return a;
+                                    });
     for (std::size_t n = 0; n < all.size(); ++n) state_.patch_impulse[n] += all[n].value(point_);
     for (const auto& of_chunk : noted_)
       for (const LoadOfField& load : of_chunk) add_load(load, fields_, state_.wall_loads);
@@ -194,9 +194,8 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
     if (printed)
       for (int wall = 0; wall < domain.wall_count(); ++wall)
         if (domain.is_solid(wall))
-          become(static_cast<std::size_t>(wall),
-                 velocity_after_printed_friction(setting.parameters, domain, wall, state, i, position[i],
-                                                 step.duration));
+          become(static_cast<std::size_t>(wall), velocity_after_printed_friction(setting.parameters, domain, wall,
+                                                                                 state, i, position[i], step.duration));
 
     const std::int32_t slot = slot_of(vessel, i);
     if (slot < 0) return;
@@ -207,21 +206,17 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
       LoadOfField load{wall.field, pushed, -pushed * wall.normal};
       const sph::WallContact contact =
           walls.contact(patch, x, wall.normal, step.duration * dot(wall.acceleration, wall.normal));
-      if (walls.rough)
-        load.received += become(patch, sph::after_contact(velocity, contact, 0));
+      if (walls.rough) load.received += become(patch, sph::after_contact(velocity, contact, 0));
       loads.note(i, load);
     }
-    for_each_contact(vessel, slot, x, velocity, step.step, setting.distance,
-                     [&](const VesselWalls::Touch& touched, double push) {
-                       const Surface& surface = vessel.surface();
-                       const std::size_t patch =
-                           setting.boundary.patch_of_part(surface.triangles()[touched.triangle].patch);
-                       const std::uint32_t field =
-                           setting.fields.at(surface.part(touched.triangle), touched.place);
-                       const sph::WallContact contact = walls.contact(patch, touched.place, touched.normal, 0);
-                       loads.note(i, {field, state.mass * push,
-                                      become(patch, sph::after_contact(velocity, contact, push))});
-                     });
+    for_each_contact(
+        vessel, slot, x, velocity, step.step, setting.distance, [&](const VesselWalls::Touch& touched, double push) {
+          const Surface& surface = vessel.surface();
+          const std::size_t patch = setting.boundary.patch_of_part(surface.triangles()[touched.triangle].patch);
+          const std::uint32_t field = setting.fields.at(surface.part(touched.triangle), touched.place);
+          const sph::WallContact contact = walls.contact(patch, touched.place, touched.normal, 0);
+          loads.note(i, {field, state.mass * push, become(patch, sph::after_contact(velocity, contact, push))});
+        });
   });
 }
 
@@ -243,9 +238,8 @@ void prevent_approach(ThreadTeam& team, const ContactSetting& setting, const Rat
       });
     }
     if (const std::int32_t slot = slot_of(vessel, i); slot >= 0)
-      for_each_contact(
-          vessel, slot, x, velocity[i], step, setting.distance,
-          [&](const VesselWalls::Touch& touched, double push) { velocity[i] += push * touched.normal; });
+      for_each_contact(vessel, slot, x, velocity[i], step, setting.distance,
+                       [&](const VesselWalls::Touch& touched, double push) { velocity[i] += push * touched.normal; });
   });
 }
 
@@ -279,8 +273,8 @@ void reflect(ThreadTeam& team, const ContactSetting& setting, const Material& ma
         const Vector3 n = domain.side(bounce->wall, before[i]) * domain.normal(bounce->wall);
         const double push = sph::contact_push(dot(state.velocity[i], n), 0, 1);
         become(bounce->wall, x,
-               sph::after_contact(state.velocity[i],
-                                  walls.contact(static_cast<std::size_t>(bounce->wall), x, n, 0), push));
+               sph::after_contact(state.velocity[i], walls.contact(static_cast<std::size_t>(bounce->wall), x, n, 0),
+                                  push));
       } else {
         become(bounce->wall, x, bounce->image.vector(state.velocity[i]));
         material.mirror(state.material, i, bounce->image);

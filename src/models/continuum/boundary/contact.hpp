@@ -15,9 +15,9 @@
 
 namespace talus::continuum {
 
-/// What contact needs to know besides the state. Loads go to state.patch_impulse; those of the vessel to state.wall_loads
-/// too, each to a field: that of stress to the one nearest to the particle when the neighbour lists were built, that of
-/// contact to the one that it touches.
+/// What contact needs to know besides the state. Loads go to state.patch_impulse; those of the vessel to
+/// state.wall_loads too, each to a field: that of stress to the one nearest to the particle when the neighbour lists
+/// were built, that of contact to the one that it touches.
 struct ContactSetting {
   const Parameters& parameters;
   const Boundary& boundary;

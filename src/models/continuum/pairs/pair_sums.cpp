@@ -21,7 +21,7 @@ void Rates::resize(std::size_t count) {
   kernel_density.resize(count);
 }
 
-PairSums::PairSums(const Setup& setup, const Boundary& boundary, const SurfaceFields* fields)
+PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vessel, const SurfaceFields* fields)
     : mass_(setup.lattice.mass),
       smoothing_ratio_(setup.given.sph.smoothing_ratio),
       fixed_smoothing_length_(setup.given.sph.smoothing == Smoothing::fixed ? setup.smoothing_length : 0.0),
@@ -40,10 +40,11 @@ PairSums::PairSums(const Setup& setup, const Boundary& boundary, const SurfaceFi
       diffuses_(setup.given.sph.density_diffusion > 0),
       damps_(setup.given.sph.hourglass_damping > 0 || setup.given.sph.viscosity_speed == ViscositySpeed::local),
       local_sound_speed_(setup.given.sph.viscosity_speed == ViscositySpeed::local),
-      lists_(boundary.domain(), boundary.vessel()),
-      vessel_(boundary.vessel(), setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields, setup.sector()),
+      lists_(domain, vessel),
+      vessel_(vessel, setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields,
+              setup.sector()),
       walls_(vessel_, lists_, constants_, local_sound_speed_),
-      records_({mass_, grain_density_, stress_form_, precision_, !boundary.vessel().is_empty()}) {
+      records_({mass_, grain_density_, stress_form_, precision_, !vessel.is_empty()}) {
   const InstructionSet set = resolve(setup.given.integration.instruction_set);
   const auto choose = [&](PairTerms terms, StressGradient stress_gradient) {
     return TALUS_COMPILED_FOR(set, sum_neighbours)(

@@ -21,9 +21,11 @@ namespace talus::continuum {
 
 class PairSums {
  public:
-  /// \param boundary, fields outlive the sums; \param fields of the vessel that note loads, null: none
+  /// \param domain, vessel of the boundary \param fields of the vessel that note loads, null: none. All three outlive
+  /// the sums
   /// \throws InputError if the processor does not have the case's instruction set
-  PairSums(const Setup& setup, const Boundary& boundary, const SurfaceFields* fields = nullptr);
+  PairSums(const Setup& setup, const Domain& domain, const Surface& vessel = Surface::none(),
+           const SurfaceFields* fields = nullptr);
 
   /// Smoothing length of a particle, m.
   double smoothing_length(double density) const;

@@ -18,7 +18,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double max_reported = 1e6;          // particles
+constexpr double max_reported = 1e6;           // particles
 constexpr double max_positions = 3e5;          // of a region that is examined
 constexpr double beside = 0.8;                 // of a wall, in spacings
 constexpr double margin = 2;                   // of the region around the vessel, in spacings

@@ -114,12 +114,11 @@ std::vector<Problem> check_steps(const Setup& setup, double end) {
     return problems;
   }
   const double settling = settling_time(setup).least;
-  const char* const key = p.integration.step ? "integration.step"
-                          : settling <= end  ? "run.end"
-                          : p.gate.time > 0  ? "gate.time"
-                          : p.settle.loading_time.value_or(0) > setup.scales.settled_duration
-                              ? "settle.loading_time"
-                              : "settle.duration";
+  const char* const key = p.integration.step                                                  ? "integration.step"
+                          : settling <= end                                                   ? "run.end"
+                          : p.gate.time > 0                                                   ? "gate.time"
+                          : p.settle.loading_time.value_or(0) > setup.scales.settled_duration ? "settle.loading_time"
+                                                                                              : "settle.duration";
   if (!((end + settling) / step <= max_steps))
     problems.push_back(
         {.key = key,

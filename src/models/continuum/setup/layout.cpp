@@ -18,8 +18,8 @@ namespace talus::continuum {
 namespace {
 
 constexpr std::int64_t max_along_an_axis = 1'000'000'000'000;  // far beyond what check() lets pass
-constexpr double max_tried = 1e6;                               // positions, to count the particles of a bed
-constexpr double max_in_vessel = 2e6;                           // the same in a vessel
+constexpr double max_tried = 1e6;                              // positions, to count the particles of a bed
+constexpr double max_in_vessel = 2e6;                          // the same in a vessel
 
 /// Along an axis: what bed.file holds with half a spacing around it; else from key to key, where these are left out the
 /// faces, or the vessel where it stands apart from both.
@@ -115,7 +115,7 @@ Lattice lattice_of(const Parameters& p) {
   for (int axis = 0; axis < 3; ++axis) {
     const double spacings = extent[axis] / p.bed.spacing;
     const auto count = spacings < max_along_an_axis ? std::max<std::int64_t>(1, std::llround(spacings))
-                                                     : std::int64_t{max_along_an_axis};
+                                                    : std::int64_t{max_along_an_axis};
     lattice.count[static_cast<std::size_t>(axis)] = count;
     lattice.spacing[axis] = extent[axis] / static_cast<double>(count);
   }

@@ -10,8 +10,7 @@ namespace talus::continuum {
 double loading_time(const Parameters& p, double depth, const TimeScales& scales, double sound_speed) {
   constexpr double passages = 20, most = 0.25;
   if (p.gate.opens != GateOpens::when_settled) return 0;
-  return p.settle.loading_time.value_or(
-      std::min(passages * depth / sound_speed, most * scales.settling_limit));
+  return p.settle.loading_time.value_or(std::min(passages * depth / sound_speed, most * scales.settling_limit));
 }
 
 double share_of_gravity(double time, double loading_time) {

@@ -91,7 +91,7 @@ TEST(InclinedWalls, NothingLeaksFromAWedge) {
   std::size_t passed = 0;
   while (s.time < 0.3) {
     const auto before = by_identity(s, s.position);
-    Domain domain = domain_of(p);
+    Domain domain = Boundary(p).domain();
     if (s.gate_time >= 0) domain.open_gates();
     model.advance(team);
     const auto after = by_identity(s, s.position);
@@ -159,8 +159,8 @@ TEST(Wedge, IsSymmetricAndTheSameBitsOnOneAndTwoThreads) {
   };
   const Continuum one = run(1), two = run(2);
   EXPECT_EQ(one.state().position, two.state().position);
-  EXPECT_EQ(one.state().wall_impulse, two.state().wall_impulse);
-  const auto& w = one.state().wall_impulse;
+  EXPECT_EQ(one.state().patch_impulse, two.state().patch_impulse);
+  const auto& w = one.state().patch_impulse;
   EXPECT_NEAR(w[6].x, -w[7].x, 1e-6 * std::abs(w[6].z));
   EXPECT_NEAR(w[6].z, w[7].z, 1e-6 * std::abs(w[6].z));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Belts and turning walls: what they take along.
-#include "models/continuum/boundary/vessel_motion.hpp"
+#include "models/continuum/boundary/boundary.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -90,14 +90,16 @@ TEST(VesselMotion, TheWallOfADrumMovesAlongItselfAtItsRim) {
     const Vector3 axis = along == Along::y ? Vector3{0, 1, 0} : Vector3{1, 0, 0};
     const Vector3 middle{10 * spacing, 10 * spacing, 10 * spacing};
     std::size_t seen = 0;
-    const Surface surface = surface_of(p);
+    const Boundary boundary(p);
+    const Surface& surface = boundary.vessel();
+    const WallMotion motion = boundary.patches()[boundary.patch_of_part(0)].motion.value();
     for (const Triangle& t : surface.triangles()) {
       if (t.patch != 0) continue;
       const Vector3 x = (1.0 / 3) * (t.corner[0] + t.corner[1] + t.corner[2]);
       Vector3 arm = x - middle;
       arm -= dot(arm, axis) * axis;
       EXPECT_NEAR(norm(arm), 8 * spacing, 0.05 * spacing);
-      const Vector3 u = velocity_of_wall(p, 0, x);
+      const Vector3 u = motion.at(x);
       EXPECT_LT(norm(u - 3.0 * cross(axis, arm)), 1e-12);
       ++seen;
     }
@@ -110,7 +112,9 @@ TEST(VesselMotion, ATubeMayTurnAndSlideAtOnce) {
   p.vessel[0].slide = 0.2;
   ASSERT_THAT(check(p), testing::IsEmpty());
   const Vector3 beside{12 * spacing, 4 * spacing, 10 * spacing};  // 2 spacings from the axis, along x
-  EXPECT_LT(norm(velocity_of_wall(p, 0, beside) - Vector3{0, 0.2, -3 * 2 * spacing}), 1e-12);
+  const Boundary boundary(p);
+  const WallMotion motion = boundary.patches()[boundary.patch_of_part(0)].motion.value();
+  EXPECT_LT(norm(motion.at(beside) - Vector3{0, 0.2, -3 * 2 * spacing}), 1e-12);
 }
 
 TEST(VesselMotion, ALyingTubeThatSlidesTakesItsBedAlong) {
@@ -199,7 +203,7 @@ TEST(VesselMotion, TheBitsDependNeitherOnThreadsNorOnResuming) {
   resumed.resume(two);
   while (model.state().time < 0.02) model.advance(one), resumed.advance(two);
   EXPECT_EQ(model.state().position, resumed.state().position);
-  EXPECT_EQ(model.state().vessel_impulse, resumed.state().vessel_impulse);
+  EXPECT_EQ(model.state().patch_impulse, resumed.state().patch_impulse);
 }
 
 TEST(VesselMotion, ABeltStaysInItsPlane) {

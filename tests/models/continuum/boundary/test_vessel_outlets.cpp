@@ -19,7 +19,7 @@ VesselPart gate(VesselPart part) {
 
 /// The value of a line of the card; empty if there is none.
 std::string value_of(const Parameters& p, const std::string& quantity) {
-  for (const RegimeLine& line : regime_of_case(p))
+  for (const RegimeLine& line : regime_of_case(setup_of(p)))
     if (line.quantity == quantity) return (line.warning ? "! " : "") + line.value;
   return {};
 }
@@ -34,11 +34,11 @@ Parameters slot(double width, double depth) {
 
 TEST(VesselOutlets, TheNarrowerSideCountsWhicheverWayTheyAreTurned) {
   for (const Parameters& p : {slot(30, 8), slot(8, 30)}) {
-    const auto outlet = outlet_of_vessel(p);
-    ASSERT_TRUE(outlet.has_value());
-    EXPECT_NEAR(outlet->narrow, 8 * spacing, 1e-12);
-    EXPECT_NEAR(outlet->length, 30 * spacing, 1e-12);
-    EXPECT_NEAR(outlet_of(p)->across, 8 * spacing, 1e-12);
+    const auto outlets = outlets_of_vessel(p);
+    ASSERT_FALSE(outlets.empty());
+    EXPECT_NEAR(outlets[0].narrow, 8 * spacing, 1e-12);
+    EXPECT_NEAR(outlets[0].length, 30 * spacing, 1e-12);
+    EXPECT_NEAR(Layout(p).outlet->across, 8 * spacing, 1e-12);
     EXPECT_EQ(value_of(p, "particles across the outlet"), "! 8");
   }
   Parameters p = slot(8, 30);
@@ -46,8 +46,8 @@ TEST(VesselOutlets, TheNarrowerSideCountsWhicheverWayTheyAreTurned) {
   EXPECT_EQ(value_of(p, "grains across the outlet"), "! 8");
   const double root = std::sqrt(0.5);
   p.vessel = {gate(plate("gate", {20, 20, 30}, {20 * root, 20 * root, 0}, {-6 * root, 6 * root, 0}))};
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 6 * spacing, 1e-12) << "at 45 degrees";
-  EXPECT_NEAR(outlet_of_vessel(p)->length, 20 * spacing, 1e-12);
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 6 * spacing, 1e-12) << "at 45 degrees";
+  EXPECT_NEAR(outlets_of_vessel(p).front().length, 20 * spacing, 1e-12);
 }
 
 TEST(VesselOutlets, BetweenMirrorsASlotHasNoEnds) {
@@ -55,17 +55,17 @@ TEST(VesselOutlets, BetweenMirrorsASlotHasNoEnds) {
   p.box.depth = 6 * spacing;
   p.vessel = {gate(plate("gate", {20, -1, 30}, {20, 0, 0}, {0, 8, 0}))};
   p.box.front = p.box.rear = FaceKind::symmetry;
-  EXPECT_TRUE(outlet_of_vessel(p)->endless_along_y);
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 20 * spacing, 1e-12);
+  EXPECT_TRUE(outlets_of_vessel(p).front().endless_along_y);
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 20 * spacing, 1e-12);
   p.box.rear = FaceKind::wall;
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 12 * spacing, 1e-12) << "and its image";
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 12 * spacing, 1e-12) << "and its image";
   p.box.front = FaceKind::wall;
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 6 * spacing, 1e-12);
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 6 * spacing, 1e-12);
   p.vessel.clear();
   p.plate = {.height = 0.3, .slit_left = 0.2, .slit_right = 0.4};
-  EXPECT_NEAR(outlet_of(p)->across, 6 * spacing, 1e-12) << "a slit in a plate likewise";
+  EXPECT_NEAR(Layout(p).outlet->across, 6 * spacing, 1e-12) << "a slit in a plate likewise";
   p.box.front = p.box.rear = FaceKind::periodic;
-  EXPECT_NEAR(outlet_of(p)->across, 20 * spacing, 1e-12);
+  EXPECT_NEAR(Layout(p).outlet->across, 20 * spacing, 1e-12);
 }
 
 TEST(VesselOutlets, AGateThatIsLargerThanTheHoleItCoversIsNotTheOutlet) {
@@ -73,14 +73,14 @@ TEST(VesselOutlets, AGateThatIsLargerThanTheHoleItCoversIsNotTheOutlet) {
   VesselPart cone = named("cone", VesselShape::cone);
   cone.lower_radius = 4 * spacing, cone.upper_radius = 9 * spacing, cone.bottom = 0.305, cone.top = 0.4;
   p.vessel.insert(p.vessel.begin(), cone);
-  const auto outlet = outlet_of_vessel(p);
-  ASSERT_TRUE(outlet.has_value());
-  EXPECT_EQ(outlet->name, "gate");
-  EXPECT_TRUE(outlet->round);
-  EXPECT_EQ(outlet->narrow, 8 * spacing);
-  EXPECT_EQ(outlet->middle.z, 0.3) << "grains on the gate are above it";
+  const auto outlets = outlets_of_vessel(p);
+  ASSERT_FALSE(outlets.empty());
+  EXPECT_EQ(outlets[0].name, "gate");
+  EXPECT_TRUE(outlets[0].round);
+  EXPECT_EQ(outlets[0].narrow, 8 * spacing);
+  EXPECT_EQ(outlets[0].middle.z, 0.3) << "grains on the gate are above it";
   p.vessel[0].bottom = 0.35;
-  EXPECT_FALSE(outlet_of_vessel(p)->round) << "not that of a cone five spacings above";
+  EXPECT_FALSE(outlets_of_vessel(p).front().round) << "not that of a cone five spacings above";
 }
 
 TEST(VesselOutlets, TheRimOfAFileThatAGateCoversIsTheOutlet) {
@@ -90,17 +90,17 @@ TEST(VesselOutlets, TheRimOfAFileThatAGateCoversIsTheOutlet) {
   Parameters alone = p;
   alone.vessel = {cone};
   p.vessel.push_back(drawn("funnel", triangles_of(alone, 0)));
-  EXPECT_TRUE(outlet_of_vessel(p)->round);
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 8 * spacing, 1e-9) << "the polygon's area is the circle's";
+  EXPECT_TRUE(outlets_of_vessel(p).front().round);
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 8 * spacing, 1e-9) << "the polygon's area is the circle's";
   VesselPart pyramid = named("pyramid", VesselShape::pyramid);
   pyramid.lower_width = 0.1, pyramid.lower_depth = 0.06, pyramid.upper_width = pyramid.upper_depth = 0.2;
   pyramid.bottom = 0.3, pyramid.top = 0.4;
   alone.vessel = {pyramid};
   p.vessel[1] = drawn("funnel", triangles_of(alone, 0));
-  EXPECT_FALSE(outlet_of_vessel(p)->round);
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 0.06, 1e-12);
+  EXPECT_FALSE(outlets_of_vessel(p).front().round);
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 0.06, 1e-12);
   p.vessel[1].move[2] = 0.1;
-  EXPECT_NEAR(outlet_of_vessel(p)->narrow, 0.3, 1e-12) << "above the gate";
+  EXPECT_NEAR(outlets_of_vessel(p).front().narrow, 0.3, 1e-12) << "above the gate";
 }
 
 TEST(VesselOutlets, SeveralHaveARowEach) {
@@ -110,11 +110,11 @@ TEST(VesselOutlets, SeveralHaveARowEach) {
   const auto outlets = outlets_of_vessel(p);
   ASSERT_EQ(outlets.size(), 2u);
   EXPECT_EQ(outlets[0].name, "east") << "the lowest first";
-  EXPECT_EQ(outlet_of_vessel(p)->name, "east");
+  EXPECT_EQ(outlets_of_vessel(p).front().name, "east");
   EXPECT_EQ(value_of(p, "particles across the outlet east"), "! 6");
   EXPECT_EQ(value_of(p, "particles across the outlet west"), "14");
   EXPECT_EQ(value_of(p, "particles across the outlet"), "");
-  EXPECT_NEAR(outlet_of(p)->middle_y, 43 * spacing, 1e-12) << "it is not in the middle of the box";
+  EXPECT_NEAR(Layout(p).outlet->middle_y, 43 * spacing, 1e-12) << "it is not in the middle of the box";
   EXPECT_TRUE(outlets[1].is_beside({0.17, 0.27, 0}, 0));
   EXPECT_FALSE(outlets[1].is_beside({0.17, 0.37, 0}, spacing));
 
@@ -129,18 +129,18 @@ TEST(VesselOutlets, SeveralHaveARowEach) {
 
 TEST(VesselOutlets, AWallCloseBelowIsTold) {
   Parameters p = slot(20, 10);
-  EXPECT_EQ(share_blocked_below(p, *outlet_of_vessel(p)), 0);
+  EXPECT_EQ(share_blocked_below(Layout(p), outlets_of_vessel(p).front()), 0);
   EXPECT_EQ(value_of(p, "share of the outlet with a wall below"), "");
   p.vessel.push_back(plate("shelf", {20, 20, 25}, {10, 0, 0}, {0, 20, 0}));
-  EXPECT_NEAR(share_blocked_below(p, *outlet_of_vessel(p)), 0.5, 1e-12);
+  EXPECT_NEAR(share_blocked_below(Layout(p), outlets_of_vessel(p).front()), 0.5, 1e-12);
   EXPECT_EQ(value_of(p, "share of the outlet with a wall below"), "! 0.5");
   p.vessel[1].corner[2] = 0.15;
-  EXPECT_EQ(share_blocked_below(p, *outlet_of_vessel(p)), 0) << "farther than it is across";
+  EXPECT_EQ(share_blocked_below(Layout(p), outlets_of_vessel(p).front()), 0) << "farther than it is across";
   p.vessel.pop_back();
   p.vessel[0].corner[2] = 0.09;
-  EXPECT_EQ(share_blocked_below(p, *outlet_of_vessel(p)), 1) << "the floor of the box";
+  EXPECT_EQ(share_blocked_below(Layout(p), outlets_of_vessel(p).front()), 1) << "the floor of the box";
   p.box.floor = FaceKind::open;
-  EXPECT_EQ(share_blocked_below(p, *outlet_of_vessel(p)), 0);
+  EXPECT_EQ(share_blocked_below(Layout(p), outlets_of_vessel(p).front()), 0);
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST(VesselSymmetry, MomentumClosesAtRestAndInFlow) {
     expect_closed(s, "at rest");
     while (s.time < 0.08) model.advance(team);
     expect_closed(s, "in flow");
-    EXPECT_LT(s.wall_impulse[0].x, -0.05 * norm(s.gravity_impulse)) << "the planes bear a load";
-    EXPECT_NEAR(s.wall_impulse[0].x, s.wall_impulse[2].y, 0.2 * std::abs(s.wall_impulse[0].x));
+    EXPECT_LT(s.patch_impulse[0].x, -0.05 * norm(s.gravity_impulse)) << "the planes bear a load";
+    EXPECT_NEAR(s.patch_impulse[0].x, s.patch_impulse[2].y, 0.2 * std::abs(s.patch_impulse[0].x));
   }
 }
 

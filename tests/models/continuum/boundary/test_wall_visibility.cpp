@@ -158,10 +158,10 @@ TEST(WallVisibility, WhatLiesBehindANearerWallBearsNothing) {
   Continuum model = started(p, team);
   const State& s = model.state();
   while (s.gate_time < 0) model.advance(team);
-  const double floor = norm(s.vessel_impulse[0]);
+  const double floor = norm(vessel_impulse(s)[0]);
   EXPECT_GT(floor, 0);
   for (std::size_t hidden = 3; hidden < 6; ++hidden)
-    EXPECT_LT(norm(s.vessel_impulse[hidden]), 1e-3 * floor) << p.vessel[hidden].name;
+    EXPECT_LT(norm(vessel_impulse(s)[hidden]), 1e-3 * floor) << p.vessel[hidden].name;
 }
 
 TEST(WallVisibility, FollowsLinesOfSightOnlyWherePartsMayHideEachOther) {

@@ -23,7 +23,7 @@ std::vector<SymmetricTensor3<>> strain_of(const Parameters& p, std::vector<Vecto
   const std::vector<Vector3> reset = places;
   for (Vector3& x : places) x.z *= 1 + stretch;
   const std::vector<double> h(places.size(), p.bed.spacing);
-  const Domain domain = domain_of(p);
+  const Domain domain = Boundary(p).domain();
   Neighbourhood around(domain);
   around.build(team, places, h, 0);
   std::vector<SymmetricTensor3<>> strain;
@@ -52,7 +52,7 @@ TEST(MeasureStrain, ThePlatesTwoSidesDoNotCount) {
   ASSERT_EQ(position.size(), 48u);
   const std::vector<double> h(position.size(), spacing);
   ThreadTeam team(1);
-  const Domain domain = domain_of(p);
+  const Domain domain = Boundary(p).domain();
   Neighbourhood around(domain);
   around.build(team, position, h, 0);
   // Only what is below the plate has moved, as a whole and along it.

@@ -40,12 +40,12 @@ VesselPart drawn(std::string name, std::vector<Triangle> triangles) {
 TEST(Bed, LiesAboveTheGateWhereverTheMiddleOfAllWallsIs) {
   Parameters p = beside_a_silo();
   ASSERT_THAT(check(p), IsEmpty());
-  const auto bed = bed_positions(p);
+  const auto bed = bed_positions(Layout(p));
   EXPECT_NEAR(double(bed.size()), M_PI * 36 * 10, 60);
   EXPECT_EQ(count_within(bed, 10, 10, 6), bed.size());
   EXPECT_THAT(warnings(p), IsEmpty());
   p.bed.mass = 500 * lattice_of(p).mass;
-  const auto of_mass = bed_positions(with_level(p));
+  const auto of_mass = bed_positions(Layout(with_level(Layout(p)).given));
   EXPECT_EQ(of_mass.size(), 500u);
   EXPECT_EQ(count_within(of_mass, 10, 10, 6), 500u);
 }
@@ -56,7 +56,7 @@ TEST(Bed, LiesAboveTheOutletOfAVesselWithoutAGate) {
   p.vessel[1].centre = {10 * spacing, 10 * spacing};
   p.vessel[1].bottom = 14 * spacing, p.vessel[1].top = 20 * spacing;
   p.vessel[1].lower_radius = 3 * spacing, p.vessel[1].upper_radius = 6 * spacing;
-  const auto bed = bed_positions(p);
+  const auto bed = bed_positions(Layout(p));
   EXPECT_GT(bed.size(), 1000u);
   EXPECT_EQ(count_within(bed, 10, 10, 6), bed.size());
 }
@@ -66,7 +66,7 @@ TEST(Bed, LiesAboveEveryGate) {
   p.vessel[2] = tube("other", 40, 10, 4, 20, 45);
   p.vessel.push_back(gate_at(40, 10, 4, 20));
   p.vessel.back().name = "gate_2";
-  const auto bed = bed_positions(p);
+  const auto bed = bed_positions(Layout(p));
   EXPECT_EQ(count_within(bed, 10, 10, 6) + count_within(bed, 40, 10, 4), bed.size());
   EXPECT_NEAR(double(count_within(bed, 40, 10, 4)), M_PI * 16 * 10, 60);
 }
@@ -76,7 +76,7 @@ TEST(Bed, BeginsAtThePlaceInside) {
   p.vessel[2] = tube("other", 40, 10, 4, 20, 45);
   p.bed.inside = {40 * spacing, 10 * spacing, 42 * spacing};  // above the bed's top: the same column
   ASSERT_THAT(check(p), IsEmpty());
-  const auto bed = bed_positions(p);
+  const auto bed = bed_positions(Layout(p));
   EXPECT_EQ(count_within(bed, 40, 10, 4), bed.size());
   EXPECT_NEAR(double(bed.size()), M_PI * 16 * 10, 60);
   EXPECT_THAT(warnings(p), testing::Contains("gate without grains"));
@@ -106,26 +106,26 @@ TEST(Bed, FillsTheInsideOfAClosedSurface) {
   Parameters p = room(30, 30, 20);
   p.vessel = {drawn("ring", ring)};
   p.bed.bottom = 5 * spacing, p.bed.height = 10 * spacing;
-  EXPECT_EQ(bed_positions(p).size(), 10u * 10 * 10) << "by default the hole of the ring";
+  EXPECT_EQ(bed_positions(Layout(p)).size(), 10u * 10 * 10) << "by default the hole of the ring";
   p.bed.inside = {7 * spacing, 7 * spacing, 7 * spacing};
   ASSERT_THAT(check(p), IsEmpty());
-  EXPECT_EQ(bed_positions(p).size(), (20u * 20 - 10 * 10) * 10);
+  EXPECT_EQ(bed_positions(Layout(p)).size(), (20u * 20 - 10 * 10) * 10);
   EXPECT_THAT(warnings(p), IsEmpty());
 }
 
 TEST(Bed, PlatesTooBoundItsRegion) {
   Parameters p = column(20, 4, 10, 4);
   p.plates = {{.from = {8 * spacing, 0}, .to = {8 * spacing, 14 * spacing}, .openings = {}, .opens_after = {}}};
-  EXPECT_EQ(bed_positions(p).size(), 12u * 4 * 10);
+  EXPECT_EQ(bed_positions(Layout(p)).size(), 12u * 4 * 10);
   p.bed.inside = {3 * spacing, 2 * spacing, 5 * spacing};
-  EXPECT_EQ(bed_positions(p).size(), 8u * 4 * 10);
+  EXPECT_EQ(bed_positions(Layout(p)).size(), 8u * 4 * 10);
 }
 
 TEST(Bed, EndsAtItsFrontAndRear) {
   Parameters p = column(10, 12, 5, 2);
   p.bed.front = 2 * spacing, p.bed.rear = 9 * spacing, p.bed.left = 4 * spacing;
   ASSERT_THAT(check(p), IsEmpty());
-  const auto bed = bed_positions(p);
+  const auto bed = bed_positions(Layout(p));
   EXPECT_EQ(bed.size(), 6u * 7 * 5);
   for (const Vector3& x : bed) {
     EXPECT_GT(x.y, 2 * spacing);
@@ -154,14 +154,14 @@ TEST(Bed, AnEndBeforeTheDefaultBeginningNamesIt) {
   EXPECT_THAT(problems[0].allowed, HasSubstr("give bed.left as well"));
   p.bed.left = 0;
   ASSERT_THAT(check(p), IsEmpty());
-  EXPECT_EQ(bed_positions(p).size(), 12u * 6 * 10);
+  EXPECT_EQ(bed_positions(Layout(p)).size(), 12u * 6 * 10);
   EXPECT_THAT(warnings(p), IsEmpty()) << "faces of the box hold it";
 }
 
 TEST(BedReport, SaysWhereTheBedLiesAndWhatHoldsIt) {
   const Parameters p = beside_a_silo();
-  const BedReport report = report_of_bed(p);
-  EXPECT_EQ(report.particles, double(bed_positions(p).size()));
+  const BedReport report = report_of_bed(Layout(p));
+  EXPECT_EQ(report.particles, double(bed_positions(Layout(p)).size()));
   EXPECT_NEAR(report.mass, report.particles * lattice_of(p).mass, 1e-12);
   EXPECT_NEAR(report.low.x, 4 * spacing, 0.7 * spacing);
   EXPECT_NEAR(report.high.x, 16 * spacing, 0.7 * spacing);
@@ -169,8 +169,9 @@ TEST(BedReport, SaysWhereTheBedLiesAndWhatHoldsIt) {
   EXPECT_NEAR(report.high.z, 30 * spacing, 1e-9);
   EXPECT_THAT(report.beside, testing::ElementsAre("silo", "gate"));
   Parameters box = column(8, 4, 5);
-  EXPECT_THAT(report_of_bed(box).beside, testing::ElementsAre("left face", "right face", "front face (symmetry)",
-                                                              "rear face (symmetry)", "floor", "top (open)"));
+  EXPECT_THAT(report_of_bed(Layout(box)).beside,
+              testing::ElementsAre("left face", "right face", "front face (symmetry)", "rear face (symmetry)", "floor",
+                                   "top (open)"));
 }
 
 TEST(BedReport, TellsOfABedOutsideTheVessel) {
@@ -201,7 +202,7 @@ TEST(BedReport, FindsTheHoleThatTheRegionPassesOutThrough) {
   side(5, 18, 5, 28), side(21, 25, 5, 28), side(18, 21, 5, 12), side(18, 21, 15, 28);
   p.vessel = {drawn("tank", triangles)};
   p.bed.height = 20 * spacing;
-  const auto lines = regime_of_bed(p);
+  const auto lines = regime_of_bed(Layout(p));
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].quantity, "way out of the vessel");
   double x = 0, y = 0, z = 0;
@@ -221,7 +222,7 @@ TEST(BedReport, TellsOfAForgottenGateAndOfABedAboveTheRim) {
   p.vessel[1].bottom = 14 * spacing, p.vessel[1].top = 20 * spacing;
   p.vessel[1].lower_radius = 3 * spacing, p.vessel[1].upper_radius = 6 * spacing;
   p.bed.bottom = std::nullopt;
-  const auto lines = regime_of_bed(p);
+  const auto lines = regime_of_bed(Layout(p));
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].quantity, "way out of the vessel");
   EXPECT_THAT(lines[0].value, testing::AnyOf(HasSubstr("145) mm"), HasSubstr("135) mm"))) << "the outlet";
@@ -245,7 +246,7 @@ Parameters with_bed(GivenBed bed) {
   p.bed.height = 0;
   p.bed.file = "bed.csv";
   p.bed.given = std::make_shared<GivenBed>(std::move(bed));
-  return with_level(p);
+  return with_level(Layout(p)).given;
 }
 
 TEST(GivenBed, ParticlesHaveThePositionsVelocitiesAndDensitiesOfTheFile) {

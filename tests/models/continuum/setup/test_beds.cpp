@@ -42,7 +42,7 @@ Parameters empty_bin() {
 TEST(NoParticles, ABinIsFilledFromAnInletAndDrainsToTheLast) {
   const Parameters p = empty_bin();
   ASSERT_THAT(check(p), IsEmpty());
-  EXPECT_EQ(bed_count(p), 0);
+  EXPECT_EQ(bed_count(Layout(p)), 0);
   EXPECT_DOUBLE_EQ(depth_of_grains(p), 18 * spacing) << "what an inlet can fill";
   ThreadTeam team(2);
   Continuum model = started(p, team);
@@ -111,9 +111,9 @@ TEST(NoParticles, AnEmptyVesselWaitsForItsInletAndGoesOnWithTheSameBits) {
 
 TEST(NoParticles, WithoutAnInletABedIsMissing) {
   Parameters p = empty_bin();
-  EXPECT_TRUE(has_no_bed(p));
+  EXPECT_TRUE(beds_of(p).empty());
   p.bed.mass = 10 * lattice_of(p).mass;
-  EXPECT_FALSE(has_no_bed(p));
+  EXPECT_FALSE(beds_of(p).empty());
 }
 
 /// Of a drained sector as of a whole vessel.
@@ -147,9 +147,9 @@ Parameters layers() {
 TEST(Beds, HaveTheirTagsAndVelocities) {
   const Parameters p = layers();
   ASSERT_THAT(check(p), IsEmpty());
-  EXPECT_EQ(bed_count(p), 8 * 4 * 5 + 4 * 4 * 4);
+  EXPECT_EQ(bed_count(Layout(p)), 8 * 4 * 5 + 4 * 4 * 4);
   EXPECT_NEAR(depth_of_grains(p), 9 * spacing, 1e-12);
-  const State s = initial_state(p, Material(p));
+  const State s = initial_state(setup_of(p));
   ASSERT_EQ(s.position.size(), 8u * 4 * 5 + 4 * 4 * 4);
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     const double z = s.position[i].z / spacing;
@@ -205,7 +205,8 @@ TEST(Beds, FaultsNameTheBed) {
                                                            HasSubstr("50 mm (beds.2.left) to 40 mm (beds.2.right)"))));
   p = layers();
   p.beds[1].mass = 1;
-  EXPECT_THAT(told(with_level(p)), testing::ElementsAre(testing::StartsWith("beds.2.mass: 1 kg is more")));
+  EXPECT_THAT(told(with_level(Layout(p)).given),
+              testing::ElementsAre(testing::StartsWith("beds.2.mass: 1 kg is more")));
 }
 
 /// Two silos, a bed in each, of which one is given by its mass.
@@ -220,9 +221,9 @@ TEST(Beds, LieInVesselsOfTheirOwn) {
   second.inside = {40 * spacing, 10 * spacing, 25 * spacing};
   second.mass = 300 * lattice_of(p).mass;
   p.beds = {second};
-  p = with_level(p);
+  p = with_level(Layout(p)).given;
   ASSERT_THAT(check(p), IsEmpty());
-  const State s = initial_state(p, Material(p));
+  const State s = initial_state(setup_of(p));
   EXPECT_EQ(std::count(s.tag.begin(), s.tag.end(), 1), 300);
   EXPECT_EQ(count_within(s.position, 40, 10, 4), 300u);
   EXPECT_THAT(warnings(p), IsEmpty());

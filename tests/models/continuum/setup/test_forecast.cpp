@@ -33,7 +33,7 @@ void expect_forecast(const std::string& name, const Parameters& p, double end) {
   const auto settling = static_cast<double>(s.step);
   while (s.time < s.gate_time + end) model.advance(team);
   const double flow = static_cast<double>(s.step) - settling;
-  const Forecast f = forecast(p, end);
+  const Forecast f = forecast(setup_of(p), end);
   EXPECT_LT(std::abs(std::log(f.settling_steps / settling)), std::log(1.5))
       << name << ": forecast " << f.settling_steps << ", taken " << settling;
   EXPECT_LT(std::abs(std::log(f.flow_steps / flow)), std::log(1.5))
@@ -72,14 +72,14 @@ TEST(ContinuumForecast, OfASofterBedByTheOtherMethod) {
 
 TEST(ContinuumForecast, OfAnUndampedBedIsARange) {
   Parameters p = section(10e-3, 30e-3);
-  EXPECT_EQ(forecast(p, 1).most_settling_steps, forecast(p, 1).settling_steps);
+  EXPECT_EQ(forecast(setup_of(p), 1).most_settling_steps, forecast(setup_of(p), 1).settling_steps);
   p.settle.damping_time = std::nullopt;
   p.settle.loading_time = 0;
   ThreadTeam team(1);
   Continuum model = started(p, team);
   while (model.state().gate_time < 0) model.advance(team);
   const auto taken = static_cast<double>(model.state().step);
-  const Forecast f = forecast(p, 1);
+  const Forecast f = forecast(setup_of(p), 1);
   EXPECT_LE(f.settling_steps, taken);
   EXPECT_GE(f.most_settling_steps, taken);
   EXPECT_GT(f.most_settling_steps, 5 * f.settling_steps);  // no number between them would be honest
@@ -93,23 +93,23 @@ TEST(ContinuumForecast, OfAGateThatOpensAtATime) {
 
 TEST(BedCount, IsTheNumberOfParticlesPlaced) {
   Parameters p = section(100e-3, 100e-3);
-  EXPECT_EQ(bed_count(p), static_cast<double>(bed_positions(p).size()));
+  EXPECT_EQ(bed_count(Layout(p)), static_cast<double>(bed_positions(Layout(p)).size()));
   p.box.depth = 10e-3;
   p.wedge = {.half_angle = 0.5, .outlet = 20e-3, .height = 10e-3};
   p.box.height = 250e-3;
   ASSERT_TRUE(check(p).empty());
-  const auto placed = static_cast<double>(bed_positions(p).size());
-  EXPECT_EQ(bed_count(p), placed);
-  EXPECT_LT(placed, places_of(lattice_of(p)));
+  const auto placed = static_cast<double>(bed_positions(Layout(p)).size());
+  EXPECT_EQ(bed_count(Layout(p)), placed);
+  EXPECT_LT(placed, lattice_of(p).positions());
 }
 
 TEST(BedCount, OfManyParticlesTakesAMoment) {
   Parameters p = section(100e-3, 100e-3);
   p.wedge = {.half_angle = 0.5, .outlet = 20e-3, .height = 10e-3};
   p.box.height = 250e-3;
-  const double coarse = bed_count(p) / places_of(lattice_of(p));
+  const double coarse = bed_count(Layout(p)) / lattice_of(p).positions();
   p.bed.spacing = p.box.depth = 10e-6;  // 10^8 places, of which some are looked at
-  EXPECT_NEAR(bed_count(p) / places_of(lattice_of(p)), coarse, 0.03);
+  EXPECT_NEAR(bed_count(Layout(p)) / lattice_of(p).positions(), coarse, 0.03);
 }
 
 TEST(CheckSize, NamesTheLengthOutOfProportion) {
@@ -147,14 +147,14 @@ double time_step_of_courant_one(const Parameters& p) {
 TEST(CheckSteps, RefusesAStepThatNoRunSurvives) {
   Parameters p = section(10e-3, 30e-3);
   p.integration.step = 2e-6;
-  EXPECT_TRUE(check_steps(p, 1).empty());
+  EXPECT_TRUE(check_steps(setup_of(p), 1).empty());
   p.integration.step = 1;
-  ASSERT_EQ(check_steps(p, 1).size(), 1u);
-  EXPECT_EQ(check_steps(p, 1)[0].key, "integration.step");
+  ASSERT_EQ(check_steps(setup_of(p), 1).size(), 1u);
+  EXPECT_EQ(check_steps(setup_of(p), 1)[0].key, "integration.step");
   p.integration.step = 1e-15;
-  ASSERT_EQ(check_steps(p, 1).size(), 1u);
+  ASSERT_EQ(check_steps(setup_of(p), 1).size(), 1u);
   p.integration.step.reset();
-  EXPECT_EQ(check_steps(p, 1e9)[0].key, "run.end");
+  EXPECT_EQ(check_steps(setup_of(p), 1e9)[0].key, "run.end");
 }
 
 TEST(CheckSteps, AFixedStepThatIsTooLongIsToldAsSuch) {
@@ -174,16 +174,16 @@ TEST(CheckSteps, AFixedStepThatIsTooLongIsToldAsSuch) {
 TEST(ContinuumSample, OfAVesselHasItsWalls) {
   Parameters p = section(100e-3, 60e-3);
   p.box.depth = 100e-3, p.box.height = 100e-3;
-  const Forecast plain = forecast(p, 1);
+  const Forecast plain = forecast(setup_of(p), 1);
   VesselPart walls, floor;
   walls.shape = VesselShape::box, floor.shape = VesselShape::disc;
   walls.width = walls.depth = 60e-3, walls.bottom = 10e-3, walls.top = 90e-3;
   floor.radius = 50e-3, floor.height = 10e-3;
   p.vessel = {walls, floor};
   ASSERT_TRUE(check(p).empty());
-  const double count = bed_count(p);
+  const double count = bed_count(Layout(p));
   EXPECT_EQ(count, 24. * 24 * 24);
-  const Forecast f = forecast(p, 1);
+  const Forecast f = forecast(setup_of(p), 1);
   const double area = 4 * 60e-3 * 80e-3 + 3.1416 * 50e-3 * 50e-3;  // of one layer: 6.25e-6 m^2 a particle
   const double of_sets = 1 / 0.16 + 1 / 0.3249 + 1 / 0.64;         // on a square of a spacing
   EXPECT_NEAR(f.wall_points, of_sets * area / 6.25e-6, 0.01 * f.wall_points);
@@ -193,8 +193,8 @@ TEST(ContinuumSample, OfAVesselHasItsWalls) {
   EXPECT_GT(memory_of(drawn), 1.4e9);
   EXPECT_LT(memory_of(drawn), memory_of(f) + 2e9);
   EXPECT_GT(memory_of(f) - memory_of(plain), 3500 * (f.particles - plain.particles));
-  const Parameters coarse = coarser(p, count / 8);
-  EXPECT_NEAR(bed_count(coarse), count / 8, 0.02 * count / 8);
+  const Parameters coarse = coarser(Layout(p), count / 8);
+  EXPECT_NEAR(bed_count(Layout(coarse)), count / 8, 0.02 * count / 8);
   EXPECT_EQ(coarse.vessel.size(), 2u);
   ThreadTeam team(1);
   Continuum model = started(coarse, team);
@@ -207,11 +207,11 @@ TEST(ContinuumSample, StartsWithoutThePlates) {
   p.air.enabled = true;
   ASSERT_TRUE(check(p).empty());
   ThreadTeam team(1);
-  Continuum model = started(sample(p, 100), team);
+  Continuum model = started(sample(Layout(p), 100), team);
   EXPECT_NEAR(static_cast<double>(model.state().position.size()), 100, 30);
   model.advance(team);
   p.bed.spacing = 0.5e-2;
-  EXPECT_NEAR(static_cast<double>(bed_positions(sample(p, 1000)).size()), 1000, 250);
+  EXPECT_NEAR(static_cast<double>(bed_positions(Layout(sample(Layout(p), 1000))).size()), 1000, 250);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace talus::continuum {
 namespace {
 
 std::vector<Vector3> places(const Parameters& p) {
-  return initial_state(p, Material(p)).position;
+  return initial_state(setup_of(p)).position;
 }
 
 Parameters disordered(double disorder, std::int64_t seed) {
@@ -22,13 +22,13 @@ Parameters disordered(double disorder, std::int64_t seed) {
 }
 
 TEST(Initial, WithoutDisorderTheParticlesStandOnTheLattice) {
-  EXPECT_EQ(places(disordered(0, 1)), bed_positions(column(6, 5, 7)));
+  EXPECT_EQ(places(disordered(0, 1)), bed_positions(Layout(column(6, 5, 7))));
   EXPECT_EQ(places(disordered(0, 2)), places(disordered(0, 1)));
 }
 
 TEST(Initial, DisorderIsUniformWithinItsBoundAlongEachAxis) {
   const double most = 0.1 * spacing;
-  const std::vector<Vector3> lattice = bed_positions(column(6, 5, 7)), moved = places(disordered(0.1, 1));
+  const std::vector<Vector3> lattice = bed_positions(Layout(column(6, 5, 7))), moved = places(disordered(0.1, 1));
   ASSERT_EQ(moved.size(), lattice.size());
   for (int axis = 0; axis < 3; ++axis) {
     double largest = 0, square = 0;

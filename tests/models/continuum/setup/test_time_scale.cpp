@@ -42,21 +42,21 @@ TEST(TimeScales, AreWhatTheCaseGives) {
   EXPECT_EQ(given.settled_duration, 20e-3);
   EXPECT_EQ(given.settling_limit, 1);
   EXPECT_EQ(given.peak_time(), 10e-3);
-  EXPECT_EQ(loading_time(p, 1), 0.25) << "a quarter of settle.longest";
+  EXPECT_EQ(loading_time(p, 0.08, given, 1), 0.25) << "a quarter of settle.longest";
 }
 
 TEST(TimeScales, AreOfTheNarrowerSideOrTheBed) {
   Parameters p = hopper(1);
   p.box.front = p.box.rear = FaceKind::wall;
   p.box.depth = 0.01;
-  EXPECT_NEAR(*outlet_width(p), 0.01, 1e-12) << "walls in front and behind";
+  EXPECT_NEAR(*outlet_width_of(p), 0.01, 1e-12) << "walls in front and behind";
   p.box.front = p.box.rear = FaceKind::symmetry;
-  EXPECT_NEAR(*outlet_width(p), 0.04, 1e-12) << "a slit without end";
+  EXPECT_NEAR(*outlet_width_of(p), 0.04, 1e-12) << "a slit without end";
   p.plate.slit_left = 0;
   p.box.left = FaceKind::symmetry;
-  EXPECT_NEAR(*outlet_width(p), 0.14, 1e-12) << "half of one that is twice as wide";
+  EXPECT_NEAR(*outlet_width_of(p), 0.14, 1e-12) << "half of one that is twice as wide";
   p.plate = {};
-  EXPECT_FALSE(outlet_width(p));
+  EXPECT_FALSE(outlet_width_of(p));
   EXPECT_NEAR(time_scales_of(p).length, 0.08, 1e-12);
   p.gravity.acceleration = 0;
   EXPECT_TRUE(std::isfinite(time_scales_of(p).time));

@@ -34,12 +34,12 @@ void make_liquid(Parameters& p) {
 std::vector<Vector3> settled_forces(Continuum& model, ThreadTeam& team, double duration) {
   const State& s = model.state();
   while (s.gate_time < 0) model.advance(team);
-  const auto before = s.vessel_impulse;
+  const std::vector<Vector3> before(vessel_impulse(s).begin(), vessel_impulse(s).end());
   const double begin = s.time;
   while (s.time < begin + duration) model.advance(team);
   std::vector<Vector3> force;
   for (std::size_t n = 0; n < before.size(); ++n)
-    force.push_back((1 / (s.time - begin)) * (s.vessel_impulse[n] - before[n]));
+    force.push_back((1 / (s.time - begin)) * (vessel_impulse(s)[n] - before[n]));
   return force;
 }
 
@@ -67,13 +67,13 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
   EXPECT_LT(norm(momentum_error(s)), 1e-11 * norm(s.gravity_impulse));
 
   // The fields of a wall together received what it did; their mean pressure is that of their depth.
-  const Surface surface = surface_of(p);
-  const SurfaceFields fields = load_fields(p, surface);
+  const Surface surface = Boundary(p).vessel();
+  const SurfaceFields fields = load_fields(Layout(p));
   ASSERT_EQ(s.wall_loads.push.size(), fields.count());
   std::vector<Vector3> received(p.vessel.size());
   for (std::size_t n = 0; n < fields.count(); ++n) received[fields.all()[n].patch] += s.wall_loads.received_of(n);
   for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    EXPECT_LT(norm(received[n] - s.vessel_impulse[n]), 1e-12 * norm(s.vessel_impulse[n])) << n;
+    EXPECT_LT(norm(received[n] - vessel_impulse(s)[n]), 1e-12 * norm(vessel_impulse(s)[n])) << n;
   const double top = 4 * spacing + 8 * spacing, gamma = bulk_density(p) * 9.81;
   const auto bands = load_bands(p, fields);
   ASSERT_EQ(bands.size(), 4 * 4 + 1u) << "16 spacings high: four bands of four";
@@ -97,7 +97,7 @@ TEST(Vessel, FloorAndWallsOfABoxBearTheHydrostaticLoad) {
 TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   Parameters p = room(4, 4, 8);
   p.vessel = {plate("bottom", {0, 0, 2}, {4, 0, 0}, {0, 4, 0})};
-  const SurfaceFields fields = load_fields(p, surface_of(p));
+  const SurfaceFields fields = load_fields(Layout(p));
   ASSERT_EQ(fields.count(), 4u);
   WallLoads loads = no_loads(4, 1);
   const double area = fields.all()[2].area;
@@ -118,7 +118,7 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   press(2, 1), press(0, 1);
   EXPECT_NEAR(loads.largest[2], 2 / area, 1e-3 * 2 / area);
   EXPECT_NEAR(loads.largest_time[2], 35e-3, 1e-4);
-  const FieldMesh mesh = mesh_of(surface_of(p), fields, 3 * spacing);
+  const FieldMesh mesh = mesh_of(Boundary(p).vessel(), fields, 3 * spacing);
   const SurfaceSnapshot shown = loads_on(mesh, fields, loads, time, 30.003e-3);
   const auto& in_flow = std::get<std::vector<double>>(shown.columns[4].values);
   ASSERT_EQ(shown.columns[4].name, "pressure_in_flow");
@@ -269,11 +269,12 @@ TEST(Vessel, NothingLeaksFromASilo) {
   const State& s = model.state();
   const std::size_t count = s.position.size();
   ASSERT_GT(count, 800u);
-  Surface surface = surface_of(p);
+  Boundary boundary(p);
+  const Surface& surface = boundary.vessel();
   std::size_t passed = 0;
   while (s.time < 0.12) {
     const auto before = by_identity(s, s.position);
-    if (s.gate_time >= 0) open_gates(p, surface, s.time - s.gate_time);
+    if (s.gate_time >= 0) boundary.open_gates(s.time - s.gate_time);
     model.advance(team);
     const auto after = by_identity(s, s.position);
     passed = 0;
@@ -310,7 +311,7 @@ TEST(Vessel, NothingLeaksAroundACornerThatPointsIntoTheBed) {
   const State& s = model.state();
   const std::size_t count = s.position.size();
   ASSERT_GT(count, 500u);
-  const Surface surface = surface_of(p);
+  const Surface surface = Boundary(p).vessel();
   while (s.time < 0.06) {
     const auto before = by_identity(s, s.position);
     model.advance(team);
@@ -319,7 +320,7 @@ TEST(Vessel, NothingLeaksAroundACornerThatPointsIntoTheBed) {
   }
   for (const Vector3& x : s.position)
     ASSERT_TRUE(x.z > 8 * spacing || (x.x > 6 * spacing && x.z > 4 * spacing)) << x.x << ' ' << x.z;
-  EXPECT_GT(s.vessel_impulse[1].x, 0) << "they have run against the wall on the right";
+  EXPECT_GT(vessel_impulse(s)[1].x, 0) << "they have run against the wall on the right";
 }
 
 TEST(Vessel, TheBitsDependNeitherOnThreadsNorOnResuming) {
@@ -328,7 +329,7 @@ TEST(Vessel, TheBitsDependNeitherOnThreadsNorOnResuming) {
   Continuum model = started(p, one), other = started(p, two);
   const auto same = [](const State& a, const State& b) {
     return a.time == b.time && a.position == b.position && a.velocity == b.velocity &&
-           a.material.stress == b.material.stress && a.vessel_impulse == b.vessel_impulse && a.density == b.density;
+           a.material.stress == b.material.stress && a.patch_impulse == b.patch_impulse && a.density == b.density;
   };
   while (model.state().time < 0.015) model.advance(one), other.advance(two);
   ASSERT_TRUE(same(model.state(), other.state()));
@@ -354,9 +355,9 @@ TEST(Vessel, ThinPlatesKeepTheirSidesApart) {
   whole.vessel.clear();
   Continuum model(p);
   State& s = model.mutable_state();
-  const auto impulses = s.vessel_impulse;
+  const auto impulses = s.patch_impulse;
   s = Continuum(whole).state();
-  s.vessel_impulse = impulses;
+  s.patch_impulse = impulses;
   for (std::size_t i = 0; i < s.position.size(); ++i)
     if (s.position[i].z > 6 * spacing)
       for (std::size_t c = 0; c < 3; ++c) s.material.stress[c][i] = 100;
@@ -366,7 +367,7 @@ TEST(Vessel, ThinPlatesKeepTheirSidesApart) {
     if (s.position[i].z < 6 * spacing) {
       ASSERT_EQ(norm(s.velocity[i]), 0) << s.position[i].z;
     }
-  EXPECT_LT(s.vessel_impulse[0].z, 0) << "pressed from above";
+  EXPECT_LT(vessel_impulse(s)[0].z, 0) << "pressed from above";
 }
 
 TEST(Vessel, ContradictionsAreToldAllAtOnce) {

@@ -77,13 +77,13 @@ TEST(VesselFile, BoundsAreThoseOfThePlacedTriangles) {
   VesselPart& part = p.vessel[0];
   const auto expect_same = [&] {
     const VesselBounds around = bounds_of_vessel(p);
-    const Surface surface = surface_of(p);
+    const Surface surface = Boundary(p).vessel();
     EXPECT_TRUE(around.low == surface.low() && around.high == surface.high());
   };
   expect_same();
   part.move = {0.04, 0.04, 0.03};
   expect_same();
-  EXPECT_NEAR(surface_of(p).low().x, 0.01, 1e-15);
+  EXPECT_NEAR(Boundary(p).vessel().low().x, 0.01, 1e-15);
   part.rotate = {0.1, 0.2, 0.3}, part.scale = 0.7, part.up = Along::x;
   expect_same();
 }
@@ -146,7 +146,7 @@ TEST(VesselFile, WallsBesideTheBoxAreToldAndThoseThatStickOutAreNot) {
   EXPECT_NEAR(share_in_box(p, 0), 0.5, 1e-8) << "at an angle";
   p.vessel = {plate("lid", {0, 0, 2}, {100, 0, 0}, {0, 8, 0})};
   EXPECT_THAT(check(p), testing::IsEmpty());
-  const auto warned = warnings_of(regime_of_case(p));
+  const auto warned = warnings_of(regime_of_case(setup_of(p)));
   EXPECT_TRUE(std::any_of(warned.begin(), warned.end(), [](const Warning& w) {
     return w.id == "share-of-lid-within-the-box" && w.text.find("lid spans 0..1000 x 0..80") != std::string::npos;
   }));
@@ -168,7 +168,7 @@ TEST(VesselFile, WhatIsHarmlessIsMendedWithARemark) {
                   "vessel.1.file: tray.stl: 1 of 4 triangles that are there twice left out, triangle 3 the first",
                   "vessel.1.file: tray.stl: 1 of 4 triangles turned over, triangle 2 the first: neighbours had their "
                   "normals on different sides"));
-  const Surface surface = surface_of(p);
+  const Surface surface = Boundary(p).vessel();
   ASSERT_EQ(surface.triangles().size(), 2u);
   EXPECT_EQ(norm(surface.normal(0) - surface.normal(1)), 0);
   EXPECT_EQ(surface.facets(), 1u);

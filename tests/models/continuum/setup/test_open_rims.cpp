@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/boundary/vessel_rims.hpp"
+#include "models/continuum/setup/open_rims.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,45 +42,45 @@ Parameters filled(std::vector<Triangle> triangles) {
   return p;
 }
 
-TEST(VesselRims, TheTopOfAVesselAndAnOutletOnAGateAreNone) {
-  EXPECT_THAT(rims_below_bed(filled(duct())), testing::IsEmpty());
+TEST(OpenRims, TheTopOfAVesselAndAnOutletOnAGateAreNone) {
+  EXPECT_THAT(rims_below_bed(Layout(filled(duct()))), testing::IsEmpty());
   Parameters p = filled(duct());
   p.vessel.push_back(drawn("baffle", {{{Vector3{0.07, 0.04, 0.06}, {0.07, 0.1, 0.06}, {0.07, 0.07, 0.1}}, 0}}));
-  EXPECT_THAT(rims_below_bed(p), testing::IsEmpty()) << "grains are on both sides of a plate within the bed";
+  EXPECT_THAT(rims_below_bed(Layout(p)), testing::IsEmpty()) << "grains are on both sides of a plate within the bed";
 }
 
-TEST(VesselRims, AHoleBelowTheTopOfTheBedIsOne) {
-  const auto rims = rims_below_bed(filled(duct({{1, 2}, {2, 2}})));
+TEST(OpenRims, AHoleBelowTheTopOfTheBedIsOne) {
+  const auto rims = rims_below_bed(Layout(filled(duct({{1, 2}, {2, 2}}))));
   ASSERT_EQ(rims.size(), 1u);
   EXPECT_EQ(rims[0].part, 0u);
   EXPECT_LT(norm(rims[0].middle - spacing * Vector3{12, 6, 9}), 1e-9);
   EXPECT_NEAR(rims[0].length, 4 * spacing, 1e-9);
   EXPECT_NEAR(rims[0].width, 2 * spacing, 1e-9);
-  EXPECT_THAT(rims_below_bed(filled(duct({{1, 7}, {2, 6}}))), testing::IsEmpty()) << "above the bed";
+  EXPECT_THAT(rims_below_bed(Layout(filled(duct({{1, 7}, {2, 6}})))), testing::IsEmpty()) << "above the bed";
 }
 
-TEST(VesselRims, WhatCoversAHoleClosesIt) {
+TEST(OpenRims, WhatCoversAHoleClosesIt) {
   Parameters p = filled(duct({{1, 2}, {2, 2}}));
   p.vessel.push_back(plate("patch", {12, 3, 7}, {0, 6, 0}, {0, 0, 4}));
-  EXPECT_THAT(rims_below_bed(p), testing::IsEmpty());
+  EXPECT_THAT(rims_below_bed(Layout(p)), testing::IsEmpty());
   p.vessel.back().first_edge[1] = 3 * spacing;
-  EXPECT_EQ(rims_below_bed(p).size(), 1u) << "half of it";
+  EXPECT_EQ(rims_below_bed(Layout(p)).size(), 1u) << "half of it";
   p.vessel.pop_back();
   p.box.width = 12 * spacing, p.box.right = FaceKind::wall;
-  EXPECT_THAT(rims_below_bed(p), testing::IsEmpty()) << "a face of the box";
+  EXPECT_THAT(rims_below_bed(Layout(p)), testing::IsEmpty()) << "a face of the box";
 }
 
-TEST(VesselRims, AnOutletWithoutAGateIsOne) {
+TEST(OpenRims, AnOutletWithoutAGateIsOne) {
   Parameters p = filled(duct());
   p.vessel.pop_back();
-  const auto rims = rims_below_bed(p);
+  const auto rims = rims_below_bed(Layout(p));
   ASSERT_EQ(rims.size(), 1u);
   EXPECT_NEAR(rims[0].middle.z, 4 * spacing, 1e-9);
   EXPECT_NEAR(rims[0].length, 10 * spacing, 1e-9);
   EXPECT_NEAR(rims[0].width, 10 * spacing, 1e-9);
 }
 
-TEST(VesselRims, ABedThatDoesNotSettleSaysHowManyHaveLeft) {
+TEST(OpenRims, ABedThatDoesNotSettleSaysHowManyHaveLeft) {
   Parameters p = filled(duct());
   make_granular(p);
   p.vessel[1].gate = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/boundary/walls.hpp"
+#include "models/continuum/boundary/contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST(Walls, AParticleFallsPastThePlatesEdgeUntouchedAndNotIntoThePlate) {
   Continuum held = dropped_at(3.95 * spacing);
   EXPECT_GT(held.state().position[0].z, (15 + sph::contact_distance - 1e-3) * spacing);
   EXPECT_LT(norm(momentum_error(held.state())), 1e-12 * norm(held.state().gravity_impulse));
-  EXPECT_LT(held.state().wall_impulse[6].z, 0);
+  EXPECT_LT(held.state().patch_impulse[6].z, 0);
 }
 
 TEST(Walls, ABlockSlidesWithCoulombsFrictionAndSticksBelowIt) {
@@ -79,9 +79,9 @@ TEST(Walls, ABlockSlidesWithCoulombsFrictionAndSticksBelowIt) {
   for (Vector3& v : s.velocity) v.x += 0.3;
   const auto mean = [&] { return momentum(s).x / (s.mass * double(s.position.size())); };
   const double begin = s.time;
-  const Vector3 before = s.wall_impulse[4];
+  const Vector3 before = s.patch_impulse[4];
   while (s.time < begin + 0.05) model.advance(team);
-  const Vector3 received = s.wall_impulse[4] - before;
+  const Vector3 received = s.patch_impulse[4] - before;
   EXPECT_GT(mean(), 0.05) << "it slides still";
   // Elastic particles at the block's ends are pulled by the floor now and then, and only those that it pushes rub.
   EXPECT_GT(received.x / -received.z, 0.299);
