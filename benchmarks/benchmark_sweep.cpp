@@ -7,8 +7,8 @@
 
 #include "base/random.hpp"
 #include "models/continuum/model.hpp"
+#include "models/continuum/population.hpp"
 #include "models/continuum/setup/initial.hpp"
-#include "models/continuum/sort.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {

@@ -22,8 +22,8 @@
 #include "io/series.hpp"
 #include "io/stl.hpp"
 #include "models/cloud/forecast.hpp"
+#include "models/continuum/setup/bed.hpp"
 #include "models/continuum/setup/forecast.hpp"
-#include "models/continuum/setup/given_bed.hpp"
 #include "numerics/surface/surface_faults.hpp"
 #include "run/run_parameters.hpp"
 

@@ -27,9 +27,9 @@
 #include "io/stl.hpp"
 #include "models/continuum/model.hpp"
 #include "models/continuum/regime.hpp"
-#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/choices.hpp"
 #include "models/continuum/setup/forecast.hpp"
-#include "models/continuum/setup/renamed_keys.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::app {
 

@@ -9,7 +9,7 @@
 #include "app/materials/materials.hpp"
 #include "io/csv_table.hpp"
 #include "io/parameter_reader.hpp"
-#include "models/continuum/setup/renamed_keys.hpp"
+#include "models/continuum/setup/choices.hpp"
 
 namespace talus::app {
 

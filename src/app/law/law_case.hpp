@@ -11,7 +11,7 @@
 
 #include "base/parameter.hpp"
 #include "io/case_file.hpp"
-#include "models/continuum/setup/material_names.hpp"
+#include "models/continuum/setup/choices.hpp"
 #include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
 #include "physics/granular/material_path.hpp"

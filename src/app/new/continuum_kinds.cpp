@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "app/new/kind.hpp"
-#include "models/continuum/setup/material_names.hpp"
+#include "models/continuum/setup/choices.hpp"
 
 namespace talus::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/check_state.hpp"
+#include "models/continuum/step.hpp"
 
 #include <fmt/format.h>
 

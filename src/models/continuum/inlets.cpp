@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "models/continuum/phase.hpp"
 #include "models/continuum/setup/layout.hpp"
+#include "models/continuum/step.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "models/continuum/pairs/gradient_columns.hpp"
 #include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/state.hpp"
 #include "physics/granular/collisional_stress.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/exact_sum.hpp"
-#include "models/continuum/gas/air_totals.hpp"
+#include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/population.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/phase.hpp"
+#include "models/continuum/step.hpp"
 
 #include <fmt/format.h>
 
@@ -57,18 +57,6 @@ std::size_t left_vessel(const Layout& layout, const State& s) {
 }
 
 }  // namespace
-
-bool is_loose_where_free(const Parameters& p) {
-  return p.sph.continuity == Continuity::printed && !granular::bears_tension(p.law);
-}
-
-double density_relaxation(const Parameters& p) {
-  return is_loose_where_free(p) ? p.sph.density_relaxation : 0;
-}
-
-bool draws_by_lasting_rate(const Parameters& p) {
-  return !p.vessel.empty() && density_relaxation(p) > 0;
-}
 
 void begin_densities(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
   const Parameters& p = setup.given;

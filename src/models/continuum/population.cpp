@@ -2,10 +2,12 @@
 #include "models/continuum/population.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include "base/exact_sum.hpp"
+#include "numerics/cell_grid.hpp"
 
 namespace talus::continuum {
 
@@ -164,6 +166,10 @@ double mass_to_come(const Parameters& p, double end, double gate) {
     mass += inlet.rate * std::max(0.0, std::min(inlet.end(), last) - inlet.from);
   }
   return mass;
+}
+
+void sort_for_locality(State& state, double cell_size) {
+  select(state, spatial_order(state.position, cell_size));
 }
 
 }  // namespace talus::continuum

@@ -8,7 +8,6 @@
 
 #include "models/continuum/setup/bed_report.hpp"
 #include "models/continuum/setup/forecast.hpp"
-#include "models/continuum/setup/open_rims.hpp"
 
 namespace talus::continuum {
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "base/tensor.hpp"
 #include "base/vector.hpp"
 #include "models/air/state.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
@@ -234,5 +236,19 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"last_step", "s"}, s.last_step);
   if (!s.air.flow.pressure.empty()) for_each_field_of_air(visit, s.air);
 }
+
+/// Velocity gradients of all particles.
+struct GradientColumns {
+  std::array<std::vector<double>, 9> component;  ///< du_i/dx_j, 1/s: xx xy xz yx yy yz zx zy zz
+
+  void resize(std::size_t count) {
+    for (auto& column : component) column.resize(count);
+  }
+  std::size_t size() const { return component[0].size(); }
+  Tensor3<> operator[](std::size_t i) const {
+    const auto& c = component;
+    return {c[0][i], c[1][i], c[2][i], c[3][i], c[4][i], c[5][i], c[6][i], c[7][i], c[8][i]};
+  }
+};
 
 }  // namespace talus::continuum

@@ -9,12 +9,10 @@
 
 #include "base/exact_sum.hpp"
 #include "models/continuum/boundary/contact.hpp"
-#include "models/continuum/check_state.hpp"
 #include "models/continuum/pairs/displacement.hpp"
 #include "models/continuum/pairs/stress_regularisation.hpp"
-#include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
-#include "models/continuum/setup/loading.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "physics/sph/pair_terms.hpp"
 
 namespace talus::continuum {

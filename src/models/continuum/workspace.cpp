@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/continuum/population.hpp"
 #include "models/continuum/sector.hpp"
-#include "models/continuum/sort.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
 

@@ -6,7 +6,7 @@
 ///
 /// Sources: walls by integrals of the kernel over their surface, Kulasegaram, Bonet, Lewis & Profit, Comput. Mech. 33,
 /// 316 (2004); Ferrand, Laurence, Rogers, Violeau & Kassiotis, Int. J. Numer. Methods Fluids 71, 446 (2013). completed:
-/// the rays, and the fields beyond the wall (models/continuum/boundary/vessel_sum.hpp).
+/// the rays, and the fields beyond the wall (models/continuum/pairs/wall_sums.hpp).
 #pragma once
 
 #include <cmath>

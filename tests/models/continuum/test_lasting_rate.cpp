@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "models/continuum/cases.hpp"
-#include "models/continuum/phase.hpp"
 #include "models/continuum/setup/initial.hpp"
 #include "models/continuum/step.hpp"
 #include "models/continuum/vessel_parts.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "models/continuum/cases.hpp"
-#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {

@@ -14,7 +14,7 @@
 
 #include "models/continuum/cases.hpp"
 #include "models/continuum/regime.hpp"
-#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/vessel_parts.hpp"
 #include "models/continuum/whole_circle.hpp"
 #include "numerics/whole.hpp"

@@ -102,8 +102,8 @@ class VesselWalls {
   };
   std::optional<Touch> touched(std::size_t place, const Vector3& x, const Vector3& y, double within);
 
-  /// The acceleration of a particle along a part of a wall by its neighbours' images there (vessel_sum.hpp), m/s^2.
-  /// \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
+  /// The acceleration of a particle along a part of a wall by its neighbours' images there (pairs/wall_sums.hpp),
+  /// m/s^2. \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
   Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
                           const std::span<const std::uint32_t>* seen, double mass) const;
 

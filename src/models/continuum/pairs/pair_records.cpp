@@ -6,7 +6,7 @@
 
 #include "models/continuum/material.hpp"
 #include "models/continuum/pairs/quanta.hpp"
-#include "models/continuum/pairs/specific_stress.hpp"
+#include "models/continuum/pairs/rates.hpp"
 
 namespace talus::continuum {
 

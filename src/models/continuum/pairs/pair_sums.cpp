@@ -6,7 +6,7 @@
 
 #include "base/compiled_for.hpp"
 #include "models/continuum/material.hpp"
-#include "models/continuum/pairs/specific_stress.hpp"
+#include "models/continuum/pairs/rates.hpp"
 #include "models/continuum/pairs/stress_regularisation.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/sph/smoothing_lengths.hpp"

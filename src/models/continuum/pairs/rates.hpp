@@ -10,8 +10,7 @@
 
 #include "base/tensor.hpp"
 #include "base/vector.hpp"
-#include "models/continuum/boundary/vessel_sum.hpp"
-#include "models/continuum/pairs/gradient_columns.hpp"
+#include "models/continuum/boundary/vessel_walls.hpp"
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
@@ -29,6 +28,20 @@ struct WallAccelerations {
     std::size_t n = first[i];
     for (std::uint32_t left = walls[i]; left != 0; left &= left - 1) visit(std::countr_zero(left), value[n++]);
   }
+};
+
+/// The force of a smooth part of a wall on a particle.
+struct WallForce {
+  std::uint32_t patch = 0;
+  std::uint32_t field = 0;  ///< NearWall::field
+  Vector3 normal;           ///< unit, towards the particle
+  Vector3 acceleration;     ///< m/s^2
+};
+struct WallForces {
+  std::size_t count = 0;  // stands first: with the first force it is all that most particles need
+  std::array<WallForce, most_near_walls> of;
+
+  std::span<const WallForce> all() const { return std::span(of).first(count); }
 };
 
 /// Rates of change of every particle, of one evaluation.

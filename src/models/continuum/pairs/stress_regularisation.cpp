@@ -7,10 +7,6 @@
 
 namespace talus::continuum {
 
-double stress_regularisation(const Parameters& p) {
-  return p.law.is<granular::CriticalState>() ? p.sph.stress_regularisation : 0;
-}
-
 void regularise_stress(ThreadTeam& team, const Parameters& p, double dt, const Rates& rates, State& s) {
   const double per_strain = stress_regularisation(p) * p.law.of<granular::CriticalState>().shear_modulus * dt;
   for_each(team, s.position.size(), [&](std::size_t i) {

@@ -20,9 +20,6 @@
 
 namespace talus::continuum {
 
-/// K, sph.stress_regularisation where the law has it, else 0.
-double stress_regularisation(const Parameters& parameters);
-
 /// Draws the deviators of the state, of a particle that bears pressure. \param dt s; \param rates velocity gradients of
 /// the step, and stresses around the particles of the last sum over forces
 /// \pre stress_regularisation(parameters) > 0

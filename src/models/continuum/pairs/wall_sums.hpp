@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the walls of a vessel add to the pair sums of a particle.
+/// What the walls of a vessel add to the sums over a particle's neighbours.
+///
+/// Across the wall. Beyond a wall the field around the particle is taken to go on: the stress linearly, its shear along
+/// the wall turned over as in a mirror; the velocity along the wall linearly too, and that across it linearly through 0
+/// at the wall. The density is the particle's. The wall pushes along its normal only: friction is Coulomb's
+/// (boundary/contact.hpp).
+///
+/// Along the wall. A particle beside a wall has neighbours on one side only; what lacks is the force along the wall of
+/// the neighbours' images in it. At the distances a and b of two particles from a plane, each is at the distance
+/// (r^2 + 4 a b)^(1/2) from the other's image, and the forces along the wall are equal and opposite: the wall, which is
+/// smooth, has no part in them. Where a wall covers a part of its plane only, at a rim or a corner, the images count by
+/// the mean of the shares that both particles see (kernels/sum_walls.hpp).
 #pragma once
 
-#include "models/continuum/boundary/vessel_sum.hpp"
 #include "models/continuum/boundary/vessel_walls.hpp"
 #include "models/continuum/pairs/pair_lists.hpp"
 #include "models/continuum/pairs/rates.hpp"

@@ -10,10 +10,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "base/vector.hpp"
 
 namespace talus::continuum {
+
+struct Parameters;
 
 /// The particles of bed.file. SI; columns that the file does not have are empty.
 struct GivenBed {
@@ -140,5 +143,9 @@ void for_each_parameter_of_beds(Visit&& visit, B& beds) {
     visit(Parameter{key("velocity"), dimension::velocity, {}, text_of_bed_velocity}, beds[n].velocity);
   }
 }
+
+/// Particles that the case cannot begin with: outside the box, too near to each other, without a positive density, or
+/// not finite; the first of them and their count. \pre bed.given
+std::vector<Problem> check_given_bed(const Parameters& parameters);
 
 }  // namespace talus::continuum

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 #include <fmt/format.h>
 

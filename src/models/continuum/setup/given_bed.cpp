@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/setup/given_bed.hpp"
+#include "models/continuum/setup/bed.hpp"
+#include "models/continuum/setup/parameters.hpp"
 
 #include <fmt/format.h>
 

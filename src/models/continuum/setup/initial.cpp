@@ -5,8 +5,8 @@
 
 #include "base/random.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
-#include "models/continuum/phase.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/step.hpp"
 
 namespace talus::continuum {
 

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <string>
 
-#include "models/continuum/setup/filling.hpp"
 #include "models/continuum/setup/vessel_bed.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 

@@ -98,4 +98,15 @@ std::optional<Sector> sector_of(const Parameters& parameters);
 /// How far a wall from face to face is from others at least, to be a layer of the domain, m.
 double least_distance_of_layers(const Parameters& parameters);
 
+/// The same with the height of each bed as its mass needs it: a whole number of spacings, or as the particles of
+/// bed.file have it. Unchanged without both, and where lengths are missing or the vessel does not hold that mass
+/// (check() says so).
+Layout with_level(const Layout& layout);
+
+/// Particles of bed.mass, to the nearest. \pre bed.mass is given, no [[beds]]
+double count_of_mass(const Parameters& parameters);
+
+/// What is wrong with bed.mass, if anything. \param layout with_level(), no [[beds]]
+std::vector<Problem> check_mass(const Layout& layout);
+
 }  // namespace talus::continuum

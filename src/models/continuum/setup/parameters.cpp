@@ -11,8 +11,8 @@
 
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/sector.hpp"
-#include "models/continuum/setup/filling.hpp"
-#include "models/continuum/setup/given_bed.hpp"
+#include "models/continuum/setup/bed.hpp"
+#include "models/continuum/setup/layout.hpp"
 #include "models/continuum/setup/time_scale.hpp"
 #include "models/continuum/setup/vessel_bed.hpp"
 #include "numerics/cell_grid.hpp"
@@ -300,6 +300,22 @@ void check_beds_together(const Layout& layout, std::vector<Problem>& problems) {
 }
 
 }  // namespace
+
+bool is_loose_where_free(const Parameters& p) {
+  return p.sph.continuity == Continuity::printed && !granular::bears_tension(p.law);
+}
+
+double density_relaxation(const Parameters& p) {
+  return is_loose_where_free(p) ? p.sph.density_relaxation : 0;
+}
+
+bool draws_by_lasting_rate(const Parameters& p) {
+  return !p.vessel.empty() && density_relaxation(p) > 0;
+}
+
+double stress_regularisation(const Parameters& p) {
+  return p.law.is<granular::CriticalState>() ? p.sph.stress_regularisation : 0;
+}
 
 std::vector<Problem> check(const Parameters& given) {
   std::vector<Problem> problems;

@@ -18,7 +18,6 @@
 #include "models/continuum/inlets.hpp"
 #include "models/continuum/setup/bed.hpp"
 #include "models/continuum/setup/choices.hpp"
-#include "models/continuum/setup/material_names.hpp"
 #include "models/continuum/setup/vessel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/collisional_stress.hpp"
@@ -306,6 +305,25 @@ void for_each_parameter(Visit&& visit, P& p) {
           "integration.instruction_set", {}, {}, "instruction set of the sums over neighbours; the bits depend on it"},
       p.integration.instruction_set);
 }
+
+/// Whether a particle in a free surface is as loose as the kernel, half empty there, says it is. Eq. 16 keeps what
+/// separates a density from the kernel's sum, wherever the particle goes: one that began at a free surface with the
+/// density of the bed would be buried at a packing of 0.51 and bear as much there as others at 0.6. A body that bears
+/// tension would pull its own skin in; its surfaces stay surfaces.
+bool is_loose_where_free(const Parameters& parameters);
+
+/// sph.density_relaxation where it holds, else 0: what a shear strain of 1 takes back of the difference between the
+/// kernel's sum and the density. Eq. 16 is the rate of the kernel's sum for a constant smoothing length and between
+/// mirrors; what else there is adds up with the strain (docs/design/stabilisation.md).
+double density_relaxation(const Parameters& parameters);
+
+/// Whether they are drawn by the shear that lasts (State::lasting_rate) and not by each step's. Particles beside a
+/// round wall of a vessel jitter: a shear to and fro, by which a density loses nothing that would have to be taken
+/// back, and beside walls the kernel's sum is some per cent off (docs/design/stabilisation.md).
+bool draws_by_lasting_rate(const Parameters& parameters);
+
+/// K, sph.stress_regularisation where the law has it, else 0.
+double stress_regularisation(const Parameters& parameters);
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "models/continuum/setup/loading.hpp"
+#include "models/continuum/setup/time_scale.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::continuum {

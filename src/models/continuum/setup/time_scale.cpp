@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "models/continuum/setup/layout.hpp"
 
@@ -35,6 +36,16 @@ TimeScales time_scales_of(const Parameters& p) {
           .settling_limit =
               p.settle.longest.value_or(end_of_filling(p) + share_of_limit * std::sqrt(std::max(length, bed) / g)),
           .averaging_time = p.analysis.averaging_time.value_or(share_of_time * time)};
+}
+
+double loading_time(const Parameters& p, double depth, const TimeScales& scales, double sound_speed) {
+  constexpr double passages = 20, most = 0.25;
+  if (p.gate.opens != GateOpens::when_settled) return 0;
+  return p.settle.loading_time.value_or(std::min(passages * depth / sound_speed, most * scales.settling_limit));
+}
+
+double share_of_gravity(double time, double loading_time) {
+  return time < loading_time ? 0.5 * (1 - std::cos(std::numbers::pi * time / loading_time)) : 1.0;
 }
 
 }  // namespace talus::continuum

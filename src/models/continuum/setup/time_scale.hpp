@@ -24,4 +24,14 @@ struct TimeScales {
 /// Source of the factors: in a laboratory hopper with an outlet of 40 mm they give 0.5 mm/s, 20 ms, 1 s and 20 ms.
 TimeScales time_scales_of(const Parameters& parameters);
 
+/// Time over which gravity comes on while the bed settles: as half a cosine, slower than a wave passes. Laid at the
+/// packing at which it just touches, a bed that got its weight at once would be pressed by up to twice of it before it
+/// came to rest: overconsolidated, with up to half as much horizontal stress again. A bed whose gate goes by the clock,
+/// or that has none, has its weight from the start (docs/design/time-steps.md). Time, s; 0 in a case without settling.
+/// \param depth of the grains, m \param sound_speed of pressure waves in the bed, m/s
+double loading_time(const Parameters& parameters, double depth, const TimeScales& scales, double sound_speed);
+
+/// Share of gravity that the bed feels, 0 to 1, at a time from the start, s.
+double share_of_gravity(double time, double loading_time);
+
 }  // namespace talus::continuum

@@ -12,7 +12,6 @@
 
 #include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/setup/layout.hpp"
-#include "models/continuum/setup/vessel_file.hpp"
 
 namespace talus::continuum {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -13,7 +14,7 @@
 
 #include "base/error.hpp"
 #include "base/parameter.hpp"
-#include "models/continuum/setup/material_names.hpp"
+#include "models/continuum/setup/choices.hpp"
 #include "numerics/surface/mended_surface.hpp"
 #include "numerics/surface/rims.hpp"
 #include "numerics/surface/surface.hpp"
@@ -270,6 +271,9 @@ std::vector<Triangle> placed_triangles(const VesselPart& part);
 VesselBounds placed_bounds(const VesselPart& part);
 /// Rims of its surface, with the numbers of the triangles there.
 std::vector<Rim> placed_rims(const VesselPart& part);
+
+/// What cannot be mended in the file of the nth of [[vessel]], by triangle and place.
+void check_file(const VesselPart& part, std::size_t n, std::vector<Problem>& problems);
 
 }  // namespace talus::continuum
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Triangles of files: what is wrong with them, and how they come to stand in the box.
-#include "models/continuum/setup/vessel_file.hpp"
+#include "models/continuum/setup/vessel.hpp"
 
 #include <fmt/format.h>
 

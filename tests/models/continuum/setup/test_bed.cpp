@@ -10,7 +10,7 @@
 #include <string>
 
 #include "models/continuum/bed_cases.hpp"
-#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::continuum {
 namespace {

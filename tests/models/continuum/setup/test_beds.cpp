@@ -11,7 +11,7 @@
 
 #include "models/continuum/bed_cases.hpp"
 #include "models/continuum/population.hpp"
-#include "models/continuum/setup/filling.hpp"
+#include "models/continuum/setup/layout.hpp"
 
 namespace talus::continuum {
 namespace {

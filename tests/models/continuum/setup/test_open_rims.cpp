@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/continuum/setup/open_rims.hpp"
+#include "models/continuum/setup/bed_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

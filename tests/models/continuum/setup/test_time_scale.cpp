@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "models/continuum/cases.hpp"
-#include "models/continuum/setup/loading.hpp"
 
 namespace talus::continuum {
 namespace {

@@ -54,7 +54,7 @@ struct WallPairs {
 struct WallKernels {
   /// \param place of the particle, in quanta; \param h its smoothing length, m
   void (*points)(const WallPoints& points, const std::uint32_t* place, double h, WallTotals& totals);
-  /// The acceleration of a particle along a part of a wall by the images of others there (vessel_sum.hpp).
+  /// The acceleration of a particle along a part of a wall by the images of others there (pairs/wall_sums.hpp).
   /// \param mass of a particle, kg; \param acceleration 3 numbers and one of no meaning, aligned, m/s^2
   void (*images)(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
                  const WallPairs& others, double mass, double* acceleration);
