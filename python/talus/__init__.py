@@ -13,15 +13,19 @@ the air and curves into axes of your own. `talus.continuum` interpolates fields 
 place, with the images behind its walls (`talus.fields`), and finds free surfaces (`talus.surfaces`); `talus.curves` has rates,
 spectra and periods.
 """
-from talus.column import Column, Value
-from talus.comparison import Difference, changed_keys, compare
-from talus.program import ProgramError, Sweep, find_program, new, simulate, sweep
-from talus.run import Run, find_runs
-from talus.snapshots import AirSnapshot, ParticleSnapshot, Snapshots
-from talus.table import Table
-from talus.trouble import RunError
+import importlib
 
 __version__ = "0.2.0"  # the program's
 
-__all__ = ["AirSnapshot", "Column", "Difference", "ParticleSnapshot", "ProgramError", "Run", "RunError", "Snapshots", "Sweep",
-           "Table", "Value", "changed_keys", "compare", "find_program", "find_runs", "new", "simulate", "sweep"]
+_HOME = {"column": ["Column", "Value"], "comparison": ["Difference", "changed_keys", "compare"], "ask": ["find_program"],
+         "program": ["ProgramError", "Sweep", "new", "simulate", "sweep"], "run": ["Run", "find_runs"],
+         "snapshots": ["AirSnapshot", "ParticleSnapshot", "Snapshots"], "table": ["Table"], "trouble": ["RunError"]}
+__all__ = sorted(name for names in _HOME.values() for name in names)
+
+
+def __getattr__(name):
+    """Modules are read when something of them is asked for: the program starts some that need no numpy."""
+    for module, names in _HOME.items():
+        if name in names:
+            return getattr(importlib.import_module(f"talus.{module}"), name)
+    raise AttributeError(f"module 'talus' has no attribute {name!r}")

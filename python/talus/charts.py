@@ -7,7 +7,7 @@
                                                          bands and histograms of its groups; names separated by commas
     python3 -m talus.charts law FOLDER                   the path of a material point, and its law's fitted functions
 
-The commands of the program start the last three. Each function returns the paths of what it drew.
+The commands start the last three. Each function returns the paths of what it drew.
 """
 import csv
 import math
@@ -280,17 +280,24 @@ def _fitted_functions(table, path):
     return save(figure, path)
 
 
-def main(arguments):
+DRAW_OF = {"run": run, "runs": two_runs, "ensemble": ensemble, "law": law}
+
+
+def draw_charts(what, *arguments):
+    """As the command line: draw_charts("law", FOLDER)."""
     matplotlib.use("Agg")
-    draw_of = {"run": run, "runs": two_runs, "ensemble": ensemble, "law": law}
+    with draw.style():
+        return DRAW_OF[what](*arguments)
+
+
+def main(arguments):
     counts = {"run": (2,), "runs": (3,), "ensemble": (2, 3), "law": (1,)}
     what, *rest = arguments or [""]
-    if what not in draw_of or len(rest) not in counts[what]:
+    if what not in DRAW_OF or len(rest) not in counts[what]:
         print(__doc__, file=sys.stderr)
         return 2
-    with draw.style():
-        for path in draw_of[what](*rest):
-            print(path)
+    for path in draw_charts(what, *rest):
+        print(path)
     return 0
 
 

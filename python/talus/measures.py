@@ -10,13 +10,13 @@ by name; `function(groups, window)` of the members of each variant where the qua
 is nan; `NotEvaluated` says that the runs do not allow to ask for one, and why. `mean(runs)`, if the file has it, makes the
 mean of the members of an ensemble, of which quantities are taken as of a run (`from = "curves"`).
 
-    python3 -m talus.measures STUDY_FOLDER [--jobs N]     answers the questions of `talus compare`, JSON on stdin and stdout
     python3 -m talus.measures --table STUDY_FOLDER        prints the quantities as a table in Markdown
+
+`answers` answers the questions of a comparison (talus.lab.evaluation).
 """
 import argparse
 import functools
 import importlib.util
-import json
 import math
 import sys
 from concurrent.futures import ProcessPoolExecutor
@@ -185,61 +185,31 @@ def _values_in_process(folder, units):
     return _values(measures_of(folder), units)
 
 
-def _of_json(value):
-    return float(value) if isinstance(value, str) else value
-
-
-def _to_json(value):
-    return value if value is None or math.isfinite(value) else str(value)
-
-
-def _faults(measures, questions):
+def faults(measures, questions):
     """What is wrong with the questions themselves: the number, the key and the texts of each fault."""
-    faults = []
+    found = []
     for number, question in enumerate(questions):
         name, quantity = question["quantity"], measures.quantities.get(question["quantity"])
         if quantity is None:
-            faults.append({"question": number, "key": "quantity"})
+            found.append({"question": number, "key": "quantity"})
             continue
         if question["unit"] not in (None, quantity.unit):
-            faults.append({"question": number, "key": "unit", "what": f"is not that of {name}", "allowed": quantity.unit})
+            found.append({"question": number, "key": "unit", "what": f"is not that of {name}", "allowed": quantity.unit})
         for length in quantity.place:
             if length not in question["place"]:
-                faults.append({"question": number, "key": "place", "what": f"{name} needs {length}",
+                found.append({"question": number, "key": "place", "what": f"{name} needs {length}",
                                "allowed": 'lengths, such as "120 mm"'})
         for length in question["place"]:
             if length not in quantity.place:
-                faults.append({"question": number, "key": "place", "what": f"{name} takes no {length}",
+                found.append({"question": number, "key": "place", "what": f"{name} takes no {length}",
                                "allowed": ", ".join(quantity.place) or "no place"})
-    return faults
-
-
-def answer_in_json(measures, text, jobs=1):
-    """A request, {"questions": [...]}, as `answers` has them with "unit" (null: of no account), and its answer:
-    {"names": [of the study's quantities], "faults": [...], "answers": [...]}; without answers where there are faults. Numbers
-    that are not finite are texts."""
-    questions = json.loads(text)["questions"]
-    for question in questions:
-        question["window"] = {key: _of_json(value) for key, value in question["window"].items()}
-    faults = _faults(measures, questions)
-    made = [] if faults else answers(measures, questions, jobs)
-    for question, answer in zip(questions, made):
-        answer["values"] = [[_to_json(value) for value in values] for values in answer["values"]]
-        answer["may_be_missing"] = measures.quantities[question["quantity"]].may_be_missing
-    return json.dumps({"names": list(measures.quantities), "faults": faults, "answers": made}, allow_nan=False)
+    return found
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="python3 -m talus.measures", description=__doc__.split("\n", maxsplit=1)[0])
-    parser.add_argument("folder", help="of the study: it holds measures.py")
-    parser.add_argument("--table", action="store_true", help="print the quantities as a table")
-    parser.add_argument("--jobs", type=int, default=1, help="processes at a time")
-    options = parser.parse_args()
-    measures = measures_of(options.folder)
-    if options.table:
-        print(table(measures.quantities))
-    else:
-        print(answer_in_json(measures, sys.stdin.read(), options.jobs))
+    parser = argparse.ArgumentParser(prog="python3 -m talus.measures", description="prints the quantities of a study as a table")
+    parser.add_argument("--table", metavar="STUDY_FOLDER", required=True, help="folder with measures.py")
+    print(table(measures_of(parser.parse_args().table).quantities))
     return 0
 
 

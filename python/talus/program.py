@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drives the program: runs, sweeps and new cases from Python. What it leaves is read as any other run."""
 import json
-import os
-import shutil
 import subprocess
 from pathlib import Path
 
 import numpy as np
 
+from talus.ask import find_program
 from talus.column import Column, Value
 from talus.run import Run, find_runs
 from talus.trouble import RunError, unknown
@@ -22,18 +21,6 @@ class ProgramError(RunError):
     def __init__(self, arguments, status, said):
         super().__init__(f"talus {' '.join(arguments)}: {STATUSES.get(status, f'exit status {status}')}\n{said.strip()}")
         self.status, self.said = status, said
-
-
-def find_program(program=None):
-    """The program: the one given, that of the variable TALUS, of the PATH, built in the checkout of this package, or
-    installed with it (PREFIX/share/talus/python)."""
-    above = Path(__file__).resolve().parents
-    near = [above[n] / name for n, name in ((2, "build/talus"), (4, "bin/talus")) if n < len(above)]
-    for candidate in (program, os.environ.get("TALUS"), shutil.which("talus"), *near):
-        if candidate and Path(candidate).is_file():
-            return Path(candidate).resolve()
-    raise RunError("there is no program talus: name it by program=, the variable TALUS or the PATH, or build it (./run "
-                   "--build-only)")
 
 
 def simulate(case, out, settings=None, *, threads=None, existing="refuse", program=None):

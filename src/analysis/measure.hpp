@@ -17,11 +17,19 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/comparison.hpp"
 #include "analysis/curve.hpp"
 #include "numerics/named_value.hpp"
 
 namespace talus {
+
+/// The time window of a quantity, in the time unit of the reference (a/v_s).
+struct Window {
+  static constexpr double end_of_run = std::numeric_limits<double>::infinity();
+
+  std::optional<double> at = {};  ///< the data nearest to this time, of two the earlier; or
+  double from = 0;                ///< from < t
+  double to = end_of_run;         ///< t <= to
+};
 
 /// The numbers of the snapshots of a run, each made when it is first asked for and then remembered.
 template <class Snapshot>

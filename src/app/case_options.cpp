@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "app/comparison/project.hpp"
+#include "app/project/project.hpp"
 
 namespace talus::app {
 

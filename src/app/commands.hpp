@@ -28,6 +28,7 @@ void add_movie_command(CLI::App& app, Action& action);
 void add_new_command(CLI::App& app, Action& action);
 void add_materials_command(CLI::App& app, Action& action);
 void add_schema_command(CLI::App& app, Action& action);
+void add_answer_command(CLI::App& app, Action& action);
 /// Of all commands that have been added when it runs.
 void add_completion_command(CLI::App& app, Action& action);
 void add_man_command(CLI::App& app, Action& action);

@@ -9,10 +9,9 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
-#include "app/comparison/project.hpp"
-#include "app/comparison/python.hpp"
 #include "app/law/law_case.hpp"
 #include "app/law/law_results.hpp"
+#include "app/project/project.hpp"
 #include "base/terminal.hpp"
 #include "io/file_list.hpp"
 

@@ -30,7 +30,9 @@ std::optional<talus::Problem> check_command(const CLI::App& app, std::vector<std
   const bool none = word == arguments.end();
   if (none && !arguments.empty()) return std::nullopt;
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands({}))
+    if (!command->get_group().empty() || command->check_name(none ? "" : std::string(*word)))  // not the hidden one
+      names.push_back(command->get_name());
   if (names.empty()) return std::nullopt;
   if (!none && std::find(names.begin(), names.end(), *word) != names.end()) {
     const CLI::App& chosen = *app.get_subcommand(std::string(*word));
@@ -62,7 +64,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", fmt::format("talus {} ({})", talus::program_version(), talus::program_revision()));
   app.require_subcommand(1);
   app.footer(
-      "Exit status: 0 done, 1 comparison not met, 2 bad case or usage, 3 numerical failure, 4 file trouble,\n"
+      "Exit status: 0 done, 1 comparison not met or no Python for it, 2 bad case or usage, 3 numerical failure, 4 file "
+      "trouble,\n"
       "130 interrupted (after a checkpoint).\n\n"
       "First steps:\n"
       "  talus check cases/niiya2020-circle.toml          what the case says, in SI, and what the run will take\n"
@@ -81,6 +84,7 @@ int main(int argc, char** argv) {
   talus::app::add_movie_command(app, action);
   talus::app::add_materials_command(app, action);
   talus::app::add_schema_command(app, action);
+  talus::app::add_answer_command(app, action);
   talus::app::add_completion_command(app, action);
   talus::app::add_man_command(app, action);
 

@@ -9,7 +9,7 @@
 
 #include "app/case_options.hpp"
 #include "app/commands.hpp"
-#include "app/ensemble/report_entries.hpp"
+#include "app/report/report.hpp"
 #include "base/terminal.hpp"
 #include "io/report/page.hpp"
 #include "run/waiting.hpp"
@@ -29,10 +29,9 @@ ExitStatus report(const ReportOptions& options) {
   ReportRequest request{.title = {}, .runs = {}, .comparisons = {}, .limits = options.limits};
   ReadRuns runs(ReadRuns::many_times);
   for (const std::string& folder : options.folders) {
-    std::vector<ReportEntry> entries = entries_of_folder(folder);
-    std::move(entries.begin(), entries.end(), std::back_inserter(request.runs));
-    for (std::string& comparison : published_comparisons(folder, runs))
-      request.comparisons.push_back(std::move(comparison));
+    ReportRequest of_folder = gathered(folder);
+    std::move(of_folder.runs.begin(), of_folder.runs.end(), std::back_inserter(request.runs));
+    std::move(of_folder.comparisons.begin(), of_folder.comparisons.end(), std::back_inserter(request.comparisons));
   }
   std::vector<std::string> names;
   for (const ReportEntry& entry : request.runs) names.push_back(entry.name);

@@ -120,11 +120,13 @@ class OfAStudy(ProgramTest):
         stand_in.parent.mkdir()
         stand_in.write_text("#!/bin/sh\nexit 1\n")
         stand_in.chmod(0o755)
-        rows, said = self.rows({"quantity": "grains"}, {"quantity": "front_speed_max"},
-                               env={"PATH": str(stand_in.parent)})
-        self.assertEqual(rows["grains"]["verdict"], "not evaluated")
-        self.assertIn("1 row not evaluated: needs python3-numpy, python3-h5py", said)
-        self.assertEqual(rows["front_speed_max"]["verdict"], "met")
+        without = {**os.environ, "PATH": str(stand_in.parent)}
+        for command in (("compare", "r/1", "r/2"), ("ensemble", "case.toml"), ("reproduce", "niiya2020")):
+            said = self.talus(*command, status=1, env=without)
+            self.assertEqual(said.stderr, f"talus: {command[0]} takes python3 with numpy, h5py and the package talus (Debian: "
+                                          "python3-numpy, python3-h5py, python3-talus)\n")
+            self.assertEqual(said.stdout, "")
+        self.assertIn("Done", self.talus("run", "case.toml", "--out", "alone", env=without).stdout)
 
     def test_measures_that_fail(self):
         self.write_measures("QUANTITIES = 1 / 0\n")

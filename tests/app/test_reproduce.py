@@ -93,12 +93,10 @@ class Hopper(Study):
     def test_without_a_python_that_draws(self):
         """The rows are there all the same, and what to install is said."""
         self.replace("cases/yuu2011-hopper-vacuum.toml", r"(?m)^end = .*$", 'end = "1 ms"')
-        stand_in = self.folder / "bin/python3"
-        stand_in.parent.mkdir()
-        stand_in.write_text("#!/bin/sh\nexit 1\n")
-        stand_in.chmod(0o755)
+        (self.folder / "without").mkdir()
+        (self.folder / "without/sitecustomize.py").write_text("import sys\nsys.modules['matplotlib'] = None\n")
         arguments = ("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum")
-        said = self.talus(*arguments, env={**os.environ, "PATH": str(stand_in.parent)}).stdout
+        said = self.talus(*arguments, status=1, env={**os.environ, "PYTHONPATH": str(self.folder / "without")}).stdout
         self.assertIn("python3-matplotlib", said)
         self.assertTrue((self.folder / "r/comparison.json").exists())
         self.assertFalse((self.folder / "r/figures").exists())
@@ -109,7 +107,10 @@ class Hopper(Study):
         stand_in = self.folder / "python3"
         stand_in.write_text("#!/bin/sh\necho run > was_run\nexit 1\n")
         stand_in.chmod(0o755)
-        self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", env={**os.environ, "PATH": ":"})
+        self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", status=1, env={**os.environ, "PATH": ":"})
+        (self.folder / "json.py").write_text("open('was_run', 'w')\n")
+        self.talus("reproduce", "yuu2011", "--out", "r", "--variant", "vacuum", status=1)
+        self.assertTrue((self.folder / "r").is_dir())
         self.assertFalse((self.folder / "was_run").exists())
 
     def test_a_script_that_fails(self):

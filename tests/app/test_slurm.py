@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import unittest
+from pathlib import Path
 
 from program import PROGRAM, ProgramTest, bits
 
@@ -23,8 +24,8 @@ class Slurm(ProgramTest):
         tools = self.folder / "tools"
         shutil.rmtree(tools, ignore_errors=True)
         tools.mkdir()
-        for name in ("bash", "wc"):
-            (tools / name).symlink_to(shutil.which(name))
+        for program in (shutil.which("bash"), shutil.which("wc"), "/usr/bin/python3"):
+            (tools / Path(program).name).symlink_to(program)
         if sbatch:
             (tools / "sbatch").write_text(sbatch)
             (tools / "sbatch").chmod(0o755)

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/comparison/reference.hpp"
 #include "app/continuum/bed_file.hpp"
 #include "app/law/law_case.hpp"
 #include "base/error.hpp"
@@ -187,10 +186,6 @@ void read_series_file(std::string_view content) {
 
 void read_path_file(std::string_view content) {
   take_file(content, [](const std::string& path) { app::read_path(path); });
-}
-
-void read_reference_file(std::string_view content) {
-  take_file(content, [](const std::string& path) { app::read_reference(path); });
 }
 
 void read_stl_file(std::string_view content) {

@@ -24,21 +24,17 @@ void read_unit(std::string_view text);
 void read_points(std::string_view content);
 void read_series_file(std::string_view content);
 void read_path_file(std::string_view content);
-/// reference.toml of a study.
-void read_reference_file(std::string_view content);
-
 /// An STL file, and the check of its triangles.
 void read_stl_file(std::string_view content);
 /// Particles of bed.file as CSV, and their check.
 void read_bed_file(std::string_view content);
 
-inline constexpr std::array<Target, 9> targets{{{"case", read_case},
+inline constexpr std::array<Target, 8> targets{{{"case", read_case},
                                                 {"setting", read_setting},
                                                 {"unit", read_unit},
                                                 {"points", read_points},
                                                 {"series", read_series_file},
                                                 {"path", read_path_file},
-                                                {"reference", read_reference_file},
                                                 {"stl", read_stl_file},
                                                 {"bed", read_bed_file}}};
 

@@ -44,7 +44,6 @@ std::vector<std::string> inputs_of(std::string_view target) {
   add_files(project / "tests/fuzz/corpus" / target, "", inputs);
   if (target == "case") add_files(project / "cases", ".toml", inputs);
   if (target == "path") add_files(project / "cases/law", ".csv", inputs);
-  if (target == "reference") add_files(project / "validation", ".toml", inputs);
   return inputs;
 }
 

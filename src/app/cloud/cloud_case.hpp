@@ -9,8 +9,8 @@
 #include "app/case/prepared_case.hpp"
 #include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
+#include "app/case/studied_run.hpp"
 #include "app/cloud/cloud_analysis.hpp"
-#include "app/comparison/studied_runs.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {

@@ -9,7 +9,7 @@
 #include "app/case/prepared_case.hpp"
 #include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
-#include "app/comparison/studied_runs.hpp"
+#include "app/case/studied_run.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {

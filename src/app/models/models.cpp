@@ -79,22 +79,6 @@ const ModelEntry& model_of(const CaseFile& file) {
   throw InputError(problems);
 }
 
-StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found, ReadRuns& runs) {
-  const CaseFile& file = found.front().files.front();
-  const ModelEntry& model = model_of(file);
-  if (!model.study)
-    throw InputError({{.where = file.name(),
-                       .key = "model",
-                       .what = fmt::format("no study is of runs of the model \"{}\"", model.name)}});
-  std::vector<StudiedRuns::Ensemble> ensembles;
-  for (const FoundEnsemble& e : found) {
-    ensembles.push_back({e.case_name, e.variant, {}});
-    for (std::size_t n = 0; n < e.folders.size(); ++n)
-      ensembles.back().runs.push_back(model.study(e.files[n], e.folders[n], runs));
-  }
-  return StudiedRuns(std::move(ensembles));
-}
-
 PreparedCase prepare_case(const CaseFile& file) {
   return model_of(file).prepare(file);
 }

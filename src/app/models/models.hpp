@@ -12,7 +12,7 @@
 #include "app/case/prepared_case.hpp"
 #include "app/case/read_runs.hpp"
 #include "app/case/scene.hpp"
-#include "app/comparison/studied_runs.hpp"
+#include "app/case/studied_run.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "numerics/named_value.hpp"
@@ -49,10 +49,6 @@ std::span<const ModelEntry> models();
 
 /// The model that a case names. \throws InputError if it names none, or one that there is not, with the nearest
 const ModelEntry& model_of(const CaseFile& file);
-
-/// Reads runs, all of one model, at least one ensemble. \throws FileError; \throws InputError if no study is of their
-/// model
-StudiedRuns read_studied_runs(const std::vector<FoundEnsemble>& found, ReadRuns& runs);
 
 /// Reads a case: the model it names, then all parameters of model and run.
 /// \throws InputError with every problem; where there is no such model, with that alone

@@ -8,11 +8,9 @@
 
 #include "analysis/hopper.hpp"
 #include "analysis/measure.hpp"
-#include "app/comparison/evaluation.hpp"
-#include "app/comparison/found_runs.hpp"
-#include "app/comparison/project.hpp"
 #include "app/models/models.hpp"
 #include "app/models/symbols.hpp"
+#include "app/project/project.hpp"
 #include "app/report/curves.hpp"
 #include "base/error.hpp"
 #include "base/version.hpp"
@@ -32,7 +30,6 @@ using Json = nlohmann::ordered_json;
 /// Viewers side by side; a report of more runs shows the particles of the first ones.
 constexpr std::size_t most_viewers = 4;
 constexpr std::uintmax_t most_bytes_of_pictures = 4'000'000;
-constexpr std::array<std::string_view, 2> papers{"niiya2020", "yuu2011"};
 
 /// What is no measure of the run but of the machine that it ran on.
 struct MachineText {
@@ -156,6 +153,17 @@ std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& fold
   return kept;
 }
 
+/// null: no number.
+std::vector<double> numbers_of(const Json& values) {
+  std::vector<double> numbers;
+  for (const Json& value : values) numbers.push_back(value.is_null() ? std::nan("") : value.get<double>());
+  return numbers;
+}
+
+bool is_run(const std::filesystem::path& folder) {
+  return std::filesystem::exists(RunFolder(folder).manifest()) && std::filesystem::exists(RunFolder(folder).summary());
+}
+
 }  // namespace
 
 void write_report(const ReportRequest& request, const std::filesystem::path& path, ReadRuns& runs) {
@@ -173,18 +181,48 @@ void write_report(const ReportRequest& request, const std::filesystem::path& pat
   write_report(path, content);
 }
 
-ReportEntry entry_of_run(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
-  if (!std::filesystem::exists(RunFolder(path).manifest()) || !std::filesystem::exists(RunFolder(path).summary()))
-    throw FileError(path.string(), "is not a Talus run folder (manifest.json or summary.json missing)");
-  return {.folder = path, .name = path.filename().string()};
+ReportRequest request_of(const std::string& json) {
+  const Json read = Json::parse(json);
+  ReportRequest request;
+  for (const Json& run : read.at("runs")) {
+    ReportEntry entry{
+        .folder = run.at("folder").get<std::string>(), .name = run.at("name"), .members = run.at("members")};
+    for (const Json& band : run.at("bands")) {
+      Series table{.names = band.at("names"), .units = band.at("units"), .columns = {}};
+      for (const Json& column : band.at("columns")) table.columns.push_back(numbers_of(column));
+      entry.bands.emplace_back(band.at("name"), std::move(table));
+    }
+    for (const Json& q : run.at("quantities"))
+      entry.quantities.push_back({q.at("name"), q.at("unit"), numbers_of(q.at("values"))});
+    request.runs.push_back(std::move(entry));
+  }
+  for (const Json& comparison : read.at("comparisons")) request.comparisons.push_back(comparison.dump());
+  return request;
+}
+
+ReportRequest gathered(const std::filesystem::path& folder) {
+  const auto python = find_python({"numpy", "h5py"});
+  if (!python && is_run(folder)) {
+    const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
+    return {.runs = {{.folder = path, .name = path.filename().string()}}};
+  }
+  if (!python)
+    throw FileError(folder.string(),
+                    "runs together take python3 with numpy, h5py and the package talus (Debian: "
+                    "python3-numpy, python3-h5py, python3-talus)");
+  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "no such folder");
+  ReportRequest request = request_of(said_by_package(*python, "talus.lab.gathered", {folder.string()}, folder));
+  if (request.runs.empty())
+    throw InputError({{.where = folder.string(),
+                       .what = "holds no finished run",
+                       .allowed = "the folder of a run, of an ensemble, or of reproduce"}});
+  return request;
 }
 
 void write_run_report(const std::filesystem::path& folder, ReadRuns& runs) {
-  write_report({.title = title_of_run(folder),
-                .runs = {entry_of_run(folder)},
-                .comparisons = published_comparisons(folder, runs)},
-               RunFolder(folder).report(), runs);
+  ReportRequest request = gathered(folder);
+  request.title = title_of_run(folder);
+  write_report(request, RunFolder(folder).report(), runs);
 }
 
 std::string title_of_run(const std::filesystem::path& folder) {
@@ -192,22 +230,7 @@ std::string title_of_run(const std::filesystem::path& folder) {
   const CaseFile resolved = CaseFile::from_text(read_manifest(run.manifest()).case_text, run.manifest().string());
   const CaseEntry* const title = resolved.find("title");
   const auto* const text = title ? std::get_if<std::string>(&title->value.value) : nullptr;
-  return text && !text->empty() ? *text : entry_of_run(folder).name;
-}
-
-std::vector<std::string> published_comparisons(const std::filesystem::path& folder, ReadRuns& runs) {
-  std::vector<std::string> comparisons;
-  for (const std::string_view paper : papers) {
-    const std::filesystem::path file = std::filesystem::path("validation") / paper / "reference.toml";
-    const auto project = find_project(file);
-    if (!project) continue;
-    const Reference reference = read_reference((*project / file).string());
-    const std::vector<FoundEnsemble> found = ensembles_of(folder, reference);
-    if (found.empty()) continue;
-    const std::vector<EvaluatedRow> rows = evaluate(reference, found, read_studied_runs(found, runs), Faults::note);
-    comparisons.push_back(to_json(reference, rows, found, folder));
-  }
-  return comparisons;
+  return text && !text->empty() ? *text : (folder.has_filename() ? folder : folder.parent_path()).filename().string();
 }
 
 }  // namespace talus::app

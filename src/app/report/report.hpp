@@ -30,11 +30,19 @@ struct ReportEntry {
 };
 
 struct ReportRequest {
-  std::string title;
-  std::vector<ReportEntry> runs;         ///< at least one
-  std::vector<std::string> comparisons;  ///< as to_json() gives them (evaluation.hpp)
+  std::string title = {};
+  std::vector<ReportEntry> runs = {};         ///< at least one
+  std::vector<std::string> comparisons = {};  ///< JSON, as talus.evaluation gives them
   ReportLimits limits = {};
 };
+
+/// What a page shows, from JSON as talus.lab.gathered gives it.
+ReportRequest request_of(const std::string& json);
+
+/// The runs at or below a folder, those of an ensemble together, and their comparison with the papers of validation/
+/// that they are about: what talus.lab.gathered says; of a run without such a Python the run alone.
+/// \throws FileError; InputError if there is no run that is done
+ReportRequest gathered(const std::filesystem::path& folder);
 
 /// \throws FileError; InputError if a manifest's case cannot be read
 void write_report(const ReportRequest& request, const std::filesystem::path& path, ReadRuns& runs);
@@ -45,12 +53,5 @@ void write_run_report(const std::filesystem::path& folder, ReadRuns& runs);
 
 /// The title of its case, or the name of its folder. \throws FileError
 std::string title_of_run(const std::filesystem::path& folder);
-
-/// A run as an entry. \throws FileError if there is none
-ReportEntry entry_of_run(const std::filesystem::path& folder);
-
-/// The comparison of the runs below a folder with the papers of validation/ that they are about. Rows that a run is too
-/// short for have no value and say so. \throws FileError, InputError if a reference cannot be read
-std::vector<std::string> published_comparisons(const std::filesystem::path& folder, ReadRuns& runs);
 
 }  // namespace talus::app

@@ -41,7 +41,7 @@ UsageOption described(const CLI::Option& option) {
 void describe(const CLI::App& app, const std::string& name, std::vector<UsageCommand>& all) {
   UsageCommand command{.name = name, .text = app.get_description(), .footer = app.get_footer()};
   for (const CLI::Option* option : app.get_options()) command.options.push_back(described(*option));
-  const auto below = app.get_subcommands([](const CLI::App*) { return true; });
+  const auto below = app.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); });
   for (const CLI::App* sub : below) command.commands.push_back(sub->get_name());
   all.push_back(std::move(command));
   for (const CLI::App* sub : below) describe(*sub, name.empty() ? sub->get_name() : name + " " + sub->get_name(), all);
