@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "analysis/statistics.hpp"
-#include "numerics/sph/cubic_spline_line.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus {
 

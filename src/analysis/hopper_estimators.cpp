@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analysis/discharge.hpp"
-#include "analysis/displacement.hpp"
+#include "analysis/particle_field.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 

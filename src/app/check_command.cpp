@@ -17,16 +17,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
 #include "app/picture/options.hpp"
-#include "app/runs/check_folder.hpp"
-#include "base/memory.hpp"
-#include "base/terminal.hpp"
-#include "io/convert_value.hpp"
+#include "app/runs/run_case.hpp"
+#include "base/system.hpp"
+#include "base/text.hpp"
+#include "io/parameter_value.hpp"
 #include "io/parameter_writer.hpp"
-#include "numerics/warning.hpp"
+#include "numerics/run_record.hpp"
 #include "run/progress.hpp"
 
 namespace talus::app {

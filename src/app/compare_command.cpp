@@ -10,8 +10,8 @@
 #include "app/comparison/overlay.hpp"
 #include "app/comparison/project.hpp"
 #include "app/models/models.hpp"
-#include "base/terminal.hpp"
-#include "io/atomic_file.hpp"
+#include "base/text.hpp"
+#include "io/file.hpp"
 
 namespace talus::app {
 

@@ -8,7 +8,6 @@
 #include <memory>
 #include <thread>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/comparison/python.hpp"
 #include "app/ensemble/plan.hpp"
@@ -20,9 +19,9 @@
 #include "app/models/models.hpp"
 #include "app/report/report.hpp"
 #include "base/error.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "io/file_list.hpp"
-#include "io/report/page.hpp"
+#include "io/report_page.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 

@@ -7,13 +7,11 @@
 #include <memory>
 #include <optional>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/comparison/project.hpp"
 #include "app/comparison/python.hpp"
 #include "app/law/law_case.hpp"
-#include "app/law/law_results.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "io/file_list.hpp"
 
 namespace talus::app {

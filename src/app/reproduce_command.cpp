@@ -5,7 +5,6 @@
 #include <memory>
 #include <thread>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/reproduction/study.hpp"
 

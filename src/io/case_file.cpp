@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/checksum.hpp"
-#include "io/descriptor.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 

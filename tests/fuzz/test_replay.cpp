@@ -13,7 +13,7 @@
 
 #include "base/random.hpp"
 #include "fuzz/targets.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::fuzz {
 namespace {

@@ -7,13 +7,11 @@
 #include <cmath>
 
 #include "app/case/model_case.hpp"
-#include "app/case/stopwatch.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "models/air/model.hpp"
-#include "models/air/regime.hpp"
 
 namespace talus::app {
 

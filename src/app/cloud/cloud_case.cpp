@@ -11,17 +11,13 @@
 #include <utility>
 
 #include "analysis/fronts.hpp"
-#include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
-#include "app/case/stopwatch.hpp"
 #include "app/cloud/cloud_analysis.hpp"
-#include "app/cloud/cloud_pictures.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
-#include "models/cloud/forecast.hpp"
 #include "models/cloud/mobility_sum.hpp"
 #include "models/cloud/model.hpp"
-#include "models/cloud/stability.hpp"
+#include "models/cloud/parameters.hpp"
 
 namespace talus::app {
 

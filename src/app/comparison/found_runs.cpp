@@ -6,9 +6,8 @@
 
 #include "base/error.hpp"
 #include "base/unit.hpp"
-#include "io/manifest.hpp"
 #include "io/run_folder.hpp"
-#include "io/summary.hpp"
+#include "io/run_json.hpp"
 
 namespace talus::app {
 

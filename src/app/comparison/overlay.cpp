@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include "app/comparison/python.hpp"
-#include "base/terminal.hpp"
-#include "io/manifest.hpp"
+#include "base/text.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/run_folder.hpp"
-#include "io/summary.hpp"
+#include "io/run_json.hpp"
 
 namespace talus::app {
 

@@ -8,8 +8,8 @@
 
 #include "app/comparison/project.hpp"
 #include "base/error.hpp"
-#include "base/program.hpp"
-#include "base/terminal.hpp"
+#include "base/system.hpp"
+#include "base/text.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"
 

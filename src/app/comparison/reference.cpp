@@ -14,9 +14,9 @@
 #include "analysis/measure.hpp"
 #include "app/comparison/project.hpp"
 #include "base/error.hpp"
-#include "base/nearest.hpp"
+#include "base/text.hpp"
 #include "base/unit.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 #include "io/parameter_value.hpp"
 
 namespace talus::app {

@@ -11,7 +11,7 @@
 #include "analysis/measure.hpp"
 #include "app/comparison/python.hpp"
 #include "base/error.hpp"
-#include "base/nearest.hpp"
+#include "base/text.hpp"
 
 namespace talus::app {
 

@@ -21,7 +21,7 @@
 #include "models/continuum/setup/time_scale.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
-#include "numerics/surface/section.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus::app {
 

@@ -9,7 +9,7 @@
 
 #include "analysis/hopper.hpp"
 #include "models/continuum/setup/parameters.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "models/continuum/setup/parameters.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus::app {

@@ -7,8 +7,8 @@
 #include "app/ensemble/statistics.hpp"
 #include "app/runs/run_case.hpp"
 #include "base/error.hpp"
-#include "io/manifest.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 
 namespace talus::app {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/program.hpp"
-#include "io/atomic_file.hpp"
+#include "base/system.hpp"
+#include "io/file.hpp"
 #include "io/file_list.hpp"
 #include "run/interrupt.hpp"
 #include "run/jobs.hpp"

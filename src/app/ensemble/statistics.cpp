@@ -10,11 +10,11 @@
 
 #include "analysis/statistics.hpp"
 #include "app/ensemble/schedule.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "io/series.hpp"
-#include "io/summary.hpp"
 
 namespace talus::app {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/ensemble/plan.hpp"
-#include "numerics/series.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::app {
 

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/nearest.hpp"
+#include "base/text.hpp"
 #include "base/unit.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::app {
 

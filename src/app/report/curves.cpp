@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/report/curves.hpp"
+#include "app/report/report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "analysis/discharge.hpp"
 #include "analysis/wall_loads.hpp"
 #include "io/file_list.hpp"
-#include "io/report/packed.hpp"
+#include "io/report_page.hpp"
 #include "io/series.hpp"
 
 namespace talus::app {

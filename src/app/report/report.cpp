@@ -12,16 +12,13 @@
 #include "app/comparison/found_runs.hpp"
 #include "app/comparison/project.hpp"
 #include "app/models/models.hpp"
-#include "app/models/symbols.hpp"
-#include "app/report/curves.hpp"
 #include "base/error.hpp"
-#include "base/version.hpp"
-#include "io/manifest.hpp"
+#include "base/system.hpp"
 #include "io/parameter_writer.hpp"
-#include "io/report/page.hpp"
+#include "io/report_page.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "io/series.hpp"
-#include "io/summary.hpp"
 
 namespace talus::app {
 

@@ -13,7 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/unit.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::app {
 

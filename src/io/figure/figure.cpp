@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::figure {
 

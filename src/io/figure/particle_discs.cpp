@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "io/figure/particle_layers.hpp"
-#include "io/figure/stipple.hpp"
 
 namespace talus::figure {
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/air/regime.hpp"
-
 namespace talus::air {
 
 namespace {

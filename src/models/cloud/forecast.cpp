@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/cloud/forecast.hpp"
+#include "models/cloud/model.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "models/cloud/stability.hpp"
-#include "numerics/chebyshev.hpp"
-#include "numerics/dormand_prince.hpp"
+#include "models/cloud/parameters.hpp"
+#include "numerics/runge_kutta.hpp"
 
 namespace talus::cloud {
 

@@ -7,10 +7,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "base/compiled_for.hpp"
+#include "base/instruction_set.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
-#include "physics/hydrodynamics/rotne_prager.hpp"
-#include "physics/hydrodynamics/zuk.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 

@@ -7,8 +7,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "models/cloud/spectral_sum/accuracy.hpp"
-#include "physics/hydrodynamics/buoyant_weight.hpp"
+#include "models/cloud/spectral_sum.hpp"
+#include "numerics/runge_kutta.hpp"
+#include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::cloud {
 
@@ -183,6 +184,18 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
                      "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart",
                      s.contact_ratio < 1});
   return lines;
+}
+
+double contact_rate(const Parameters& p) {
+  if (!p.contact.enabled) return 0;
+  const double lattice = p.fluid.mobility == hydrodynamics::Mobility::none ? 6.0 : 1.5;
+  return lattice * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
+}
+
+double longest_stable_step(const Parameters& p, double rate) {
+  if (p.integration.method == Method::dormand_prince) return dormand_prince::stability / rate;
+  constexpr int most_stages = 250;
+  return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, stage_damping).stability / rate;
 }
 
 }  // namespace talus::cloud

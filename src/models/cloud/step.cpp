@@ -8,11 +8,9 @@
 #include <functional>
 #include <string>
 
-#include "models/cloud/stability.hpp"
-#include "models/cloud/stiffness.hpp"
-#include "models/cloud/trial.hpp"
+#include "models/cloud/parameters.hpp"
 #include "numerics/cell_grid.hpp"
-#include "numerics/dormand_prince.hpp"
+#include "numerics/runge_kutta.hpp"
 
 namespace talus::cloud {
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "physics/contact/linear_spring.hpp"
-#include "physics/hydrodynamics/buoyant_weight.hpp"
 #include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::cloud {

@@ -13,8 +13,8 @@
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"
 #include "models/continuum/setup/time_scale.hpp"
-#include "numerics/snapshot_of.hpp"
-#include "numerics/whole.hpp"
+#include "numerics/field.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::continuum {
 

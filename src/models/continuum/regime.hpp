@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "models/continuum/setup/parameters.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::continuum {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Images in walls that are no layers, and who sees them.
-#include "numerics/geometry/mirrors.hpp"
+#include "numerics/geometry/domain.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/surface/triangle_edges.hpp"
+#include "numerics/surface/triangle.hpp"
 
 namespace talus {
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "base/logarithm.hpp"
+#include "base/elementary.hpp"
 #include "base/tensor.hpp"
-#include "physics/granular/rotation.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::granular {
 

@@ -30,13 +30,12 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
+#include "physics/granular/kinematics.hpp"
 #include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
-#include "physics/granular/rotation.hpp"
 
 namespace talus::granular {
 

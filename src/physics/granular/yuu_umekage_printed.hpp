@@ -7,7 +7,7 @@
 /// with A1 to A4 at a = |e|, and no stress at all where tau = 0. The answer depends on the axes.
 /// Source: Yuu & Umekage 2011, Eqs 1-8, Appendix B; the unloading from section 2.1 in words.
 /// Range: slow, dense flow of 200 um glass beads near a packing of 0.6, |e| <= 0.035.
-/// deviates: e = -Ea (almansi_strain.hpp). |e_xy| + |e_xz| for the printed e_xy + e_xz, which breaks the mirror
+/// deviates: e = -Ea (kinematics.hpp). |e_xy| + |e_xz| for the printed e_xy + e_xz, which breaks the mirror
 /// symmetry (option). max(0, .) for the printed |.|, which would let shear strength grow in dilation. A5 = A6 = 0.
 ///
 /// Unloading. When the smoothed increment of the main strain turns negative an unloading process begins: stress falls
@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
+#include "physics/granular/kinematics.hpp"
 #include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
 

@@ -8,10 +8,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "io/manifest.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "io/scratch_folder.hpp"
-#include "io/summary.hpp"
 
 namespace talus::app {
 namespace {

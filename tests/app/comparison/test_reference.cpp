@@ -10,8 +10,8 @@
 
 #include "app/models/models.hpp"
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
 #include "io/case_file.hpp"
+#include "io/file.hpp"
 #include "io/scratch_folder.hpp"
 
 namespace talus::app {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "numerics/sph/cubic_spline.hpp"
-#include "physics/sph/artificial_viscosity.hpp"
+#include "physics/sph/pair_terms.hpp"
 
 namespace talus::continuum {
 

@@ -14,9 +14,9 @@
 #include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "models/continuum/setup/material_names.hpp"
-#include "numerics/surface/mended_surface.hpp"
-#include "numerics/surface/rims.hpp"
 #include "numerics/surface/surface.hpp"
+#include "numerics/surface/surface_faults.hpp"
+#include "numerics/surface/triangle.hpp"
 
 namespace talus::continuum {
 
