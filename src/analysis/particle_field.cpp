@@ -13,7 +13,7 @@ namespace talus {
 
 namespace {
 
-double largest_support(const Particles& particles) {
+double max_support(const Particles& particles) {
   double h = 0;
   for (const double length : particles.smoothing_length) {
     if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument("a smoothing length is not above 0");
@@ -53,7 +53,7 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
 ParticleField::ParticleField(Particles particles, Domain domain)
     : particles_(std::move(particles)),
       domain_(std::move(domain)),
-      reach_(largest_support(particles_)),
+      reach_(max_support(particles_)),
       images_(identity_and_images(domain_, reach_, !particles_.position.empty())),
       grid_(particles_.position, reach_) {
   low_ = high_ = particles_.position.empty() ? Vector3{} : particles_.position[0];

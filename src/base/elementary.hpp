@@ -9,6 +9,14 @@
 
 namespace talus {
 
+/// Horner's scheme. \param first, others coefficients, that of the highest power first
+template <class Number, class... Others>
+TALUS_INLINE Number polynomial(const Number& x, double first, Others... others) {
+  Number sum = first;
+  ((sum = sum * x + others), ...);
+  return sum;
+}
+
 /// exp(-x) for x >= -700, relative error below 4e-16; from x = 700 on exp(-700), 1e-304. With x = n log 2 + r, |r| <=
 /// log(2)/2, it is 2^-n times the series of exp(-r) to r^13/13! (the next term is below 5e-18).
 TALUS_INLINE double exp_of_negative(double x) {
@@ -17,20 +25,8 @@ TALUS_INLINE double exp_of_negative(double x) {
   const double most = x < 700 ? x : 700;
   const double shifted = most * log2_e + rounding, n = shifted - rounding;
   const double r = (n * log_2_high - most) + n * log_2_low;
-  double sum = 1.0 / 6227020800;
-  sum = sum * r + 1.0 / 479001600;
-  sum = sum * r + 1.0 / 39916800;
-  sum = sum * r + 1.0 / 3628800;
-  sum = sum * r + 1.0 / 362880;
-  sum = sum * r + 1.0 / 40320;
-  sum = sum * r + 1.0 / 5040;
-  sum = sum * r + 1.0 / 720;
-  sum = sum * r + 1.0 / 120;
-  sum = sum * r + 1.0 / 24;
-  sum = sum * r + 1.0 / 6;
-  sum = sum * r + 1.0 / 2;
-  sum = sum * r + 1.0 / 1;
-  sum = sum * r + 1;
+  const double sum = polynomial(r, 1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800, 1.0 / 362880,
+                                1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6, 1.0 / 2, 1.0, 1.0);
   const std::uint64_t exponent =
       1023 - (__builtin_bit_cast(std::uint64_t, shifted) - __builtin_bit_cast(std::uint64_t, rounding));
   return sum * __builtin_bit_cast(double, exponent << 52);
@@ -38,21 +34,9 @@ TALUS_INLINE double exp_of_negative(double x) {
 
 /// (1 - exp(-x))/x for 0 <= x <= 1/2, 1 at 0: its series to x^14/15! (the next term is below 1e-18).
 TALUS_INLINE double mean_of_short_decay(double x) {
-  double sum = 1.0 / 1307674368000;
-  sum = 1.0 / 87178291200 - x * sum;
-  sum = 1.0 / 6227020800 - x * sum;
-  sum = 1.0 / 479001600 - x * sum;
-  sum = 1.0 / 39916800 - x * sum;
-  sum = 1.0 / 3628800 - x * sum;
-  sum = 1.0 / 362880 - x * sum;
-  sum = 1.0 / 40320 - x * sum;
-  sum = 1.0 / 5040 - x * sum;
-  sum = 1.0 / 720 - x * sum;
-  sum = 1.0 / 120 - x * sum;
-  sum = 1.0 / 24 - x * sum;
-  sum = 1.0 / 6 - x * sum;
-  sum = 1.0 / 2 - x * sum;
-  return 1 - x * sum;
+  return polynomial(-x, 1.0 / 1307674368000, 1.0 / 87178291200, 1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800,
+                    1.0 / 3628800, 1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120, 1.0 / 24, 1.0 / 6,
+                    1.0 / 2, 1.0);
 }
 
 /// log(x) of a normal x > 0, absolute error below 3e-16 max(1, |log x|); about -709 for 0 and subnormal numbers. With
@@ -67,16 +51,8 @@ TALUS_INLINE double log_of(double x) {
   const double n = __builtin_bit_cast(double, biased | __builtin_bit_cast(std::uint64_t, whole)) - (whole + 1023);
   const double m = __builtin_bit_cast(double, bits - (biased << 52) + one);
   const double s = (m - 1) / (m + 1), t = s * s;
-  double sum = 2.0 / 21;
-  sum = sum * t + 2.0 / 19;
-  sum = sum * t + 2.0 / 17;
-  sum = sum * t + 2.0 / 15;
-  sum = sum * t + 2.0 / 13;
-  sum = sum * t + 2.0 / 11;
-  sum = sum * t + 2.0 / 9;
-  sum = sum * t + 2.0 / 7;
-  sum = sum * t + 2.0 / 5;
-  sum = sum * t + 2.0 / 3;
+  const double sum =
+      polynomial(t, 2.0 / 21, 2.0 / 19, 2.0 / 17, 2.0 / 15, 2.0 / 13, 2.0 / 11, 2.0 / 9, 2.0 / 7, 2.0 / 5, 2.0 / 3);
   return n * log_2_high + (2 * s + (s * (t * sum) + n * log_2_low));
 }
 
@@ -91,9 +67,7 @@ TALUS_INLINE double power_of(double x, double p) {
 template <class Number>
 TALUS_INLINE Number log_near_one(Number x) {
   const Number s = (x - 1.0) / (x + 1.0), t = s * s;
-  constexpr double terms[] = {1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3};
-  Number sum = 1.0 / 17;
-  for (const double term : terms) sum = sum * t + term;
+  const Number sum = polynomial(t, 1.0 / 17, 1.0 / 15, 1.0 / 13, 1.0 / 11, 1.0 / 9, 1.0 / 7, 1.0 / 5, 1.0 / 3);
   const Number near = 2.0 * (s + s * (t * sum));
   const auto within = x > Number(0.8) && x < Number(1.25);
   if (all(within)) return near;

@@ -14,7 +14,7 @@ namespace talus {
 
 namespace {
 
-constexpr std::size_t usual_width = 100, least_width = 40;
+constexpr std::size_t usual_width = 100, min_width = 40;
 
 /// A character of UTF-8 at the front of a text.
 struct Character {
@@ -77,7 +77,7 @@ std::size_t terminal_width() {
   winsize size{};
   if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
     return usual_width;
-  return std::max<std::size_t>(size.ws_col, least_width);
+  return std::max<std::size_t>(size.ws_col, min_width);
 }
 
 std::string wrapped(std::string_view text, std::size_t width, std::size_t indent, std::size_t used) {

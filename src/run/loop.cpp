@@ -26,7 +26,7 @@ namespace {
 /// Detects a run whose steps have become so short that it would never end.
 class StepGuard {
  public:
-  static constexpr double most_fall = 100;        ///< longest step of the phase over one that is too short
+  static constexpr double max_fall = 100;         ///< longest step of the phase over one that is too short
   static constexpr std::uint64_t patience = 100;  ///< steps in a row: an impact may ask for some
 
   /// To be called for every step, of length `step`, s. \param begun whether the run's time origin had come when it
@@ -51,7 +51,7 @@ std::optional<std::string> StepGuard::take(double step, bool begun) {
     begun_ = begun;
   }
   longest_ = std::max(longest_, step);
-  short_ = most_fall * step < longest_ ? short_ + 1 : 0;
+  short_ = max_fall * step < longest_ ? short_ + 1 : 0;
   if (short_ < patience) return std::nullopt;
   return fmt::format("the time step has fallen from {:.3g} s to {:.3g} s, {} steps in a row: the run would not end",
                      longest_, step, short_);

@@ -27,8 +27,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Viewers side by side; a report of more runs shows the particles of the first ones.
-constexpr std::size_t most_viewers = 4;
-constexpr std::uintmax_t most_bytes_of_pictures = 4'000'000;
+constexpr std::size_t max_viewers = 4;
+constexpr std::uintmax_t max_bytes_of_pictures = 4'000'000;
 constexpr std::array<std::string_view, 2> papers{"niiya2020", "yuu2011"};
 
 /// What is no measure of the run but of the machine that it ran on.
@@ -146,7 +146,7 @@ std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& fold
   std::vector<std::filesystem::path> kept;
   std::uintmax_t bytes = 0;
   for (const auto& path : files_of_run(folder, "pictures", ".png"))
-    if (bytes + std::filesystem::file_size(path) <= most_bytes_of_pictures) {
+    if (bytes + std::filesystem::file_size(path) <= max_bytes_of_pictures) {
       bytes += std::filesystem::file_size(path);
       kept.push_back(path);
     }
@@ -160,8 +160,7 @@ void write_report(const ReportRequest& request, const std::filesystem::path& pat
   Json header{{"title", request.title}, {"version", program_version()}, {"revision", program_revision()}};
   header["runs"] = Json::array();
   for (const ReportEntry& entry : request.runs)
-    header["runs"].push_back(
-        json_of(entry, header["runs"].size() < most_viewers, request.limits, content.blocks, runs));
+    header["runs"].push_back(json_of(entry, header["runs"].size() < max_viewers, request.limits, content.blocks, runs));
   header["definitions"] = definitions_of(header["runs"]);
   header["comparisons"] = Json::array();
   for (const std::string& comparison : request.comparisons) header["comparisons"].push_back(Json::parse(comparison));

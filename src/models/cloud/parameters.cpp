@@ -67,7 +67,7 @@ double moment(const Parameters::Particles& p, int power) {
 constexpr double jamming_plane = 0.54;
 constexpr double jamming_space = 0.37;
 
-constexpr double most_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
+constexpr double max_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
 
 }  // namespace
 
@@ -107,9 +107,9 @@ std::vector<Problem> check(const Parameters& p) {
     add("slope.enabled", "false, but a dome stands on the slope", "true, or shape \"ball\"");
 
   const auto check_extent = [&](const char* key, const std::optional<double>& length) {
-    if (length && grains.radius > 0 && !(*length <= most_radii * grains.radius))
+    if (length && grains.radius > 0 && !(*length <= max_radii * grains.radius))
       add(key, fmt::format("{:.4g} m is {:.3g} times particles.radius", *length, *length / grains.radius),
-          fmt::format("at most {:.0e} times", most_radii));
+          fmt::format("at most {:.0e} times", max_radii));
   };
   check_extent("particles.size", grains.size);
   check_extent("particles.length", grains.length);
@@ -192,10 +192,10 @@ double contact_rate(const Parameters& p) {
   return lattice * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
 }
 
-double longest_stable_step(const Parameters& p, double rate) {
+double max_stable_step(const Parameters& p, double rate) {
   if (p.integration.method == Method::dormand_prince) return dormand_prince::stability / rate;
-  constexpr int most_stages = 250;
-  return chebyshev_stages(p.integration.method == Method::euler ? 1 : most_stages, stage_damping).stability / rate;
+  constexpr int max_stages = 250;
+  return chebyshev_stages(p.integration.method == Method::euler ? 1 : max_stages, stage_damping).stability / rate;
 }
 
 }  // namespace talus::cloud

@@ -216,7 +216,7 @@ double contact_rate(const Parameters& parameters);
 
 /// The longest step with which a rate is stable, s: of as many stages as Chebyshev's may be, of Dormand and Prince's,
 /// or of the one of explicit Euler. \param rate 1/s, > 0
-double longest_stable_step(const Parameters& parameters, double rate);
+double max_stable_step(const Parameters& parameters, double rate);
 
 }  // namespace talus::cloud
 

@@ -84,18 +84,18 @@ class SpectralSum {
 
   /// The distance beyond which pairs go by the grid alone. The lattice of the grid is fixed in space by it: the bits
   /// depend on the cut-off, the places and the order, and on no other history.
-  /// \param cutoff m, > 0, at least least_cutoff()
+  /// \param cutoff m, > 0, at least min_cutoff()
   void set_cutoff(double cutoff);
   double cutoff() const;
-  double least_cutoff() const;
+  double min_cutoff() const;
 
   /// As PairSum's, within the error above, and bitwise identical for any number of threads.
   /// \returns false, with velocities left as they were, if the spheres are so far apart that a grid over them would
-  ///          have more than `most_nodes`
+  ///          have more than `max_nodes`
   bool velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                   std::span<Vector3> velocity);
 
-  static constexpr double most_nodes = 8e6;
+  static constexpr double max_nodes = 8e6;
 
   class Engine;
 

@@ -36,7 +36,7 @@ NumericalError::Report step_limit(const Parameters& parameters, const State& sta
 ///         the least step; the state is then that of the last good step
 void advance(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
-inline constexpr double farthest_move = 1e4;  // of a grain in a step, in mean radii: the error control refuses less
+inline constexpr double max_move = 1e4;  // of a grain in a step, in mean radii: the error control refuses less
 
 /// What a trial step left in the workspace (of the state it changes counters alone), and whether it may stand.
 struct Trial {

@@ -102,7 +102,7 @@ bool all_finite(ThreadTeam& team, std::span<const Vector3> v) {
 
 Trial try_step(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, double step, double rate) {
   const bool pair = p.integration.method == Method::dormand_prince;
-  const double farthest = farthest_move * p.particles.radius;
+  const double farthest = max_move * p.particles.radius;
   ChebyshevStages scheme;
   if (!pair)
     scheme = chebyshev_stages(p.integration.method == Method::euler ? 1 : stages_for(step * rate, stage_damping),

@@ -63,7 +63,7 @@ class TriangleTree {
       std::uint32_t node;
       double square;
     };
-    std::array<Entry, most_levels> stack;
+    std::array<Entry, max_levels> stack;
     std::size_t size = 0;
     stack[size++] = {0, square_distance(nodes_[0], x)};
     while (size > 0) {
@@ -89,7 +89,7 @@ class TriangleTree {
   void along_line(const Vector3& a, const Vector3& b, Visit&& visit) const {
     if (nodes_.empty()) return;
     const Line line(a, b, margin_);
-    std::array<std::uint32_t, most_levels> stack;
+    std::array<std::uint32_t, max_levels> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
@@ -112,7 +112,7 @@ class TriangleTree {
   void slabs_within(const Vector3& low, const Vector3& high, double thin, double wide, Some&& of_some,
                     One&& of_one) const {
     if (nodes_.empty()) return;
-    std::array<std::uint32_t, most_levels> stack;
+    std::array<std::uint32_t, max_levels> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
@@ -140,7 +140,7 @@ class TriangleTree {
   }
 
  private:
-  static constexpr std::size_t leaf = 4, most_levels = 64;
+  static constexpr std::size_t leaf = 4, max_levels = 64;
   static constexpr double rounding = 1e-12;
 
   /// Triangles order_[begin] to order_[end - 1]. The first child follows its parent.

@@ -65,7 +65,7 @@ DruckerPrager::DruckerPrager(const Parameters& parameters, double grain_density)
       shear_(shear_table(parameters.fits.functions())),
       inverse_grain_density_(1 / grain_density) {
   const Fits& fits = parameters.fits;
-  if (!(fits.largest_deviator <= largest_fitted_strain))
+  if (!(fits.largest_deviator <= max_fitted_strain))
     throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
   const FittedFunctions& functions = fits.functions();
   const double lambda = fits.scale * functions.a2.piece[0].c0;

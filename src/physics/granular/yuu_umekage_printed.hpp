@@ -172,7 +172,7 @@ class YuuUmekagePrinted {
   /// k_u if stress unloads along its line.
   double sound_speed(double density) const;
   LawRange range() const {
-    return {.grain_diameter = fitted_diameter, .largest_pressure = largest_fitted_pressure(parameters_.fits)};
+    return {.grain_diameter = fitted_diameter, .largest_pressure = max_fitted_pressure(parameters_.fits)};
   }
   const Parameters& parameters() const { return parameters_; }
 
@@ -252,14 +252,14 @@ class YuuUmekagePrinted {
         (1.0 / old_tau) * old.stress + (parameters_.rule.unloading_stiffness * initial_[3]) * increment;
     ratio.xx = ratio.yy = ratio.zz = 0.0;
     const Number size = norm(ratio);
-    return with_shear(normal, (minimum(size, Number(largest_ratio_)) / maximum(size, Number(tiny))) * ratio);
+    return with_shear(normal, (minimum(size, Number(max_ratio_)) / maximum(size, Number(tiny))) * ratio);
   }
 
   Parameters parameters_;
   ContactMemory memory_;
   ComponentTable table_;
   double initial_[4];             // A1 to A4 at 0
-  double largest_ratio_;          // of |shear stresses| to tau: the largest A4 a within the range
+  double max_ratio_;              // of |shear stresses| to tau: the largest A4 a within the range
   double steepest_;               // M at f = 1, Pa
   double grain_density_;          // kg/m^3
   double inverse_grain_density_;  // m^3/kg
