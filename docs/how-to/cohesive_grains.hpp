@@ -13,7 +13,7 @@
 
 #include "base/tensor.hpp"
 #include "physics/granular/material_point.hpp"
-#include "physics/granular/rotation.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::granular {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/avalanche_numbers.hpp"
+#include "analysis/avalanche.hpp"
 #include "analysis/statistics.hpp"
 
 namespace talus {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "base/vector.hpp"
-#include "numerics/grid_snapshot.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus {

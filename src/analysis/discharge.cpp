@@ -185,11 +185,11 @@ double correlation_time(std::span<const double> values) {
 }
 
 double error_of_blocks(const Curve& cumulative, double length, double from, double to) {
-  constexpr double in_length = 4, times = 3, most_blocks = 10;
+  constexpr double in_length = 4, times = 3, max_blocks = 10;
   const Curve fine = mean_rates(cumulative, length / in_length, length / in_length, from, to);
   const double count = static_cast<double>(fine.value.size());
   const double block = std::max(times * correlation_time(fine.value), in_length);
-  const double blocks = std::min(most_blocks, std::floor(count / block));
+  const double blocks = std::min(max_blocks, std::floor(count / block));
   if (!(blocks >= static_cast<double>(fewest))) return Plateau::none;
   const double each = (to - from) / blocks;
   std::vector<double> means;

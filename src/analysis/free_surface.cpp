@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "analysis/statistics.hpp"
-#include "numerics/sph/cubic_spline_line.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus {
 
@@ -179,7 +179,7 @@ double HeapSlope::angle() const {
   return std::atan(std::abs(slope));
 }
 
-std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double least_length) {
+std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length) {
   const std::vector<double> z = smoothed(surface.z);
   std::vector<HeapSlope> slopes;
   for (std::size_t first = 0; first + 1 < z.size();) {
@@ -187,7 +187,7 @@ std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double least_leng
     std::size_t last = first;
     // A comparison with nan is false: gaps end a stretch.
     while (last + 1 < z.size() && (z[last + 1] - z[last]) * direction > 0) ++last;
-    if (surface.x[last] - surface.x[first] > least_length) slopes.push_back(fitted(surface, first, last));
+    if (surface.x[last] - surface.x[first] > min_length) slopes.push_back(fitted(surface, first, last));
     first = std::max(last, first + 1);
   }
   return slopes;
@@ -195,10 +195,10 @@ std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double least_leng
 
 ReposeAngle repose_angle(std::span<const HeapSlope> slopes, double middle) {
   ReposeAngle found{none, none, none, none};
-  double longest_left = 0, longest_right = 0;
+  double max_left = 0, max_right = 0;
   for (const HeapSlope& slope : slopes) {
     const bool is_left = 0.5 * (slope.from + slope.to) < middle;
-    double& longest = is_left ? longest_left : longest_right;
+    double& longest = is_left ? max_left : max_right;
     if (slope.length() > longest) {
       longest = slope.length();
       (is_left ? found.left : found.right) = slope.angle();

@@ -66,9 +66,9 @@ struct HeapSlope {
   double angle() const;  ///< against the horizontal, rad, >= 0
 };
 
-/// The slopes longer than `least_length` along x. Where they begin and end is decided on the 5-point mean of the
-/// heights (shorter near gaps and ends); the lines go through the heights themselves. \param least_length m
-std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double least_length);
+/// The slopes longer than `min_length` along x. Where they begin and end is decided on the 5-point mean of the
+/// heights (shorter near gaps and ends); the lines go through the heights themselves. \param min_length m
+std::vector<HeapSlope> heap_slopes(const FreeSurface& surface, double min_length);
 
 /// Angles of repose, rad; nan where there is no slope.
 struct ReposeAngle {

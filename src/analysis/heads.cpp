@@ -15,7 +15,7 @@ constexpr double reach = 4;     // mean radii
 constexpr double share = 0.25;  // of the largest number
 constexpr std::size_t least = 5;
 
-std::uint32_t largest_number(const Numbers& number, const GrainSet& grains) {
+std::uint32_t max_number(const Numbers& number, const GrainSet& grains) {
   std::uint32_t largest = 0;
   for (const std::uint32_t i : grains) largest = std::max(largest, number[i]);
   return largest;
@@ -43,7 +43,7 @@ std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_
   const double limit = share * *std::max_element(number.begin(), number.end());
   std::vector<bool> candidate(position.size(), false);
   for (const GrainSet& part : links.connected_sets(std::vector<bool>(position.size(), true))) {
-    const std::uint32_t largest = largest_number(number, part);
+    const std::uint32_t largest = max_number(number, part);
     if (largest <= limit) continue;
     for (const std::uint32_t i : part) candidate[i] = number[i] > share * largest;
   }

@@ -13,12 +13,12 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/band_loads.hpp"
 #include "analysis/free_surface.hpp"
 #include "analysis/granular_state.hpp"
 #include "analysis/measure.hpp"
+#include "analysis/wall_loads.hpp"
 #include "numerics/geometry/domain.hpp"
-#include "numerics/series.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analysis/discharge.hpp"
-#include "analysis/displacement.hpp"
+#include "analysis/particle_field.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double none = HopperRun::none;
 constexpr double nearly_all = 0.999, most = 0.95;
-constexpr double least_slope_in_spacings = 10;
+constexpr double min_slope_in_spacings = 10;
 
 std::vector<bool> without_nan(std::vector<bool> taken, std::span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) taken[i] = taken[i] && !std::isnan(values[i]);
@@ -24,7 +24,7 @@ std::vector<bool> without_nan(std::vector<bool> taken, std::span<const double> v
 
 // Of the averaging time: length and interval of the means whose maximum is sought, interval of data of which periods
 // are, and the periods (the paper's: 6 ms, 0.2 ms; 5000 a second; 2 to 20 ms).
-constexpr double extreme_mean = 0.3, extreme_every = 0.01, interval_of_data = 0.01, shortest_period = 0.1;
+constexpr double extreme_mean = 0.3, extreme_every = 0.01, interval_of_data = 0.01, min_period = 0.1;
 constexpr double begins_to_flow = 0.1, half = 0.5;  // of what passes the outlet
 constexpr double plateau_spread = 0.1;
 
@@ -65,7 +65,7 @@ const FreeSurface& surface_in(const HopperSnapshot& s, Where where) {
 }
 
 ReposeAngle repose_in(const HopperSnapshot& s, Where where) {
-  const double least = least_slope_in_spacings * s.shape().spacing;
+  const double least = min_slope_in_spacings * s.shape().spacing;
   return repose_angle(heap_slopes(surface_in(s, where), least), s.shape().middle());
 }
 
@@ -168,7 +168,7 @@ Estimator<HopperRun> at(Number number) {
   return {[=](const HopperRun& run, const Window& w) { return value_at_window(number, run, w); }, number};
 }
 
-Estimator<HopperRun> largest_of(Number number) {
+Estimator<HopperRun> max_of(Number number) {
   return {[=](const HopperRun& run, const Window& w) { return quantile(within(number, run, w), 1); }, number};
 }
 
@@ -179,7 +179,7 @@ Estimator<HopperRun> mean_of(Number number) {
 double period_of_discharge(const HopperRun& run, const Window& window) {
   const Curve part = fluctuating_discharge(run, window);
   const double longest = run.setting.averaging_time;
-  return part.time.empty() ? none : dominant_period(part, shortest_period * longest, longest);
+  return part.time.empty() ? none : dominant_period(part, min_period * longest, longest);
 }
 
 double crossing_period_of_discharge(const HopperRun& run, const Window& window) {
@@ -187,9 +187,9 @@ double crossing_period_of_discharge(const HopperRun& run, const Window& window) 
       about_running_mean(fluctuating_discharge(run, window), averages(run).largest, window.from, window.to));
 }
 
-LargestMean largest_discharge(const HopperRun& run, const Window& window) {
+MaxMean max_discharge(const HopperRun& run, const Window& window) {
   const Averages of = averages(run);
-  const Curve means = mean_rates(passed_mass(run), of.largest, of.largest_every, window.from, end_of(window, run));
+  const Curve means = mean_rates(passed_mass(run), of.largest, of.max_every, window.from, end_of(window, run));
   if (means.time.empty()) return {};
   const Extremes found = extremes(means);
   return {found.largest, found.largest_time};

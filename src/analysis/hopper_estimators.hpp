@@ -39,15 +39,15 @@ using Number = HopperRun::Numbers::Number;
 
 /// Lengths of averages, s, of T = analysis.averaging_time (the paper's T is 20 ms: estimator.discharge_rate).
 struct Averages {
-  double largest;        ///< T: of the largest rate
-  double largest_every;  ///< T/20
-  double trend;          ///< T/2
-  double curve_every;    ///< T/4: of a curve of averages over T
-  double load;           ///< T
+  double largest;      ///< T: of the largest rate
+  double max_every;    ///< T/20
+  double trend;        ///< T/2
+  double curve_every;  ///< T/4: of a curve of averages over T
+  double load;         ///< T
 };
 inline Averages averages(const HopperRun& run) {
   const double t = run.setting.averaging_time;
-  return {.largest = t, .largest_every = 0.05 * t, .trend = 0.5 * t, .curve_every = 0.25 * t, .load = t};
+  return {.largest = t, .max_every = 0.05 * t, .trend = 0.5 * t, .curve_every = 0.25 * t, .load = t};
 }
 
 /// From when a tenth of what passes the outlet in all has passed it until when half of it has; the time in the middle.
@@ -85,19 +85,19 @@ inline constexpr double steady_from = 0.1, steady_to = 0.7, steady_least = 0.05;
 /// interval before.
 double value_at_window(Number number, const HopperRun& run, const Window& window);
 
-Estimator<HopperRun> at(Number number);          ///< value_at_window()
-Estimator<HopperRun> largest_of(Number number);  ///< over the snapshots in the window
-Estimator<HopperRun> mean_of(Number number);     ///< the same
+Estimator<HopperRun> at(Number number);       ///< value_at_window()
+Estimator<HopperRun> max_of(Number number);   ///< over the snapshots in the window
+Estimator<HopperRun> mean_of(Number number);  ///< the same
 /// Of the discharge, over the window or as much of it as the run covers, at least half.
 double period_of_discharge(const HopperRun& run, const Window& window);
 /// The mean time between the up-crossings of its centred mean over T, of the same.
 double crossing_period_of_discharge(const HopperRun& run, const Window& window);
 
-struct LargestMean {
+struct MaxMean {
   double value = HopperRun::none, time = HopperRun::none;
 };
 /// The largest of the means over T of the discharge, and its time.
-LargestMean largest_discharge(const HopperRun& run, const Window& window);
+MaxMean max_discharge(const HopperRun& run, const Window& window);
 /// First maximum of the means over 0.3 T of what the curve is the integral of.
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window);
 double share_at(const HopperRun& run, const Window& window);

@@ -85,9 +85,9 @@ const std::vector<Row> of_grains = {
         "centre of the first mean of Q over 0.3 T (one every T/100) that is the largest within 0.3 T before and after",
         {[](const Run& r, const Window& w) { return extreme_time(passed_mass(r), r, w); }}, {outlet}),
     Row("discharge_rate_max", "kg/s", "largest mean of Q over T, one every T/20",
-        {[](const Run& r, const Window& w) { return largest_discharge(r, w).value; }}, {outlet}),
+        {[](const Run& r, const Window& w) { return max_discharge(r, w).value; }}, {outlet}),
     Row("discharge_rate_max_time", "s", "its centre",
-        {[](const Run& r, const Window& w) { return largest_discharge(r, w).time; }}, {outlet}),
+        {[](const Run& r, const Window& w) { return max_discharge(r, w).time; }}, {outlet}),
     Row("slit_velocity_extreme_time", "s", "as discharge_rate_extreme_time, of −u_z in the middle of the outlet",
         {[](const Run& r, const Window& w) {
           return extreme_time(integral(scaled(r.curve("slit_velocity"), -1)), r, w);
@@ -126,10 +126,10 @@ const std::vector<Row> of_grains = {
         "outlet; speed: displacement since the snapshot about T before, over the time between",
         at(quiescent_speed), {always}),
     Row("packing_max", "1", "99.9th percentile of the particles' packing, largest over the snapshots",
-        largest_of(packing_max), {always}),
+        max_of(packing_max), {always}),
     Row("density_drift", "1",
         "mean of |density by continuity over the kernel's − 1| deeper than 3 h, largest over the snapshots",
-        largest_of(density_drift), {always}),
+        max_of(density_drift), {always}),
     Row("period_discharge", "s",
         "Q at a hundred values in T, line removed, Hann window, zero-padded four times: period of the highest peak of "
         "the power between T/10 and T",
@@ -143,11 +143,11 @@ const std::vector<Row> of_grains = {
     Row("velocity_gradient_shear_max", "1",
         "(D/g)^½ times the largest |∂u_i/∂x_j|, i ≠ j, of the particles with packing above 0.5, corrected gradient, "
         "largest over the snapshots",
-        largest_of(gradient<&GradientSizes::shear_max>), {gravity}),
+        max_of(gradient<&GradientSizes::shear_max>), {gravity}),
     Row("velocity_gradient_normal_max", "1",
         "(D/g)^½ times the largest |∂u_i/∂x_i| of the particles with packing above 0.5, corrected gradient, largest "
         "over the snapshots",
-        largest_of(gradient<&GradientSizes::normal_max>), {gravity}),
+        max_of(gradient<&GradientSizes::normal_max>), {gravity}),
     Row("momentum_error", "1",
         "size of the change of momentum that the impulses of gravity, air, walls and damping do not explain, over "
         "gravity's impulse; settling included",

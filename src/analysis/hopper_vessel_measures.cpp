@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "analysis/discharge.hpp"
-#include "analysis/displacement.hpp"
 #include "analysis/hopper_estimators.hpp"
+#include "analysis/particle_field.hpp"
 #include "analysis/statistics.hpp"
 #include "analysis/wall_loads.hpp"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "analysis/curve.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus {
 
@@ -126,9 +126,17 @@ struct MeasureText {
 /// All measures of a model.
 std::vector<MeasureText> texts_of_hopper_measures();
 std::vector<MeasureText> texts_of_avalanche_measures();
-std::vector<MeasureText> all_measures();
+inline std::vector<MeasureText> all_measures() {
+  std::vector<MeasureText> texts = texts_of_hopper_measures();
+  for (const MeasureText& text : texts_of_avalanche_measures()) texts.push_back(text);
+  return texts;
+}
 /// Of any model; nothing if there is no such measure.
-std::optional<MeasureText> find_measure(std::string_view name);
+inline std::optional<MeasureText> find_measure(std::string_view name) {
+  for (const MeasureText& text : all_measures())
+    if (text.name == name) return text;
+  return std::nullopt;
+}
 
 template <class Run>
 std::vector<MeasureText> texts_of(std::span<const Measure<Run>> measures) {

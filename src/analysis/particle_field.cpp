@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "numerics/neighbourhood.hpp"
 
@@ -12,7 +13,7 @@ namespace talus {
 
 namespace {
 
-double largest_support(const Particles& particles) {
+double max_support(const Particles& particles) {
   double h = 0;
   for (const double length : particles.smoothing_length) {
     if (!(length > 0) || !std::isfinite(length)) throw std::invalid_argument("a smoothing length is not above 0");
@@ -52,7 +53,7 @@ Particles particles_of_spheres(std::span<const Vector3> position, double radius)
 ParticleField::ParticleField(Particles particles, Domain domain)
     : particles_(std::move(particles)),
       domain_(std::move(domain)),
-      reach_(largest_support(particles_)),
+      reach_(max_support(particles_)),
       images_(identity_and_images(domain_, reach_, !particles_.position.empty())),
       grid_(particles_.position, reach_) {
   low_ = high_ = particles_.position.empty() ? Vector3{} : particles_.position[0];
@@ -163,6 +164,21 @@ std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Doma
     gradients.push_back(sph::velocity_gradient(sums));
   }
   return gradients;
+}
+
+std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now) {
+  const double time = now.time - before.time;
+  if (!(time > 0)) throw std::invalid_argument("the first snapshot must be the earlier one");
+  std::unordered_map<std::int64_t, Vector3> place;
+  const auto earlier = before.integers("identity"), identity = now.integers("identity");
+  for (std::size_t i = 0; i < earlier.size(); ++i) place.emplace(earlier[i], before.positions()[i]);
+  std::vector<double> speed;
+  for (std::size_t i = 0; i < identity.size(); ++i) {
+    const auto found = place.find(identity[i]);
+    speed.push_back(found == place.end() ? std::numeric_limits<double>::quiet_NaN()
+                                         : norm(now.positions()[i] - found->second) / time);
+  }
+  return speed;
 }
 
 }  // namespace talus

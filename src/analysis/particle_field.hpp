@@ -12,6 +12,7 @@
 #include "base/vector.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/geometry/domain.hpp"
+#include "numerics/snapshot.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
 
@@ -72,5 +73,10 @@ std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Doma
 /// The particles whose x and z are within `reach` of a place, by index: enough of them for what a ParticleField says
 /// there, if the box is not periodic along x and z.
 std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& place, double reach);
+
+/// Size of each particle's displacement since an earlier snapshot over the time between, m/s, in the order of `now`.
+/// Particles are known by the column "identity"; nan for one that was not there.
+/// \throws std::invalid_argument if `before` is not earlier
+std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now);
 
 }  // namespace talus

@@ -11,17 +11,15 @@
 #include "app/models/models.hpp"
 #include "app/points/measures.hpp"
 #include "app/report/report.hpp"
-#include "base/nearest.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "base/unit.hpp"
 #include "io/case_file.hpp"
-#include "io/manifest.hpp"
 #include "io/points_csv.hpp"
-#include "io/report/page.hpp"
+#include "io/report_page.hpp"
 #include "io/run_folder.hpp"
-#include "io/summary.hpp"
+#include "io/run_json.hpp"
 #include "io/vtkhdf.hpp"
-#include "run/waiting.hpp"
+#include "run/progress.hpp"
 
 namespace talus::app {
 

@@ -19,8 +19,8 @@
 #include "app/runs/run_case.hpp"
 #include "base/unit.hpp"
 #include "io/file_list.hpp"
-#include "io/manifest.hpp"
-#include "io/report/page.hpp"
+#include "io/run_json.hpp"
+#include "io/report_page.hpp"
 #include "io/run_folder.hpp"
 
 namespace talus::app {

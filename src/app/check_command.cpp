@@ -17,16 +17,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
 #include "app/picture/options.hpp"
-#include "app/runs/check_folder.hpp"
-#include "base/memory.hpp"
-#include "base/terminal.hpp"
-#include "io/convert_value.hpp"
+#include "app/runs/run_case.hpp"
+#include "base/system.hpp"
+#include "base/text.hpp"
+#include "io/parameter_value.hpp"
 #include "io/parameter_writer.hpp"
-#include "numerics/warning.hpp"
+#include "numerics/run_record.hpp"
 #include "run/progress.hpp"
 
 namespace talus::app {
@@ -34,7 +33,7 @@ namespace talus::app {
 namespace {
 
 constexpr double hour = 3600;
-constexpr std::size_t widest_value = 16;  // longer ones exceed their column
+constexpr std::size_t max_value_width = 16;  // longer ones exceed their column
 
 /// What the sections of the output are about.
 struct Subject {
@@ -110,7 +109,7 @@ void print_every_key(const Subject& s) {
   const std::vector<ResolvedLine> table = lines_of(s);
   std::size_t value = 0;
   for (const ResolvedLine& line : table) value = std::max(value, line.value.size() + 1 + line.unit.size());
-  value = std::min(value, widest_value);
+  value = std::min(value, max_value_width);
   for (const ResolvedLine& line : table) {
     const std::string head =
         fmt::format("  {:{}}  {:{}}  {:8} ", line.key, s.key, line.value + " " + line.unit, value, line.origin);
@@ -215,10 +214,10 @@ void print_forecast(const Subject& s) {
   const double each = s.prepared.measure_evaluation(team);
   print("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", s.threads,
         s.threads == 1 ? "" : "s");
-  double most_seconds = 0;
+  double max_seconds = 0;
   for (const Forecast::Phase& phase : f.phases) {
     const double least = phase.evaluations * each, most = least * phase.most;
-    most_seconds += most;
+    max_seconds += most;
     if (phase.most > 1) {
       print("  {:{}}  {} to {} steps of {:.3g} ms: {} to {}\n", phase.name, s.key, count_text(phase.steps),
             count_text(phase.most * phase.steps), 1e3 * each, run::format_seconds(least), run::format_seconds(most));
@@ -232,7 +231,7 @@ void print_forecast(const Subject& s) {
   }
   const double seconds = seconds_of(f, each);
   print("  {:{}}  {}{}\n", "time", s.key, run::format_seconds(seconds),
-        most_seconds > seconds ? " to " + run::format_seconds(most_seconds) : "");
+        max_seconds > seconds ? " to " + run::format_seconds(max_seconds) : "");
   const std::optional<double> available = available_memory();
   print("  {:{}}  {:.0f} MB{}\n", "memory", s.key, f.memory_bytes / 1e6,
         available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");

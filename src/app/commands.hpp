@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The commands. Each adds itself to the command line; what it does runs after parsing and gives the exit status.
+/// The commands, and the options that several have. Each command adds itself to the command line; what it does runs
+/// after parsing and gives the exit status.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
+#include "io/case_file.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
 }
 
@@ -32,5 +37,24 @@ void add_answer_command(CLI::App& app, Action& action);
 /// Of all commands that have been added when it runs.
 void add_completion_command(CLI::App& app, Action& action);
 void add_man_command(CLI::App& app, Action& action);
+
+/// What every command that takes a case takes: the file, --set.
+struct CaseOptions {
+  std::string path;
+  std::vector<std::string> settings;
+
+  void add_to(CLI::App& command);
+  /// \throws FileError, InputError as CaseFile
+  CaseFile read() const;
+};
+
+/// Where the results of a case go without --out: results/NAME of the case.
+std::filesystem::path default_results(const std::string& case_path);
+
+/// Adds --out DIR; none given leaves `out` empty, an empty one is an error.
+void add_out_option(CLI::App& command, std::string& out, const std::string& text);
+
+/// Adds --threads N with the number of processors as default.
+void add_threads_option(CLI::App& command, int& threads);
 
 }  // namespace talus::app

@@ -7,12 +7,10 @@
 #include <memory>
 #include <optional>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/law/law_case.hpp"
-#include "app/law/law_results.hpp"
 #include "app/project/project.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "io/file_list.hpp"
 
 namespace talus::app {
@@ -25,16 +23,16 @@ struct LawOptions {
   bool overwrite = false;
 };
 
-constexpr double most_steps = 1e9;
+constexpr double max_steps = 1e9;
 
 /// \throws InputError if the path would take all day
 void check_steps(const FollowedPath& path, const std::string& file) {
   const double steps = granular::steps_of_path(path.stretches, path.options);
-  if (steps <= most_steps) return;
+  if (steps <= max_steps) return;
   throw InputError({{.where = file,
                      .what = fmt::format("takes {:.2g} steps of path.largest_increment = {:g}", steps,
                                          path.options.largest_increment),
-                     .allowed = fmt::format("at most {:.0g} steps: less strain, or a larger increment", most_steps)}});
+                     .allowed = fmt::format("at most {:.0g} steps: less strain, or a larger increment", max_steps)}});
 }
 
 /// \throws NumericalError at the first point that is not finite

@@ -15,9 +15,8 @@
 
 #include "app/commands.hpp"
 #include "base/error.hpp"
-#include "base/nearest.hpp"
-#include "base/terminal.hpp"
-#include "base/version.hpp"
+#include "base/system.hpp"
+#include "base/text.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/materials/materials.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 
 namespace talus::app {
 

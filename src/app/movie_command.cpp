@@ -10,7 +10,7 @@
 #include "app/commands.hpp"
 #include "app/picture/options.hpp"
 #include "base/error.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "io/movie.hpp"
 #include "run/progress.hpp"
 

@@ -11,9 +11,9 @@
 #include "app/models/models.hpp"
 #include "app/new/kind.hpp"
 #include "base/error.hpp"
-#include "base/terminal.hpp"
-#include "io/atomic_file.hpp"
+#include "base/text.hpp"
 #include "io/case_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::app {
 

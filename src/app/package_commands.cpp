@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/case_options.hpp"
+#include "app/commands.hpp"
 #include "app/commands.hpp"
 #include "app/project/project.hpp"
 

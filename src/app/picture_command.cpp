@@ -7,7 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/picture/options.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 
 namespace talus::app {
 

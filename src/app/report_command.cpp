@@ -7,12 +7,11 @@
 #include <iterator>
 #include <memory>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/report/report.hpp"
-#include "base/terminal.hpp"
-#include "io/report/page.hpp"
-#include "run/waiting.hpp"
+#include "base/text.hpp"
+#include "io/report_page.hpp"
+#include "run/progress.hpp"
 
 namespace talus::app {
 

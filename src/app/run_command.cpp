@@ -8,15 +8,14 @@
 #include <memory>
 #include <optional>
 
-#include "app/case_options.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
 #include "app/runs/refinement.hpp"
 #include "app/runs/run_case.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "io/run_folder.hpp"
-#include "numerics/warning.hpp"
-#include "run/waiting.hpp"
+#include "numerics/run_record.hpp"
+#include "run/progress.hpp"
 
 namespace talus::app {
 

@@ -10,10 +10,9 @@
 #include "analysis/measure.hpp"
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
-#include "app/models/symbols.hpp"
 #include "app/usage/tree.hpp"
-#include "base/terminal.hpp"
-#include "io/parameter_schema.hpp"
+#include "base/text.hpp"
+#include "io/parameter_writer.hpp"
 
 namespace talus::app {
 

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 
 namespace talus {
 

@@ -24,8 +24,12 @@
 /// and a case that gives such a key where the condition fails is an error.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -63,7 +67,13 @@ constexpr Range between(double least, double most) {
 }
 
 /// A coefficient of friction, the tangent of an angle: one beyond 2 (63 degrees) was probably meant for the angle.
-Range friction_coefficient();
+inline Range friction_coefficient() {
+  return {.least = 0, .most = 2, .hint = [](double value) -> std::string {
+            if (!(value > 2 && value < 90)) return {};
+            return fmt::format("{:g} looks like an angle in degrees, whose tangent is {:.2f}", value,
+                               std::tan(value * std::numbers::pi / 180));
+          }};
+}
 
 /// The condition under which a key is meaningful.
 struct Condition {

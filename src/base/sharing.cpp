@@ -18,9 +18,9 @@ bool Sharing::decide(Clock::time_point now) {
   if (on_trial_ && now_ != kept_) {
     const double kept_over_other = kept_ == shared ? ratio() : 1 / ratio();
     if (kept_over_other > 1 + gain)
-      kept_ = now_, rest_ = least_rest;
+      kept_ = now_, rest_ = min_rest;
     else
-      rest_ = std::min(2 * rest_, most_rest);
+      rest_ = std::min(2 * rest_, max_rest);
     until_ = now + std::max(rest_, share * (now - begin_));
     now_ = kept_, on_trial_ = false;
     forget(kept_);  // what the next trial is compared with is timed from now on

@@ -25,7 +25,7 @@ class Sharing {
   /// How long a trial of the way that is not kept takes at least, and how long the other is kept: between two bounds,
   /// and so long that trials take at most one part in `share` of the time.
   static constexpr Clock::duration trial = std::chrono::milliseconds(20);
-  static constexpr Clock::duration least_rest = std::chrono::milliseconds(200), most_rest = std::chrono::seconds(4);
+  static constexpr Clock::duration min_rest = std::chrono::milliseconds(200), max_rest = std::chrono::seconds(4);
   static constexpr int share = 50;
 
  private:
@@ -45,7 +45,7 @@ class Sharing {
   Way kept_ = shared, now_ = shared;
   bool on_trial_ = true;  // at first the kept way is timed for a moment as well
   Clock::time_point begin_{}, until_{};
-  Clock::duration rest_ = least_rest;
+  Clock::duration rest_ = min_rest;
 };
 
 }  // namespace talus

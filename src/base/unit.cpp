@@ -150,9 +150,9 @@ std::string likely_unit(std::string_view symbol) {
   return {};
 }
 
-constexpr std::size_t most_factors = 8;
-constexpr int most_power = 9;
-constexpr std::size_t longest_text = 400;
+constexpr std::size_t max_factors = 8;
+constexpr int max_power = 9;
+constexpr std::size_t max_text_length = 400;
 
 /// One unit of a product, with its prefix.
 struct Factor {
@@ -207,7 +207,7 @@ class UnitReader {
       const std::size_t first = factors.size();
       if (!factor(factors)) return false;
       for (std::size_t i = first; divide && i < factors.size(); ++i) factors[i].power *= -1;
-      if (factors.size() > most_factors) return fail("has too many units"), false;
+      if (factors.size() > max_factors) return fail("has too many units"), false;
       skip_blanks();
       if (rest_.empty() || rest_.front() == ')') return true;
       divide = take("/");
@@ -235,7 +235,7 @@ class UnitReader {
     if (!exponent) return false;
     for (std::size_t i = first; i < factors.size(); ++i) {
       factors[i].power *= *exponent;
-      if (std::abs(factors[i].power) > most_power) return fail("has a power above 9"), false;
+      if (std::abs(factors[i].power) > max_power) return fail("has a power above 9"), false;
     }
     return true;
   }
@@ -311,7 +311,7 @@ std::optional<Quantity> parse_quantity(std::string_view written, std::string* wh
   const std::string plain = replace_synonyms(written);
   std::string_view text = trimmed(plain);
   if (text.empty()) return fail("is empty");
-  if (text.size() > longest_text) return fail("is too long");
+  if (text.size() > max_text_length) return fail("is too long");
   const std::optional<Decimal> number = take_decimal(text);
   if (!number) return fail("does not begin with a number");
   if (text.size() > 1 && text.front() == ',' && is_digit(text[1])) return fail("has a comma; write a decimal point");

@@ -12,13 +12,13 @@
 #include <sstream>
 #include <utility>
 
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 
 namespace {
 
-constexpr std::size_t most_parts = 64;  // of a dotted key
+constexpr std::size_t max_parts = 64;  // of a dotted key
 
 bool is_bare(std::string_view part) {
   return !part.empty() && std::all_of(part.begin(), part.end(), [](char c) {
@@ -93,7 +93,7 @@ int line_of_deep_key(std::string_view text) {
     } else if (c == '#') {
       i = std::min(text.find('\n', i), text.size()) - 1;
     } else if (c == '.') {
-      if (++dots > most_parts) return line;
+      if (++dots > max_parts) return line;
     } else if (c == '\n' || c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}') {
       dots = 0;
       line += c == '\n';
@@ -161,7 +161,7 @@ CaseFile CaseFile::from_text(std::string_view text, std::string name) {
   if (const int line = line_of_deep_key(text); line > 0)
     throw InputError({{.where = file.name_,
                        .line = line,
-                       .what = fmt::format("a key has more than {} parts", most_parts),
+                       .what = fmt::format("a key has more than {} parts", max_parts),
                        .allowed = "table.key"}});
   try {
     flatten(toml::parse(text), "", file.entries_);
@@ -180,7 +180,7 @@ void CaseFile::set(std::string_view assignment, std::string_view option_name) {
       option.begin(), option.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); }, ' ');
   const std::size_t equals = assignment.find('=');
   const std::string_view key = trimmed(assignment.substr(0, equals));
-  const bool deep = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.')) > most_parts;
+  const bool deep = static_cast<std::size_t>(std::count(key.begin(), key.end(), '.')) > max_parts;
   if (equals == std::string_view::npos || deep || !is_dotted_key(key)) {
     const std::string what = equals == std::string_view::npos ? "has no '='" : fmt::format("'{}' is no key", key);
     problems_.push_back({.where = option, .key = {}, .what = what, .allowed = "table.key=value"});

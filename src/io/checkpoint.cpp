@@ -7,8 +7,7 @@
 #include <charconv>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/checksum.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 

@@ -10,14 +10,14 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/nearest.hpp"
-#include "io/atomic_file.hpp"
+#include "base/text.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 
 namespace {
 
-constexpr std::size_t most_problems = 20;
+constexpr std::size_t max_problems = 20;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\"");
@@ -83,7 +83,7 @@ class TableReader {
  private:
   void problem(std::string_view key, const std::string& what, const std::string& allowed = {},
                std::string_view nearest = {}) {
-    if (problems_.size() < most_problems)
+    if (problems_.size() < max_problems)
       problems_.push_back({.where = path_,
                            .line = line_,
                            .key = std::string(key),

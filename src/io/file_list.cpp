@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/checksum.hpp"
-#include "io/descriptor.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 
@@ -19,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view title = "Talus wrote these files, and removes or replaces no others.\n";
-constexpr int most_levels = 4;  // members of an ensemble: FOLDER/GROUP/pictures/NAME
+constexpr int max_levels = 4;  // members of an ensemble: FOLDER/GROUP/pictures/NAME
 
 std::string line_of(std::string_view name) {
   return fmt::format("{:08x} {}\n", checksum(name), name);
@@ -103,7 +101,7 @@ void FileList::remove_files(std::string_view last) {
 void claim_file(const fs::path& path) {
   fs::path name = path.filename(), folder = path.parent_path();
   if (name == FileList::file_name) return;
-  for (int level = 0; level < most_levels; ++level) {
+  for (int level = 0; level < max_levels; ++level) {
     const fs::path here = folder.empty() ? fs::path(".") : folder;
     if (std::optional<FileList> list = FileList::read(here)) {
       if (const auto link = link_on_the_way(here, name))

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/program.hpp"
-#include "io/atomic_file.hpp"
+#include "base/system.hpp"
+#include "io/file.hpp"
 #include "io/file_list.hpp"
 
 namespace talus {

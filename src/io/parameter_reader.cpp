@@ -8,8 +8,8 @@
 #include <cctype>
 #include <utility>
 
-#include "base/nearest.hpp"
-#include "io/convert_value.hpp"
+#include "base/text.hpp"
+#include "io/parameter_value.hpp"
 
 namespace talus {
 

@@ -5,10 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <vector>
 
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "base/unit.hpp"
+#include "io/case_file.hpp"
+#include "io/json.hpp"
 
 namespace talus {
 
@@ -100,6 +104,164 @@ std::string fingerprint(const ParameterList& list, std::span<const std::string_v
       lines.push_back(fmt::format("{} = {}\n", item.parameter.key, toml_text(item.parameter, item.value)));
   std::sort(lines.begin(), lines.end());
   return digest(fmt::format("{}", fmt::join(lines, "")));
+}
+
+namespace {
+
+// A number, then something that can begin a unit. The look-ahead keeps "5e3" from being 5 of a unit "e3".
+constexpr std::string_view quantity_pattern =
+    R"(^\s*[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?(?![eE][-+]?[0-9])\s*(1\s*/|[A-Za-zµμ°/(]).*$)";
+
+void add_bounds(Json& schema, const Range& range) {
+  const auto bound = [&](const char* inclusive, const char* exclusive, double value, bool is_excluded) {
+    if (!std::isfinite(value)) return;
+    const char* name = is_excluded ? exclusive : inclusive;
+    if (schema["type"] == "integer" && std::abs(value) <= 9e15 && value == std::floor(value))
+      schema[name] = static_cast<std::int64_t>(value);
+    else
+      schema[name] = value;
+  };
+  bound("minimum", "exclusiveMinimum", range.least, range.least_excluded);
+  bound("maximum", "exclusiveMaximum", range.most, range.most_excluded);
+}
+
+Json schema_of_one(const Parameter& parameter, const ValueType& type) {
+  switch (type.kind) {
+    case ValueType::Kind::number: {
+      if (parameter.dimension != dimension::none) return {{"type", "string"}, {"pattern", quantity_pattern}};
+      Json schema = {{"type", "number"}};
+      add_bounds(schema, parameter.range);
+      return schema;
+    }
+    case ValueType::Kind::integer: {
+      Json schema = {{"type", "integer"}};
+      add_bounds(schema, parameter.range);
+      return schema;
+    }
+    case ValueType::Kind::flag:
+      return {{"type", "boolean"}};
+    case ValueType::Kind::text:
+      return {{"type", "string"}};
+    case ValueType::Kind::choice:
+      return {{"type", "string"}, {"enum", type.choices}};
+  }
+  return {};
+}
+
+Json to_json(const Parameter& parameter, const ParameterValue& value) {
+  const auto number = [&](double x) -> Json {
+    if (parameter.dimension == dimension::none) return x;
+    return format_quantity(x, unit_name(parameter.dimension));
+  };
+  if (const auto* values = std::get_if<std::vector<double>>(&value)) {
+    Json array = Json::array();
+    for (const double x : *values) array.push_back(number(x));
+    return array;
+  }
+  if (const auto* x = std::get_if<double>(&value)) return number(*x);
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return *integer;
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag;
+  return {};
+}
+
+Json schema_of(const DescribedParameter& item) {
+  const auto& [parameter, type, value] = item;
+  Json schema = schema_of_one(parameter, type);
+  if (type.shape != ValueType::Shape::one) schema = {{"type", "array"}, {"items", schema}};
+  if (type.shape == ValueType::Shape::three) schema["minItems"] = schema["maxItems"] = 3;
+  schema["description"] = fmt::format("{}: {}", parameter.text, allowed_text(parameter, type));
+  if (!parameter.required && !std::holds_alternative<std::monostate>(value))
+    schema["default"] = to_json(parameter, value);
+  return schema;
+}
+
+Json object() {
+  return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+}
+
+/// Whether it represents the tables of an array: "plates.1".
+bool is_of_array(std::string_view table) {
+  return !table_of(table).empty() && last_part(table) == "1";
+}
+
+/// The schema of a table, made with the tables around it where it is not there yet.
+Json& schema_of_table(Json& schema, std::string_view table) {
+  if (table.empty()) return schema;
+  if (is_of_array(table)) {
+    Json& array =
+        schema_of_table(schema, table_of(table_of(table)))["properties"][std::string(last_part(table_of(table)))];
+    if (array.is_null()) array = {{"type", "array"}, {"items", object()}};
+    return array["items"];
+  }
+  Json& inner = schema_of_table(schema, table_of(table))["properties"][std::string(last_part(table))];
+  if (inner.is_null()) inner = object();
+  return inner;
+}
+
+void require(Json& root, std::string_view key) {
+  Json& required = schema_of_table(root, table_of(key))["required"];
+  const std::string name(last_part(key));
+  if (std::find(required.begin(), required.end(), name) == required.end()) required.push_back(name);
+  if (!table_of(key).empty() && !is_of_array(table_of(key)))
+    require(root, table_of(key));  // a table with a required key is required
+}
+
+std::string in_cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
+  return result;
+}
+
+std::string allowed_cell(const DescribedParameter& item) {
+  if (item.type.kind != ValueType::Kind::choice) return range_text(item.parameter);
+  return fmt::format("`{}`", fmt::join(item.type.choices, "`, `"));
+}
+
+std::string default_cell(const DescribedParameter& item) {
+  if (item.parameter.required) return "**required**";
+  if (std::holds_alternative<std::monostate>(item.value)) return "none";
+  return fmt::format("`{}`", toml_text(item.parameter, item.value));
+}
+
+std::string type_cell(const ValueType& type, const Parameter& parameter) {
+  std::string text = type.kind == ValueType::Kind::choice ? "choice" : type_text(parameter, {.kind = type.kind});
+  for (const std::string_view article : {"a ", "an "})
+    if (text.starts_with(article)) text.erase(0, article.size());
+  if (type.kind == ValueType::Kind::text) text = "text";
+  if (type.shape == ValueType::Shape::three) text = "3 × " + text;
+  if (type.shape == ValueType::Shape::any) text = "n × " + text;
+  return text;
+}
+
+}  // namespace
+
+std::string json_schema(const ParameterList& defaults, std::string_view title) {
+  Json root = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
+  root.update(object());
+  for (const DescribedParameter& item : defaults) {
+    const std::string& key = item.parameter.key;
+    schema_of_table(root, table_of(key))["properties"][std::string(last_part(key))] = schema_of(item);
+    if (item.parameter.required) require(root, key);
+  }
+  return root.dump(2) + "\n";
+}
+
+std::string reference_page(const ParameterList& defaults) {
+  std::string page;
+  for (const std::string_view table : defaults.tables()) {
+    const std::string head = table.empty()        ? "Top level"
+                             : is_of_array(table) ? fmt::format("[[{}]]", table_of(table))
+                                                  : fmt::format("[{}]", table);
+    page += fmt::format("{}## {}\n\n", page.empty() ? "" : "\n", head);
+    page += "| key | type | unit | allowed | default | meaning |\n|---|---|---|---|---|---|\n";
+    for (const DescribedParameter& item : defaults)
+      if (table_of(item.parameter.key) == table)
+        page += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", last_part(item.parameter.key),
+                            type_cell(item.type, item.parameter), unit_name(item.parameter.dimension),
+                            in_cell(allowed_cell(item)), in_cell(default_cell(item)), in_cell(item.parameter.text));
+  }
+  return page;
 }
 
 }  // namespace talus

@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
 #include "io/checkpoint.hpp"
-#include "io/manifest.hpp"
+#include "io/file.hpp"
+#include "io/run_json.hpp"
 
 namespace talus {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/descriptor.hpp"
+#include "io/file.hpp"
 #include "io/file_list.hpp"
 
 namespace talus {
@@ -47,7 +47,7 @@ class RunFolder {
   /// \param kind "particles", "air" or "walls"; \param number >= 0
   std::filesystem::path snapshot(int number, std::string_view kind = "particles") const;
 
-  /// What ParaView is given to open (snapshot_index.hpp).
+  /// What ParaView is given to open (run_json.hpp).
   std::filesystem::path snapshot_index(std::string_view kind = "particles") const;
 
   /// Numbers of the snapshots that are there, rising; where the folder keeps a list of what Talus wrote, of those in

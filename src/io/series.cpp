@@ -10,8 +10,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/checksum.hpp"
+#include "io/file.hpp"
 #include "io/file_list.hpp"
 
 namespace talus {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "io/descriptor.hpp"
-#include "numerics/series.hpp"
+#include "io/file.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus {
 
@@ -39,7 +39,7 @@ class SeriesWriter {
   /// Rows in the file: what a checkpoint remembers and `resume` is given.
   std::uint64_t position() const { return rows_; }
 
-  /// Of the header and these rows (checksum.hpp).
+  /// Of the header and these rows (file.hpp).
   std::uint32_t sum() const { return sum_; }
 
   /// Takes all rows to the disk. To be called before a checkpoint that remembers `position()` is saved.

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/terminal.hpp"
-#include "io/atomic_file.hpp"
+#include "base/text.hpp"
+#include "io/file.hpp"
 
 namespace talus {
 

@@ -6,21 +6,44 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 #include "io/hdf5.hpp"
-#include "io/vtkhdf_unstructured.hpp"
 #include "numerics/geometry/sector.hpp"
-#include "numerics/whole.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus {
 
 namespace {
 
-using vtkhdf::root;
+const std::string root = "VTKHDF";
+constexpr std::uint8_t vtk_vertex = 1, vtk_triangle = 5;  // vtkCellType.h
 
-constexpr std::uint8_t vtk_vertex = 1;  // vtkCellType.h
+/// Type, version and cells, all of one kind. \param offsets where the points of each cell begin in `connectivity`, and
+/// where the last ends
+void write_cells(hdf5::Writer& file, std::size_t points, std::uint8_t cell_type, std::span<const std::int64_t> offsets,
+                 std::span<const std::int64_t> connectivity) {
+  const std::size_t cells = offsets.size() - 1;
+  const auto single = [](std::size_t n) { return std::vector<std::int64_t>{static_cast<std::int64_t>(n)}; };
+  file.group(root);
+  file.attribute(root, "Type", "UnstructuredGrid");
+  file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
+  file.write(root + "/NumberOfPoints", single(points));
+  file.write(root + "/NumberOfCells", single(cells));
+  file.write(root + "/NumberOfConnectivityIds", single(connectivity.size()));
+  file.write(root + "/Offsets", offsets);
+  file.write(root + "/Connectivity", connectivity);
+  file.write(root + "/Types", std::vector<std::uint8_t>(cells, cell_type));
+}
+
+void write_time(hdf5::Writer& file, double time, std::uint64_t step) {
+  file.write(root + "/FieldData/time", std::vector<double>{time}, "s");
+  file.write(root + "/FieldData/TimeValue", std::vector<double>{time}, "s");
+  file.write(root + "/FieldData/step", std::vector<std::int64_t>{static_cast<std::int64_t>(step)}, "1");
+}
 
 }  // namespace
 
@@ -29,7 +52,7 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
   hdf5::Writer file(path);
   std::vector<std::int64_t> numbers(count + 1);
   std::iota(numbers.begin(), numbers.end(), 0);
-  vtkhdf::write_cells(file, count, vtk_vertex, numbers, std::span(numbers).first(count));
+  write_cells(file, count, vtk_vertex, numbers, std::span(numbers).first(count));
 
   file.group(root + "/PointData");
   for (const ColumnView& column : snapshot.columns) {
@@ -44,7 +67,7 @@ void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
         column.values);
   }
 
-  vtkhdf::write_time(file, snapshot.time, snapshot.step);
+  write_time(file, snapshot.time, snapshot.step);
   if (const auto& copies = snapshot.copies) {
     file.write(root + "/FieldData/sector_copies", std::vector<std::int64_t>{copies->count}, "1");
     file.write(root + "/FieldData/sector_axis", std::vector<Vector3>{copies->axis}, "m");
@@ -209,6 +232,30 @@ double read_points_time(const std::filesystem::path& path) {
   if (time.empty()) time = file.doubles(root + "/FieldData/TimeValue");
   if (time.size() != 1) throw FileError(path.string(), "holds no single 'TimeValue'");
   return time[0];
+}
+
+// As an unstructured grid: VTK 9.1 and ParaView 5.11 read no PolyData.
+void write_surface(const std::filesystem::path& path, const SurfaceSnapshot& snapshot) {
+  hdf5::Writer file(path);
+  std::vector<std::int64_t> offsets{0}, connectivity;
+  for (const auto& corners : snapshot.triangles) {
+    connectivity.insert(connectivity.end(), corners.begin(), corners.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+  write_cells(file, snapshot.points.size(), vtk_triangle, offsets, connectivity);
+  file.write(root + "/Points", snapshot.points, "m");
+  file.group(root + "/CellData");
+  for (const GridSnapshot::Column& column : snapshot.columns)
+    std::visit(
+        [&](const auto& values) {
+          if (values.size() != snapshot.triangles.size())
+            throw std::invalid_argument(fmt::format("snapshot: column '{}' has {} entries for {} triangles",
+                                                    column.name, values.size(), snapshot.triangles.size()));
+          file.write(root + "/CellData/" + column.name, std::span(values), column.unit);
+        },
+        column.values);
+  write_time(file, snapshot.time, snapshot.step);
+  write_atomically(path, file.image());
 }
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/vtkhdf_grid.hpp"
+#include "io/vtkhdf.hpp"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,14 @@
 #include <stdexcept>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 #include "io/hdf5.hpp"
-#include "io/vtkhdf_unstructured.hpp"
 
 namespace talus {
 
 namespace {
 
-using vtkhdf::root;
+const std::string root = "VTKHDF";
 
 const std::string point_data = root + "/PointData";
 

@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "numerics/named_value.hpp"
 #include "numerics/run_record.hpp"
 
 namespace talus {

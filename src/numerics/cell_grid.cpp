@@ -11,7 +11,7 @@ namespace talus {
 namespace {
 
 // 21 bits a direction; one is left so that a row may reach one cell past the last.
-constexpr std::int64_t most_cells = std::int64_t{1} << 20;
+constexpr std::int64_t max_cells = std::int64_t{1} << 20;
 
 Vector3 lowest(std::span<const Vector3> points) {
   Vector3 low = points.empty() ? Vector3{} : points[0];
@@ -20,7 +20,7 @@ Vector3 lowest(std::span<const Vector3> points) {
 }
 
 void check_fits(std::span<const Vector3> points, const Vector3& origin, double cell_size) {
-  const double reach = cell_size * static_cast<double>(most_cells);
+  const double reach = cell_size * static_cast<double>(max_cells);
   for (const Vector3& p : points) {
     const Vector3 d = p - origin;
     if (!(d.x < reach && d.y < reach && d.z < reach))
@@ -83,8 +83,8 @@ CellGrid::CellGrid(std::span<const Vector3> points, double cell_size) : origin_(
     last_ = {std::max(last_.i, cell[n].i), std::max(last_.j, cell[n].j), std::max(last_.k, cell[n].k)};
   }
   order_.resize(points.size());
-  constexpr std::int64_t most_a_point = 4;
-  const auto most = most_a_point * static_cast<std::int64_t>(points.size()) + 64;
+  constexpr std::int64_t max_per_point = 4;
+  const auto most = max_per_point * static_cast<std::int64_t>(points.size()) + 64;
   // None of the products is too large for its type.
   if ((last_.i + 1) * (last_.j + 1) <= most && (last_.i + 1) * (last_.j + 1) * (last_.k + 1) <= most)
     sort_into_box(cell);

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/compiled_for.hpp"
 #include "base/exact_sum.hpp"
+#include "base/instruction_set.hpp"
 #include "numerics/cell_grid.hpp"
 #include "numerics/near_points/kernel.hpp"
 

@@ -10,7 +10,7 @@ namespace talus {
 namespace {
 
 constexpr std::size_t together = 16;     // points whose numbers follow each other
-constexpr std::size_t most_slabs = 128;  // that are tried one by one
+constexpr std::size_t max_slabs = 128;   // that are tried one by one
 constexpr double thin = 0.02, wide = 2;  // slabs, of the reach
 
 std::pair<Vector3, Vector3> box_around(std::span<const Vector3> points) {
@@ -28,7 +28,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   const std::size_t count = position.size();
   most_.resize(count);
   for (std::size_t i = 0; i < count; ++i) most_[i] = radius[i] + margin[i];
-  largest_margin_ = count == 0 ? 0.0 : *std::max_element(margin.begin(), margin.end());
+  max_margin_ = count == 0 ? 0.0 : *std::max_element(margin.begin(), margin.end());
   reach_ = count == 0 ? 0.0 : 2 * *std::max_element(most_.begin(), most_.end());
   built_ = true;
   if (!(reach_ <= domain_.largest_reach()))
@@ -62,7 +62,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     if (!vessel_.is_empty() && std::isfinite(distance_[i])) near = near.first(keep_unhidden(points, i, near));
     const auto seldom = std::lower_bound(near.begin(), near.end(), in_walls);
-    const auto end = !domain_.is_near_wall(position[i], reach_ + 2 * largest_margin_)
+    const auto end = !domain_.is_near_wall(position[i], reach_ + 2 * max_margin_)
                          ? seldom
                          : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
                              const Domain::Sight sight = sight_of(i, j);
@@ -105,7 +105,7 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     const double reach = (1 + 1e-9) * reach_;
     const Vector3 around{reach, reach, reach};
     Slabs& slabs = slabs_[group];
-    slabs.all = vessel_.slabs_within(low - around, high + around, thin * reach_, wide * reach_, most_slabs, slabs.of);
+    slabs.all = vessel_.slabs_within(low - around, high + around, thin * reach_, wide * reach_, max_slabs, slabs.of);
     std::size_t last = Surface::no_triangle;
     for (std::size_t n = begin; n < end; ++n) {
       double least = infinity;

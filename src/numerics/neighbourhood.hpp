@@ -83,7 +83,7 @@ class Neighbourhood {
   const Domain& domain_;
   const Surface& vessel_;
   bool built_ = false;
-  double largest_margin_ = 0;
+  double max_margin_ = 0;
   double reach_ = 0;
   std::vector<Vector3> reference_;  // of particles and ghosts
   std::vector<double> most_;        // that one may have moved, and its radius be, together, m

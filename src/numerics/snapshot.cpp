@@ -2,7 +2,17 @@
 #include "numerics/snapshot.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "base/tensor.hpp"
+#include "numerics/geometry/sector.hpp"
 
 namespace talus {
 
@@ -47,6 +57,104 @@ Snapshot PointSet::view() const {
          std::visit([](const auto& values) -> decltype(ColumnView::values) { return std::span(values); },
                     column.values)});
   return snapshot;
+}
+
+namespace {
+
+template <class Values>
+const Values& column(const GridSnapshot& snapshot, std::string_view name) {
+  for (const GridSnapshot::Column& column : snapshot.columns)
+    if (column.name == name)
+      if (const auto* values = std::get_if<Values>(&column.values)) return *values;
+  throw std::out_of_range("the grid has no such column '" + std::string(name) + "'");
+}
+
+}  // namespace
+
+int GridSnapshot::cell_at(int axis, double place) const {
+  const int cell = static_cast<int>(std::floor((place - low[axis]) / spacing[axis]));
+  return std::clamp(cell, 0, count[static_cast<std::size_t>(axis)] - 1);
+}
+
+const std::vector<double>& GridSnapshot::scalars(std::string_view name) const {
+  return column<std::vector<double>>(*this, name);
+}
+
+const std::vector<Vector3>& GridSnapshot::vectors(std::string_view name) const {
+  return column<std::vector<Vector3>>(*this, name);
+}
+
+namespace {
+
+constexpr std::array<std::string_view, 6> components{"_xx", "_yy", "_zz", "_xy", "_yz", "_zx"};
+
+/// The columns of tensors, in the order of SymmetricTensor3, by the name without component.
+std::map<std::string, std::array<std::span<const double>, 6>> tensors_of(const Snapshot& part) {
+  std::map<std::string, std::array<std::span<const double>, 6>> tensors;
+  for (const ColumnView& column : part.columns) {
+    if (!column.name.ends_with(components[0])) continue;
+    const std::string base(column.name.substr(0, column.name.size() - components[0].size()));
+    std::array<std::span<const double>, 6> of;
+    bool is_whole = true;
+    for (std::size_t n = 0; n < components.size(); ++n) {
+      const std::string name = base + std::string(components[n]);
+      const auto found =
+          std::find_if(part.columns.begin(), part.columns.end(), [&](const ColumnView& c) { return c.name == name; });
+      const auto* values = found != part.columns.end() ? std::get_if<std::span<const double>>(&found->values) : nullptr;
+      if (values) of[n] = *values;
+      is_whole = is_whole && values;
+    }
+    if (is_whole) tensors.emplace(base, of);
+  }
+  return tensors;
+}
+
+}  // namespace
+
+PointSet whole_of(const Snapshot& part) {
+  const SectorCopies& copies = part.copies.value();
+  const Sector sector(copies.axis, copies.count);
+  const std::size_t own = part.size();
+  const auto tensors = tensors_of(part);
+  PointSet whole{.time = part.time, .step = part.step, .columns = {}};
+  /// Writes value(i, k) of particle i in copy k.
+  const auto add = [&](const ColumnView& column, const auto& value) {
+    std::vector<std::decay_t<decltype(value(std::size_t{0}, 0))>> values(own * static_cast<std::size_t>(copies.count));
+    for (int k = 0; k < copies.count; ++k)
+      for (std::size_t i = 0; i < own; ++i) values[static_cast<std::size_t>(k) * own + i] = value(i, k);
+    whole.columns.push_back({std::string(column.name), std::string(column.unit), std::move(values)});
+  };
+  for (const ColumnView& column : part.columns) {
+    if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values)) {
+      const bool places = column.name == "position";
+      add(column, [&](std::size_t i, int k) {
+        return places ? sector.turned((*vectors)[i], k) : sector.turn(k) * (*vectors)[i];
+      });
+    } else if (const auto* integers = std::get_if<std::span<const std::int64_t>>(&column.values)) {
+      const std::int64_t all = copies.identities * copies.count;
+      add(column, [&](std::size_t i, int k) {
+        return column.name == "identity" && all > 0 ? ((*integers)[i] + k * copies.identities) % all : (*integers)[i];
+      });
+    } else {
+      const auto scalars = std::get<std::span<const double>>(column.values);
+      const std::size_t cut = column.name.size() < 3 ? 0 : column.name.size() - 3;
+      const auto tensor = tensors.find(std::string(column.name.substr(0, cut)));
+      const auto component = std::find(components.begin(), components.end(), column.name.substr(cut));
+      if (tensor == tensors.end() || component == components.end()) {
+        add(column, [&](std::size_t i, int) { return scalars[i]; });
+        continue;
+      }
+      const auto& of = tensor->second;
+      const auto number = component - components.begin();
+      add(column, [&](std::size_t i, int k) {
+        const SymmetricTensor3<> t =
+            transformed({of[0][i], of[1][i], of[2][i], of[3][i], of[4][i], of[5][i]}, sector.turn(k));
+        const double all[6] = {t.xx, t.yy, t.zz, t.xy, t.yz, t.zx};
+        return all[number];
+      });
+    }
+  }
+  return whole;
 }
 
 }  // namespace talus

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A read-only view of particles at one time: what observers, files and analysis see of a model.
+/// Particles, grids and surfaces at one time: what observers, files and analysis get of a model.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -24,7 +25,7 @@ struct ColumnView {
 };
 
 /// Says of columns that they are of one sector about an upright axis, of which the whole is so many copies
-/// (numerics/whole.hpp).
+///(`whole_of`).
 struct SectorCopies {
   Vector3 axis;                 ///< a place on it, m
   int count = 1;                ///< of the sectors that make up the whole, itself counted
@@ -65,5 +66,52 @@ struct PointSet {
 
   Snapshot view() const;
 };
+
+/// Values in the cells of a regular grid: the air.
+struct GridSnapshot {
+  struct Column {
+    std::string name;
+    std::string unit;
+    std::variant<std::vector<double>, std::vector<Vector3>> values;  ///< one per cell, x fastest
+  };
+  double time = 0;  ///< s
+  std::uint64_t step = 0;
+  std::array<int, 3> count{};  ///< cells along x, y, z
+  Vector3 low, spacing;        ///< corner, and size of a cell, m
+  std::vector<Column> columns;
+
+  std::size_t cells() const {
+    return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(count[2]);
+  }
+  std::size_t index(int i, int j, int k) const {
+    return static_cast<std::size_t>(i) +
+           static_cast<std::size_t>(count[0]) *
+               (static_cast<std::size_t>(j) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(k));
+  }
+  Vector3 centre(int i, int j, int k) const {
+    return low + Vector3{(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z};
+  }
+  /// The cell along an axis that holds a place; the last one for a place beyond it.
+  int cell_at(int axis, double place) const;
+
+  /// \throws std::out_of_range naming the column
+  const std::vector<double>& scalars(std::string_view name) const;
+  const std::vector<Vector3>& vectors(std::string_view name) const;
+};
+
+/// Values on the triangles of a surface: the walls of a vessel.
+struct SurfaceSnapshot {
+  double time = 0;  ///< s
+  std::uint64_t step = 0;
+  std::vector<Vector3> points;                         ///< corners, m
+  std::vector<std::array<std::int64_t, 3>> triangles;  ///< numbers of their corners
+  std::vector<GridSnapshot::Column> columns;           ///< one entry per triangle
+};
+
+/// The particles of all copies, copy by copy: positions, vectors and tensors (six columns NAME_xx, NAME_yy, NAME_zz,
+/// NAME_xy, NAME_yz, NAME_zx) turned about the axis. A particle that has passed a face of the sector goes on in the
+/// next copy: its identity there is that which it had here. \pre part.copies \throws std::invalid_argument if the
+/// copies are too few or too many (Sector)
+PointSet whole_of(const Snapshot& part);
 
 }  // namespace talus

@@ -11,12 +11,9 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "io/checkpoint.hpp"
-#include "numerics/grid_snapshot.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/field.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
-#include "numerics/snapshot_of.hpp"
-#include "numerics/surface_snapshot.hpp"
 
 namespace talus::run {
 

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "base/error.hpp"
@@ -16,12 +18,57 @@
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
 #include "run/snapshot_writer.hpp"
-#include "run/step_guard.hpp"
-#include "run/waiting.hpp"
 
 namespace talus::run {
 
 namespace {
+
+/// Detects a run whose steps have become so short that it would never end.
+class StepGuard {
+ public:
+  static constexpr double max_fall = 100;         ///< longest step of the phase over one that is too short
+  static constexpr std::uint64_t patience = 100;  ///< steps in a row: an impact may ask for some
+
+  /// To be called for every step, of length `step`, s. \param begun whether the run's time origin had come when it
+  /// began; steps before and after it are compared with their own
+  /// \returns what is wrong, nothing if the run may continue
+  std::optional<std::string> take(double step, bool begun);
+
+  void save(CheckpointWriter& checkpoint) const;
+  /// A checkpoint of a version without a guard leaves it as it is.
+  void resume(const CheckpointReader& checkpoint);
+
+ private:
+  double longest_ = 0;       ///< of the phase, s
+  std::uint64_t short_ = 0;  ///< steps in a row that were too short
+  std::uint64_t begun_ = 0;
+};
+
+std::optional<std::string> StepGuard::take(double step, bool begun) {
+  if (begun != (begun_ != 0)) {
+    longest_ = 0;
+    short_ = 0;
+    begun_ = begun;
+  }
+  longest_ = std::max(longest_, step);
+  short_ = max_fall * step < longest_ ? short_ + 1 : 0;
+  if (short_ < patience) return std::nullopt;
+  return fmt::format("the time step has fallen from {:.3g} s to {:.3g} s, {} steps in a row: the run would not end",
+                     longest_, step, short_);
+}
+
+void StepGuard::save(CheckpointWriter& checkpoint) const {
+  checkpoint.put("run/longest_step", longest_, "s");
+  checkpoint.put("run/short_steps", short_);
+  checkpoint.put("run/origin_has_come", begun_);
+}
+
+void StepGuard::resume(const CheckpointReader& checkpoint) {
+  if (!checkpoint.has("run/longest_step")) return;
+  checkpoint.get("run/longest_step", longest_);
+  checkpoint.get("run/short_steps", short_);
+  checkpoint.get("run/origin_has_come", begun_);
+}
 
 /// Wall and processor time of this session on top of those of earlier ones.
 class Clock {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 #include "run/any_model.hpp"
 

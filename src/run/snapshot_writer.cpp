@@ -7,12 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include "io/checksum.hpp"
+#include "io/file.hpp"
+#include "io/run_json.hpp"
 #include "io/series.hpp"
-#include "io/snapshot_index.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
-#include "io/vtkhdf_surface.hpp"
 
 namespace talus::run {
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "analysis/avalanche_numbers.hpp"
 #include "analysis/lattice.hpp"
 
 namespace talus {

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "analysis/avalanche_numbers.hpp"
+#include "analysis/avalanche.hpp"
 
 namespace talus {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "analysis/falling_cloud.hpp"
+#include "analysis/avalanche.hpp"
 
 #include <gtest/gtest.h>
 

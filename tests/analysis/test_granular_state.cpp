@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/displacement.hpp"
+#include "analysis/particle_field.hpp"
 #include "analysis/particles.hpp"
 
 namespace talus {

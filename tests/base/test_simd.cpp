@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SimdVector of the instruction set that the tests are compiled for. The others run in the tests of the sum over
 /// pairs.
-#include "base/cube_root.hpp"
-#include "base/logarithm.hpp"
+#include "base/elementary.hpp"
 #include "base/simd.hpp"
 #include "base/simd_columns.hpp"
 

@@ -13,15 +13,15 @@
 
 #include "base/random.hpp"
 #include "fuzz/targets.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int mutations = 700;          // a target
-constexpr unsigned most_seconds = 120;  // of an input, which is a hang above; the machine may be busy
+constexpr int mutations = 700;         // a target
+constexpr unsigned max_seconds = 120;  // of an input, which is a hang above; the machine may be busy
 
 int count_of_mutations() {
   const char* const given = std::getenv("TALUS_MUTATIONS");
@@ -111,7 +111,7 @@ TEST_P(Readers, TakeMutations) {
   Mutator mutator(inputs_of(GetParam().name));
   for (int n = 0, count = count_of_mutations(); n < count; ++n) {
     const std::string input = mutator.next();
-    ::alarm(most_seconds);  // ends the program
+    ::alarm(max_seconds);  // ends the program
     EXPECT_NO_THROW(GetParam().read(input)) << "mutation " << n << ":\n" << input;
   }
   ::alarm(0);

@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "io/scratch_folder.hpp"
-#include "numerics/snapshot_of.hpp"
+#include "numerics/field.hpp"
 
 namespace talus {
 

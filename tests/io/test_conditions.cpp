@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "io/parameter_reader.hpp"
-#include "io/parameter_schema.hpp"
 #include "io/parameter_writer.hpp"
 
 namespace talus {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/series.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/parameter_schema.hpp"
+#include "io/parameter_writer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "io/atomic_file.hpp"
-#include "io/manifest.hpp"
+#include "io/file.hpp"
+#include "io/run_json.hpp"
 #include "io/scratch_folder.hpp"
 
 namespace talus {

@@ -13,11 +13,10 @@
 
 #include "base/error.hpp"
 #include "io/checkpoint.hpp"
-#include "io/manifest.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "io/scratch_folder.hpp"
 #include "io/series.hpp"
-#include "io/summary.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace talus {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/vtkhdf_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,6 @@
 /// formulas that stand there too. Usage: write_sample_files FOLDER
 #include "io/checkpoint.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
-#include "io/vtkhdf_surface.hpp"
 
 int main(int, char** arguments) {
   const talus::PointSet nobody{.columns = {{"position", "m", std::vector<talus::Vector3>{}},

@@ -7,13 +7,11 @@
 #include <cmath>
 
 #include "app/case/model_case.hpp"
-#include "app/case/stopwatch.hpp"
 #include "base/instruction_set.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "models/air/model.hpp"
-#include "models/air/regime.hpp"
 
 namespace talus::app {
 
@@ -22,7 +20,7 @@ namespace {
 using air::AirModel;
 using air::ModelParameters;
 
-constexpr double bytes_a_cell = 900, most_cells_measured = 1e5;
+constexpr double bytes_a_cell = 900, max_cells_measured = 1e5;
 
 double cells_of(const ModelParameters& p) {
   return static_cast<double>(air::grid_of(p).cells());
@@ -52,7 +50,7 @@ Forecast forecast(const ModelParameters& p, const run::RunParameters& run) {
 /// Seconds of a step, from one of at most 10^5 cells.
 double measure_step(ModelParameters p, ThreadTeam& team) {
   const double cells = cells_of(p);
-  if (cells > most_cells_measured) p.cell *= std::cbrt(cells / most_cells_measured);
+  if (cells > max_cells_measured) p.cell *= std::cbrt(cells / max_cells_measured);
   AirModel model(p);
   model.begin(team);
   return cells / cells_of(p) * seconds_of(0.2, [&] { model.advance(team); });

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Cases of any model: the parameters of the model and of the run, read and checked together.
+/// Cases of any model: the parameters of the model and of the run, read and checked together, and the files they name.
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/case/prepared_case.hpp"
+#include "base/error.hpp"
+#include "io/case_file.hpp"
 #include "io/parameter_reader.hpp"
 
 namespace talus::app {
@@ -44,6 +49,42 @@ PreparedCase prepared_case(std::string model, const ModelCase<P>& read) {
   prepared.run = read.run;
   prepared.parameters = read.list();
   return prepared;
+}
+
+/// The path of a file that a case names: one that is not absolute starts at the folder of the case.
+inline std::filesystem::path input_path(const CaseFile& file, const std::string& given) {
+  const std::filesystem::path path = given;
+  return path.is_absolute() ? path : std::filesystem::path(file.name()).parent_path() / path;
+}
+
+/// Calls read(), which reads a file that `key` names. That it cannot be opened is a problem of the case, as any other
+/// value of a key that will not do: exit status 2, with the line of the key. What the file holds is read()'s to judge.
+template <class Read>
+void read_input(std::string key, std::vector<Problem>& problems, Read&& read) {
+  try {
+    std::forward<Read>(read)();
+  } catch (const FileError& error) {
+    problems.push_back({.key = std::move(key),
+                        .what = error.what(),
+                        .allowed = "a file that can be read, its path from the folder of the case on"});
+  }
+}
+
+/// Seconds of one call of `body`, the mean over as many as fit into `duration`; one before them, which fills caches and
+/// lists, does not count.
+template <class Body>
+double seconds_of(double duration, Body&& body) {
+  using Clock = std::chrono::steady_clock;
+  body();
+  const Clock::time_point start = Clock::now();
+  double elapsed = 0;
+  int calls = 0;
+  do {
+    body();
+    ++calls;
+    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+  } while (elapsed < duration);
+  return elapsed / calls;
 }
 
 }  // namespace talus::app

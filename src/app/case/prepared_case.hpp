@@ -15,7 +15,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "io/parameter_value.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 #include "run/any_model.hpp"
 #include "run/loop.hpp"
 #include "run/run_parameters.hpp"

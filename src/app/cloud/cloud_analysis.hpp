@@ -8,7 +8,7 @@
 #include "analysis/avalanche.hpp"
 #include "base/vector.hpp"
 #include "models/cloud/pair_sum.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::app {
 

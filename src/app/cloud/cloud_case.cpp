@@ -11,17 +11,13 @@
 #include <utility>
 
 #include "analysis/fronts.hpp"
-#include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
-#include "app/case/stopwatch.hpp"
 #include "app/cloud/cloud_analysis.hpp"
-#include "app/cloud/cloud_pictures.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
-#include "models/cloud/forecast.hpp"
 #include "models/cloud/mobility_sum.hpp"
 #include "models/cloud/model.hpp"
-#include "models/cloud/stability.hpp"
+#include "models/cloud/parameters.hpp"
 
 namespace talus::app {
 
@@ -35,7 +31,7 @@ using cloud::Parameters;
 /// thin that the grains hardly meet, the numbers are of another unit: the case then has to name it.
 void check_units(const std::vector<std::string>& without_unit, const Parameters& p, const Grains& grains,
                  std::vector<Problem>& problems) {
-  constexpr double most_ratio = 100;
+  constexpr double max_ratio = 100;
   const auto without = [&](const char* name) {
     return std::find(without_unit.begin(), without_unit.end(), name) != without_unit.end();
   };
@@ -49,7 +45,7 @@ void check_units(const std::vector<std::string>& without_unit, const Parameters&
   if (grains.radius.empty()) return;
   const double radius = std::accumulate(grains.radius.begin(), grains.radius.end(), 0.0) / count;
   const double ratio = radius / p.particles.radius;
-  if (without("radius") && !(ratio < most_ratio && ratio > 1 / most_ratio))
+  if (without("radius") && !(ratio < max_ratio && ratio > 1 / max_ratio))
     return add("radius", "radius", fmt::format("a mean of {:.3g} times particles.radius", ratio));
   if (!without("x") || grains.radius.size() < 2) return;
   Vector3 low = grains.position.front(), high = low;
@@ -61,7 +57,7 @@ void check_units(const std::vector<std::string>& without_unit, const Parameters&
   for (int axis = 0; axis < 3; ++axis)
     if (high[axis] > low[axis]) room *= high[axis] - low[axis], ++axes;
   const double distance = axes > 0 ? std::pow(room / count, 1.0 / axes) : 0;
-  if (distance > most_ratio * radius)
+  if (distance > max_ratio * radius)
     add("coordinates", "x", fmt::format("some {:.3g} radii from grain to grain", distance / radius));
 }
 

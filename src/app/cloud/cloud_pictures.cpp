@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/cloud/cloud_pictures.hpp"
+#include "app/cloud/cloud_case.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/frontal_angle.hpp"
+#include "analysis/fronts.hpp"
 #include "analysis/heads.hpp"
 #include "analysis/statistics.hpp"
 #include "app/case/run_tables.hpp"

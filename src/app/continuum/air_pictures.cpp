@@ -13,7 +13,6 @@
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
 
 namespace talus::app {
 

@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/setup/setup.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::app {
 

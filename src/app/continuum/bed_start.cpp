@@ -10,7 +10,7 @@
 #include "app/case/scene.hpp"
 #include "io/figure/figure.hpp"
 #include "models/continuum/setup/bed_report.hpp"
-#include "numerics/surface/section.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus::app {
 

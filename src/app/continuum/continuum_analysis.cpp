@@ -20,7 +20,7 @@
 #include "io/vtkhdf.hpp"
 #include "numerics/run_record.hpp"
 #include "numerics/sph/cubic_spline.hpp"
-#include "numerics/surface/section.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus::app {
 

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "analysis/hopper.hpp"
+#include "models/continuum/setup/parameters.hpp"
 #include "models/continuum/setup/setup.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::app {
 

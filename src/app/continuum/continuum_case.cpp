@@ -8,9 +8,7 @@
 #include <filesystem>
 
 #include "analysis/hopper_estimators.hpp"
-#include "app/case/input_file.hpp"
 #include "app/case/model_case.hpp"
-#include "app/case/stopwatch.hpp"
 #include "app/continuum/answers.hpp"
 #include "app/continuum/bed_file.hpp"
 #include "app/continuum/bed_start.hpp"

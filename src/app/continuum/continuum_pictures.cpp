@@ -7,15 +7,14 @@
 #include <cmath>
 
 #include "analysis/curve.hpp"
-#include "analysis/displacement.hpp"
 #include "analysis/hopper_estimators.hpp"
+#include "analysis/particle_field.hpp"
 #include "app/case/run_tables.hpp"
 #include "app/case/scene.hpp"
 #include "app/continuum/air_pictures.hpp"
 #include "app/continuum/continuum_analysis.hpp"
 #include "app/continuum/vessel_fields.hpp"
 #include "io/figure/figure.hpp"
-#include "io/figure/particle_dots.hpp"
 #include "io/file_list.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"

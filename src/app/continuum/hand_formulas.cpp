@@ -7,8 +7,7 @@
 #include <numbers>
 
 #include "physics/granular/friction_angle.hpp"
-#include "physics/granular/orifice_discharge.hpp"
-#include "physics/granular/silo_pressure.hpp"
+#include "physics/granular/silo.hpp"
 
 namespace talus::app {
 

@@ -7,7 +7,7 @@
 
 namespace talus::app {
 
-/// What leaves, kg/s (physics/granular/orifice_discharge.hpp): of a vessel with round or rectangular outlets; of a
+/// What leaves, kg/s (physics/granular/silo.hpp): of a vessel with round or rectangular outlets; of a
 /// level plate with a slit, which goes on beyond the faces that it ends at. Of an outlet that is cut by planes of
 /// symmetry, what leaves on this side of them. \returns 0 where there is no formula, as for a wedge
 double discharge_by_hand(const continuum::Layout& layout);
@@ -18,7 +18,7 @@ double discharge_by_hand(const continuum::Layout& layout, const continuum::Vesse
 /// (physics/granular/friction_angle.hpp), of the law's friction, which counts up to 1; 30 degrees where it has none.
 double internal_friction_by_hand(const continuum::Parameters& parameters);
 
-/// The largest half angle of mass flow in a cone (physics/granular/silo_pressure.hpp), rad; nan if the vessel empties
+/// The largest half angle of mass flow in a cone (physics/granular/silo.hpp), rad; nan if the vessel empties
 /// through no cone.
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout);
 

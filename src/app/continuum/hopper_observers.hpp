@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "models/continuum/setup/layout.hpp"
-#include "numerics/named_value.hpp"
+#include "models/continuum/setup/parameters.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus::app {

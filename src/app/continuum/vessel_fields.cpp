@@ -12,7 +12,6 @@
 #include "app/continuum/continuum_pictures.hpp"
 #include "io/figure/figure.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
 
 namespace talus::app {
 

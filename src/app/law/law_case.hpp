@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
 #include "base/parameter.hpp"
 #include "io/case_file.hpp"
 #include "models/continuum/setup/choices.hpp"
+#include "numerics/run_record.hpp"
 #include "physics/granular/collisional_stress.hpp"
 #include "physics/granular/law.hpp"
 #include "physics/granular/material_path.hpp"
@@ -70,5 +72,26 @@ std::vector<granular::PathStretch> read_path(const std::filesystem::path& path);
 
 /// Options of the case for a path of so many stretches.
 granular::PathOptions path_options(const LawCase& parameters, std::size_t stretches);
+
+/// A path that was followed.
+struct FollowedPath {
+  LawCase parameters;
+  granular::AnyLaw law;
+  std::vector<granular::PathStretch> stretches;
+  granular::PathOptions options;
+  std::vector<granular::PathPoint> points;  ///< as follow_path
+};
+
+/// Largest and last values of the path, for the screen.
+std::vector<NamedValue> quantities_of(const FollowedPath& path);
+
+/// A row per point: time, stretch, packing, pressure, shear stress (|tau_dev|/2^(1/2)), friction (their ratio), strain
+/// and stress, the stress by collisions unless there are none, and what the law remembers. Strain since the start.
+/// \throws FileError
+void write_path_table(const FollowedPath& path, const std::filesystem::path& file);
+
+/// A1 to A4 of a fitted law (the paper's Figure 1), the friction and the pressure that follow, against strain: as
+/// printed and, where they are, as repaired. \throws FileError
+void write_functions(const granular::Fits& fits, const std::filesystem::path& file);
 
 }  // namespace talus::app

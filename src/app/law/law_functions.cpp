@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/law/law_results.hpp"
+#include "app/law/law_case.hpp"
 #include "io/series.hpp"
 #include "physics/granular/fitted_table.hpp"
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/law/law_results.hpp"
+#include "app/law/law_case.hpp"
 #include "io/series.hpp"
 #include "physics/granular/collisional_stress.hpp"
 

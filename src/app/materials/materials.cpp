@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/convert_value.hpp"
+#include "io/parameter_value.hpp"
 #include "models/continuum/population.hpp"
 #include "models/continuum/setup/time_scale.hpp"
 #include "physics/granular/critical_state.hpp"

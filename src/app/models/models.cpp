@@ -11,8 +11,8 @@
 #include "app/case/model_case.hpp"
 #include "app/cloud/cloud_case.hpp"
 #include "app/continuum/continuum_case.hpp"
-#include "base/memory.hpp"
-#include "base/nearest.hpp"
+#include "base/system.hpp"
+#include "base/text.hpp"
 #include "models/air/model.hpp"
 #include "models/cloud/parameters.hpp"
 

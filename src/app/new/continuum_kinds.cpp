@@ -18,7 +18,7 @@ namespace {
 
 constexpr double gravity = 9.81;          // m/s2
 constexpr double packing = 0.6;           // at the start, as in the papers' cases
-constexpr double most_particles = 40000;  // a run of some minutes to an hour on two cores
+constexpr double max_particles = 40000;   // a run of some minutes to an hour on two cores
 constexpr double across_an_outlet = 16;   // particles; below 12 the discharge shows them
 constexpr double outlet_over_ring = 2.9;  // of a sector; below 2.8 the discharge shows it (validation/sector)
 
@@ -84,7 +84,7 @@ constexpr std::array<T, n + m> joined(const T (&first)[n], const T (&second)[m])
 
 /// So many particles along a length, unless the bed would have too many.
 double spacing_of(double length, double count, double area) {
-  return std::max(length / count, std::sqrt(area / most_particles));
+  return std::max(length / count, std::sqrt(area / max_particles));
 }
 
 double rounded_up(double value) {
@@ -300,7 +300,7 @@ std::string write_silo(const Answers& a) {
   // The ring in which a particle and its copies stand about the axis, as narrow as the outlet asks for.
   const double on_ring = 0.5 * outlet / (outlet_over_ring * std::sqrt(1 / (share * std::numbers::pi)));
   const double across = a.has("sector") ? std::min(outlet / 12, on_ring) : outlet / 12;
-  const double spacing = std::max(across, std::cbrt(share * volume / most_particles));
+  const double spacing = std::max(across, std::cbrt(share * volume / max_particles));
   const double cone_top = drop + (radius - 0.5 * outlet) / std::tan(a["half-angle"]);
   const double top = std::max(cone_top, drop + fill) + 4 * spacing, room = 2 * radius + 8 * spacing;
   // Beverloo's rule with the grains as points, half as long again.

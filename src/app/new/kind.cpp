@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/nearest.hpp"
+#include "base/text.hpp"
 
 namespace talus::app {
 

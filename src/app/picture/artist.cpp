@@ -10,7 +10,7 @@
 #include "analysis/statistics.hpp"
 #include "base/error.hpp"
 #include "base/unit.hpp"
-#include "io/figure/ticks.hpp"
+#include "io/figure/axes.hpp"
 
 namespace talus::app {
 

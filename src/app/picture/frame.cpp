@@ -11,15 +11,14 @@
 
 #include "analysis/curve.hpp"
 #include "analysis/hopper.hpp"
-#include "app/case/numbers.hpp"
+#include "app/case/scene.hpp"
 #include "app/models/models.hpp"
 #include "base/error.hpp"
-#include "base/nearest.hpp"
-#include "io/manifest.hpp"
+#include "base/text.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "io/series.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
 
 namespace talus::app {
 

@@ -9,13 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "analysis/frontal_angle.hpp"
 #include "analysis/fronts.hpp"
 #include "analysis/head_tail.hpp"
 #include "analysis/heads.hpp"
 #include "analysis/statistics.hpp"
 #include "base/error.hpp"
-#include "base/nearest.hpp"
+#include "base/text.hpp"
 
 namespace talus::app {
 

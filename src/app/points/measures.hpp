@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/series.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus::app {

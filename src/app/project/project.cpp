@@ -10,8 +10,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "base/program.hpp"
-#include "base/terminal.hpp"
+#include "base/system.hpp"
+#include "base/text.hpp"
 #include "run/jobs.hpp"
 
 namespace talus::app {

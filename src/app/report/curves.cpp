@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/report/curves.hpp"
+#include "app/report/report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,14 @@
 #include "analysis/discharge.hpp"
 #include "analysis/wall_loads.hpp"
 #include "io/file_list.hpp"
-#include "io/report/packed.hpp"
+#include "io/report_page.hpp"
 #include "io/series.hpp"
 
 namespace talus::app {
 
 namespace {
 
-constexpr std::size_t most_rows = 2000;
+constexpr std::size_t max_rows = 2000;
 
 /// The least and the largest of a stretch, in the order in which they came; nan where there is no number.
 std::pair<double, double> ends_of(const std::vector<double>& values, std::size_t from, std::size_t to) {
@@ -90,7 +90,7 @@ std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& fol
 
 nlohmann::ordered_json pack_table(const std::string& name, const Series& table, double origin,
                                   std::vector<std::string>& blocks) {
-  Series thin = thinned(table, most_rows);
+  Series thin = thinned(table, max_rows);
   nlohmann::ordered_json json{{"name", name}, {"rows", thin.rows()}, {"of_rows", table.rows()}};
   for (double& t : thin.columns.front()) t -= origin;
   json["columns"] = nlohmann::ordered_json::array();

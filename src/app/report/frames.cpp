@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/report/frames.hpp"
+#include "app/report/report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,10 @@
 #include <optional>
 #include <span>
 
-#include "app/case/numbers.hpp"
-#include "io/report/packed.hpp"
+#include "app/case/scene.hpp"
+#include "io/report_page.hpp"
 #include "io/run_folder.hpp"
 #include "io/vtkhdf.hpp"
-#include "io/vtkhdf_grid.hpp"
 
 namespace talus::app {
 

@@ -9,17 +9,14 @@
 #include "analysis/hopper.hpp"
 #include "analysis/measure.hpp"
 #include "app/models/models.hpp"
-#include "app/models/symbols.hpp"
 #include "app/project/project.hpp"
-#include "app/report/curves.hpp"
 #include "base/error.hpp"
-#include "base/version.hpp"
-#include "io/manifest.hpp"
+#include "base/system.hpp"
 #include "io/parameter_writer.hpp"
-#include "io/report/page.hpp"
+#include "io/report_page.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "io/series.hpp"
-#include "io/summary.hpp"
 
 namespace talus::app {
 
@@ -28,8 +25,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Viewers side by side; a report of more runs shows the particles of the first ones.
-constexpr std::size_t most_viewers = 4;
-constexpr std::uintmax_t most_bytes_of_pictures = 4'000'000;
+constexpr std::size_t max_viewers = 4;
+constexpr std::uintmax_t max_bytes_of_pictures = 4'000'000;
 
 /// What is no measure of the run but of the machine that it ran on.
 struct MachineText {
@@ -146,7 +143,7 @@ std::vector<std::filesystem::path> pictures_of(const std::filesystem::path& fold
   std::vector<std::filesystem::path> kept;
   std::uintmax_t bytes = 0;
   for (const auto& path : files_of_run(folder, "pictures", ".png"))
-    if (bytes + std::filesystem::file_size(path) <= most_bytes_of_pictures) {
+    if (bytes + std::filesystem::file_size(path) <= max_bytes_of_pictures) {
       bytes += std::filesystem::file_size(path);
       kept.push_back(path);
     }
@@ -171,8 +168,7 @@ void write_report(const ReportRequest& request, const std::filesystem::path& pat
   Json header{{"title", request.title}, {"version", program_version()}, {"revision", program_revision()}};
   header["runs"] = Json::array();
   for (const ReportEntry& entry : request.runs)
-    header["runs"].push_back(
-        json_of(entry, header["runs"].size() < most_viewers, request.limits, content.blocks, runs));
+    header["runs"].push_back(json_of(entry, header["runs"].size() < max_viewers, request.limits, content.blocks, runs));
   header["definitions"] = definitions_of(header["runs"]);
   header["comparisons"] = Json::array();
   for (const std::string& comparison : request.comparisons) header["comparisons"].push_back(Json::parse(comparison));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/runs/check_folder.hpp"
+#include "app/runs/run_case.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "io/checkpoint.hpp"
-#include "io/summary.hpp"
+#include "io/run_json.hpp"
 #include "run/snapshot_writer.hpp"
 
 namespace talus::app {

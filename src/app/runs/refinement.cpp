@@ -13,7 +13,7 @@
 
 #include "base/error.hpp"
 #include "base/unit.hpp"
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::app {
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> of_the_machine{"wall_seconds", "cpu_seconds", "peak_memory", "threads",
                                                          "steps"};
-constexpr double least_depth = 3;  // of a bed, in spacings
+constexpr double min_depth = 3;  // of a bed, in spacings
 
 std::optional<double> length_in(const CaseFile& file, std::string_view key) {
   const CaseEntry* entry = file.find(key);
@@ -43,12 +43,12 @@ CaseFile refined_case(const CaseFile& file) {
   if (file.contains("integration.step"))
     refuse("integration.step", "is fixed, and the finer run would need a shorter one", "integration.courant");
   for (const char* key : {"box.width", "box.depth"})
-    if (const auto depth = length_in(file, key); depth && *depth < (least_depth - 1e-9) * *spacing)
+    if (const auto depth = length_in(file, key); depth && *depth < (min_depth - 1e-9) * *spacing)
       refuse(key,
              fmt::format("{:.4g} mm are {:.2g} particles: a section, whose depth would no longer be a whole number of "
                          "them",
                          1e3 * *depth, *depth / *spacing),
-             fmt::format("at least {:.4g} mm, or two runs with both divided", 1e3 * least_depth * *spacing));
+             fmt::format("at least {:.4g} mm, or two runs with both divided", 1e3 * min_depth * *spacing));
   CaseFile finer = file;
   finer.set("bed.spacing=" + format_quantity(*spacing / refinement, "m"), "--refine");
   return finer;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/case_file.hpp"
-#include "io/summary.hpp"
+#include "io/run_json.hpp"
 
 namespace talus::app {
 

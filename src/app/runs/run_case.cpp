@@ -1,32 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/runs/run_case.hpp"
 
+#include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
+#include <ctime>
+#include <optional>
+#include <utility>
 
 #include "app/models/models.hpp"
 #include "app/report/report.hpp"
-#include "app/runs/check_folder.hpp"
-#include "app/runs/run_log.hpp"
-#include "base/terminal.hpp"
+#include "base/text.hpp"
 #include "base/unit.hpp"
 #include "io/checkpoint.hpp"
-#include "io/manifest.hpp"
+#include "io/file.hpp"
+#include "io/file_list.hpp"
 #include "io/parameter_writer.hpp"
-#include "io/report/page.hpp"
+#include "io/report_page.hpp"
+#include "io/run_json.hpp"
 #include "io/series.hpp"
-#include "io/summary.hpp"
-#include "numerics/warning.hpp"
+#include "numerics/run_record.hpp"
 #include "run/interrupt.hpp"
 #include "run/progress.hpp"
-#include "run/waiting.hpp"
 
 namespace talus::app {
 
 namespace {
+
+/// log.txt: what happened in a run, and when. A log that cannot be written does not end a run: the files of the numbers
+/// report a full disk themselves.
+class RunLog {
+ public:
+  /// \param append after the lines of the run that is resumed
+  RunLog(const std::filesystem::path& path, bool append);
+
+  /// Adds a line, with the local time before it.
+  template <class... Values>
+  void write(fmt::format_string<Values...> format, Values&&... values) {
+    write_line(fmt::format(format, std::forward<Values>(values)...));
+  }
+
+ private:
+  void write_line(const std::string& text);
+
+  std::optional<Descriptor> file_;  // none: it could not be opened
+};
+
+RunLog::RunLog(const std::filesystem::path& path, bool append) {
+  try {
+    claim_file(path);
+    file_.emplace(path.string(), O_WRONLY | O_CREAT | O_NOFOLLOW | (append ? O_APPEND : O_TRUNC));
+  } catch (const FileError&) {
+  }
+}
+
+void RunLog::write_line(const std::string& text) {
+  if (!file_) return;
+  try {
+    file_->write(fmt::format("{:%Y-%m-%d %H:%M:%S}  {}\n", fmt::localtime(std::time(nullptr)), text));
+  } catch (const FileError&) {
+  }
+}
 
 // Not the choice of an instruction set counts but the set it resolves to: case_fingerprint.
 constexpr std::array<std::string_view, 6> not_in_fingerprint{"run.end",

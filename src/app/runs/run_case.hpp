@@ -8,8 +8,8 @@
 #include "app/case/prepared_case.hpp"
 #include "base/error.hpp"
 #include "io/case_file.hpp"
-#include "io/manifest.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 
 namespace talus::app {
 
@@ -38,5 +38,16 @@ double end_of(const Manifest& manifest);
 /// written then
 /// \throws NumericalError, FileError; also in log.txt and summary.json, as far as these can be written
 ExitStatus run_case(const PreparedCase& prepared, const RunRequest& request);
+
+/// Before a run goes on: says on stderr which snapshots are missing; they are left out from now on. A run without a
+/// checkpoint, which starts again, is left as it is. Changes nothing.
+/// \throws FileError if the series or a snapshot is not what was written, or if no checkpoint is whole
+void check_resumable_files(const RunFolder& folder);
+
+/// `talus check FOLDER`: compares the files of each run there, an ensemble's members too, with the checksums in its
+/// checkpoint, and says what it found.
+/// \returns done, or files if one has changed or is missing, or a checkpoint is damaged
+/// \throws InputError if there is no run
+ExitStatus check_folder(const std::filesystem::path& path);
 
 }  // namespace talus::app

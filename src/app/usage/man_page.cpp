@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "app/usage/tree.hpp"
-#include "base/version.hpp"
+#include "base/system.hpp"
 
 namespace talus::app {
 

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/figure/axes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace talus::figure {
 
@@ -141,6 +146,129 @@ void draw_arrow_key(cairo_t* context, const ArrowKey& key, const Rectangle& plot
   set_pen(context, key.colour, 1.0);
   stroke_arrow(context, x, y, x + key.length, y, 4);
   draw_text(context, key.label, x + key.length + key_gap, line, legend_style);
+}
+
+namespace {
+constexpr double swatch_width = 18, gap = 6, row = 12.5, inset = 5, clearance = 6;
+}
+
+Rectangle emptiest_place(const Rectangle& plot, double width, double height, const std::vector<Obstacle>& obstacles) {
+  const double left = plot.x + clearance, right = plot.right() - clearance - width;
+  const double top = plot.y + clearance, bottom = plot.bottom() - clearance - height;
+  const double middle = plot.x + 0.5 * (plot.width - width), centre = plot.y + 0.5 * (plot.height - height);
+  const std::array<std::pair<double, double>, 8> places = {{{right, top},
+                                                            {left, top},
+                                                            {right, bottom},
+                                                            {left, bottom},
+                                                            {middle, top},
+                                                            {middle, bottom},
+                                                            {right, centre},
+                                                            {left, centre}}};
+  Rectangle best{right, top, width, height};
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  for (const auto& [x, y] : places) {
+    const Rectangle grown{x - 3, y - 3, width + 6, height + 6};
+    const auto covered = static_cast<std::size_t>(std::count_if(
+        obstacles.begin(), obstacles.end(), [&](const Obstacle& point) { return grown.contains(point.x, point.y); }));
+    if (covered < fewest) {
+      fewest = covered;
+      best = {x, y, width, height};
+    }
+  }
+  return best;
+}
+
+void draw_legend(cairo_t* context, const std::vector<LegendEntry>& entries, const Rectangle& plot,
+                 std::vector<Obstacle>& obstacles) {
+  if (entries.empty()) return;
+  double text_width = 0;
+  for (const LegendEntry& entry : entries) {
+    text_width = std::max(text_width, text_extent(context, entry.label, legend_style).width);
+  }
+  const double height = row * static_cast<double>(entries.size()) + 2 * inset - 2;
+  const Rectangle box = emptiest_place(plot, text_width + swatch_width + gap + 2 * inset, height, obstacles);
+  fill_rectangle(context, box, with_alpha(white, 0.85));
+  double y = box.y + inset;
+  for (const LegendEntry& entry : entries) {
+    {
+      const Saved saved(context);
+      entry.draw(context, {box.x + inset, y, swatch_width, row - 2});
+    }
+    draw_text(context, entry.label, box.x + inset + swatch_width + gap, y + 0.5 * (row - 2) + 0.36 * legend_style.size,
+              legend_style);
+    y += row;
+  }
+  block(box, obstacles);
+}
+
+void block(const Rectangle& rectangle, std::vector<Obstacle>& obstacles) {
+  // Dense enough that a box put on any part of it counts more of these than of the data elsewhere.
+  for (double x = rectangle.x; x <= rectangle.right(); x += 2) {
+    for (double y = rectangle.y; y <= rectangle.bottom(); y += 2) obstacles.push_back({x, y});
+  }
+}
+
+namespace {
+
+void check(double low, double high, int most) {
+  if (!(low < high) || !std::isfinite(high - low) || most < 1) {
+    throw std::invalid_argument(fmt::format("no ticks from {} to {}, at most {}", low, high, most));
+  }
+}
+
+int decade(double value) {
+  return static_cast<int>(std::floor(std::log10(value) + 1e-12));
+}
+
+/// digit times 10 to the n; the nearest double to that as long as the power is exact.
+double scaled(double digit, int n) {
+  return n >= 0 ? digit * std::pow(10.0, n) : digit / std::pow(10.0, -n);
+}
+
+}  // namespace
+
+std::string with_minus(std::string_view number) {
+  return number.starts_with('-') ? "−" + std::string(number.substr(1)) : std::string(number);
+}
+
+double nice_step(double range, int most) {
+  check(0, range, most);
+  const int exponent = decade(range / most);
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    // The tolerance keeps a range of 0.3 at 3 steps from needing 0.30000000000000004 / 0.1 = 4 of them.
+    const double step = scaled(digit, exponent);
+    if (range <= step * most * (1 + 1e-9)) return step;
+  }
+  return scaled(1, exponent + 1);
+}
+
+double nice_length(double most) {
+  check(0, most, 1);
+  const int exponent = decade(most);
+  for (const double digit : {5.0, 2.0}) {
+    if (scaled(digit, exponent) <= most * (1 + 1e-9)) return scaled(digit, exponent);
+  }
+  return scaled(1, exponent);
+}
+
+Ticks linear_ticks(double low, double high, int most) {
+  check(low, high, most);
+  const double step = nice_step(high - low, most);
+  const double slack = 1e-9 * (high - low) / step;
+  const double first = std::ceil(low / step - slack), last = std::floor(high / step + slack);
+  Ticks ticks;
+  for (double k = first; k <= last; k += 1) ticks.major.push_back(std::clamp(k * step, low, high));
+
+  const double largest = std::max(std::abs(first), std::abs(last)) * step;
+  const int exponent = largest > 0 ? decade(largest) : 0;
+  const int factor = exponent >= 5 || exponent <= -3 ? exponent : 0;
+  if (factor != 0) ticks.factor = fmt::format("×10^{{{}}}", factor);
+  const int decimals = std::max(0, factor - decade(step));
+  for (double k = first; k <= last; k += 1) {
+    // k == 0 may be a negative zero
+    ticks.labels.push_back(with_minus(fmt::format("{:.{}f}", k == 0 ? 0.0 : k * step / scaled(1, factor), decimals)));
+  }
+  return ticks;
 }
 
 }  // namespace talus::figure

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "io/atomic_file.hpp"
+#include "io/file.hpp"
 
 namespace talus::figure {
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr TextStyle figure_title_style{.size = 11, .bold = true}, letter_style{.size = 10, .bold = true},
     title_style{.size = 10};
-constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, least_width = 60;
+constexpr double edge = 8, column_gap = 14, row_gap = 12, title_line = 15, min_width = 60;
 
 std::size_t columns_of(const Figure& figure) {
   const std::size_t count = figure.panels.size();
@@ -70,7 +70,7 @@ class Layout {
     double y = edge + (figure_.title.empty() ? 0 : 1.4 * title_line);
     double room = width_ - 2 * edge - bar_ - static_cast<double>(columns_ - 1) * column_gap;
     for (const Margins& side : sides) room -= side.left + side.right;
-    const double plot_width = std::max(least_width, room / static_cast<double>(columns_));
+    const double plot_width = std::max(min_width, room / static_cast<double>(columns_));
     for (std::size_t first = 0; first < plots_.size(); first += columns_) {
       const std::size_t end = std::min(first + columns_, plots_.size());
       double top = 0, bottom = 0, aspect = 0;

@@ -12,7 +12,7 @@ namespace talus::figure {
 
 namespace {
 
-constexpr double usual_arrow = 16, arrow_width = 0.7, arrow_head = 4, longest_key = 18;  // units
+constexpr double usual_arrow = 16, arrow_width = 0.7, arrow_head = 4, max_key_length = 18;  // units
 
 /// The magnitude that all but the largest twentieth stay below.
 double usual_magnitude(std::span<const Vector3> values) {
@@ -63,7 +63,7 @@ std::optional<ArrowKey> key_of(const ParticlePicture& picture) {
   const Arrows& arrows = *picture.arrows;
   const double per_unit = length_of_unit(arrows);
   if (per_unit == 0) return std::nullopt;
-  const double value = nice_length(longest_key / per_unit);
+  const double value = nice_length(max_key_length / per_unit);
   return ArrowKey{
       .label = fmt::format("{:g} {}", value, arrows.unit.name), .length = value * per_unit, .colour = arrows.colour};
 }

@@ -6,13 +6,12 @@
 #include <numeric>
 
 #include "io/figure/particle_layers.hpp"
-#include "io/figure/stipple.hpp"
 
 namespace talus::figure {
 
 namespace {
 
-constexpr double least_radius = 0.35, outlined_from = 1.5, outline_width = 0.3;  // units
+constexpr double min_radius = 0.35, outlined_from = 1.5, outline_width = 0.3;  // units
 constexpr double palest = 0.5;  // share of white in the farthest particle
 
 /// The colour of each particle.
@@ -99,7 +98,7 @@ void for_each_seen(const ParticlePicture& picture, const Projection& p, const st
                    Visit&& visit) {
   for (const std::size_t i : order) {
     const Obstacle centre = p(picture.positions[i]);
-    const double radius = std::max(least_radius, picture.radii[i] * p.scale);
+    const double radius = std::max(min_radius, picture.radii[i] * p.scale);
     if (!std::isfinite(centre.x + centre.y + picture.radii[i])) continue;
     const Rectangle reach{p.plot.x - radius, p.plot.y - radius, p.plot.width + 2 * radius, p.plot.height + 2 * radius};
     if (reach.contains(centre.x, centre.y)) visit(i, centre, radius);
@@ -111,7 +110,7 @@ bool are_dots(const ParticlePicture& picture, const Projection& p) {
   constexpr std::size_t many = 50'000;
   return picture.positions.size() >= many && !picture.depth && std::holds_alternative<Plain>(picture.colouring) &&
          std::all_of(picture.radii.begin(), picture.radii.end(),
-                     [&](double radius) { return radius * p.scale <= least_radius; });
+                     [&](double radius) { return radius * p.scale <= min_radius; });
 }
 
 }  // namespace
@@ -119,7 +118,7 @@ bool are_dots(const ParticlePicture& picture, const Projection& p) {
 void draw_discs(cairo_t* context, const ParticlePicture& picture, const Projection& p,
                 std::vector<Obstacle>& obstacles) {
   if (are_dots(picture, p)) {
-    Stipple dots(context, least_radius, std::get<Plain>(picture.colouring).colour);
+    Stipple dots(context, min_radius, std::get<Plain>(picture.colouring).colour);
     for_each_seen(picture, p, order_of(picture), [&](std::size_t, const Obstacle& centre, double) {
       dots.add(centre.x, centre.y);
       obstacles.push_back(centre);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure/particle_dots.hpp"
+#include "io/figure/figure.hpp"
 
 #include "base/random.hpp"
 
@@ -28,8 +28,8 @@ std::size_t start_of(std::int64_t identity) {
 }
 
 Vector3 turned_back(const Domain& domain, const Vector3& from, Vector3 to) {
-  constexpr int most_bounces = 8;
-  for (int n = 0; n < most_bounces; ++n) {
+  constexpr int max_bounces = 8;
+  for (int n = 0; n < max_bounces; ++n) {
     const auto bounce = domain.bounce(from, to);
     if (!bounce) break;
     to = bounce->image.position(to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure/particle_picture.hpp"
+#include "io/figure/figure.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "io/figure/particle_picture.hpp"
+#include "io/figure/figure.hpp"
 
 namespace talus::figure {
 

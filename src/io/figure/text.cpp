@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Cairo's own text interface places characters one after the other and knows nothing of marks, so each character is a
 /// piece of its own here, and a mark is centred on the ink of the letter before it.
-#include "io/figure/text.hpp"
 
 #include <algorithm>
 #include <string>

@@ -60,7 +60,7 @@ class AirFlow {
   void add_outflow(ThreadTeam& team, double dt, const AirState& state, CellField& sum);
 
   /// Largest divergence of the volume flow in a cell, 1/s: the residual of the pressure solver.
-  double largest_divergence(const Solids& solids, const AirState& state);
+  double max_divergence(const Solids& solids, const AirState& state);
 
   /// The cells from `begin` on in a row along x.
   CellRow cells_from(std::ptrdiff_t begin, const Solids& solids, const FaceField& velocity) const;
@@ -108,8 +108,8 @@ class AirFlow {
   FaceField start_;      // of the implicit viscosity
   FaceField conductance_;
   CellField source_;
-  std::vector<double> largest_flow_;  // of each row of cells
-  std::vector<Rates> largest_of_row_;
+  std::vector<double> max_flow_;  // of each row of cells
+  std::vector<Rates> max_of_row_;
   CellField cell_void_fraction_, start_pressure_, storage_;  // where the air is compressible
   Stream stream_;
 };

@@ -39,7 +39,7 @@ void AirFlow::fill_ghosts(CellField& pressure) const {
 /// of the flows through the low faces of a cell
 double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField& velocity) {
   const Grid& grid = apertures_.grid;
-  largest_flow_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
+  max_flow_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
   for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t) {
     VolumeFlowRow row{};
     for (int axis = 0; axis < 3; ++axis) {
@@ -54,10 +54,10 @@ double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField&
                         .next = grid.stride(axis),
                         .area = grid.face_area(axis)};
     }
-    largest_flow_[static_cast<std::size_t>(k * grid.count[1] + j)] =
+    max_flow_[static_cast<std::size_t>(k * grid.count[1] + j)] =
         find_source_of_row(grid.count[0], with_grains, row, source_.data() + begin);
   });
-  return *std::max_element(largest_flow_.begin(), largest_flow_.end());
+  return *std::max_element(max_flow_.begin(), max_flow_.end());
 }
 
 /// What an ideal gas takes in for each Pa, over the time, and adds to the source: the pressure at the start of the step
@@ -128,7 +128,7 @@ void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, Ce
   });
 }
 
-double AirFlow::largest_divergence(const Solids& solids, const AirState& state) {
+double AirFlow::max_divergence(const Solids& solids, const AirState& state) {
   ThreadTeam alone;
   const Grid& grid = apertures_.grid;
   set_solids(alone, solids);

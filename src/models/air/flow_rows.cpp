@@ -187,20 +187,20 @@ TALUS_CLONES void find_slip_of_row(std::ptrdiff_t count, const CellRow& given, d
   }
 }
 
-TALUS_CLONES Rates largest_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density,
-                                        const CellRow& given, const double* drag) {
+TALUS_CLONES Rates max_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density,
+                                    const CellRow& given, const double* drag) {
   constexpr int lanes = 8;
   const CellRow row = given;
   const Vector3 per = per_width;
   double crossing[lanes] = {}, response[lanes] = {};
   const auto largest = [](double a, double b) { return a > b ? a : b; };
-  const auto at = [&](std::ptrdiff_t c, double& most_crossing, double& most_response) {
+  const auto at = [&](std::ptrdiff_t c, double& max_crossing, double& max_response) {
     const auto fastest = [&](int a) {
       return largest(std::abs(row.velocity[a][c]), std::abs(row.velocity[a][c + row.next[a]]));
     };
-    most_crossing = largest(fastest(0) * per.x + fastest(1) * per.y + fastest(2) * per.z, most_crossing);
+    max_crossing = largest(fastest(0) * per.x + fastest(1) * per.y + fastest(2) * per.z, max_crossing);
     const double s = row.fraction[c], phi = 1 - s, is_solid = s > 0 ? 1.0 : 0.0;
-    most_response = largest(is_solid * drag[c] / (phi * phi * (s + (1 - is_solid)) * grain_density), most_response);
+    max_response = largest(is_solid * drag[c] / (phi * phi * (s + (1 - is_solid)) * grain_density), max_response);
   };
   std::ptrdiff_t c = 0;
   for (; c + lanes <= count; c += lanes)

@@ -124,8 +124,8 @@ inline Rates larger(const Rates& a, const Rates& b) {
   return {a.crossing > b.crossing ? a.crossing : b.crossing, a.response > b.response ? a.response : b.response};
 }
 /// The largest of a row of cells. \param per_width 1/m
-Rates largest_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density, const CellRow& row,
-                           const double* drag);
+Rates max_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density, const CellRow& row,
+                       const double* drag);
 
 /// coupling::SlipDecay on a row of faces, from the drag of the cells beside each. \param per_density dt/rho
 void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before, const double* drag_here,

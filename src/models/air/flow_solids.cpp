@@ -72,20 +72,20 @@ void AirFlow::measure_drag_of_row(std::ptrdiff_t begin, const CellRow& row) {
 /// What bounds the step in `count` cells, at the drag that has been measured.
 Rates AirFlow::rates(std::ptrdiff_t begin, std::ptrdiff_t count, const CellRow& row) const {
   const Vector3& width = apertures_.grid.spacing;
-  return largest_rates_of_row(count, {1 / width.x, 1 / width.y, 1 / width.z}, parameters_.grain_density, row,
-                              drag_.data() + begin);
+  return max_rates_of_row(count, {1 / width.x, 1 / width.y, 1 / width.z}, parameters_.grain_density, row,
+                          drag_.data() + begin);
 }
 
 double AirFlow::time_step(ThreadTeam& team, const Solids& solids, const AirState& state) {
   const Grid& grid = apertures_.grid;
-  largest_of_row_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
+  max_of_row_.resize(static_cast<std::size_t>(grid.count[1]) * static_cast<std::size_t>(grid.count[2]));
   for_each_row(team, grid, grid.count, [&](int j, int k, std::ptrdiff_t begin, std::ptrdiff_t end) {
     const CellRow row = cells_from(begin, solids, state.velocity);
     measure_drag_of_row(begin, row);
-    largest_of_row_[static_cast<std::size_t>(k * grid.count[1] + j)] = rates(begin, end - begin, row);
+    max_of_row_[static_cast<std::size_t>(k * grid.count[1] + j)] = rates(begin, end - begin, row);
   });
   Rates most{0, 0};
-  for (const Rates& row : largest_of_row_) most = larger(most, row);
+  for (const Rates& row : max_of_row_) most = larger(most, row);
   double dt = parameters_.longest_step;
   if (most.crossing > 0) dt = std::min(dt, parameters_.courant / most.crossing);
   if (most.response > 0) dt = std::min(dt, parameters_.response / most.response);

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "models/air/regime.hpp"
-
 namespace talus::air {
 
 namespace {
@@ -162,7 +160,7 @@ std::vector<NamedValue> AirModel::totals() const {
                                     {"air_speed_max", "m/s", speed},
                                     {"air_pressure_min", "Pa", pressure.least},
                                     {"air_pressure_max", "Pa", pressure.most},
-                                    {"air_divergence_max", "1/s", flow_->largest_divergence(none_, s)},
+                                    {"air_divergence_max", "1/s", flow_->max_divergence(none_, s)},
                                     {"air_iterations", "1", static_cast<double>(state_.iterations)},
                                     {"middle_u_min", "m/s", u.least},
                                     {"middle_u_max", "m/s", u.most},

@@ -14,7 +14,8 @@
 #include "models/air/flow.hpp"
 #include "models/model.hpp"
 #include "numerics/field.hpp"
-#include "numerics/grid_snapshot.hpp"
+#include "numerics/run_record.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::air {
 
@@ -133,6 +134,11 @@ class AirModel {
 };
 
 static_assert(Model<AirModel>);
+
+/// Speed of the walls, or of the vortices at the start, m/s: what a case says of its flow before it has run.
+double given_speed(const ModelParameters& parameters);
+
+std::vector<RegimeLine> regime_of_case(const ModelParameters& parameters);
 
 }  // namespace talus::air
 

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/cloud/forecast.hpp"
+#include "models/cloud/model.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "models/cloud/stability.hpp"
-#include "numerics/chebyshev.hpp"
-#include "numerics/dormand_prince.hpp"
+#include "models/cloud/parameters.hpp"
+#include "numerics/runge_kutta.hpp"
 
 namespace talus::cloud {
 
 namespace {
 
-constexpr double most_steps = 1e12;  // at a microsecond each, twelve days
-constexpr double impact_steps = 7;   // over integration.overlap_growth
-constexpr double most_impact_steps = 1e6;
+constexpr double max_steps = 1e12;  // at a microsecond each, twelve days
+constexpr double impact_steps = 7;  // over integration.overlap_growth
+constexpr double max_impact_steps = 1e6;
 // Steps of Dormand and Prince's pair are held by the tolerance, not by largest_step; measured on a disc of 100 grains
 // without contacts, the steps that are tried again included.
 constexpr double dormand_prince_steps = 1.8;
@@ -33,7 +32,7 @@ bool lies_on_slope(const Parameters& p) {
   return p.slope.enabled && p.contact.enabled && p.motion != Motion::xy;
 }
 
-double stiffest_rate(const Parameters& p, double grains) {
+double max_rate(const Parameters& p, double grains) {
   const double floor = contact_rate(p);
   if (!lies_on_slope(p) || p.fluid.mobility == hydrodynamics::Mobility::none) return floor;
   return floor * (p.motion == Motion::xyz ? std::max(1.0, contact_rate_in_heap * std::pow(grains, heap_power))
@@ -42,7 +41,7 @@ double stiffest_rate(const Parameters& p, double grains) {
 
 double longest_step(const Parameters& p, double rate) {
   const double step = p.integration.largest_step * scales(p).stokes_time;
-  return rate > 0 ? std::min(step, longest_stable_step(p, rate)) : step;
+  return rate > 0 ? std::min(step, max_stable_step(p, rate)) : step;
 }
 
 /// \param stiffness the step times the stiffest rate
@@ -54,7 +53,7 @@ double evaluations_of_step(const Parameters& p, double stiffness) {
 }  // namespace
 
 Forecast forecast(const Parameters& p, double end, double grains) {
-  const double rate = stiffest_rate(p, grains);
+  const double rate = max_rate(p, grains);
   const double step = longest_step(p, rate);
   const double stages = evaluations_of_step(p, step * rate);
   const double more = p.integration.method == Method::dormand_prince ? dormand_prince_steps : 1;
@@ -62,7 +61,7 @@ Forecast forecast(const Parameters& p, double end, double grains) {
   f.evaluations = f.steps * (stages + stiffness_estimates);
   if (lies_on_slope(p)) {
     const double share = 1 - std::exp(-end / (impact_time * scales(p).stokes_time));
-    const double steps = std::round(share * std::min(impact_steps / p.integration.overlap_growth, most_impact_steps));
+    const double steps = std::round(share * std::min(impact_steps / p.integration.overlap_growth, max_impact_steps));
     f.steps += steps;
     f.evaluations += steps * std::min(stages, impact_stages);
   }
@@ -70,19 +69,19 @@ Forecast forecast(const Parameters& p, double end, double grains) {
 }
 
 std::optional<Problem> check_steps(const Parameters& p, double end) {
-  const double time = scales(p).stokes_time, step = longest_step(p, stiffest_rate(p, 1));
+  const double time = scales(p).stokes_time, step = longest_step(p, max_rate(p, 1));
   if (!(time > 0 && std::isfinite(time)))
     return Problem{.key = "particles.radius",
                    .what = fmt::format("the unit of time a_p/v_s is {} s (particles.density, fluid.density, "
                                        "fluid.viscosity, gravity.acceleration)",
                                        time),
                    .allowed = "grains with a Stokes speed"};
-  if (end / step <= most_steps) return std::nullopt;
+  if (end / step <= max_steps) return std::nullopt;
   return Problem{.key = "run.end",
                  .what = fmt::format("{:.3g} s takes {:.2g} steps of at most {:.2g} s (integration.largest_step of "
                                      "a_p/v_s, which fluid.viscosity and the grains' weight make {:.2g} s)",
                                      end, end / step, step, scales(p).stokes_time),
-                 .allowed = fmt::format("at most {:.2g} s: {:.0e} steps", most_steps * step, most_steps)};
+                 .allowed = fmt::format("at most {:.2g} s: {:.0e} steps", max_steps * step, max_steps)};
 }
 
 double memory_of(double grains) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/cloud/initial.hpp"
+#include "models/cloud/model.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace talus::cloud {
 
 namespace {
 
-constexpr int most_trials = 1'000'000;
+constexpr int max_trials = 1'000'000;
 
 std::vector<double> draw_radii(const Parameters::Particles& p, Random& random) {
   std::vector<double> radius(p.count, p.radius);
@@ -99,7 +99,7 @@ struct ShapeSampler {
 /// Grains placed so far, in cells of two largest radii: a new grain can touch only those of the 27 cells around it.
 class Placed {
  public:
-  Placed(double largest_radius, const std::vector<double>& radius) : cell_(2 * largest_radius), radius_(radius) {}
+  Placed(double max_radius, const std::vector<double>& radius) : cell_(2 * max_radius), radius_(radius) {}
 
   bool is_free(const Vector3& x, double a) const {
     const Key centre = key(x);
@@ -187,8 +187,8 @@ Grains pack(const Parameters& parameters) {
     int trial = 0;
     Vector3 x;
     do {
-      if (++trial > most_trials)
-        throw NumericalError({.what = fmt::format("no place for a grain after {} trials", most_trials),
+      if (++trial > max_trials)
+        throw NumericalError({.what = fmt::format("no place for a grain after {} trials", max_trials),
                               .term = "random packing of the start",
                               .place = fmt::format("grain {} of {}", n + 1, grains.radius.size()),
                               .advice = "a larger shape or fewer grains"});

@@ -10,13 +10,13 @@ namespace {
 // The spectral sum is cheaper from about 1000 grains on in a plane and 2500 in space; smaller clouds, the papers' 2000
 // and the 10,000 of cases/avalanche-3d.toml among them, keep the sum that errs by rounding alone
 // (docs/design/cloud-sums.md).
-constexpr double least_in_plane = 5000, least_in_space = 20000;
+constexpr double min_in_plane = 5000, min_in_space = 20000;
 
 }  // namespace
 
 const SpectralAccuracy* spectral_accuracy_of(const Parameters& p, double grains) {
   if (p.fluid.mobility == hydrodynamics::Mobility::none || p.fluid.sum == Sum::direct) return nullptr;
-  const double least = p.motion == Motion::xyz ? least_in_space : least_in_plane;
+  const double least = p.motion == Motion::xyz ? min_in_space : min_in_plane;
   if (p.fluid.sum == Sum::automatic && grains < least) return nullptr;
   return spectral_accuracy(p.fluid.sum_error);
 }

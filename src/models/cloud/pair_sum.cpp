@@ -7,10 +7,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "base/compiled_for.hpp"
+#include "base/instruction_set.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
-#include "physics/hydrodynamics/rotne_prager.hpp"
-#include "physics/hydrodynamics/zuk.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 
@@ -19,7 +18,7 @@ namespace {
 using hydrodynamics::Mobility;
 
 // Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the bits of the sums.
-constexpr std::size_t most_tasks = 64;
+constexpr std::size_t max_tasks = 64;
 constexpr std::size_t gather_block = 32 * padding;
 
 SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t dimensions) {
@@ -57,7 +56,7 @@ PairSum::PairSum(const Options& options, std::span<const double> radius, std::sp
 // Tasks of about the same number of pairs: the first rows have the most columns.
 void PairSum::divide_into_tasks() {
   const std::size_t steps = (size() + task_rows - 1) / task_rows;
-  const std::size_t tasks = std::min((steps + 1) / 2, most_tasks);
+  const std::size_t tasks = std::min((steps + 1) / 2, max_tasks);
   std::size_t begin = 0, offset = 0;
   for (std::size_t t = 1; t <= tasks; ++t) {
     const double rest = std::sqrt(static_cast<double>(tasks - t) / static_cast<double>(tasks));

@@ -13,7 +13,7 @@
 #include "base/parallel.hpp"
 #include "base/vector.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
-#include "physics/hydrodynamics/mobility_names.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 
@@ -90,6 +90,9 @@ class PairSum {
 }  // namespace talus::cloud
 
 namespace talus {
+template <>
+inline constexpr auto choices<hydrodynamics::Mobility> = std::to_array<std::string_view>({"rotne-prager-1969",
+                                                                                          "zuk-2014", "none"});
 template <>
 inline constexpr auto choices<cloud::Motion> = std::to_array<std::string_view>({"xy", "xz", "xyz"});
 template <>

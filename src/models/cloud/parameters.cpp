@@ -7,8 +7,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "models/cloud/spectral_sum/accuracy.hpp"
-#include "physics/hydrodynamics/buoyant_weight.hpp"
+#include "models/cloud/spectral_sum.hpp"
+#include "numerics/runge_kutta.hpp"
+#include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::cloud {
 
@@ -66,7 +67,7 @@ double moment(const Parameters::Particles& p, int power) {
 constexpr double jamming_plane = 0.54;
 constexpr double jamming_space = 0.37;
 
-constexpr double most_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
+constexpr double max_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
 
 }  // namespace
 
@@ -106,9 +107,9 @@ std::vector<Problem> check(const Parameters& p) {
     add("slope.enabled", "false, but a dome stands on the slope", "true, or shape \"ball\"");
 
   const auto check_extent = [&](const char* key, const std::optional<double>& length) {
-    if (length && grains.radius > 0 && !(*length <= most_radii * grains.radius))
+    if (length && grains.radius > 0 && !(*length <= max_radii * grains.radius))
       add(key, fmt::format("{:.4g} m is {:.3g} times particles.radius", *length, *length / grains.radius),
-          fmt::format("at most {:.0e} times", most_radii));
+          fmt::format("at most {:.0e} times", max_radii));
   };
   check_extent("particles.size", grains.size);
   check_extent("particles.length", grains.length);
@@ -183,6 +184,18 @@ std::vector<RegimeLine> regime_of_case(const Parameters& p) {
                      "repulsion at an overlap of 0.01 a_p over the weight; above 1 grains stay apart",
                      s.contact_ratio < 1});
   return lines;
+}
+
+double contact_rate(const Parameters& p) {
+  if (!p.contact.enabled) return 0;
+  const double lattice = p.fluid.mobility == hydrodynamics::Mobility::none ? 6.0 : 1.5;
+  return lattice * p.contact.stiffness * hydrodynamics::stokes_mobility(p.particles.radius, p.fluid.viscosity);
+}
+
+double max_stable_step(const Parameters& p, double rate) {
+  if (p.integration.method == Method::dormand_prince) return dormand_prince::stability / rate;
+  constexpr int max_stages = 250;
+  return chebyshev_stages(p.integration.method == Method::euler ? 1 : max_stages, stage_damping).stability / rate;
 }
 
 }  // namespace talus::cloud

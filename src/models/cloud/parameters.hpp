@@ -13,8 +13,7 @@
 #include "base/instruction_set.hpp"
 #include "base/parameter.hpp"
 #include "models/cloud/pair_sum.hpp"
-#include "numerics/named_value.hpp"
-#include "physics/hydrodynamics/mobility_names.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::cloud {
 
@@ -206,6 +205,18 @@ struct Scales {
   double volume_fraction;  ///< grains over the shape: area in a plane, volume in space; 0 for a file
 };
 Scales scales(const Parameters& parameters);
+
+/// Of the stability polynomial: stiff modes decay by at least 10 % per step.
+inline constexpr double stage_damping = 0.1;
+
+/// Rate at which contacts that form within a step relax, 1/s: a floor for the estimate, since the power iteration sees
+/// only the contacts of the start. In units of k_n/(6 pi mu a_p): 1.5 with drag between the grains (the relative
+/// mobility of touching grains is small), 6 without (a triangular lattice of springs).
+double contact_rate(const Parameters& parameters);
+
+/// The longest step with which a rate is stable, s: of as many stages as Chebyshev's may be, of Dormand and Prince's,
+/// or of the one of explicit Euler. \param rate 1/s, > 0
+double max_stable_step(const Parameters& parameters, double rate);
 
 }  // namespace talus::cloud
 

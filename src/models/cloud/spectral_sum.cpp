@@ -13,11 +13,11 @@ namespace talus::cloud {
 namespace {
 
 // The finite size's share of the smooth part, s/r_c^2, stays below a hundredth: larger ones need a finer grid.
-constexpr double least_cutoff_over_radius = 8;
+constexpr double min_cutoff_over_radius = 8;
 
 // Cut-offs that are tried: a third of an octave apart, from the least on.
 constexpr double cutoff_ratio = 1.26;
-constexpr int most_trials = 60;
+constexpr int max_trials = 60;
 
 /// Seconds, on one thread of an AMD Zen 4 or 5 (benchmarks/README.md): their ratios choose.
 struct Costs {
@@ -91,7 +91,7 @@ Lattice lattice_over(const Extent& extent, const SpectralSum::Engine& engine, do
 SpectralSum::SpectralSum(const Options& options, const SpectralAccuracy& accuracy, std::span<const double> radius) {
   require(options.mobility != hydrodynamics::Mobility::none, "without a mobility there is nothing to sum");
   engine_ = make_engine(options, accuracy, radius);
-  engine_->cutoff = least_cutoff();
+  engine_->cutoff = min_cutoff();
 }
 
 SpectralSum::~SpectralSum() = default;
@@ -113,13 +113,13 @@ double SpectralSum::cutoff() const {
   return engine_->cutoff;
 }
 
-double SpectralSum::least_cutoff() const {
+double SpectralSum::min_cutoff() const {
   const std::vector<double>& radius = engine_->radius;
-  return radius.empty() ? 1 : least_cutoff_over_radius * *std::max_element(radius.begin(), radius.end());
+  return radius.empty() ? 1 : min_cutoff_over_radius * *std::max_element(radius.begin(), radius.end());
 }
 
 void SpectralSum::set_cutoff(double cutoff) {
-  require(cutoff > 0 && cutoff >= least_cutoff(), "the cut-off is shorter than the spheres allow");
+  require(cutoff > 0 && cutoff >= min_cutoff(), "the cut-off is shorter than the spheres allow");
   engine_->cutoff = cutoff;
 }
 
@@ -137,7 +137,7 @@ bool SpectralSum::velocities(ThreadTeam& team, std::span<const Vector3> position
     return true;
   }
   const Lattice lattice = lattice_over(extent, engine, 0.5 * engine.cutoff);
-  if (!(nodes_of(lattice, engine) <= most_nodes)) return false;
+  if (!(nodes_of(lattice, engine) <= max_nodes)) return false;
   engine.velocities(team, lattice, position, force, velocity);
   return true;
 }
@@ -153,11 +153,11 @@ std::optional<SpectralPlan> SpectralSum::plan(std::span<const Vector3> position)
   SpectralPlan best{.cutoff = 0,
                     .cost = std::numeric_limits<double>::infinity(),
                     .direct_cost = cost_of_pair(engine.options.precision) * count * count};
-  double cutoff = least_cutoff();
-  for (int k = 0; k < most_trials; ++k, cutoff *= cutoff_ratio) {
+  double cutoff = min_cutoff();
+  for (int k = 0; k < max_trials; ++k, cutoff *= cutoff_ratio) {
     const Lattice lattice = lattice_over(extent, engine, 0.5 * cutoff);
     const double nodes = nodes_of(lattice, engine);
-    if (!(nodes <= most_nodes)) continue;
+    if (!(nodes <= max_nodes)) continue;
     const double grid = costs.node * nodes;
     const double cost = grid + costs.sphere * count + costs.pair * near_pairs(lattice, position);
     if (cost < best.cost) best.cutoff = cutoff, best.cost = cost;

@@ -8,11 +8,9 @@
 #include <functional>
 #include <string>
 
-#include "models/cloud/stability.hpp"
-#include "models/cloud/stiffness.hpp"
-#include "models/cloud/trial.hpp"
+#include "models/cloud/parameters.hpp"
 #include "numerics/cell_grid.hpp"
-#include "numerics/dormand_prince.hpp"
+#include "numerics/runge_kutta.hpp"
 
 namespace talus::cloud {
 
@@ -21,10 +19,10 @@ namespace {
 constexpr double stiffness_margin = 1.1;  // on the measured rate, which is a lower bound
 constexpr int steps_between_estimates = 5;
 constexpr int steps_between_sorts = 16;
-constexpr double least_step_over_largest = 1e-6;
+constexpr double min_step_over_max = 1e-6;
 
 void sort_at_intervals(ThreadTeam& team, const Parameters& p, State& state, Workspace& work);
-double stiffest_rate(const Parameters& p, const State& state, double largest_overlap);
+double max_rate(const Parameters& p, const State& state, double largest_overlap);
 bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
                    double overlap_before);
 void accept(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, const Trial& trial, double step);
@@ -40,8 +38,8 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
   if (state.step % steps_between_estimates == 0 && p.contact.enabled) estimate_stiffness(team, p, state, work, 3);
   double step = std::min(state.next_step, largest_step(p, work));
   while (true) {
-    const double rate = stiffest_rate(p, state, overlap_before);
-    if (rate > 0) step = std::min(step, longest_stable_step(p, rate));
+    const double rate = max_rate(p, state, overlap_before);
+    if (rate > 0) step = std::min(step, max_stable_step(p, rate));
     const Trial trial = try_step(team, p, state, work, step, rate);
     if (is_acceptable(p, state, work, trial, step, overlap_before)) return accept(team, p, state, work, trial, step);
     ++state.rejected_steps;
@@ -107,7 +105,7 @@ std::string place_of(const State& state, std::size_t grain) {
                                           [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); });
     worst = static_cast<std::size_t>((infinite ? broken : fastest) - work.trial_velocity.begin());
     report.what = infinite ? "the velocity is not finite"
-                           : fmt::format("a grain moves by more than {:g} radii in the shortest step", farthest_move);
+                           : fmt::format("a grain moves by more than {:g} radii in the shortest step", max_move);
     report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
     report.advice = "no two grains at one place at the start, a smaller integration.largest_step";
   }
@@ -123,7 +121,7 @@ double growth(double error, int order) {
 }
 
 /// That a step must be stable with, 1/s. The pair's error tells when grains come to touch: until they do, none is.
-double stiffest_rate(const Parameters& p, const State& state, double largest_overlap) {
+double max_rate(const Parameters& p, const State& state, double largest_overlap) {
   if (p.integration.method == Method::dormand_prince && !(largest_overlap > 0)) return 0;
   return std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
 }
@@ -138,7 +136,7 @@ double share_of_tolerance(const Parameters& p, const Trial& trial) {
 bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
                    double overlap_before) {
   const double a = p.particles.radius;
-  const bool at_least = step < least_step_over_largest * largest_step(p, work);
+  const bool at_least = step < min_step_over_max * largest_step(p, work);
   const bool overlapped = trial.overlap > p.integration.largest_overlap * a;
   if ((!trial.finite || overlapped) && at_least) give_up(p, state, work, trial.finite, trial.overlap);
   const bool grew = trial.overlap > overlap_before + p.integration.overlap_growth * a;
@@ -160,8 +158,8 @@ void accept(ThreadTeam& team, const Parameters& p, State& state, Workspace& work
 
 /// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
 void check_stiffness(const Parameters& p, const State& state, const Workspace& work) {
-  const double share = longest_stable_step(p, contact_rate(p)) / largest_step(p, work);  // infinite without contacts
-  if (share >= least_step_over_largest) return;
+  const double share = max_stable_step(p, contact_rate(p)) / largest_step(p, work);  // infinite without contacts
+  if (share >= min_step_over_max) return;
   throw NumericalError({.what = fmt::format("the longest stable step is {:.2g} of the largest", share),
                         .term = "contact force, Eq. 2",
                         .place = "every contact",
@@ -177,9 +175,9 @@ NumericalError::Report step_limit(const Parameters& p, const State& state) {
     return static_cast<std::size_t>(std::max_element(column.begin(), column.end(), less) - column.begin());
   };
   const auto shorter = [](const Vector3& u, const Vector3& v) { return dot(u, u) < dot(v, v); };
-  const double rate = stiffest_rate(p, state, *std::max_element(state.overlap.begin(), state.overlap.end()));
+  const double rate = max_rate(p, state, *std::max_element(state.overlap.begin(), state.overlap.end()));
   NumericalError::Report report{};
-  if (rate > 0 && state.last_step > 0.9 * longest_stable_step(p, rate)) {
+  if (rate > 0 && state.last_step > 0.9 * max_stable_step(p, rate)) {
     report.term = fmt::format("stability of the contacts, whose stiffest rate is {:.3g} 1/s, Eq. 2", rate);
     report.place = state.stiff_mode.empty() ? "every contact" : place_of(state, most(state.stiff_mode, shorter));
     report.advice = "a smaller contact.stiffness";

@@ -36,4 +36,26 @@ NumericalError::Report step_limit(const Parameters& parameters, const State& sta
 ///         the least step; the state is then that of the last good step
 void advance(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
+inline constexpr double max_move = 1e4;  // of a grain in a step, in mean radii: the error control refuses less
+
+/// What a trial step left in the workspace (of the state it changes counters alone), and whether it may stand.
+struct Trial {
+  bool finite = false;
+  std::uint64_t stages = 0;
+  double error = 0;    ///< root mean square of the local error, m
+  double overlap = 0;  ///< largest, m
+  int order = 2;       ///< the local error goes as the step to this power
+};
+
+/// Stages of the method, and the velocities at their end. \param rate of the stiffest motion, 1/s
+Trial try_step(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace, double step,
+               double rate);
+
+bool all_finite(ThreadTeam& team, std::span<const Vector3> v);
+
+/// Power iteration with the velocities themselves: the largest |lambda| of dv/dx, from state.stiff_mode, which it
+/// improves. Updates state.spectral_radius and counts its evaluations.
+/// \param sweeps at most so many evaluations; fewer once the estimate changes by less than 2 %
+void estimate_stiffness(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace, int sweeps);
+
 }  // namespace talus::cloud

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/cloud/trial.hpp"
-
+#include <algorithm>
 #include <cmath>
 
 #include "base/exact_sum.hpp"
-#include "models/cloud/stability.hpp"
-#include "numerics/chebyshev.hpp"
-#include "numerics/dormand_prince.hpp"
+#include "base/random.hpp"
+#include "models/cloud/parameters.hpp"
+#include "models/cloud/step.hpp"
+#include "numerics/runge_kutta.hpp"
 
 namespace talus::cloud {
 
@@ -102,7 +102,7 @@ bool all_finite(ThreadTeam& team, std::span<const Vector3> v) {
 
 Trial try_step(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, double step, double rate) {
   const bool pair = p.integration.method == Method::dormand_prince;
-  const double farthest = farthest_move * p.particles.radius;
+  const double farthest = max_move * p.particles.radius;
   ChebyshevStages scheme;
   if (!pair)
     scheme = chebyshev_stages(p.integration.method == Method::euler ? 1 : stages_for(step * rate, stage_damping),
@@ -119,6 +119,42 @@ Trial try_step(ThreadTeam& team, const Parameters& p, State& state, Workspace& w
   trial.error = pair ? error_of_dormand_prince(team, state, work, step)
                      : error_of_first_order(team, state, work, step, scheme.second_order);
   return trial;
+}
+
+namespace {
+
+double length(ThreadTeam& team, const std::vector<Vector3>& v) {
+  return std::sqrt(exact_sum(team, v.size(), [&](std::size_t i) { return dot(v[i], v[i]); }));
+}
+
+}  // namespace
+
+void estimate_stiffness(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, int sweeps) {
+  const std::size_t count = state.position.size();
+  // Root mean square displacement of the trial: far below an overlap, far above the rounding of the velocities.
+  const bool single = state.sum_cutoff > 0 ? work.velocities.sum().accuracy()->single
+                                           : p.fluid.precision == Precision::single_precision;
+  const double amplitude = (single ? 1e-5 : 1e-6) * p.particles.radius * std::sqrt(double(count));
+  if (state.spectral_radius < contact_rate(p) || state.stiff_mode.size() != count) {
+    Random random(1);
+    state.stiff_mode.resize(count);
+    for (Vector3& v : state.stiff_mode)
+      v = in_plane({random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, p.motion);
+    const double scale = length(team, state.stiff_mode);
+    for (Vector3& v : state.stiff_mode) v = (1 / scale) * v;
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for_each(team, count, [&](std::size_t i) { work.latest[i] = state.position[i] + amplitude * state.stiff_mode[i]; });
+    work.velocities(team, work.latest, work.trial_velocity);
+    ++state.evaluations;
+    for_each(team, count, [&](std::size_t i) { work.before[i] = work.trial_velocity[i] - state.velocity[i]; });
+    const double size = length(team, work.before);
+    if (!(size > 0) || !std::isfinite(size)) return;
+    for_each(team, count, [&](std::size_t i) { state.stiff_mode[i] = (1 / size) * work.before[i]; });
+    const double previous = state.spectral_radius;
+    state.spectral_radius = size / amplitude;
+    if (std::abs(state.spectral_radius - previous) < 0.02 * state.spectral_radius) return;
+  }
 }
 
 }  // namespace talus::cloud

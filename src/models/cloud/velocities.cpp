@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "physics/contact/linear_spring.hpp"
-#include "physics/hydrodynamics/buoyant_weight.hpp"
 #include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::cloud {
@@ -75,7 +74,7 @@ void Velocities::find_contacts(ThreadTeam& team, std::span<const Vector3> positi
 void Velocities::operator()(ThreadTeam& team, std::span<const Vector3> position, std::span<Vector3> velocity) {
   const double viscosity = parameters_.fluid.viscosity;
   if (parameters_.contact.enabled) find_contacts(team, position);
-  largest_overlap_ = reduce(
+  max_overlap_ = reduce(
       team, position.size(), 0.0, [&](std::size_t i) { return overlap_[i]; },
       [](double a, double b) { return std::max(a, b); });
   for_each(team, position.size(), [&](std::size_t i) { force_[i] = weight_[i] + contact_force_[i]; });

@@ -32,7 +32,7 @@ class Velocities {
   /// Of the last evaluation.
   std::span<const Vector3> contact_force() const { return contact_force_; }
   std::span<const double> overlap() const { return overlap_; }
-  double largest_overlap() const { return largest_overlap_; }
+  double largest_overlap() const { return max_overlap_; }
 
   const MobilitySum& sum() const { return sum_; }
 
@@ -47,7 +47,7 @@ class Velocities {
   MobilitySum sum_;
   std::vector<Vector3> force_, contact_force_;
   std::vector<double> overlap_;
-  double largest_overlap_ = 0;
+  double max_overlap_ = 0;
 };
 
 /// The part of a vector along the motion.

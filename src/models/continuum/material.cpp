@@ -6,7 +6,7 @@
 #include <concepts>
 #include <string_view>
 
-#include "base/compiled_for.hpp"
+#include "base/instruction_set.hpp"
 #include "models/continuum/law_update/kernel.hpp"
 
 namespace talus::continuum {

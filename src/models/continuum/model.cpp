@@ -12,8 +12,9 @@
 #include "models/continuum/population.hpp"
 #include "models/continuum/regime.hpp"
 #include "models/continuum/sector.hpp"
-#include "numerics/snapshot_of.hpp"
-#include "numerics/whole.hpp"
+#include "models/continuum/setup/time_scale.hpp"
+#include "numerics/field.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::continuum {
 

@@ -12,7 +12,6 @@
 #include "models/continuum/state.hpp"
 #include "models/continuum/step.hpp"
 #include "models/model.hpp"
-#include "numerics/grid_snapshot.hpp"
 #include "numerics/snapshot.hpp"
 
 namespace talus::continuum {

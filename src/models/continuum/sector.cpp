@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "numerics/cell_grid.hpp"
-#include "numerics/snapshot_of.hpp"
+#include "numerics/field.hpp"
 
 namespace talus::continuum {
 

@@ -23,7 +23,7 @@ std::vector<Problem> check_symmetry(const Layout& layout);
 void return_to_sector(const Domain& domain, const Material& material, State& state);
 
 /// The sector as snapshots hold it: its particles once, each with the identity of the one that stands there in the
-/// whole (whole_of(), numerics/whole.hpp). A particle that has passed a face goes on in the next copy.
+/// whole (whole_of(), numerics/snapshot.hpp). A particle that has passed a face goes on in the next copy.
 PointSet part_of(const State& state, const Sector& sector);
 
 }  // namespace talus::continuum

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "numerics/geometry/mirrors.hpp"
-
 namespace talus {
 
 namespace {

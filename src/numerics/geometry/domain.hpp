@@ -187,4 +187,10 @@ class Domain {
   std::vector<Mirror> mirrors_;  // walls; unless these are layers, then faces across x and z
 };
 
+/// What the mirror shows of an image: reflected, or shifted by a periodic face.
+Image mirrored(Image image, const Mirror& mirror);
+
+/// Whether two images show the same places of the x-z plane, to round-off. \param length of the box, m
+bool same_map(const Image& a, const Image& b, double length);
+
 }  // namespace talus

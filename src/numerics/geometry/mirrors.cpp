@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Images in walls that are no layers, and who sees them.
-#include "numerics/geometry/mirrors.hpp"
+#include "numerics/geometry/domain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -120,10 +120,10 @@ std::optional<Vector3> Domain::end_of_line(const Vector3& from, const Vector3& t
       if (meets_layer(walls_[w], from, to)) end = mirrored(Image{}, mirrors_[w]).position(end);
     return fold(end);
   }
-  constexpr int most_turns = 8;
+  constexpr int max_turns = 8;
   Vector3 a = from, b = to;
   std::size_t last = mirrors_.size();
-  for (int turns = 0; turns < most_turns; ++turns) {
+  for (int turns = 0; turns < max_turns; ++turns) {
     std::size_t first = mirrors_.size();
     double earliest = 2;
     for (std::size_t m = 0; m < mirrors_.size(); ++m) {

@@ -26,11 +26,11 @@ std::array<const double*, 3> pointers(const std::array<std::vector<double>, 3>& 
 }
 
 // What a refinement in single precision may be asked for: less would be lost in rounding, and is left to the next one.
-constexpr double least_reduction = 1e-4;
+constexpr double min_reduction = 1e-4;
 // A refinement that leaves more than this share of the residual, or needs more iterations, meets a part of the value
 // that single precision does not see: the level of a region behind a bed that hardly lets air through. Doubles go on.
-constexpr double least_gain = 0.1;
-constexpr int most_iterations_of_floats = 50;
+constexpr double min_gain = 0.1;
+constexpr int max_iterations_of_floats = 50;
 
 }  // namespace
 
@@ -222,7 +222,7 @@ int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most
   System system{*this, team, 1};
   MultigridCycle cycle{*this, team};
   const ConjugateGradients found =
-      solve_by_conjugate_gradients(system, cycle, std::max(0.9 * enough / norm, least_reduction), most_iterations);
+      solve_by_conjugate_gradients(system, cycle, std::max(0.9 * enough / norm, min_reduction), most_iterations);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::add(end - begin, norm * scale_, change_.data() + begin, value_.data() + begin);
   });
@@ -256,9 +256,9 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
       fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
     if (iterations >= stop.most_iterations) fail_to_converge();
     const double before = norm;
-    iterations += refine(team, norm, enough, std::min(stop.most_iterations - iterations, most_iterations_of_floats));
+    iterations += refine(team, norm, enough, std::min(stop.most_iterations - iterations, max_iterations_of_floats));
     norm = std::sqrt(find_residual(team));
-    if (!(norm > least_gain * before)) continue;
+    if (!(norm > min_gain * before)) continue;
     const ConjugateGradients found = solve_in_doubles(team, enough, stop.most_iterations);
     iterations += found.iterations;
     norm = std::sqrt(find_residual(team));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A surface of triangles: the walls of a vessel. It has no thickness; grains may stand on either side of it. Its
-/// triangles belong to patches, which a gate may open, and to smooth parts, which edges bound.
+/// A surface of triangles: the walls of a vessel, its section, and points spread over it. It has no thickness; grains
+/// may stand on either side of it. Its triangles belong to patches, which a gate may open, and to smooth parts, which
+/// edges bound.
 ///
 /// A tree of boxes finds the triangles near a place, so that the cost hardly grows with their number. What is made of
 /// the triangles is made once: a copy of a surface shares it, and has only its own gates.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "numerics/geometry/sector.hpp"
 #include "numerics/surface/triangle.hpp"
 #include "numerics/surface/triangle_tree.hpp"
 
@@ -91,5 +94,25 @@ class Surface {
   std::shared_ptr<const Made> made_ = nothing();
   std::vector<bool> is_open_;
 };
+
+/// Where the surface meets the plane at that y, open patches left out. \param y m
+std::vector<std::array<Vector3, 2>> section_at(const Surface& surface, double y);
+
+struct SurfacePoint {
+  Vector3 place;   ///< m
+  Vector3 normal;  ///< unit
+  double area;     ///< that it stands for, m^2
+  std::uint32_t patch, part;
+};
+
+/// Cuts every flat piece of the surface into squares of at most `distance`, and takes the middle of what lies in each;
+/// rests of less than a third of a square join each other or the nearest square of the same smooth part. So the points
+/// are about as many for a surface of any number of triangles of any shape. \param distance > 0, m
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance);
+
+/// The points of what of the surface is in a sector, and then those of each of its copies, in the same order: as
+/// symmetric as the surface. \param surface whose triangles, and so its smooth parts, turn into each other by the angle
+/// of the sector
+std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const Sector& sector);
 
 }  // namespace talus

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "numerics/surface/triangle_edges.hpp"
+#include "numerics/surface/triangle.hpp"
 
 namespace talus {
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double reach = 1.5;  // in sizes: so near a field's middle is to any of its places, but for rests
 
-constexpr double most_cells = 2e6;
+constexpr double max_cells = 2e6;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
   const Vector3 extent = surface.high() - low_;
   cell_ = reach * size;
   const auto along = [&](double length) { return std::floor(length / cell_) + 1; };
-  while (along(extent.x) * along(extent.y) * along(extent.z) > most_cells) cell_ *= 2;
+  while (along(extent.x) * along(extent.y) * along(extent.z) > max_cells) cell_ *= 2;
   for (int axis = 0; axis < 3; ++axis) count_[static_cast<std::size_t>(axis)] = static_cast<int>(along(extent[axis]));
   std::vector<std::size_t> cell;
   for (const SurfacePoint& field : fields_) {

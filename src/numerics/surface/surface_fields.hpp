@@ -10,7 +10,6 @@
 
 #include "base/vector.hpp"
 #include "numerics/surface/surface.hpp"
-#include "numerics/surface/surface_points.hpp"
 
 namespace talus {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "numerics/surface/surface_points.hpp"
+#include "numerics/surface/surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "numerics/cell_grid.hpp"
-#include "numerics/surface/triangle_edges.hpp"
+#include "numerics/surface/triangle.hpp"
 
 namespace talus {
 

@@ -5,6 +5,7 @@
 /// Kaufmann, 2005), 6.2.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -12,10 +13,40 @@
 #include <vector>
 
 #include "base/vector.hpp"
-#include "numerics/surface/slab.hpp"
 #include "numerics/surface/triangle.hpp"
 
 namespace talus {
+
+// Slabs: where triangles of a surface lie that are nearly in one plane. Who looks at a finely triangulated surface
+// from some distance looks at a few of these.
+
+inline double square_distance_from_box(const Vector3& low, const Vector3& high, const Vector3& x) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = low[axis] - x[axis], above = x[axis] - high[axis];
+    const double out = below > 0 ? below : above > 0 ? above : 0;
+    sum += out * out;
+  }
+  return sum;
+}
+
+/// Some triangles lie in the box and where |normal x - offset| <= slack.
+struct Slab {
+  Vector3 low, high;             ///< corners of the box, m
+  Vector3 normal;                ///< unit
+  double offset = 0, slack = 0;  ///< m
+  std::uint32_t patch = 0;
+
+  double height(const Vector3& x) const { return dot(normal, x) - offset; }
+  /// No triangle is nearer to x, m.
+  double distance(const Vector3& x) const {
+    return std::max(std::abs(height(x)) - slack, std::sqrt(square_distance_from_box(low, high, x)));
+  }
+};
+
+/// Writes the slabs within reach of x, their normals towards it: who is higher than the slack of each, and no farther
+/// than the reach, is not hidden from x by what lies in them. \returns whether x is itself higher than each
+bool find_half_spaces(const Vector3& x, double reach, std::span<const Slab> slabs, std::vector<Slab>& half_spaces);
 
 class TriangleTree {
  public:
@@ -32,7 +63,7 @@ class TriangleTree {
       std::uint32_t node;
       double square;
     };
-    std::array<Entry, most_levels> stack;
+    std::array<Entry, max_levels> stack;
     std::size_t size = 0;
     stack[size++] = {0, square_distance(nodes_[0], x)};
     while (size > 0) {
@@ -58,7 +89,7 @@ class TriangleTree {
   void along_line(const Vector3& a, const Vector3& b, Visit&& visit) const {
     if (nodes_.empty()) return;
     const Line line(a, b, margin_);
-    std::array<std::uint32_t, most_levels> stack;
+    std::array<std::uint32_t, max_levels> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
@@ -81,7 +112,7 @@ class TriangleTree {
   void slabs_within(const Vector3& low, const Vector3& high, double thin, double wide, Some&& of_some,
                     One&& of_one) const {
     if (nodes_.empty()) return;
-    std::array<std::uint32_t, most_levels> stack;
+    std::array<std::uint32_t, max_levels> stack;
     std::size_t size = 0;
     stack[size++] = 0;
     while (size > 0) {
@@ -109,7 +140,7 @@ class TriangleTree {
   }
 
  private:
-  static constexpr std::size_t leaf = 4, most_levels = 64;
+  static constexpr std::size_t leaf = 4, max_levels = 64;
   static constexpr double rounding = 1e-12;
 
   /// Triangles order_[begin] to order_[end - 1]. The first child follows its parent.

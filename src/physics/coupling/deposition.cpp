@@ -45,7 +45,7 @@ Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& su
   }
   Vector3 part;
   for (int axis = 0; axis < 3; ++axis) part[axis] = grid.spacing[axis] / CellsAlong::parts(grid, axis);
-  least_reach_ = 0.5001 * norm(part);
+  min_reach_ = 0.5001 * norm(part);
   beyond_reach_ = 0.5 * norm(grid.spacing - part);
 }
 
@@ -63,7 +63,7 @@ void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> positio
 }
 
 void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Block& block) const {
-  const double reach = std::max(sph::support * h, least_reach_);
+  const double reach = std::max(sph::support * h, min_reach_);
   const double per_width = sph::support / reach;
   for (int axis = 0; axis < 3; ++axis)
     scratch.along[static_cast<std::size_t>(axis)].find(

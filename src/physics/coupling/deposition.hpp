@@ -76,7 +76,7 @@ class Deposition {
   const Domain& domain_;
   const Surface& surface_;
   std::array<bool, 3> is_mirrored_{};  // along each axis: neither end of the box is open or periodic
-  double least_reach_ = 0;             // with which a particle reaches the centre of the nearest part of a cell, m
+  double min_reach_ = 0;               // with which a particle reaches the centre of the nearest part of a cell, m
   double beyond_reach_ = 0;            // that the centre of a cell may be, of which a part is within reach, m
   std::size_t count_ = 0;
   std::vector<Block> blocks_;

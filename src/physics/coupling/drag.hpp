@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/exponential.hpp"
-#include "base/power.hpp"
+#include "base/elementary.hpp"
 
 namespace talus::coupling {
 

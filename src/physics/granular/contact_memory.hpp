@@ -57,7 +57,7 @@ class ContactMemory {
  public:
   explicit ContactMemory(const Contact& contact)
       : remembers_(contact.volume == Volume::contact),
-        largest_dilation_(maximum(volumetric_strain(contact.reference_packing, contact.gate_packing), 0.0)),
+        max_dilation_(maximum(volumetric_strain(contact.reference_packing, contact.gate_packing), 0.0)),
         compaction_(contact.compaction) {}
 
   /// d at the end of a step; 0 if nothing is remembered.
@@ -66,7 +66,7 @@ class ContactMemory {
   Number dilation(const Number& old, const Number& by_density, const Tensor3<Number>& velocity_gradient,
                   double time_step) const {
     if (!remembers_) return 0.0;
-    const Number apart = minimum(maximum(old, -1.0 * by_density), Number(largest_dilation_));
+    const Number apart = minimum(maximum(old, -1.0 * by_density), Number(max_dilation_));
     const Number sheared = (sqrt2 * time_step) * norm(deviator(symmetric_part(velocity_gradient)));
     return select(by_density + apart > Number(0.0), apart / (1.0 + compaction_ * sheared), apart);
   }
@@ -75,7 +75,7 @@ class ContactMemory {
   static constexpr double sqrt2 = 1.4142135623730951;
 
   bool remembers_;
-  double largest_dilation_;
+  double max_dilation_;
   double compaction_;
 };
 

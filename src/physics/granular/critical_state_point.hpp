@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "base/logarithm.hpp"
+#include "base/elementary.hpp"
 #include "base/tensor.hpp"
-#include "physics/granular/rotation.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::granular {
 
@@ -42,7 +42,7 @@ struct CriticalStateCoefficients {
 
   CriticalStateParameters parameters;
   double reference_density = 0;  ///< kg/m^3
-  double largest_volume = 0;     ///< at phi_min
+  double max_volume = 0;         ///< at phi_min
   double grain_inertia = 0;      ///< (2 rho_p)^(1/2) d: I over |D_dev| p^(-1/2)
 };
 
@@ -64,7 +64,7 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   // Volumes of a grain's share of space, in units of that at the reference packing: now, and just touching.
   const Number volume = c.reference_density / density;
   const auto touch = volume < 1.0 + old.expansion;
-  const Number apart = minimum(volume, Number(c.largest_volume));
+  const Number apart = minimum(volume, Number(c.max_volume));
   const Number touching = select(touch, 1.0 + old.expansion, maximum(1.0 + old.expansion, apart));
   const Number pressure = select(touch, p.bulk_modulus * log_near_one(touching / volume), Number(0.0));
 

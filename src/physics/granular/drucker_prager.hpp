@@ -13,7 +13,7 @@
 /// slow, dense flow of 200 um glass beads with A4; with a constant mu of anything without cohesion. deviates: Bui et
 /// al. let the pressure follow the rate alone; tied to the density it cannot drift from the packing.
 ///
-/// The rate is Jaumann's. The convected rate of the strain (almansi_strain.hpp) would stretch the stress with the
+/// The rate is Jaumann's. The convected rate of the strain (kinematics.hpp) would stretch the stress with the
 /// grains, which has no meaning for a stress; over the elastic range, |s|/2G < 2e-4, the two differ by less than that.
 /// The rotation of a step is one to round-off, so pressure and |s| of a turning block stay.
 #pragma once
@@ -21,9 +21,9 @@
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
+#include "physics/granular/kinematics.hpp"
 #include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
-#include "physics/granular/rotation.hpp"
 
 namespace talus::granular {
 

@@ -25,7 +25,7 @@ struct FittedFunctions {
 };
 
 /// The end of every fit.
-inline constexpr double largest_fitted_strain = 0.035;
+inline constexpr double max_fitted_strain = 0.035;
 
 /// Appendix B to the digit. Two digits of terms that nearly cancel: most joints jump, by per cent of the left value
 ///     A1 at 2e-4 +17, 1e-3 +15, 3.5e-3 +52, 7e-3 -78;  A2 at 2.5e-3 +31, 7e-3 -20;  A3 at 1.65e-4 +23, 1.75e-4 -23,

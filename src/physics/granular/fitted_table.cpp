@@ -11,14 +11,14 @@ namespace talus::granular {
 
 template <int columns, int degree>
 void PieceTable<columns, degree>::append(double end, const double (&coefficients)[columns * (degree + 1)]) {
-  if (pieces_ == most_pieces) throw std::logic_error("fitted functions: too many pieces");
+  if (pieces_ == max_pieces) throw std::logic_error("fitted functions: too many pieces");
   end_[pieces_] = end;
   std::copy(std::begin(coefficients), std::end(coefficients), coefficient_[pieces_++]);
 }
 
 template <int columns, int degree>
 void PieceTable<columns, degree>::finish() {
-  if (pieces_ == 0 || end_[pieces_ - 1] != largest_fitted_strain)
+  if (pieces_ == 0 || end_[pieces_ - 1] != max_fitted_strain)
     throw std::logic_error("fitted functions: the pieces do not end with the range");
   for (int piece = 0; piece + 1 < pieces_; ++piece) {
     const int bucket = bucket_of(end_[piece]);
@@ -27,8 +27,8 @@ void PieceTable<columns, degree>::finish() {
     std::fill(first_ + bucket + 1, first_ + buckets, static_cast<unsigned char>(piece + 1));
   }
   // The range includes its end, and a look-up asks for two joints.
-  for (int past = pieces_; past < most_pieces + 2; ++past) {
-    end_[past] = 2 * largest_fitted_strain;
+  for (int past = pieces_; past < max_pieces + 2; ++past) {
+    end_[past] = 2 * max_fitted_strain;
     std::copy(std::begin(coefficient_[pieces_ - 1]), std::end(coefficient_[pieces_ - 1]), coefficient_[past]);
   }
 }
@@ -131,8 +131,8 @@ PressureTable pressure_table(const FittedFunctions& functions) {
   return table;
 }
 
-double largest_fitted_pressure(const Fits& fits) {
-  return fits.scale * pressure_table(fits.functions())(largest_fitted_strain) / std::sqrt(3.0);
+double max_fitted_pressure(const Fits& fits) {
+  return fits.scale * pressure_table(fits.functions())(max_fitted_strain) / std::sqrt(3.0);
 }
 
 }  // namespace talus::granular

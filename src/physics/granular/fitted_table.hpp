@@ -12,16 +12,16 @@
 
 namespace talus::granular {
 
-/// Polynomials of `degree` in pieces, `columns` functions side by side, on 0 to largest_fitted_strain.
+/// Polynomials of `degree` in pieces, `columns` functions side by side, on 0 to max_fitted_strain.
 template <int columns, int degree>
 class PieceTable {
  public:
-  static constexpr int most_pieces = 64;
+  static constexpr int max_pieces = 64;
 
   /// The functions at `a` >= 0; beyond the range at its end (see beyond_range).
   template <class Number>
   void evaluate(const Number& a, Number (&value)[columns]) const {
-    const Number inside = minimum(a, Number(largest_fitted_strain));
+    const Number inside = minimum(a, Number(max_fitted_strain));
     Number c[columns * (degree + 1)];
     gather_rows(
         inside, [this](double x) { return row_of(x); }, c);
@@ -41,7 +41,7 @@ class PieceTable {
 
   /// Adds the piece that follows. \param coefficients of each function in turn, lowest power first
   void append(double end, const double (&coefficients)[columns * (degree + 1)]);
-  /// Completes the look-up; the last piece ends at largest_fitted_strain.
+  /// Completes the look-up; the last piece ends at max_fitted_strain.
   /// \throws std::logic_error if three joints lie within 1/64 of an octave, too close for the look-up to tell them
   /// apart
   void finish();
@@ -52,11 +52,11 @@ class PieceTable {
  private:
   // A bucket is 1/64 of an octave, from 2^-15 = 3.05e-5, below all joints; two joints a bucket at most.
   static constexpr int shift = 52 - 6;
-  static constexpr long long lowest_key = (1023LL - 15) << 6;
+  static constexpr long long min_key = (1023LL - 15) << 6;
   static constexpr int buckets = 64 * 11;
 
   static int bucket_of(double a) {
-    const long long key = (__builtin_bit_cast(long long, a) >> shift) - lowest_key;
+    const long long key = (__builtin_bit_cast(long long, a) >> shift) - min_key;
     return key < 0 ? 0 : key < buckets ? static_cast<int>(key) : buckets - 1;
   }
   const double* row_of(double a) const {
@@ -65,15 +65,15 @@ class PieceTable {
   }
 
   int pieces_ = 0;
-  double end_[most_pieces + 2] = {};
-  double coefficient_[most_pieces + 2][columns * (degree + 1)] = {};
+  double end_[max_pieces + 2] = {};
+  double coefficient_[max_pieces + 2][columns * (degree + 1)] = {};
   unsigned char first_[buckets] = {};  // the piece in which the bucket begins
 };
 
 /// Factor that carries A_n beyond the range of the fits: A_n(a) = A_n(0.035) 0.035/a.
 template <class Number>
 Number beyond_range(const Number& a) {
-  return largest_fitted_strain / maximum(a, Number(largest_fitted_strain));
+  return max_fitted_strain / maximum(a, Number(max_fitted_strain));
 }
 
 /// A1, A2, A3 (Pa) and A4 at one argument: what the printed component formulas need.
@@ -124,11 +124,11 @@ void visit_largest_deviator(Visit&& visit, F& fits, const Range& largest) {
 
 /// Up to where the fits go.
 constexpr Range within_fits() {
-  return {.least = 0, .most = largest_fitted_strain, .least_excluded = true};
+  return {.least = 0, .most = max_fitted_strain, .least_excluded = true};
 }
 
 /// Where the loading curve of the pressure ends with the fits, at f = 1, Pa.
-double largest_fitted_pressure(const Fits& fits);
+double max_fitted_pressure(const Fits& fits);
 
 /// Diameter of the grains that were fitted, m.
 inline constexpr double fitted_diameter = 200e-6;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/granular/law.hpp"
 
+#include <cmath>
 #include <optional>
+#include <stdexcept>
+
+#include "physics/granular/critical_state.hpp"
+#include "physics/granular/drucker_prager.hpp"
 
 namespace talus::granular {
 
@@ -21,6 +26,56 @@ AnyLaw make_law(const LawParameters& parameters, double grain_density, double gr
     else
       return std::optional<AnyLaw>(Law(own, grain_density));
   });
+}
+
+CriticalState::CriticalState(const Parameters& parameters, double grain_density, double grain_diameter)
+    : parameters_(parameters),
+      coefficients_{parameters, parameters.reference_packing * grain_density,
+                    parameters.reference_packing / parameters.loosest_packing,
+                    std::sqrt(2 * grain_density) * grain_diameter} {}
+
+double CriticalState::sound_speed(double density) const {
+  return std::sqrt((parameters_.bulk_modulus + 4.0 / 3.0 * parameters_.shear_modulus) / density);
+}
+
+std::vector<Problem> CriticalState::check(const Parameters& p) {
+  std::vector<Problem> problems;
+  if (p.fast_friction < p.friction)
+    problems.push_back({.key = "fast_friction",
+                        .what = "fast flow would have less friction than slow flow, and would run away",
+                        .allowed = "at least friction"});
+  if (p.fabric_friction > p.friction)
+    problems.push_back({.key = "fabric_friction",
+                        .what = "grains whose shear turns back would push on by themselves",
+                        .allowed = "at most friction"});
+  for (const auto& [key, packing] :
+       {std::pair{"critical_packing", p.critical_packing}, std::pair{"reference_packing", p.reference_packing}})
+    if (packing < p.loosest_packing)
+      problems.push_back({.key = key, .what = "lies below the loosest packing", .allowed = "at least loosest_packing"});
+  if (!(p.critical_packing - CriticalStateCoefficients::largest_inertial_number * p.loosening > 0.1))
+    problems.push_back({.key = "loosening",
+                        .what = "fast flow would have next to no grains",
+                        .allowed = "less than (critical_packing - 0.1)/0.3"});
+  return problems;
+}
+
+DruckerPrager::DruckerPrager(const Parameters& parameters, double grain_density)
+    : parameters_(parameters),
+      memory_(parameters.contact),
+      shear_(shear_table(parameters.fits.functions())),
+      inverse_grain_density_(1 / grain_density) {
+  const Fits& fits = parameters.fits;
+  if (!(fits.largest_deviator <= max_fitted_strain))
+    throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
+  const FittedFunctions& functions = fits.functions();
+  const double lambda = fits.scale * functions.a2.piece[0].c0;
+  two_g_ = fits.scale * (functions.a1.piece[0].c0 - functions.a2.piece[0].c0);
+  inverse_two_g_ = 1 / two_g_;
+  bulk_ = lambda + two_g_ / 3;
+}
+
+double DruckerPrager::sound_speed(double density) const {
+  return std::sqrt((bulk_ + 2.0 / 3.0 * two_g_) / density);
 }
 
 }  // namespace talus::granular

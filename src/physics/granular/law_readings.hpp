@@ -21,7 +21,7 @@ enum class Volume {
 
 /// What the strain of the printed components follows from.
 enum class Strain {
-  rate,          ///< de/dt = -D - e L - L^T e (almansi_strain.hpp)
+  rate,          ///< de/dt = -D - e L - L^T e (kinematics.hpp)
   displacements  ///< Eqs 9-12 from x - X, with X the place at the last reset: the paper's own route
 };
 

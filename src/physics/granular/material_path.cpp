@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "physics/granular/almansi_strain.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::granular {
 

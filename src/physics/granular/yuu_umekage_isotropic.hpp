@@ -30,13 +30,12 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
+#include "physics/granular/kinematics.hpp"
 #include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
-#include "physics/granular/rotation.hpp"
 
 namespace talus::granular {
 
@@ -144,9 +143,9 @@ class YuuUmekageIsotropic {
   /// compression, times k_u if a stress unloads along its line. An upper bound for every state.
   double sound_speed(double density) const;
   /// Largest pressure of the loading curve at f = 1, Pa.
-  double largest_pressure() const { return parameters_.fits.scale * pressure_(largest_fitted_strain) / sqrt3; }
+  double largest_pressure() const { return parameters_.fits.scale * pressure_(max_fitted_strain) / sqrt3; }
   LawRange range() const {
-    return {.grain_diameter = fitted_diameter, .largest_pressure = largest_fitted_pressure(parameters_.fits)};
+    return {.grain_diameter = fitted_diameter, .largest_pressure = max_fitted_pressure(parameters_.fits)};
   }
   const Parameters& parameters() const { return parameters_; }
 

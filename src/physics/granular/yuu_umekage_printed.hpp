@@ -7,7 +7,7 @@
 /// with A1 to A4 at a = |e|, and no stress at all where tau = 0. The answer depends on the axes.
 /// Source: Yuu & Umekage 2011, Eqs 1-8, Appendix B; the unloading from section 2.1 in words.
 /// Range: slow, dense flow of 200 um glass beads near a packing of 0.6, |e| <= 0.035.
-/// deviates: e = -Ea (almansi_strain.hpp). |e_xy| + |e_xz| for the printed e_xy + e_xz, which breaks the mirror
+/// deviates: e = -Ea (kinematics.hpp). |e_xy| + |e_xz| for the printed e_xy + e_xz, which breaks the mirror
 /// symmetry (option). max(0, .) for the printed |.|, which would let shear strength grow in dilation. A5 = A6 = 0.
 ///
 /// Unloading. When the smoothed increment of the main strain turns negative an unloading process begins: stress falls
@@ -23,10 +23,10 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/contact_memory.hpp"
 #include "physics/granular/equation_of_state.hpp"
 #include "physics/granular/fitted_table.hpp"
+#include "physics/granular/kinematics.hpp"
 #include "physics/granular/law_readings.hpp"
 #include "physics/granular/material_point.hpp"
 
@@ -172,7 +172,7 @@ class YuuUmekagePrinted {
   /// k_u if stress unloads along its line.
   double sound_speed(double density) const;
   LawRange range() const {
-    return {.grain_diameter = fitted_diameter, .largest_pressure = largest_fitted_pressure(parameters_.fits)};
+    return {.grain_diameter = fitted_diameter, .largest_pressure = max_fitted_pressure(parameters_.fits)};
   }
   const Parameters& parameters() const { return parameters_; }
 
@@ -252,14 +252,14 @@ class YuuUmekagePrinted {
         (1.0 / old_tau) * old.stress + (parameters_.rule.unloading_stiffness * initial_[3]) * increment;
     ratio.xx = ratio.yy = ratio.zz = 0.0;
     const Number size = norm(ratio);
-    return with_shear(normal, (minimum(size, Number(largest_ratio_)) / maximum(size, Number(tiny))) * ratio);
+    return with_shear(normal, (minimum(size, Number(max_ratio_)) / maximum(size, Number(tiny))) * ratio);
   }
 
   Parameters parameters_;
   ContactMemory memory_;
   ComponentTable table_;
   double initial_[4];             // A1 to A4 at 0
-  double largest_ratio_;          // of |shear stresses| to tau: the largest A4 a within the range
+  double max_ratio_;              // of |shear stresses| to tau: the largest A4 a within the range
   double steepest_;               // M at f = 1, Pa
   double grain_density_;          // kg/m^3
   double inverse_grain_density_;  // m^3/kg

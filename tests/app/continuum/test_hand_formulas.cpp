@@ -8,8 +8,7 @@
 #include <numbers>
 
 #include "app/continuum/wall_loads.hpp"
-#include "physics/granular/orifice_discharge.hpp"
-#include "physics/granular/silo_pressure.hpp"
+#include "physics/granular/silo.hpp"
 #include "small_silo.hpp"
 
 namespace talus::app {

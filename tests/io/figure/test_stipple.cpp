@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure/stipple.hpp"
+#include "io/figure/particle_layers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/figure/text.hpp"
+#include "io/figure/canvas.hpp"
 
 #include <gtest/gtest.h>
 

@@ -134,9 +134,9 @@ TEST(AirFlow, MixtureHasNoDivergence) {
   p.boundaries.kind[5] = FlowBoundary::open;
   p.boundaries.kind[2] = p.boundaries.kind[3] = FlowBoundary::periodic;
   Mixture c(p);
-  const double before = c.flow.largest_divergence(c.solids, c.state);
+  const double before = c.flow.max_divergence(c.solids, c.state);
   c.advance(50e-6);
-  EXPECT_LT(c.flow.largest_divergence(c.solids, c.state), 1e-4 * before);
+  EXPECT_LT(c.flow.max_divergence(c.solids, c.state), 1e-4 * before);
 }
 
 /// Grains fall from one half of a closed box into the other, through an opening beside them.
@@ -154,7 +154,7 @@ TEST(AirFlow, ChangesPlacesWithGrainsOrIsBoundByItselfAlone) {
     });
     c.begin();
     c.advance(50e-6, 3);
-    EXPECT_LT(c.flow.largest_divergence(c.solids, c.state), 1e-4);
+    EXPECT_LT(c.flow.max_divergence(c.solids, c.state), 1e-4);
     double air = 0, grains = 0, upwards_beside = 0;
     for (int j = 0; j < 4; ++j)
       for (int i = 0; i < 8; ++i) {

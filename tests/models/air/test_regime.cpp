@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/air/regime.hpp"
+#include "models/air/model.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

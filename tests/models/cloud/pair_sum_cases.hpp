@@ -12,8 +12,7 @@
 
 #include "base/random.hpp"
 #include "models/cloud/pair_sum.hpp"
-#include "physics/hydrodynamics/rotne_prager.hpp"
-#include "physics/hydrodynamics/zuk.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 

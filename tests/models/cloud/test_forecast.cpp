@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/cloud/forecast.hpp"
+#include "models/cloud/model.hpp"
 
 #include <gtest/gtest.h>
 

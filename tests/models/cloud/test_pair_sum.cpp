@@ -28,6 +28,12 @@ double bound(Precision precision) {
   return precision == Precision::double_precision ? 1e-14 : 1e-6;
 }
 
+TEST(Mobility, HasTheCaseFilesNames) {
+  EXPECT_EQ(choice_name(hydrodynamics::Mobility::rotne_prager_1969), "rotne-prager-1969");
+  EXPECT_EQ(choice_name(hydrodynamics::Mobility::zuk_2014), "zuk-2014");
+  EXPECT_EQ(choice_name(hydrodynamics::Mobility::none), "none");
+}
+
 TEST(PairSum, AgreesWithTheOracleForEveryNumberOfSpheres) {
   std::vector<std::size_t> counts{63, 64, 65, 127, 128, 129, 255, 257, 511, 513, 1031};
   for (std::size_t count = 1; count <= 40; ++count) counts.push_back(count);

@@ -249,7 +249,7 @@ TEST(SpectralSum, PlansTheCheaperWay) {
     const auto little = of_small.plan(small.position), much = of_large.plan(large.position);
     EXPECT_LT(little->direct_cost, little->cost);
     EXPECT_LT(10 * much->cost, much->direct_cost);
-    EXPECT_GE(much->cutoff, of_large.least_cutoff());
+    EXPECT_GE(much->cutoff, of_large.min_cutoff());
     // Ten times as far apart the spheres have fewer neighbours and take a larger grid: longer cut-offs pay.
     std::vector<Vector3> sparse = large.position;
     for (Vector3& x : sparse) x = 10.0 * x;
@@ -280,7 +280,7 @@ TEST(SpectralSum, RefusesWhatItIsNotFor) {
   const SpectralAccuracy& accuracy = spectral_accuracies[0];
   EXPECT_THROW(SpectralSum(options_of(Mobility::none), accuracy, radius), std::invalid_argument);
   SpectralSum sum(options_of(Mobility::zuk_2014), accuracy, radius);
-  EXPECT_THROW(sum.set_cutoff(0.99 * sum.least_cutoff()), std::invalid_argument);
+  EXPECT_THROW(sum.set_cutoff(0.99 * sum.min_cutoff()), std::invalid_argument);
   EXPECT_THROW(sum.reorder(std::vector<std::uint32_t>{0, 1}), std::invalid_argument);
   EXPECT_THROW(sum.reorder(std::vector<std::uint32_t>{0, 1, 2, 3, 3}), std::invalid_argument);
   ThreadTeam team;

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "cases.hpp"
-#include "models/cloud/stiffness.hpp"
 #include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus::cloud {

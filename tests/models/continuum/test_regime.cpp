@@ -11,7 +11,7 @@
 #include <string>
 
 #include "models/continuum/cases.hpp"
-#include "numerics/warning.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::continuum {
 namespace {

@@ -17,7 +17,7 @@
 #include "models/continuum/setup/layout.hpp"
 #include "models/continuum/vessel_parts.hpp"
 #include "models/continuum/whole_circle.hpp"
-#include "numerics/whole.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::continuum {
 namespace {

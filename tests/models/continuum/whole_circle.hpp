@@ -9,7 +9,7 @@
 #include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/sector.hpp"
 #include "models/continuum/setup/vessel.hpp"
-#include "numerics/whole.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::continuum {
 

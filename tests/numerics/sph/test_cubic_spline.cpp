@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "numerics/sph/cubic_spline.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
+
+#include "base/random.hpp"
+#include "numerics/sph/cubic_spline.hpp"
 
 namespace talus::sph {
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -63,4 +67,59 @@ TEST(SmoothingLength, IsTheSpacingOfTheLattice) {
 }
 
 }  // namespace
+
+namespace {
+
+TEST(CubicSplineLine, IsTheKernelsIntegralAlongALine) {
+  const double h = 0.4;
+  for (const double s : {0.0, 1e-9, 0.1, 0.37, 0.4, 0.55, 0.79, 0.8, 0.9}) {
+    const int steps = 200000;
+    double sum = 0;
+    for (int n = 0; n < steps; ++n) {
+      const double y = (n + 0.5) * 2 * h / steps;
+      sum += 2 * cubic_spline(std::sqrt(s * s + y * y), h) * 2 * h / steps;
+    }
+    EXPECT_NEAR(cubic_spline_line(s, h), sum, 1e-9) << s;
+  }
+}
+
+TEST(CubicSplineLine, HasUnitIntegralOverThePlane) {
+  const double h = 0.25;
+  double sum = 0;
+  const int rings = 100000;
+  for (int n = 0; n < rings; ++n) {
+    const double r = (n + 0.5) * 2 * h / rings;
+    sum += 2 * std::numbers::pi * r * cubic_spline_line(r, h) * 2 * h / rings;
+  }
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_EQ(cubic_spline_line(2 * h, h), 0);
+}
+
+}  // namespace
+
+namespace {
+
+TEST(SmoothingLengths, AreThoseOfEachToTheBit) {
+  const double mass = 1.1e-5, ratio = 1.2;
+  Random random(3);
+  std::vector<double> density(1003);
+  for (double& value : density) value = random.uniform(1e-3, 3000);
+  const std::vector<double> ordinary = density;
+  for (const double strange : {1.0, 0.0, -1500.0, std::numeric_limits<double>::infinity()}) {
+    density = ordinary;
+    density[500] = strange;
+    std::vector<double> length(density.size());
+    smoothing_lengths(density.size(), mass, ratio, density.data(), length.data());
+    for (std::size_t i = 0; i < density.size(); ++i)
+      EXPECT_EQ(length[i], ratio * smoothing_length(mass, density[i])) << density[i];
+  }
+  density[500] = std::nan("");
+  std::vector<double> length(density.size());
+  smoothing_lengths(density.size(), mass, ratio, density.data(), length.data());
+  EXPECT_TRUE(std::isnan(length[500])) << "what is no number stays so, and is found";
+  EXPECT_EQ(length[499], ratio * smoothing_length(mass, density[499]));
+}
+
+}  // namespace
+
 }  // namespace talus::sph

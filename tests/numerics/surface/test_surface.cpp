@@ -7,8 +7,6 @@
 #include <set>
 
 #include "base/random.hpp"
-#include "numerics/surface/section.hpp"
-#include "numerics/surface/surface_points.hpp"
 #include "shapes.hpp"
 
 namespace talus {

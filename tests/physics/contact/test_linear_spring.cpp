@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "physics/hydrodynamics/buoyant_weight.hpp"
+#include "physics/hydrodynamics/stokes.hpp"
 
 namespace talus {
 namespace {

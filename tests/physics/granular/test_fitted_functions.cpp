@@ -75,7 +75,7 @@ TEST(PrintedFunctions, CoverTheRangeInOrder) {
       EXPECT_EQ(printed->piece[k].end, repaired->piece[k].end) << name << k;
       begin = printed->piece[k].end;
     }
-    EXPECT_EQ(begin, largest_fitted_strain) << name;
+    EXPECT_EQ(begin, max_fitted_strain) << name;
     EXPECT_EQ(printed->pieces, repaired->pieces) << name;
   }
 }

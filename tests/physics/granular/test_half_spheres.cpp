@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/appendix_b.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::granular {
 namespace {

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/appendix_b.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::granular {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "physics/sph/artificial_viscosity.hpp"
 #include "physics/sph/balance.hpp"
 #include "physics/sph/pair_terms.hpp"
 #include "physics/sph/wall_contact.hpp"

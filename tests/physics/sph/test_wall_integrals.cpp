@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "numerics/sph/cubic_spline.hpp"
-#include "numerics/surface/surface_points.hpp"
+#include "numerics/surface/surface.hpp"
 
 namespace talus::sph {
 namespace {

@@ -8,8 +8,7 @@
 
 #include "base/simd.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
-#include "physics/hydrodynamics/rotne_prager.hpp"
-#include "physics/hydrodynamics/zuk.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 inline namespace TALUS_INSTRUCTION_SET {

@@ -9,7 +9,7 @@ namespace talus::cloud {
 namespace {
 
 constexpr std::size_t chunk_of_spheres = 1 << 14;
-constexpr std::size_t most_chunks = 16;
+constexpr std::size_t max_chunks = 16;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void Cells::sort(ThreadTeam& team, const Lattice& lattice, std::span<const Vecto
                  std::span<const std::uint32_t> order) {
   lattice_ = lattice;
   const std::size_t count = order.size(), rows = lattice.all_rows(), columns = lattice.columns();
-  const std::size_t chunks = std::clamp<std::size_t>(count / chunk_of_spheres, 1, most_chunks);
+  const std::size_t chunks = std::clamp<std::size_t>(count / chunk_of_spheres, 1, max_chunks);
   const auto begin_of = [&](std::size_t chunk) { return count * chunk / chunks; };
   const auto cell_along = [&](std::size_t k, std::uint32_t i) {
     return static_cast<std::uint32_t>(lattice.cells_along(k, position[i]));

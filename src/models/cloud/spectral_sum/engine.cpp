@@ -8,8 +8,7 @@
 
 #include "models/cloud/spectral_sum/spline.hpp"
 #include "models/cloud/spectral_sum/split.hpp"
-#include "physics/hydrodynamics/rotne_prager.hpp"
-#include "physics/hydrodynamics/zuk.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 

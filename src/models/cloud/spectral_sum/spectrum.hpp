@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "base/parallel.hpp"
-#include "models/cloud/spectral_sum/accuracy.hpp"
+#include "models/cloud/spectral_sum.hpp"
 #include "models/cloud/spectral_sum/fourier.hpp"
 #include "models/cloud/spectral_sum/split.hpp"
 

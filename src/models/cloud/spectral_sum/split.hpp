@@ -15,7 +15,7 @@
 
 #include <vector>
 
-#include "physics/hydrodynamics/rotne_prager.hpp"
+#include "physics/hydrodynamics/mobility.hpp"
 
 namespace talus::cloud {
 

@@ -9,9 +9,9 @@
 #include "base/exact_sum.hpp"
 #include "base/vector.hpp"
 #include "models/continuum/setup/parameters.hpp"
-#include "numerics/named_value.hpp"
+#include "numerics/run_record.hpp"
+#include "numerics/snapshot.hpp"
 #include "numerics/surface/surface_fields.hpp"
-#include "numerics/surface_snapshot.hpp"
 
 namespace talus::continuum {
 

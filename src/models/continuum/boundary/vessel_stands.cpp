@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/compiled_for.hpp"
+#include "base/instruction_set.hpp"
 #include "models/continuum/boundary/vessel_walls.hpp"
 #include "numerics/near_points/kernel.hpp"
 

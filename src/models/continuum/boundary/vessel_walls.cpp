@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/compiled_for.hpp"
+#include "base/instruction_set.hpp"
 #include "models/continuum/pairs/quanta.hpp"
-#include "numerics/surface/surface_points.hpp"
+#include "numerics/surface/surface.hpp"
 #include "physics/sph/wall_integrals.hpp"
 
 namespace talus::continuum {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/pairs/displacement.hpp"
 
-#include "physics/granular/almansi_strain.hpp"
 #include "physics/granular/half_spheres.hpp"
+#include "physics/granular/kinematics.hpp"
 
 namespace talus::continuum {
 

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/compiled_for.hpp"
+#include "base/instruction_set.hpp"
 #include "models/continuum/material.hpp"
 #include "models/continuum/pairs/rates.hpp"
 #include "models/continuum/pairs/stress_regularisation.hpp"
 #include "numerics/sph/cubic_spline.hpp"
-#include "numerics/sph/smoothing_lengths.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
 
 namespace talus::continuum {

@@ -7,7 +7,7 @@
 #include "models/continuum/material.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
-#include "physics/sph/artificial_viscosity.hpp"
+#include "physics/sph/pair_terms.hpp"
 
 namespace talus::continuum {
 

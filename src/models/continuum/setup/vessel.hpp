@@ -15,9 +15,9 @@
 #include "base/error.hpp"
 #include "base/parameter.hpp"
 #include "models/continuum/setup/choices.hpp"
-#include "numerics/surface/mended_surface.hpp"
-#include "numerics/surface/rims.hpp"
 #include "numerics/surface/surface.hpp"
+#include "numerics/surface/surface_faults.hpp"
+#include "numerics/surface/triangle.hpp"
 
 namespace talus::continuum {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "models/cloud/spectral_sum/accuracy.hpp"
+#include "models/cloud/spectral_sum.hpp"
 
 namespace talus::cloud {
 namespace {

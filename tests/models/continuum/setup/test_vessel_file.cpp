@@ -9,7 +9,7 @@
 #include "models/continuum/regime.hpp"
 #include "models/continuum/setup/layout.hpp"
 #include "models/continuum/vessel_parts.hpp"
-#include "numerics/warning.hpp"
+#include "numerics/run_record.hpp"
 
 namespace talus::continuum {
 namespace {

@@ -23,7 +23,7 @@ struct alignas(64) StressRecord {
   double unused;
 };
 
-/// What the stabilisers (physics/sph/stabilisers.hpp) know of a particle besides: where forces are damped,
+/// What the stabilisers (physics/sph/pair_terms.hpp) know of a particle besides: where forces are damped,
 struct alignas(64) DampingRecord {
   double deformation_rate[6];  ///< D: xx yy zz xy yz zx, 1/s
   double sound_speed;          ///< of the viscosity, m/s

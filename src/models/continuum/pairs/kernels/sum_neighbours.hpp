@@ -9,9 +9,7 @@
 #include "models/continuum/pairs/kernels/kernel.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "numerics/sph/velocity_gradient.hpp"
-#include "physics/sph/artificial_viscosity.hpp"
 #include "physics/sph/pair_terms.hpp"
-#include "physics/sph/stabilisers.hpp"
 
 namespace talus::continuum {
 inline namespace TALUS_INSTRUCTION_SET {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include "app/project/project.hpp"
+#include "app/usage/tree.hpp"
+#include "base/text.hpp"
+
+namespace talus::app {
+
+void CaseOptions::add_to(CLI::App& command) {
+  command.add_option("CASE", path, "case file (TOML)")
+      ->required()
+      ->transform(CLI::Validator([](std::string& given) { return given = found_file(given), std::string(); }, ""));
+  command
+      .add_option("--set", settings,
+                  "override or add a key: table.key=value, a quantity with its unit; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+CaseFile CaseOptions::read() const {
+  CaseFile file = CaseFile::read(path);
+  for (const std::string& setting : settings) file.set(setting);
+  return file;
+}
+
+std::filesystem::path default_results(const std::string& case_path) {
+  return std::filesystem::path("results") / std::filesystem::path(case_path).stem();
+}
+
+void add_out_option(CLI::App& command, std::string& out, const std::string& text) {
+  command.add_option("--out", out, text)
+      ->check(
+          CLI::Validator([](std::string& given) { return given.empty() ? "is empty; allowed: a folder" : ""; }, ""));
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  command.add_option("--threads", threads, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+}
+
+void add_completion_command(CLI::App& app, Action& action) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("completion", "print a script that completes commands and options in a shell");
+  command->add_option("SHELL", *shell, "which shell")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command->footer(
+      "  bash  source <(talus completion bash)\n"
+      "  zsh   talus completion zsh > FOLDER/_talus, a folder of fpath\n"
+      "  fish  talus completion fish > ~/.config/fish/completions/talus.fish");
+  command->callback([&app, shell, &action] {
+    action = [&app, shell] {
+      print("{}", completion_for(*shell, usage_of(app)));
+      return ExitStatus::done;
+    };
+  });
+}
+
+void add_man_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("man", "print the man page");
+  command->footer("  talus man > talus.1 && man -l talus.1");
+  command->callback([&app, &action] {
+    action = [&app] {
+      print("{}", man_page(usage_of(app)));
+      return ExitStatus::done;
+    };
+  });
+}
+
+}  // namespace talus::app
