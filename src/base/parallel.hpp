@@ -42,7 +42,7 @@ class ThreadTeam {
   std::unique_ptr<Shared> shared_;
 };
 
-/// Elements handed to a thread at once. Part of the definition of `reduce`: changing it changes the bits of sums.
+/// Elements handed to a thread at once. Part of the definition of `reduce`: changing it changes sums bitwise.
 inline constexpr std::size_t chunk_size = 256;
 
 /// Calls body(first, end) for chunks that together are [0, count). It writes only what belongs to [first, end).

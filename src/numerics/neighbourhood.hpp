@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The surroundings of particles in a domain: their ghosts, which are images of particles behind mirrors and periodic
 /// faces, and for each particle the list of those particles and ghosts that it may interact with. Ghosts have no state:
-/// each is a source and an image, and takes its place and its values from them at every evaluation.
+/// each is a source and an image, and takes its position and its values from them at every evaluation.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,7 @@ class Neighbourhood {
   /// How far a particle was from the vessel at least when the lists were built, m; infinite beyond the reach of its
   /// neighbours.
   double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
-  /// Whether a line between two places of the particle can meet the vessel, as far as that distance tells.
+  /// Whether a line between two positions of the particle can meet the vessel, as far as that distance tells.
   bool may_meet_vessel(std::size_t i, const Vector3& a, const Vector3& b) const {
     const double free = distance_from_vessel(i);
     if (free == infinity) return false;

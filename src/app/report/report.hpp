@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// report.html of runs, ensembles and reproductions: particles, curves, summary, regime card, comparison and case, in
-/// one file that needs nothing else.
+/// report.html of runs, ensembles and reproductions: particles, curves, summary, validity report, comparison and case,
+/// in one file that needs nothing else.
 #pragma once
 
 #include <cstddef>

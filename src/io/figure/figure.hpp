@@ -53,7 +53,7 @@ struct ByCategory {
   std::vector<Category> categories = {};
 };
 
-/// An arrow for each particle, e.g. its velocity relative to the front, or for each of other places.
+/// An arrow for each particle, e.g. its velocity relative to the front, or for each of other positions.
 struct Arrows {
   std::span<const Vector3> values = {};     ///< SI
   std::span<const Vector3> positions = {};  ///< where they begin, m; empty: at the particles

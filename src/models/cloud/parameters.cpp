@@ -67,7 +67,7 @@ double moment(const Parameters::Particles& p, int power) {
 constexpr double jamming_plane = 0.54;
 constexpr double jamming_space = 0.37;
 
-constexpr double max_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
+constexpr double max_radii = 5e5;  // that a shape may extend: positions are sorted into cells of a grain's size
 
 }  // namespace
 

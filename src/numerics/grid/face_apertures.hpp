@@ -90,8 +90,8 @@ struct FaceApertures {
     return grid.count[static_cast<std::size_t>(along)] + (axis == along && !boundaries.is_periodic(axis));
   }
   std::array<int, 3> faces(int axis) const { return {faces(axis, 0), faces(axis, 1), faces(axis, 2)}; }
-  bool is_end(int axis, int place) const {
-    return !boundaries.is_periodic(axis) && (place == 0 || place == grid.count[static_cast<std::size_t>(axis)]);
+  bool is_end(int axis, int index) const {
+    return !boundaries.is_periodic(axis) && (index == 0 || index == grid.count[static_cast<std::size_t>(axis)]);
   }
   /// Repeats the ends of a periodic axis in the ghosts.
   void wrap(CellField& field) const;

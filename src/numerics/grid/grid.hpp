@@ -42,7 +42,7 @@ struct Grid {
     return static_cast<std::size_t>(i + margin) +
            length(0) * (static_cast<std::size_t>(j + margin) + length(1) * static_cast<std::size_t>(k + margin));
   }
-  /// Number of a row along x among all, ghosts included: places of a field from row to row are length(0) apart.
+  /// Number of a row along x among all, ghosts included: positions of a field from row to row are length(0) apart.
   constexpr std::size_t row(int j, int k) const {
     return static_cast<std::size_t>(j + margin) + length(1) * static_cast<std::size_t>(k + margin);
   }
