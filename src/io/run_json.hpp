@@ -33,7 +33,7 @@ struct Manifest {
   std::string started;                                         ///< UTC, "2026-01-31T12:34:56Z"
 };
 
-/// The second half of a manifest. The libraries are those of io and base; others are the caller's to add.
+/// The second half of a manifest. Its libraries are those that io and base link; the caller adds others.
 Manifest manifest_of_this_program();
 
 /// \throws FileError with the system's reason

@@ -62,7 +62,7 @@ class CellGrid {
       }
   }
 
-  /// The points in the order of their cells, x fastest; those of a cell by number.
+  /// The points in the order of their cells, x fastest; points of a cell by number.
   std::span<const std::uint32_t> order() const { return order_; }
 
   /// How many cells hold points, and the points of one of them, sorted.

@@ -70,7 +70,7 @@ std::vector<std::string> published_comparisons(const std::filesystem::path& fold
 ///
 /// Vectors are also given by their size, a stress by its pressure, a third of the trace; columns that never change are
 /// left out, the radius apart. Particles are chosen by their numbers, evenly; frames evenly over the time, the first
-/// and the last among them. Air in a box that is thin along an axis is that of its middle layer.
+/// and the last among them. Air in a box that is thin along an axis is its middle layer.
 /// \param origin time from which the frames count, s \returns null where there are no snapshots
 /// \throws FileError
 nlohmann::ordered_json pack_run(const std::filesystem::path& folder, double origin, const ReportLimits& limits,

@@ -56,7 +56,8 @@ bool is_plane(Shape shape) {
   return shape == Shape::circle || shape == Shape::rectangle || shape == Shape::triangle || shape == Shape::wedge;
 }
 
-/// Mean square or cube of the radii over that of the mean radius; the cut of the normal distribution is neglected.
+/// Mean square or cube of the radii over the same power of the mean radius; the cut of the normal distribution is
+/// neglected.
 double moment(const Parameters::Particles& p, int power) {
   const double variance = p.radius_distribution == RadiusDistribution::uniform ? p.radius_spread * p.radius_spread / 3
                                                                                : p.radius_spread * p.radius_spread;

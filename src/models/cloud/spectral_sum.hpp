@@ -7,7 +7,7 @@
 /// every position of the spheres and all forces,
 ///     |error of velocity i| <= k/(8 pi mu) sum over j of |F_j| / max(r_ij, r_c),   j = i included,
 /// with k the `pair_error` of the accuracy and r_c the cut-off, and the rounding of near pairs, `pair_rounding`. Errors
-/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums:
+/// of pairs have no common sign: over clouds their root mean square is below `error` times the sums' root mean square:
 /// docs/design/cloud-sums.md.
 #pragma once
 
@@ -27,7 +27,7 @@ namespace talus::cloud {
 
 /// Lengths in units of the cut-off r_c.
 struct SpectralAccuracy {
-  double error;  ///< root mean square of the error over that of the sums
+  double error;  ///< root mean square of the error over the same of the sums
   double
       pair_error;  ///< bound of |error of 8 pi mu M_ij| times max(r, r_c), for every pair and for i = j, but rounding
   double beta;     ///< of the window (split.hpp)

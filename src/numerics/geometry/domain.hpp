@@ -14,7 +14,7 @@
 /// Walls stand at any angle to the faces and to each other. What is visible in them is what mirrors show: the
 /// straight line to an image is followed, turned at each wall or face that it meets, and ends where the source is if
 /// the image is visible. So every position around a particle holds one image at most, whatever the angles, and where
-/// two see each other's images their forces are each other's mirror images. Images of up to three turns are made:
+/// two images are mutually visible their forces are each other's mirror images. Images of up to three turns are made:
 /// corners of 60 degrees and more are filled all around.
 ///
 /// Sector. Instead of a whole circle about an upright axis its space may be a sector of it (sector.hpp): then the
@@ -76,7 +76,7 @@ class Domain {
   /// Opens the gates whose time has come, for good. \param time from the opening of the gate of the case, s
   void open_gates(double time = std::numeric_limits<double>::infinity());
 
-  /// How often gates have opened: who keeps what follows from the openings looks whether it has changed.
+  /// How often gates have opened: a change invalidates what follows from the openings.
   int openings() const { return openings_; }
 
   /// The boundaries, by number, up to wall_number(walls().size()): whether one carries load,
@@ -168,7 +168,7 @@ class Domain {
     return wall.is_above(from) != wall.is_above(to) &&
            wall.is_solid(fold(from + wall.share_to_plane(from, to) * (to - from)));
   }
-  /// \param mirror the layer that mirrors what is seen, -1: none
+  /// \param mirror the layer that mirrors the line, -1: none
   bool is_visible_past_layers(const Vector3& from, const Vector3& to, int mirror) const {
     for (int w = 0; w < static_cast<int>(walls_.size()); ++w)
       if (meets_layer(walls_[static_cast<std::size_t>(w)], from, to) != (w == mirror)) return false;

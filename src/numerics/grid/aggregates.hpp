@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Which cells the coarse cells of a multigrid join where closed faces stand between them.
 ///
-/// Cells are joined in pairs along each axis. Where closed faces part those of one coarse cell, it keeps its largest
-/// connected part; each other part goes to the coarse cell of a neighbour it is open to. So no coarse cell joins what
-/// a wall parts, and no coarse face leads through a wall. Compare aggregates by strength of connection: Trottenberg,
-/// Oosterlee & Schueller 2001, Multigrid, A.9.
+/// Cells are joined in pairs along each axis. Where closed faces separate the cells of one coarse cell, it keeps its
+/// largest connected part; each other part goes to the coarse cell of a neighbour it is open to. So no coarse cell
+/// joins what a wall parts, and no coarse face leads through a wall. Compare aggregates by strength of connection:
+/// Trottenberg, Oosterlee & Schueller 2001, Multigrid, A.9.
 #pragma once
 
 #include <array>

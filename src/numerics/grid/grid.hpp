@@ -46,7 +46,7 @@ struct Grid {
   constexpr std::size_t row(int j, int k) const {
     return static_cast<std::size_t>(j + margin) + length(1) * static_cast<std::size_t>(k + margin);
   }
-  /// From a row to that of the next cells along y or z.
+  /// From a row to the next along y or z.
   constexpr std::size_t row_stride(int axis) const { return axis == 0 ? 0 : axis == 1 ? 1 : length(1); }
   constexpr double volume() const { return spacing.x * spacing.y * spacing.z; }
   constexpr double face_area(int axis) const { return volume() / spacing[axis]; }

@@ -21,8 +21,8 @@ int coarsening(const Checkerboard& board, int axis) {
   return !board.is_periodic(axis) || n == 2 || n % 4 == 0 ? 2 : 1;
 }
 
-/// Distance of the fine cells next to the low face of a coarse cell over that of the coarse ones; 0 for a face between
-/// the cell and itself.
+/// Distance of the fine cells next to the low face of a coarse cell over the distance of the coarse ones; 0 for a face
+/// between the cell and itself.
 float shorter(int factor, const std::vector<float>& narrow, const std::vector<float>& wide, std::size_t I) {
   if (factor == 1) return 1.0f;
   if (wide.size() == 1) return 0.0f;

@@ -110,7 +110,7 @@ struct SurfacePoint {
 /// are about as many for a surface of any number of triangles of any shape. \param distance > 0, m
 std::vector<SurfacePoint> spread_points(const Surface& surface, double distance);
 
-/// The points of what of the surface is in a sector, and then those of each of its copies, in the same order: as
+/// The points of the part of the surface in a sector, and then the points of each of its copies, in the same order: as
 /// symmetric as the surface. \param surface whose triangles, and so its smooth parts, turn into each other by the angle
 /// of the sector
 std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const Sector& sector);

@@ -14,7 +14,7 @@
 namespace talus {
 
 struct Triangle {
-  std::array<Vector3, 3> corner;  ///< m; the normal is to the side from which they are seen counterclockwise
+  std::array<Vector3, 3> corner;  ///< m; the normal is to the side from which they appear counterclockwise
   std::uint32_t patch = 0;        ///< number of the part of the surface that it belongs to
 
   Vector3 area() const;    ///< area times unit normal, m^2

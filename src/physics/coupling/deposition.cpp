@@ -158,8 +158,8 @@ void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
 }
 
 /// Takes the weights of cells behind the surface, unless there are no others. A cell that stands for one beyond a
-/// mirror is seen as it is itself: where the surface meets the mirror, both are seen or neither. Cells on the
-/// particle's side of all of the surface that is near are seen; others are tried.
+/// mirror is as visible as the cell itself: where the surface meets the mirror, both are visible or neither. Cells on
+/// the particle's side of all of the surface that is near are visible; others are tested.
 void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t columns, Scratch& scratch) const {
   constexpr std::size_t most = 64;           // slabs, and triangles, that are tried one by one
   constexpr double thin = 0.02, wide = 2.0;  // slabs, of the distance
