@@ -12,8 +12,8 @@
 #include <cmath>
 
 #include "base/tensor.hpp"
-#include "physics/granular/material_point.hpp"
 #include "physics/granular/kinematics.hpp"
+#include "physics/granular/material_point.hpp"
 
 namespace talus::granular {
 

@@ -21,8 +21,8 @@ const T& made_once(std::optional<T>& value, Make&& make) {
 
 }  // namespace
 
-AvalancheSnapshot::AvalancheSnapshot(const AvalancheScales& of, AvalancheView seen, Snapshot grains)
-    : scales(of), view(seen), now(std::move(grains)) {
+AvalancheSnapshot::AvalancheSnapshot(const AvalancheScales& of, AvalancheView direction, Snapshot grains)
+    : scales(of), view(direction), now(std::move(grains)) {
   if (view != AvalancheView::from_the_side) return;
   projected_.assign(now.positions().begin(), now.positions().end());
   for (Vector3& x : projected_) x.y = 0;

@@ -49,7 +49,7 @@ enum class AvalancheView { from_above, from_the_side, falling, unseen };
 class AvalancheSnapshot {
  public:
   /// \param grains with the columns position, radius, velocity
-  AvalancheSnapshot(const AvalancheScales& of, AvalancheView seen, Snapshot grains);
+  AvalancheSnapshot(const AvalancheScales& of, AvalancheView direction, Snapshot grains);
 
   const AvalancheScales scales;
   const AvalancheView view;

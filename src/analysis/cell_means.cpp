@@ -54,15 +54,15 @@ void CellMeans::take(const Snapshot& snapshot) {
   for (std::size_t c = 0; c < 6; ++c) stress[c] = snapshot.scalars(stress_names[c]);
   std::vector<Cell> cells(sums_.size());
   for (std::size_t i = 0; i < position.size(); ++i) {
-    std::array<double, 3> place{};
+    std::array<double, 3> index{};
     bool inside = true;
     for (std::size_t a = 0; a < 3; ++a) {
       const int axis = static_cast<int>(a);
-      place[a] = std::floor((position[i][axis] - box_.low[axis]) / box_.cell);
-      inside = inside && place[a] >= 0 && place[a] < box_.count[a];
+      index[a] = std::floor((position[i][axis] - box_.low[axis]) / box_.cell);
+      inside = inside && index[a] >= 0 && index[a] < box_.count[a];
     }
     if (!inside) continue;
-    const auto [x, y, z] = place;
+    const auto [x, y, z] = index;
     Cell& cell = cells[static_cast<std::size_t>(x + box_.count[0] * (y + box_.count[1] * z))];
     ++cell.count;
     cell.velocity += velocity[i];

@@ -43,9 +43,9 @@ struct FreeSurface {
 /// Where a vessel is in a section, and from where its surface is looked for.
 struct Vessel {
   double bottom = 0, top = 0;  ///< z, m
-  /// From above: the highest place, in a vessel above which nothing falls. From below: the first one above the bottom,
-  /// so that grains in the air do not count; a column of grains that reaches the top of the vessel, as a dense stream
-  /// does, has none.
+  /// From above: the highest position, in a vessel above which nothing falls. From below: the first one above the
+  /// bottom, so that grains in the air do not count; a column of grains that reaches the top of the vessel, as a dense
+  /// stream does, has none.
   enum class Search { from_above, from_below } search = Search::from_above;
 };
 

@@ -35,7 +35,7 @@ Curve front_speed_curve(const Curve& front, double window, double end);
 
 /// The grains of the front's surface, from the foremost of the largest cluster upwards, none lower than the one before.
 ///
-/// The cluster is that of links of 4 a (choice). The next grain is the one, of those within 3 a and not lower than the
+/// Links of 4 a make the cluster (choice). The next grain is the one, of those within 3 a and not lower than the
 /// last, that lies at the smallest angle from +x (section 4.3 gives the range of 0 to 180 degrees, not the order:
 /// choice; of equal ones the nearest). The walk ends where there is none. \param position m; the foremost of equal ones
 /// is the lowest \param mean_radius of the case, > 0, m

@@ -27,7 +27,7 @@ NeighbourNumbers neighbour_numbers(const Links& links);
 /// Parts are the connected sets of all grains, two being connected if closer than 4 a (Eq. 11). Of each part whose
 /// largest n' is above a quarter of the largest of all (section 4.1; choice: a few grains left behind are no part), the
 /// grains above a quarter of its own largest n' ("the maximum value calculated for each aggregated part"), and the
-/// links between them, make sets; those of at least five grains are heads (choice: below five a group has no shape).
+/// links between them, make sets; sets of at least five grains are heads (choice: below five a group has no shape).
 /// \param position centres, m; \param mean_radius a of the case, > 0, m
 std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius);
 

@@ -39,7 +39,7 @@ struct HopperShape {
   Vessel hopper() const;
 };
 
-/// Free surfaces at one time; that of the hopper has no heights if there is no plate.
+/// Free surfaces at one time; the surface of the hopper has no heights if there is no plate.
 struct HopperSurfaces {
   FreeSurface bin, hopper;
 };

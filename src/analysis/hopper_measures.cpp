@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The list of measures of grains in a vessel; those of a vessel in space stand in hopper_vessel_measures.cpp. A row:
+/// The list of measures of grains in a vessel; measures of a vessel in space are in hopper_vessel_measures.cpp. A row:
 /// name, unit, what it means, how it is made; where a summary lists it.
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"

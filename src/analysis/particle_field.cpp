@@ -74,8 +74,8 @@ void ParticleField::for_each_near(const Vector3& x, Visit&& visit) const {
       within = within && source[axis] > low_[axis] - reach_ && source[axis] < high_[axis] + reach_;
     if (!within) continue;
     grid_.for_each_candidate(source, [&](std::uint32_t j) {
-      const Vector3 place = image.position(particles_.position[j]), d = place - x;
-      if (dot(d, d) < reach_ * reach_ && domain_.is_visible(x, place, image)) visit(j, image, d);
+      const Vector3 there = image.position(particles_.position[j]), d = there - x;
+      if (dot(d, d) < reach_ * reach_ && domain_.is_visible(x, there, image)) visit(j, image, d);
     });
   }
 }
@@ -110,18 +110,18 @@ Vector3 ParticleField::value(const Vector3& x, std::span<const Vector3> column) 
   return weights > 0 ? (1 / weights) * sum : Vector3{none, none, none};
 }
 
-std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& place, double reach) {
+std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& centre, double reach) {
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < position.size(); ++i)
-    if (std::abs(position[i].x - place.x) < reach && std::abs(position[i].z - place.z) < reach) near.push_back(i);
+    if (std::abs(position[i].x - centre.x) < reach && std::abs(position[i].z - centre.z) < reach) near.push_back(i);
   return near;
 }
 
 namespace {
 
-/// A particle or an image of one, as its neighbours see it.
-struct Seen {
-  Vector3 place, velocity;
+/// A particle or an image of one, for its neighbours.
+struct Source {
+  Vector3 position, velocity;
   double smoothing_length, volume;
 };
 
@@ -132,33 +132,33 @@ std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Doma
   ThreadTeam team(1);
   Neighbourhood neighbourhood(domain);
   neighbourhood.build(team, particles.position, particles.smoothing_length, 0.0);
-  std::vector<Seen> all;
+  std::vector<Source> all;
   all.reserve(particles.position.size() + neighbourhood.ghosts().size());
   for (std::size_t j = 0; j < particles.position.size(); ++j)
     all.push_back({particles.position[j], velocity[j], particles.smoothing_length[j], particles.volume[j]});
   for (const Ghost& ghost : neighbourhood.ghosts()) {
-    Seen seen = all[ghost.source];
+    Source source = all[ghost.source];
     const Image& image = neighbourhood.image(ghost);
-    seen.place = image.position(seen.place), seen.velocity = image.vector(seen.velocity);
-    all.push_back(seen);
+    source.position = image.position(source.position), source.velocity = image.vector(source.velocity);
+    all.push_back(source);
   }
   static constexpr Image identity;
   const auto is_visible = [&](std::uint32_t i, std::uint32_t j) {
     const std::size_t count = particles.position.size();
-    return domain.is_visible(all[i].place, all[j].place,
+    return domain.is_visible(all[i].position, all[j].position,
                              j < count ? identity : neighbourhood.image(neighbourhood.ghosts()[j - count]));
   };
   std::vector<Tensor3<>> gradients;
   gradients.reserve(taken.size());
   for (const std::uint32_t i : taken) {
-    const Seen& own = all[i];
-    const bool sees_all = !neighbourhood.sight_may_change(i);
+    const Source& own = all[i];
+    const bool all_visible = !neighbourhood.sight_may_change(i);
     sph::GradientSums<> sums;
     for (const std::uint32_t j : neighbourhood.of(i)) {
-      const Seen& other = all[j];
+      const Source& other = all[j];
       const double h = 0.5 * (own.smoothing_length + other.smoothing_length);
-      const Vector3 d = other.place - own.place;
-      if (const double r = norm(d); r < sph::support * h && (sees_all || is_visible(i, j)))
+      const Vector3 d = other.position - own.position;
+      if (const double r = norm(d); r < sph::support * h && (all_visible || is_visible(i, j)))
         sums.add(other.volume, sph::cubic_spline_slope(r, h), d, other.velocity - own.velocity);
     }
     gradients.push_back(sph::velocity_gradient(sums));
@@ -169,14 +169,14 @@ std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Doma
 std::vector<double> mean_speeds(const Snapshot& before, const Snapshot& now) {
   const double time = now.time - before.time;
   if (!(time > 0)) throw std::invalid_argument("the first snapshot must be the earlier one");
-  std::unordered_map<std::int64_t, Vector3> place;
+  std::unordered_map<std::int64_t, Vector3> position;
   const auto earlier = before.integers("identity"), identity = now.integers("identity");
-  for (std::size_t i = 0; i < earlier.size(); ++i) place.emplace(earlier[i], before.positions()[i]);
+  for (std::size_t i = 0; i < earlier.size(); ++i) position.emplace(earlier[i], before.positions()[i]);
   std::vector<double> speed;
   for (std::size_t i = 0; i < identity.size(); ++i) {
-    const auto found = place.find(identity[i]);
-    speed.push_back(found == place.end() ? std::numeric_limits<double>::quiet_NaN()
-                                         : norm(now.positions()[i] - found->second) / time);
+    const auto found = position.find(identity[i]);
+    speed.push_back(found == position.end() ? std::numeric_limits<double>::quiet_NaN()
+                                            : norm(now.positions()[i] - found->second) / time);
   }
   return speed;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Grains as particles of a continuum: the fields that the kernel makes of them at any point, walls and plates seen as
-/// the model sees them, by images of the particles. Kernel: the cubic spline with support 2 h of each particle.
+/// Grains as particles of a continuum: the fields that the kernel makes of them at any point, walls and plates by
+/// images of the particles, as in the model. Kernel: the cubic spline with support 2 h of each particle.
 #pragma once
 
 #include <cstdint>
@@ -52,8 +52,8 @@ class ParticleField {
   Vector3 value(const Vector3& x, std::span<const Vector3> column) const;
 
  private:
-  /// Calls visit(j, image, d) for each particle j and each of its images whose place x + d is seen from x and whose
-  /// kernel reaches it.
+  /// Calls visit(j, image, d) for each particle j and each of its images whose position x + d is visible from x and
+  /// whose kernel reaches it.
   template <class Visit>
   void for_each_near(const Vector3& x, Visit&& visit) const;
 
@@ -70,9 +70,9 @@ class ParticleField {
 std::vector<Tensor3<>> velocity_gradients(const Particles& particles, const Domain& domain,
                                           std::span<const std::uint32_t> taken, std::span<const Vector3> velocity);
 
-/// The particles whose x and z are within `reach` of a place, by index: enough of them for what a ParticleField says
+/// The particles whose x and z are within `reach` of a position, by index: enough of them for what a ParticleField says
 /// there, if the box is not periodic along x and z.
-std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& place, double reach);
+std::vector<std::size_t> particles_around(std::span<const Vector3> position, const Vector3& centre, double reach);
 
 /// Size of each particle's displacement since an earlier snapshot over the time between, m/s, in the order of `now`.
 /// Particles are known by the column "identity"; nan for one that was not there.

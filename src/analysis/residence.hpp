@@ -25,7 +25,7 @@ class Residence {
   Residence(const Snapshot& start, double outlet, std::size_t layers);
 
   /// The next snapshot. A particle that it shows below the outlet, and the one before above, has passed in between,
-  /// where a straight way between both places meets the height. \param time from the opening of the gate, s
+  /// where a straight way between both positions meets the height. \param time from the opening of the gate, s
   void take(const Snapshot& next, double time);
 
   std::vector<LayerResidence> layers() const;

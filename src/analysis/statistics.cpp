@@ -58,12 +58,12 @@ double skewness(std::span<const double> sample) {
 double quantile(std::span<const double> sample, double probability) {
   if (sample.empty() || !(probability >= 0 && probability <= 1)) return nan;
   std::vector<double> values(sample.begin(), sample.end());
-  const double place = probability * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
+  const double rank = probability * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
   const auto lower = values.begin() + static_cast<std::ptrdiff_t>(below);
   std::nth_element(values.begin(), lower, values.end());
   if (below + 1 == values.size()) return *lower;
-  return std::lerp(*lower, *std::min_element(lower + 1, values.end()), place - static_cast<double>(below));
+  return std::lerp(*lower, *std::min_element(lower + 1, values.end()), rank - static_cast<double>(below));
 }
 
 double median(std::span<const double> sample) {

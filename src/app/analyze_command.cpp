@@ -76,7 +76,7 @@ ExitStatus analyze_file(const AnalyzeOptions& options) {
   return ExitStatus::done;
 }
 
-/// The quantities of the analysis replace those of the summary; what the run itself measured stays.
+/// The quantities of the analysis replace the quantities of the summary; what the run itself measured stays.
 ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   if (!options.measure.empty() || !options.radius.empty() || !options.column.empty())
     throw InputError({{.where = options.file,

@@ -179,7 +179,7 @@ std::optional<std::pair<std::vector<std::string>, PreparedCase>> with_first_of(
       PreparedCase prepared = prepare_case(file);
       const std::vector<Warning> warnings = warnings_of(prepared.regime);
       if (std::none_of(warnings.begin(), warnings.end(), is_new)) return std::pair{settings, std::move(prepared)};
-    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a change that the case does not bear is none
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a change that the case does not allow is none
     }
   }
   return std::nullopt;

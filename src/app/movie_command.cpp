@@ -24,7 +24,7 @@ struct Options {
   double rate = 10;
 };
 
-/// The snapshots of each run, frame by frame: the times are those of the run that has most of them; the others show the
+/// The snapshots of each run, frame by frame: the run with the most snapshots gives the times; the others show the
 /// nearest that they have.
 std::vector<std::vector<std::size_t>> frames_of(const std::vector<RunFrames>& runs, const Options& options) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Loops that the compiler vectorises, compiled for several instruction sets; the loader selects the best one that the
-/// processor supports. Every operation is rounded separately and in the order written, so that the bits do not depend
+/// processor supports. Every operation is rounded separately and in the order written, so that results do not depend
 /// on the set. Use it on free functions (not members or lambdas) whose output is `__restrict`.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace talus {
 
 namespace {
 
-constexpr int exponent_limit = 100000;  // far outside the range of a double, far inside that of an int
+constexpr int exponent_limit = 100000;  // far outside the range of a double, far inside the range of an int
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';

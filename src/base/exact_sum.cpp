@@ -22,11 +22,11 @@ void ExactSum::add(double term) {
     not_finite_ += term;
     return;
   }
-  // The number is mantissa * 2^(place - 1074).
-  std::uint64_t mantissa = bits & mantissa_mask, place = 0;
-  if (exponent > 0) mantissa |= mantissa_mask + 1, place = exponent - 1;
-  const std::size_t digit = place / digit_bits;
-  const Wide shifted = static_cast<Wide>(mantissa) << place % digit_bits;
+  // The number is mantissa * 2^(shift - 1074).
+  std::uint64_t mantissa = bits & mantissa_mask, shift = 0;
+  if (exponent > 0) mantissa |= mantissa_mask + 1, shift = exponent - 1;
+  const std::size_t digit = shift / digit_bits;
+  const Wide shifted = static_cast<Wide>(mantissa) << shift % digit_bits;
   constexpr std::uint64_t low = 0xffffffff;
   const auto first = static_cast<std::int64_t>(static_cast<std::uint64_t>(shifted) & low),
              second = static_cast<std::int64_t>(static_cast<std::uint64_t>(shifted >> 32) & low),

@@ -64,7 +64,7 @@ class FixedPoint {
   explicit FixedPoint(double unit);
 
   /// The nearest multiple; terms smaller than 2^-31 units lose digits that a double has. A term that is too large, or
-  /// no number, counts as the largest: the sum is then absurd, and seen to be.
+  /// no number, counts as the largest: the sum is then visibly absurd.
   Integer of(double term) const {
     const double units = term * per_coarse_;
     if (!(__builtin_fabs(units) < max_coarse))

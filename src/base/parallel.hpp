@@ -26,7 +26,7 @@ class ThreadTeam {
 
   /// Calls body(task) once for each task in [0, tasks), in any order, on any thread; returns when all are done and the
   /// threads that took part have left the loop.
-  /// An exception leaves the loop after all tasks have ended; of several, that of the lowest task.
+  /// An exception leaves the loop after all tasks have ended; of several, the exception of the lowest task.
   template <class Body>
   void run(std::size_t tasks, Body&& body) {
     run_tasks(
@@ -42,7 +42,7 @@ class ThreadTeam {
   std::unique_ptr<Shared> shared_;
 };
 
-/// Elements handed to a thread at once. Part of the definition of `reduce`: changing it changes the bits of sums.
+/// Elements handed to a thread at once. Part of the definition of `reduce`: changing it changes sums bitwise.
 inline constexpr std::size_t chunk_size = 256;
 
 /// Calls body(first, end) for chunks that together are [0, count). It writes only what belongs to [first, end).

@@ -98,7 +98,7 @@ struct RenamedKey {
   std::string_view now;  ///< a key, or in words what to write
 };
 
-/// Names of an enumeration's values, in the order of the values from 0. Specialise beside the enumeration:
+/// Names of an enumeration's values, in the order of the values from 0. Specialise next to the enumeration:
 ///     template <> inline constexpr auto choices<Plane> = std::to_array<std::string_view>({"xy", "xz", "xyz"});
 template <class Enumeration>
 inline constexpr std::array<std::string_view, 0> choices{};

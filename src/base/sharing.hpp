@@ -19,7 +19,8 @@ class Sharing {
   /// Whether the next loop is to be shared. \param now the time at its start
   bool decide(Clock::time_point now);
 
-  /// Takes note of a loop that has ended. \param loop what tells it from others, not null \param tasks how many it had
+  /// Takes note of a loop that has ended. \param loop what distinguishes it from others, not null \param tasks how many
+  /// it had
   void note(const void* loop, std::size_t tasks, Clock::duration taken);
 
   /// How long a trial of the way that is not kept takes at least, and how long the other is kept: between two bounds,

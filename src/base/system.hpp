@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> find_programs(std::string_view name);
 /// The first of them.
 std::optional<std::filesystem::path> find_program(std::string_view name);
 
-/// "0.2.0": that of project() in CMakeLists.txt
+/// "0.2.0", from project() in CMakeLists.txt
 std::string_view program_version();
 
 /// The commit it was built from, with "-dirty" if tracked files differed from it; "unknown" outside a repository.

@@ -18,7 +18,7 @@ struct Tensor3 {
   constexpr bool operator==(const Tensor3&) const = default;
 };
 
-/// A symmetric tensor; the order of the components is that of VTK.
+/// A symmetric tensor; the components in the order of VTK.
 template <class Number = double>
 struct SymmetricTensor3 {
   Number xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, yz = 0.0, zx = 0.0;

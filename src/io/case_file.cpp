@@ -131,13 +131,13 @@ std::string quotes_advice(std::string_view line) {
   std::string_view what = error.description();
   if (constexpr std::string_view prefix = "Error while parsing "; what.starts_with(prefix))
     what.remove_prefix(prefix.size());
-  const toml::source_position place = error.source().begin;
+  const toml::source_position position = error.source().begin;
   throw InputError({Problem{.where = name,
-                            .line = static_cast<int>(place.line),
-                            .column = static_cast<int>(place.column),
+                            .line = static_cast<int>(position.line),
+                            .column = static_cast<int>(position.column),
                             .key = {},
                             .what = fmt::format("not valid TOML: {}", what),
-                            .allowed = quotes_advice(line_of(text, place.line))}});
+                            .allowed = quotes_advice(line_of(text, position.line))}});
 }
 
 bool is_dotted_key(std::string_view key) {

@@ -8,7 +8,7 @@
 ///     Talus checkpoint / format 1 / sequence 12 / bytes 345678 / crc32 89abcdef      (one per line)
 ///
 /// The sequence number identifies the newer of the two. The checksum covers the lines before it and all bytes of the
-/// HDF5 file, and is verified before the library sees them: a torn file and a turned bit are both noticed. Within:
+/// HDF5 file, and is verified before the library reads them: a torn file and a turned bit are both noticed. Within:
 /// /state/NAME, the model's kept fields; anything else by its own path; the attribute "units" on each.
 #pragma once
 
@@ -26,8 +26,8 @@
 
 namespace talus {
 
-/// Collects a checkpoint in memory: a visitor for `for_each_field` that takes the kept fields, and named entries beside
-/// them. Values are copied at the call. Every member throws FileError for a name that is there already.
+/// Collects a checkpoint in memory: a visitor for `for_each_field` that takes the kept fields, and named entries next
+/// to them. Values are copied at the call. Every member throws FileError for a name that is there already.
 class CheckpointWriter {
  public:
   /// \param fingerprint of the case

@@ -95,8 +95,8 @@ class TableReader {
 
   void stop_at_problems() {
     if (problems_.empty()) return;
-    const auto told = std::upper_bound(bad_lines_.begin(), bad_lines_.end(), problems_.back().line);
-    if (const auto more = bad_lines_.end() - told; more > 0)
+    const auto reported = std::upper_bound(bad_lines_.begin(), bad_lines_.end(), problems_.back().line);
+    if (const auto more = bad_lines_.end() - reported; more > 0)
       problems_.push_back({.where = path_, .key = {}, .what = fmt::format("and {} more bad lines", more)});
     throw InputError(problems_);
   }

@@ -52,7 +52,7 @@ inline constexpr std::string_view temporary_suffix = ".part";
 enum class Flush { now, later };
 
 /// Writes `content` under a temporary name, flushes it to the disk, renames it to `path` and flushes the folder. The
-/// folder must exist and have room for the new file beside the old one. A folder that keeps a list of what Talus wrote
+/// folder must exist and have room for the new file next to the old one. A folder that keeps a list of what Talus wrote
 /// (file_list.hpp) has it entered there. Symbolic links are not followed: one at `path` is replaced or, where such a
 /// list is kept, refused; one under the temporary name is refused.
 /// \param flush `later` is for what can be made again from other files

@@ -208,11 +208,11 @@ void ParameterReader::report_unknown_key(const CaseEntry& entry) {
   const bool in_parameter = std::find(keys_.begin(), keys_.end(), table) != keys_.end();
   const std::string_view best = in_parameter ? table : nearest_key(entry.key, keys_);
   if (!is_table(table)) table = "";
-  std::vector<std::string_view> beside;  // the keys of its table, or at the top if there is no such table
+  std::vector<std::string_view> known;  // the keys of its table, or at the top if there is no such table
   for (const std::string& key : keys_)
-    if (best.empty() && table_of(key) == table) beside.push_back(key);
+    if (best.empty() && table_of(key) == table) known.push_back(key);
   meant_.emplace(best);
-  add(entry, "unknown key", fmt::format("{}", fmt::join(beside, ", ")), std::string(best));
+  add(entry, "unknown key", fmt::format("{}", fmt::join(known, ", ")), std::string(best));
 }
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The types that a parameter may have, said once: reader, writer, schema and reference page see a parameter as a
+/// The types that a parameter may have, defined once: reader, writer, schema and reference page treat a parameter as a
 /// `ValueType` and a `ParameterValue`, and only this file depends on their members.
 #pragma once
 
@@ -43,7 +43,7 @@ constexpr ValueType value_type() {
     type.optional = true;
     return type;
   } else if constexpr (std::is_enum_v<T>) {
-    static_assert(choices<T>.size() > 0, "specialise talus::choices beside the enumeration");
+    static_assert(choices<T>.size() > 0, "specialise talus::choices next to the enumeration");
     return {.kind = Kind::choice, .choices = choices<T>};
   } else if constexpr (std::is_same_v<T, bool>) {
     return {.kind = Kind::flag};

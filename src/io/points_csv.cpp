@@ -17,7 +17,7 @@ std::vector<Vector3> vectors(std::size_t count, const CsvColumn* x, const CsvCol
   return vectors;
 }
 
-/// The columns as the header orders them, those of a vector at the place of its first.
+/// The columns as the header orders them, those of a vector at the position of its first.
 PointSet points_of(const CsvTable& table) {
   const std::size_t count = table.lines.size();
   PointSet points;

@@ -23,7 +23,7 @@ namespace talus {
 /// Reads particles: "position" from x, y and z (y and z may be missing and are then 0), vectors from three columns
 /// NAME_x, NAME_y, NAME_z, and a scalar from every other column; all converted to SI, angles to radians, each to the
 /// double nearest to what is written.
-/// \param required columns that must be there beside x, such as "radius"
+/// \param required columns required in addition to x, such as "radius"
 /// \throws FileError if the file cannot be read
 /// \throws InputError with every bad line, or the first 20 and their count: entries that are missing, no numbers, not
 ///         finite or too large, and columns that are missing, given twice or in an unknown unit
@@ -34,8 +34,8 @@ struct GivenPoints {
   std::vector<std::string> without_unit;  ///< of position and radius, the columns whose header gives no unit
 };
 
-/// The same of a file whose columns all have a use: any but x, y, z, radius and those of `others` is a problem, told
-/// with its reason if it is one of `refused`.
+/// The same of a file whose columns all have a use: any but x, y, z, radius and those of `others` is a problem,
+/// reported with its reason if it is one of `refused`.
 GivenPoints read_given_points(const std::filesystem::path& path, std::span<const KnownColumn> others,
                               std::span<const RefusedColumn> refused = {});
 

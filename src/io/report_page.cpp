@@ -147,7 +147,7 @@ std::string compressed(std::string_view bytes) {
   return out;
 }
 
-/// All bytes of one place, then all of the next: alike ones stand together.
+/// All bytes of one position, then all of the next: alike ones stand together.
 template <class Word>
 std::string planes(const std::vector<Word>& words) {
   std::string bytes(words.size() * sizeof(Word), '\0');

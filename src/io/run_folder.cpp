@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view snapshot_ending = ".vtkhdf";
 constexpr std::string_view index_ending = ".hdf.series";
 
-/// Files of a run beside its snapshots.
+/// Files of a run other than its snapshots.
 constexpr std::array<std::string_view, 7> file_names{
     "manifest.json", CheckpointFiles::names[0], CheckpointFiles::names[1], "series.csv", "summary.json", "report.html",
     "log.txt"};

@@ -21,8 +21,8 @@ struct Manifest {
   std::string case_text;    ///< the case as resolved, every default shown
   std::string fingerprint;  ///< of the case
   std::int64_t seed = 0;
-  std::string instruction_set;  ///< of the pair sums; the bits depend on it
-  int threads = 1;              ///< the bits do not
+  std::string instruction_set;  ///< of the pair sums; results depend bitwise on it
+  int threads = 1;              ///< results do not
 
   // By what, where and when; `manifest_of_this_program` fills these in.
   std::string version, revision, compiler;
@@ -33,7 +33,7 @@ struct Manifest {
   std::string started;                                         ///< UTC, "2026-01-31T12:34:56Z"
 };
 
-/// The second half of a manifest. The libraries are those of io and base; others are the caller's to add.
+/// The second half of a manifest. Its libraries are those that io and base link; the caller adds others.
 Manifest manifest_of_this_program();
 
 /// \throws FileError with the system's reason
@@ -51,16 +51,16 @@ Manifest read_manifest(const std::filesystem::path& path);
 //      ...], "quantities": {"front_speed_max": {"value": 51.2, "unit": "1"}, ...}}
 //
 // JSON has no numbers that are not finite: such a quantity has the value null and a "reason", one of "not a number",
-// "infinite" and "minus infinity". It is written rather than left out, so that a reader sees that it was asked for.
+// "infinite" and "minus infinity". It is written so that a reader knows that it was asked for.
 
 struct Summary {
   std::string status;                       ///< "running", "done", "interrupted" or "failed"
   double wall_seconds = 0;                  ///< s
-  std::string instruction_set = {};         ///< of the sum over pairs: the bits belong to it
+  std::string instruction_set = {};         ///< of the sum over pairs: results depend bitwise on it
   std::vector<NamedValue> quantities = {};  ///< names unique
   std::vector<std::string> warnings = {};   ///< where case or run leave what the laws assume, each after its name
-  std::vector<Answer> answers = {};         ///< the key results, each beside its analytical estimate
-  std::vector<RegimeLine> regime = {};      ///< the card of a run that has ended, those that warn too
+  std::vector<Answer> answers = {};         ///< the key results, each with its analytical estimate
+  std::vector<RegimeLine> regime = {};      ///< the validity report of a run that has ended
 
   /// \returns null if there is none
   const NamedValue* find(std::string_view name) const;

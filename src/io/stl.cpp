@@ -25,14 +25,14 @@ constexpr std::size_t head = 84, of_triangle = 50;
 }
 
 /// Numbers of the file are little-endian.
-std::uint32_t integer_at(std::string_view bytes, std::size_t place) {
+std::uint32_t integer_at(std::string_view bytes, std::size_t offset) {
   std::uint32_t value = 0;
-  for (std::size_t n = 4; n-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[place + n]);
+  for (std::size_t n = 4; n-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[offset + n]);
   return value;
 }
 
-double number_at(std::string_view bytes, std::size_t place) {
-  const std::uint32_t bits = integer_at(bytes, place);
+double number_at(std::string_view bytes, std::size_t offset) {
+  const std::uint32_t bits = integer_at(bytes, offset);
   float value = 0;
   std::memcpy(&value, &bits, sizeof value);
   return static_cast<double>(value);
@@ -49,9 +49,9 @@ std::vector<Triangle> from_binary(std::string_view content, std::string_view nam
   std::vector<Triangle> triangles(count);
   for (std::size_t t = 0; t < count; ++t)
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t place = head + of_triangle * t + 12 * (c + 1);
-      triangles[t].corner[c] = {number_at(content, place), number_at(content, place + 4),
-                                number_at(content, place + 8)};
+      const std::size_t offset = head + of_triangle * t + 12 * (c + 1);
+      triangles[t].corner[c] = {number_at(content, offset), number_at(content, offset + 4),
+                                number_at(content, offset + 8)};
     }
   return triangles;
 }

@@ -37,11 +37,11 @@ struct Points {
     }
   }
 
-  /// The cells' values, x fastest; that of an only cell at both of its faces.
+  /// The cells' values, x fastest; an only cell's at both of its faces.
   template <class Value>
   std::vector<Value> values(const GridSnapshot& grid, const std::vector<Value>& of_cells) const {
-    const auto cell = [&](std::size_t a, std::size_t place) {
-      return grid.count[a] == 1 ? 0 : static_cast<int>(place);
+    const auto cell = [&](std::size_t a, std::size_t point) {
+      return grid.count[a] == 1 ? 0 : static_cast<int>(point);
     };
     std::vector<Value> all;
     all.reserve(count[0] * count[1] * count[2]);
@@ -53,7 +53,7 @@ struct Points {
   }
 };
 
-/// The cells' values from those of the points.
+/// The cells' values from the points' values.
 template <class Value>
 std::vector<Value> of_cells(const GridSnapshot& grid, const std::array<std::size_t, 3>& points,
                             const std::vector<Value>& values) {

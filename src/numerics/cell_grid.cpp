@@ -95,16 +95,16 @@ CellGrid::CellGrid(std::span<const Vector3> points, double cell_size) : origin_(
 
 void CellGrid::sort_into_box(std::span<const Index> cell) {
   const auto all = static_cast<std::size_t>((last_.i + 1) * (last_.j + 1) * (last_.k + 1));
-  std::vector<std::uint32_t> next(all + 1, 0);  // place in the order of the next point of a cell of the box
+  std::vector<std::uint32_t> next(all + 1, 0);  // index in the order of the next point of a cell of the box
   for (const Index& at : cell) ++next[place_in_box(at.i, at.j, at.k) + 1];
   first_cell_.resize(all + 1);
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (std::int64_t k = 0; k <= last_.k; ++k)
     for (std::int64_t j = 0; j <= last_.j; ++j)
-      for (std::int64_t i = 0; i <= last_.i; ++i, ++place) {
-        first_cell_[place] = static_cast<std::uint32_t>(cells_.size());
-        if (next[place + 1] != 0) cells_.push_back({cell_key(i, j, k), next[place]});
-        next[place + 1] += next[place];
+      for (std::int64_t i = 0; i <= last_.i; ++i, ++index) {
+        first_cell_[index] = static_cast<std::uint32_t>(cells_.size());
+        if (next[index + 1] != 0) cells_.push_back({cell_key(i, j, k), next[index]});
+        next[index + 1] += next[index];
       }
   first_cell_[all] = static_cast<std::uint32_t>(cells_.size());
   for (std::uint32_t n = 0; n < cell.size(); ++n) order_[next[place_in_box(cell[n].i, cell[n].j, cell[n].k)]++] = n;

@@ -62,7 +62,7 @@ class CellGrid {
       }
   }
 
-  /// The points in the order of their cells, x fastest; those of a cell by number.
+  /// The points in the order of their cells, x fastest; points of a cell by number.
   std::span<const std::uint32_t> order() const { return order_; }
 
   /// How many cells hold points, and the points of one of them, sorted.
@@ -80,7 +80,7 @@ class CellGrid {
     std::size_t begin;  // its first point in the order
   };
   Index cell_of(const Vector3& x) const;
-  /// Sorts the points: by the places of their cells in the box of all cells; where that is too large, by their keys.
+  /// Sorts the points: by the positions of their cells in the box of all cells; where that is too large, by their keys.
   void sort_into_box(std::span<const Index> cell);
   void sort_by_key(std::span<const Index> cell);
   std::size_t place_in_box(std::int64_t i, std::int64_t j, std::int64_t k) const {
@@ -96,7 +96,7 @@ class CellGrid {
   Index first_{}, last_{};                 // that hold points
   std::vector<std::uint32_t> order_;       // the points by cell
   std::vector<Cell> cells_;                // that hold points, sorted; one more at the end
-  std::vector<std::uint32_t> first_cell_;  // in cells_, from a place in the box on; one more; empty: sorted by key
+  std::vector<std::uint32_t> first_cell_;  // in cells_, from a position in the box on; one more; empty: sorted by key
 };
 
 /// A permutation that keeps points near in space near in memory (Morton order of cells of edge `cell_size`).

@@ -33,7 +33,7 @@ class NumberSet {
       used[n / 4096] |= std::uint64_t{1} << (n / 64 % 64);
     }
   }
-  /// Writes the numbers and leaves the set empty. \returns the place behind the last one
+  /// Writes the numbers and leaves the set empty. \returns the slot behind the last one
   std::uint32_t* drain(std::uint32_t* numbers) {
     for (std::size_t u = 0; u < used_.size(); ++u)
       for (std::uint64_t words = std::exchange(used_[u], 0); words != 0; words &= words - 1) {
@@ -188,7 +188,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
   const std::size_t chunks = (grid.cells() + cells_at_once - 1) / cells_at_once;
   static PickNear* const pick_near = TALUS_COMPILED_FOR(resolve(InstructionSet::automatic), pick_near);
   found_.resize(std::max(chunks, found_.size()));
-  std::vector<std::uint32_t> place(chunks);  // of what a chunk has found, in these
+  std::vector<std::uint32_t> slot(chunks);  // of what a chunk has found, in these
   const std::size_t at_once = std::max(found_at_once, count / 8);
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     end = std::min(count, begin + at_once);
@@ -200,14 +200,14 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
         if (first != last) visit(c, std::span(first, last));
       }
     };
-    std::atomic<std::uint32_t> places{0};
+    std::atomic<std::uint32_t> slots{0};
     team.run(chunks, [&](std::size_t chunk) {
       thread_local Surroundings of_thread;
       Surroundings& around = of_thread;  // its address is looked up once
       std::vector<std::uint32_t>* list = nullptr;
       std::size_t filled = 0;
       for_each_listed(chunk, [&](std::size_t cell, std::span<const std::uint32_t> listed) {
-        if (list == nullptr) list = &found_[place[chunk] = places++];
+        if (list == nullptr) list = &found_[slot[chunk] = slots++];
         around.gather(cells, blocks.boxes, skin, cell);
         for (const std::uint32_t i : listed) {
           if (list->size() < filled + around.most()) list->resize((filled + around.most()) * 5 / 4);
@@ -225,7 +225,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
     if (neighbours_.capacity() < first_[end]) neighbours_.reserve(first_[end] / end * count / 10 * 11);
     neighbours_.resize(std::max(neighbours_.size(), first_[end]));
     team.run(chunks, [&](std::size_t chunk) {
-      const std::uint32_t* list = found_[place[chunk]].data();
+      const std::uint32_t* list = found_[slot[chunk]].data();
       for_each_listed(chunk, [&](std::size_t, std::span<const std::uint32_t> listed) {
         for (const std::uint32_t i : listed) {
           std::uint32_t* const behind = std::copy_n(list, length_[i], neighbours_.data() + first_[i]);

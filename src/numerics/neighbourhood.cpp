@@ -46,18 +46,18 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   });
   const std::span<const Vector3> points = reference_;
   sight_may_change_.assign(count, 0);
-  // Images in walls are the last ones, and seen from near walls only. A step evaluates rates where the particles are in
-  // its middle, a little farther away than the list allows for its ends.
+  // Images in walls are the last ones, and visible from near walls only. A step evaluates rates where the particles are
+  // in its middle, a little farther away than the list allows for its ends.
   const auto first_in_walls = std::partition_point(ghosts_.begin(), ghosts_.end(),
                                                    [&](const Ghost& ghost) { return !image(ghost).is_in_walls(); });
   const std::size_t in_walls = count + static_cast<std::size_t>(first_in_walls - ghosts_.begin());
   find_distances(team, points);
-  const auto sight_of = [&](std::size_t i, std::uint32_t j) {
+  const auto visibility_of = [&](std::size_t i, std::uint32_t j) {
     static constexpr Image identity;
     const bool is_ghost = j >= count;
     const double other = margin[is_ghost ? ghosts_[j - count].source : j];
-    return domain_.sight(points[i], points[j], is_ghost ? image(ghosts_[j - count]) : identity,
-                         2 * std::max(margin[i], other));
+    return domain_.visibility(points[i], points[j], is_ghost ? image(ghosts_[j - count]) : identity,
+                              2 * std::max(margin[i], other));
   };
   const NeighbourList::Keep keep_visible = [&](std::size_t i, std::span<std::uint32_t> near) {
     if (!vessel_.is_empty() && std::isfinite(distance_[i])) near = near.first(keep_unhidden(points, i, near));
@@ -65,9 +65,9 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     const auto end = !domain_.is_near_wall(position[i], reach_ + 2 * max_margin_)
                          ? seldom
                          : std::remove_if(near.begin(), near.end(), [&](std::uint32_t j) {
-                             const Domain::Sight sight = sight_of(i, j);
-                             if (sight == Domain::Sight::may_change) sight_may_change_[i] = 1;
-                             return sight == Domain::Sight::never;
+                             const Domain::Visibility visibility = visibility_of(i, j);
+                             if (visibility == Domain::Visibility::may_change) sight_may_change_[i] = 1;
+                             return visibility == Domain::Visibility::never;
                            });
     return static_cast<std::size_t>(end - near.begin());
   };
@@ -81,7 +81,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   for_each(team, count, [&](std::size_t i) {
     const auto neighbours = list_.of(i);
     for (std::size_t n = 0; n < first_doubt_[i + 1] - first_doubt_[i]; ++n)
-      in_doubt_[first_doubt_[i] + n] = sight_of(i, neighbours[n]) == Domain::Sight::may_change;
+      in_doubt_[first_doubt_[i] + n] = visibility_of(i, neighbours[n]) == Domain::Visibility::may_change;
   });
 
   first_ghost_.resize(count);
@@ -147,7 +147,7 @@ std::size_t Neighbourhood::keep_unhidden(std::span<const Vector3> points, std::s
 
 void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> position) {
   // Particles whose numbers follow each other are mostly near each other too: those of a sphere that is far from all
-  // that an image is seen in need no test.
+  // in which an image is visible need no test.
   struct Sphere {
     Vector3 centre;
     double radius = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The surroundings of particles in a domain: their ghosts, which are images of particles behind mirrors and periodic
 /// faces, and for each particle the list of those particles and ghosts that it may interact with. Ghosts have no state:
-/// each is a source and an image, and takes its place and its values from them at every evaluation.
+/// each is a source and an image, and takes its position and its values from them at every evaluation.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct Ghost {
 
 class Neighbourhood {
  public:
-  /// \param domain, vessel outlive it; \param vessel who is hidden behind it when the lists are built is not listed
+  /// \param domain, vessel outlive it; \param vessel particles hidden behind it when the lists are built are not listed
   explicit Neighbourhood(const Domain& domain, const Surface& vessel = Surface::none())
       : domain_(domain), vessel_(vessel) {}
   explicit Neighbourhood(Domain&&) = delete;
@@ -54,11 +54,11 @@ class Neighbourhood {
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
 
   /// The neighbours of particle i, itself not among them, sorted: first particles, then ghosts, numbered from
-  /// particles() on. It sees all of them, unless sight_may_change(i): then ask the domain of those that are in doubt.
+  /// particles() on. All of them are visible, unless sight_may_change(i): then ask the domain about the undecided ones.
   std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
   bool sight_may_change(std::size_t i) const { return sight_may_change_[i]; }
-  /// Of each of of(i), whether it is in doubt; empty unless sight_may_change(i).
+  /// Of each of of(i), whether its visibility is undecided; empty unless sight_may_change(i).
   std::span<const char> in_doubt(std::size_t i) const {
     return std::span(in_doubt_).subspan(first_doubt_[i], first_doubt_[i + 1] - first_doubt_[i]);
   }
@@ -66,7 +66,7 @@ class Neighbourhood {
   /// How far a particle was from the vessel at least when the lists were built, m; infinite beyond the reach of its
   /// neighbours.
   double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
-  /// Whether a line between two places of the particle can meet the vessel, as far as that distance tells.
+  /// Whether a line between two positions of the particle can meet the vessel, as far as that distance tells.
   bool may_meet_vessel(std::size_t i, const Vector3& a, const Vector3& b) const {
     const double free = distance_from_vessel(i);
     if (free == infinity) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Runge-Kutta methods. Coefficients of the first-order damped Runge-Kutta-Chebyshev method for stiff systems y' = f(y)
 /// whose Jacobian has a real, negative spectrum. With s stages the stable interval on the negative axis grows like s^2,
-/// so the cost of a stiff spring is the square root of that of explicit Euler.
+/// so the cost of a stiff spring is the square root of the cost of explicit Euler.
 ///
 ///     Y_0 = y,  Y_1 = Y_0 + (w1/w0) h f(Y_0),
 ///     Y_j = mu_j Y_{j-1} + nu_j Y_{j-2} + step_j h f(Y_{j-1}),  j = 2..s,   y(t+h) = Y_s

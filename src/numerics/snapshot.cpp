@@ -71,8 +71,8 @@ const Values& column(const GridSnapshot& snapshot, std::string_view name) {
 
 }  // namespace
 
-int GridSnapshot::cell_at(int axis, double place) const {
-  const int cell = static_cast<int>(std::floor((place - low[axis]) / spacing[axis]));
+int GridSnapshot::cell_at(int axis, double coordinate) const {
+  const int cell = static_cast<int>(std::floor((coordinate - low[axis]) / spacing[axis]));
   return std::clamp(cell, 0, count[static_cast<std::size_t>(axis)] - 1);
 }
 
@@ -126,9 +126,9 @@ PointSet whole_of(const Snapshot& part) {
   };
   for (const ColumnView& column : part.columns) {
     if (const auto* vectors = std::get_if<std::span<const Vector3>>(&column.values)) {
-      const bool places = column.name == "position";
+      const bool is_position = column.name == "position";
       add(column, [&](std::size_t i, int k) {
-        return places ? sector.turned((*vectors)[i], k) : sector.turn(k) * (*vectors)[i];
+        return is_position ? sector.turned((*vectors)[i], k) : sector.turn(k) * (*vectors)[i];
       });
     } else if (const auto* integers = std::get_if<std::span<const std::int64_t>>(&column.values)) {
       const std::int64_t all = copies.identities * copies.count;

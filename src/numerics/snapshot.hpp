@@ -27,7 +27,7 @@ struct ColumnView {
 /// Says of columns that they are of one sector about an upright axis, of which the whole is so many copies
 ///(`whole_of`).
 struct SectorCopies {
-  Vector3 axis;                 ///< a place on it, m
+  Vector3 axis;                 ///< a position on it, m
   int count = 1;                ///< of the sectors that make up the whole, itself counted
   std::int64_t identities = 0;  ///< of particles in one copy: those of copy k are (identity + k identities) mod count
                                 ///< identities
@@ -91,8 +91,8 @@ struct GridSnapshot {
   Vector3 centre(int i, int j, int k) const {
     return low + Vector3{(i + 0.5) * spacing.x, (j + 0.5) * spacing.y, (k + 0.5) * spacing.z};
   }
-  /// The cell along an axis that holds a place; the last one for a place beyond it.
-  int cell_at(int axis, double place) const;
+  /// The cell along an axis that holds a coordinate; the last one for one beyond it.
+  int cell_at(int axis, double coordinate) const;
 
   /// \throws std::out_of_range naming the column
   const std::vector<double>& scalars(std::string_view name) const;

@@ -48,7 +48,7 @@ struct LoopResult {
 };
 
 /// Runs a model to the end, until nothing is left to compute, or until it is interrupted. Each snapshot is taken at the
-/// end of the first step that reaches its time (no step is cut to an output time, so outputs do not change the bits);
+/// end of the first step that reaches its time (no step is cut to an output time, so outputs do not change results);
 /// the last step's state is the last snapshot. A checkpoint is written at the start, now and then, on interruption and
 /// at the end. With `resume` it continues from the newest intact checkpoint, or starts from the beginning if there is
 /// none; rows and snapshots written after that checkpoint are replaced. \param folder of the run, with a folder

@@ -91,7 +91,7 @@ class Progress {
   Phase phase_;
   std::deque<Sample> samples_;  ///< the first is where the phase's recent part began
   Clock::time_point began_, next_live_, last_line_;
-  int tenths_ = 0;  ///< of the phase, told as lines
+  int tenths_ = 0;  ///< of the phase, reported as lines
   bool told_ = false;
 };
 

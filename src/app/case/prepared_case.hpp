@@ -59,7 +59,7 @@ struct PreparedCase {
   run::Headline headline;  ///< what the line of progress shows
   /// Dimensionless groups and scales, for `check` and the log.
   std::vector<NamedValue> groups;
-  /// Whether the case keeps to what its laws assume: the lines of the regime card that are known before the run.
+  /// Whether the case keeps to what its laws assume: the lines of the validity report that are known before the run.
   std::vector<RegimeLine> regime;
   /// Where the particles lie at the start, for `check`: lines of a name and a text. None: there is nothing to say.
   std::function<std::vector<std::pair<std::string, std::string>>()> start;

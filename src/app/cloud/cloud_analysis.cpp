@@ -16,15 +16,15 @@ namespace talus::app {
 
 namespace {
 
-/// The front's place against time. From the side it is there once grains have reached the slope.
+/// The front's position against time. From the side it is there once grains have reached the slope.
 Curve front_of(const Series& series, const CloudFrame& frame) {
   const auto time = series.column("time");
-  const auto place = series.column(frame.motion == cloud::Motion::xz ? "front_on_slope_x" : "front_x");
+  const auto position = series.column(frame.motion == cloud::Motion::xz ? "front_on_slope_x" : "front_x");
   Curve front;
   for (std::size_t n = 0; n < time.size(); ++n) {
-    if (!std::isfinite(place[n])) continue;
+    if (!std::isfinite(position[n])) continue;
     front.time.push_back(time[n]);
-    front.value.push_back(place[n]);
+    front.value.push_back(position[n]);
   }
   return front;
 }

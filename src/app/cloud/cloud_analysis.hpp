@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What is measured on a cloud's run, from its folder alone. The estimators are those of analysis/avalanche.hpp.
+/// What is measured on a cloud's run, from its folder alone. Estimators: analysis/avalanche.hpp.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace talus::app {
 
-/// What turns a run's SI numbers into those of the paper.
+/// Converts a run's SI numbers to the paper's.
 struct CloudFrame {
   AvalancheScales scales;
   cloud::Motion motion = cloud::Motion::xy;

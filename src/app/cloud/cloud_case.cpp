@@ -112,7 +112,7 @@ std::string digest_of(const Grains& grains) {
   return digest(std::string(bytes(grains.position)).append(bytes(grains.radius)));
 }
 
-/// The front's place after every step; a case without x as its way down still has a foremost grain.
+/// The front's position after every step; a case without x as its way down still has a foremost grain.
 std::vector<NamedValue> observe_front(const Snapshot& snapshot, double layer) {
   const double front = front_position(snapshot.positions()).value_or(std::nan(""));
   const double on_slope = front_position_on_slope(snapshot.positions(), layer).value_or(std::nan(""));

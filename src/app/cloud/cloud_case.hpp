@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The cloud model as the commands see it.
+/// The cloud model for the commands.
 #pragma once
 
 #include <filesystem>

@@ -20,7 +20,7 @@
 
 namespace talus::app {
 
-/// A case of a law alone, or that part of a whole case. Keys and defaults are those of the model `continuum`, but for
+/// A case of a law alone, or that part of a whole case. Keys and defaults are as in the model `continuum`, but for
 /// the table [path].
 struct LawCase {
   granular::LawParameters law;

@@ -184,7 +184,7 @@ double depth_that_may_be_reached(const continuum::Layout& layout, double end) {
   return std::max(before, std::min(high - low, before + mass / (p.bed.packing * p.grains.density * area)));
 }
 
-/// The largest speed of a free fall from where grains begin to the lowest place that they can reach, m/s.
+/// The largest speed of a free fall from where grains begin to the lowest position that they can reach, m/s.
 double speed_of_fall(const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
   double low = p.box.floor == FaceKind::open && !p.vessel.empty() ? continuum::bounds_of_vessel(p).low.z : 0;

@@ -58,7 +58,7 @@ struct Kind {
   std::vector<Problem> (*check)(const Answers& answers) = nullptr;
 };
 
-/// The faults of a case that was not written, as those of the answers it was to be written from: in place of lines and
+/// The errors of a case that was not written, as errors of the answers behind it: in place of lines and
 /// keys they name options. \param texts the answers as they were given, by the names of the questions
 std::vector<Problem> by_option(const Kind& kind, const std::map<std::string, std::string>& texts,
                                std::vector<Problem> problems);

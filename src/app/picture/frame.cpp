@@ -36,7 +36,7 @@ const std::string of_air = "air.";
                      .nearest = std::string(nearest(given, views))}});
 }
 
-/// The cells' places in the middle of the depth, and their numbers in a column.
+/// The cells' positions in the middle of the depth, and their numbers in a column.
 struct Layer {
   std::vector<std::size_t> cells;
   std::vector<Vector3> centres;

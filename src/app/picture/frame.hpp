@@ -13,7 +13,7 @@ namespace talus::app {
 
 /// Which numbers are colours, which vectors arrows.
 struct Shown {
-  std::string color = {};   ///< a number of the particles (numbers.hpp), or "air.NAME" of the cells; empty: one colour
+  std::string color = {};   ///< a number of the particles (scene.hpp), or "air.NAME" of the cells; empty: one colour
   std::string arrows = {};  ///< "air", or a vector of the particles; empty: none
 };
 

@@ -52,7 +52,7 @@ bool is_constant(std::span<const float> values) {
                      [&](float v) { return v == values.front() || (std::isnan(v) && std::isnan(values.front())); });
 }
 
-/// The same particle has the same place in every frame, whatever the order in the files.
+/// The same particle has the same position in every frame, whatever the order in the files.
 class Particles {
  public:
   Particles(std::size_t frames, std::size_t most) : frames_(frames), most_(most) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// report.html of runs, ensembles and reproductions: particles, curves, summary, regime card, comparison and case, in
-/// one file that needs nothing else.
+/// report.html of runs, ensembles and reproductions: particles, curves, summary, validity report, comparison and case,
+/// in one file that needs nothing else.
 #pragma once
 
 #include <cstddef>
@@ -71,7 +71,7 @@ std::string title_of_run(const std::filesystem::path& folder);
 ///
 /// Vectors are also given by their size, a stress by its pressure, a third of the trace; columns that never change are
 /// left out, the radius apart. Particles are chosen by their numbers, evenly; frames evenly over the time, the first
-/// and the last among them. Air in a box that is thin along an axis is that of its middle layer.
+/// and the last among them. Air in a box that is thin along an axis is its middle layer.
 /// \param origin time from which the frames count, s \returns null where there are no snapshots
 /// \throws FileError
 nlohmann::ordered_json pack_run(const std::filesystem::path& folder, double origin, const ReportLimits& limits,

@@ -25,9 +25,9 @@ struct RefinedQuantity {
   double error = 0;         ///< of the fine one: how far it is from that
 };
 
-/// The quantities that both summaries have as finite numbers, but for those of the machine and of the scheme. To first
-/// order in the spacing, fine + (fine - coarse)/(ratio - 1): what an edge or a surface takes is a length that goes with
-/// the spacing (validation/slots, validation/orifice). \param ratio of the spacings, above 1
+/// The quantities that both summaries have as finite numbers, except quantities of the machine and of the scheme. To
+/// first order in the spacing, fine + (fine - coarse)/(ratio - 1): what an edge or a surface takes is a length that
+/// goes with the spacing (validation/slots, validation/orifice). \param ratio of the spacings, above 1
 std::vector<RefinedQuantity> extrapolated(const Summary& coarse, const Summary& fine, double ratio);
 
 /// As a table for reading.

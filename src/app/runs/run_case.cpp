@@ -107,7 +107,7 @@ void print_answers(const std::vector<Answer>& answers, RunLog& log) {
   }
 }
 
-/// The warnings of a card, for the summary.
+/// The warnings of a validity report, for the summary.
 std::vector<std::string> texts_of(const std::vector<RegimeLine>& regime) {
   std::vector<std::string> texts;
   for (const Warning& warning : warnings_of(regime)) texts.push_back(to_string(warning));
@@ -170,7 +170,8 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   for (const std::string& remark : prepared.remarks) log.write("{}", remark);
   for (const Warning& warning : warnings_before_run(prepared, folder.path())) {
     log.write("warning {}", to_string(warning));
-    if (warning.id == "disk") print_error("talus: {}\n", warning.text);  // the others stand in the card at the end
+    if (warning.id == "disk")
+      print_error("talus: {}\n", warning.text);  // the others are in the validity report at the end
   }
 
   std::unique_ptr<run::AnyModel> model;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From a prepared case to a run's folder: loop, analysis, pictures, summary, card of regimes.
+/// From a prepared case to a run's folder: loop, analysis, pictures, summary, validity report.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ struct RunRequest {
   bool dry_run = false;
 };
 
-/// What makes a case the same case: all keys but those that do not change a run's bits, what the files hold that it
+/// What makes a case the same case: all keys but those that do not change a run's results, what the files hold that it
 /// names, and the instruction set that its choice resolves to. A run may be resumed with a later end.
 std::string case_fingerprint(const PreparedCase& prepared);
 

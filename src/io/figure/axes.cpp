@@ -156,17 +156,17 @@ Rectangle emptiest_place(const Rectangle& plot, double width, double height, con
   const double left = plot.x + clearance, right = plot.right() - clearance - width;
   const double top = plot.y + clearance, bottom = plot.bottom() - clearance - height;
   const double middle = plot.x + 0.5 * (plot.width - width), centre = plot.y + 0.5 * (plot.height - height);
-  const std::array<std::pair<double, double>, 8> places = {{{right, top},
-                                                            {left, top},
-                                                            {right, bottom},
-                                                            {left, bottom},
-                                                            {middle, top},
-                                                            {middle, bottom},
-                                                            {right, centre},
-                                                            {left, centre}}};
+  const std::array<std::pair<double, double>, 8> candidates = {{{right, top},
+                                                                {left, top},
+                                                                {right, bottom},
+                                                                {left, bottom},
+                                                                {middle, top},
+                                                                {middle, bottom},
+                                                                {right, centre},
+                                                                {left, centre}}};
   Rectangle best{right, top, width, height};
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  for (const auto& [x, y] : places) {
+  for (const auto& [x, y] : candidates) {
     const Rectangle grown{x - 3, y - 3, width + 6, height + 6};
     const auto covered = static_cast<std::size_t>(std::count_if(
         obstacles.begin(), obstacles.end(), [&](const Obstacle& point) { return grown.contains(point.x, point.y); }));

@@ -100,7 +100,7 @@ struct Obstacle {
 /// corners come first, from the upper right, when several are as good. It lies in `plot` if it fits.
 Rectangle emptiest_place(const Rectangle& plot, double width, double height, const std::vector<Obstacle>& obstacles);
 
-/// Draws the legend in the emptiest place and adds its box to the obstacles. Nothing is drawn without entries.
+/// Draws the legend in the emptiest position and adds its box to the obstacles. Nothing is drawn without entries.
 void draw_legend(cairo_t* context, const std::vector<LegendEntry>& entries, const Rectangle& plot,
                  std::vector<Obstacle>& obstacles);
 

@@ -30,9 +30,9 @@ constexpr Table viridis_table = {
 
 Colour colour_at(double t) {
   t = t > 0.0 ? std::min(t, 1.0) : 0.0;
-  const double place = t * static_cast<double>(viridis_table.size() - 1);
-  const std::size_t below = std::min(static_cast<std::size_t>(place), viridis_table.size() - 2);
-  return mix(rgb(viridis_table[below]), rgb(viridis_table[below + 1]), place - static_cast<double>(below));
+  const double level = t * static_cast<double>(viridis_table.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(level), viridis_table.size() - 2);
+  return mix(rgb(viridis_table[below]), rgb(viridis_table[below + 1]), level - static_cast<double>(below));
 }
 
 Canvas::Canvas(double width, double height, double scale) {

@@ -53,7 +53,7 @@ struct ByCategory {
   std::vector<Category> categories = {};
 };
 
-/// An arrow for each particle, e.g. its velocity relative to the front, or for each of other places.
+/// An arrow for each particle, e.g. its velocity relative to the front, or for each of other positions.
 struct Arrows {
   std::span<const Vector3> values = {};     ///< SI
   std::span<const Vector3> positions = {};  ///< where they begin, m; empty: at the particles
@@ -70,7 +70,7 @@ struct Segment {
   Colour colour = ink;
 };
 
-/// What is seen, in metres along the view's directions right and up.
+/// The visible part, in metres along the view's directions right and up.
 struct Window {
   double left = 0, right = 1, bottom = 0, top = 1;
 };
@@ -84,7 +84,7 @@ struct ParticlePicture {
   std::optional<Arrows> arrows = {};
   std::vector<Segment> segments = {};
   Unit length = {1, "m"};
-  bool axes = true;       ///< numbered, where the view's directions are those of the axes; a scale bar otherwise
+  bool axes = true;       ///< numbered, where the view is along the axes; a scale bar otherwise
   bool scale_bar = true;  ///< where there are no axes
   bool slope = false;     ///< the slope as a line, in views from the side; as a plane with shadows, in oblique ones
   bool depth = false;     ///< nearer particles over farther ones, and the farther the paler

@@ -21,10 +21,9 @@ double usual_magnitude(std::span<const Vector3> values) {
     if (std::isfinite(norm(value))) magnitudes.push_back(norm(value));
   }
   if (magnitudes.empty()) return 0;
-  const auto place =
-      magnitudes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(magnitudes.size() - 1));
-  std::nth_element(magnitudes.begin(), place, magnitudes.end());
-  return *place;
+  const auto nth = magnitudes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(magnitudes.size() - 1));
+  std::nth_element(magnitudes.begin(), nth, magnitudes.end());
+  return *nth;
 }
 
 /// Units of the page for one `unit`; 0: there is no arrow.

@@ -7,18 +7,18 @@ namespace talus::figure {
 
 namespace {
 
-/// Places about a particle, in smoothing lengths.
+/// Offsets about a particle, in smoothing lengths.
 std::vector<Vector3> scattered() {
   constexpr std::size_t count = 65536;
   constexpr double deviation = 2.0 / 3;
   Random random(1);
-  std::vector<Vector3> places;
-  while (places.size() < count) {
+  std::vector<Vector3> offsets;
+  while (offsets.size() < count) {
     Vector3 d;
     for (int axis = 0; axis < 3; ++axis) d[axis] = deviation * random.normal();
-    if (dot(d, d) < 4) places.push_back(d);
+    if (dot(d, d) < 4) offsets.push_back(d);
   }
-  return places;
+  return offsets;
 }
 
 /// Where those of a particle begin: spread evenly whatever the identities (Fibonacci hashing).
@@ -41,15 +41,15 @@ Vector3 turned_back(const Domain& domain, const Vector3& from, Vector3 to) {
 
 std::vector<Vector3> particle_dots(std::span<const Vector3> position, std::span<const double> smoothing_length,
                                    std::span<const std::int64_t> identity, const Domain& domain, int dots) {
-  static const std::vector<Vector3> places = scattered();
+  static const std::vector<Vector3> offsets = scattered();
   const auto count = static_cast<std::size_t>(dots);
   std::vector<Vector3> all;
   all.reserve(position.size() * count);
   for (std::size_t i = 0; i < position.size(); ++i) {
     const std::size_t start = start_of(identity[i]);
     for (std::size_t n = start; n < start + count; ++n) {
-      const Vector3& place = places[n % places.size()];
-      all.push_back(turned_back(domain, position[i], position[i] + smoothing_length[i] * place));
+      const Vector3& offset = offsets[n % offsets.size()];
+      all.push_back(turned_back(domain, position[i], position[i] + smoothing_length[i] * offset));
     }
   }
   return all;

@@ -59,7 +59,7 @@ class Stipple {
   /// \param radius of the discs, units of the page, > 0 \param colour with its alpha
   Stipple(cairo_t* context, double radius, const Colour& colour);
 
-  /// A disc around a place of the page, in units; what lies beyond the page is cut off.
+  /// A disc around a position of the page, in units; what lies beyond the page is cut off.
   void add(double x, double y);
 
   /// Draws what was added. \throws std::bad_alloc
@@ -72,7 +72,7 @@ class Stipple {
   int width_, height_;                       // of the page, pixels
   int left_, right_ = 0, top_, bottom_ = 0;  // around the pixels that discs have reached
   int reach_ = 0;                            // of a disc from its centre's pixel
-  std::vector<float> shares_;   // that a disc leaves uncovered of the pixels around it, for each place within a pixel
+  std::vector<float> shares_;  // that a disc leaves uncovered of the pixels around it, for each position within a pixel
   std::vector<float> through_;  // of each pixel of the page
 };
 

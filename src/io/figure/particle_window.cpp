@@ -41,10 +41,10 @@ void check(const ParticlePicture& picture) {
   }
   if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) same("categories", by_category->of.size());
   if (picture.arrows) {
-    if (const std::size_t places = picture.arrows->positions.size(); places == 0)
+    if (const std::size_t starts = picture.arrows->positions.size(); starts == 0)
       same("arrows", picture.arrows->values.size());
-    else if (places != picture.arrows->values.size())
-      throw std::invalid_argument(fmt::format("{} arrows at {} places", picture.arrows->values.size(), places));
+    else if (starts != picture.arrows->values.size())
+      throw std::invalid_argument(fmt::format("{} arrows at {} positions", picture.arrows->values.size(), starts));
     positive("arrows", picture.arrows->unit.value);
   }
   if (picture.aspect && !(*picture.aspect > 0)) throw std::invalid_argument("a picture without height");

@@ -11,8 +11,8 @@ namespace talus::figure {
 
 namespace {
 
-constexpr int places = 8;    // at which a disc can stand within a pixel, each way
-constexpr int samples = 16;  // of a pixel, each way
+constexpr int subpixels = 8;  // at which a disc can stand within a pixel, each way
+constexpr int samples = 16;   // of a pixel, each way
 
 /// The share of a pixel that a disc covers, by samples. \param x, y of the disc's centre from the pixel's corner,
 /// pixels
@@ -41,12 +41,12 @@ Stipple::Stipple(cairo_t* context, double radius, const Colour& colour)
   scale_ = across;
   const double pixels = radius * scale_;
   reach_ = static_cast<int>(std::ceil(pixels));
-  for (int row = 0; row < places; ++row)
-    for (int column = 0; column < places; ++column)
+  for (int row = 0; row < subpixels; ++row)
+    for (int column = 0; column < subpixels; ++column)
       for (int j = -reach_; j <= reach_; ++j)
         for (int i = -reach_; i <= reach_; ++i)
           shares_.push_back(static_cast<float>(
-              1 - colour.alpha * covered((column + 0.5) / places - i, (row + 0.5) / places - j, pixels)));
+              1 - colour.alpha * covered((column + 0.5) / subpixels - i, (row + 0.5) / subpixels - j, pixels)));
 }
 
 void Stipple::add(double x, double y) {
@@ -54,8 +54,8 @@ void Stipple::add(double x, double y) {
   const double left = std::floor(x), top = std::floor(y);
   if (!(left > -1e6 && left < 1e6 && top > -1e6 && top < 1e6)) return;
   const int column = static_cast<int>(left), row = static_cast<int>(top), side = 2 * reach_ + 1;
-  const int place = static_cast<int>((y - top) * places) * places + static_cast<int>((x - left) * places);
-  const float* share = shares_.data() + static_cast<std::ptrdiff_t>(place) * side * side;
+  const int subpixel = static_cast<int>((y - top) * subpixels) * subpixels + static_cast<int>((x - left) * subpixels);
+  const float* share = shares_.data() + static_cast<std::ptrdiff_t>(subpixel) * side * side;
   left_ = std::min(left_, std::max(0, column - reach_)),
   right_ = std::max(right_, std::min(width_, column + reach_ + 1));
   top_ = std::min(top_, std::max(0, row - reach_)), bottom_ = std::max(bottom_, std::min(height_, row + reach_ + 1));

@@ -28,7 +28,7 @@ std::size_t plus(std::size_t index, std::ptrdiff_t by) {
 
 // Loops over rows of faces: separate functions so that the compiler vectorises them.
 
-/// A row of faces and what flows between them and those beside them along a second axis.
+/// A row of faces and what flows between them and their neighbours along a second axis.
 struct FluxRow {
   const double* velocity;        ///< m/s
   const double* mass;            ///< through the faces of the second axis, kg/(m^2 s)
@@ -82,7 +82,7 @@ void Convection::fill_ghosts(Stream& stream) const {
         const std::ptrdiff_t back = component == axis ? 0 : -grid.stride(component);
         for_each_in_layer(grid, axis, inside, [&](std::size_t c) {
           const std::size_t face = plus(c, to_face);
-          // The flow through the end of the box beside this velocity, outward positive.
+          // The flow through the end of the box next to this velocity, outward positive.
           const double outflow = (side == 0 ? -1 : 1) * (through[face] + through[plus(face, back)]);
           stream.mass[a][plus(c, outward)] = stream.mass[a][c];
           stream.velocity[a][plus(c, outward)] = outflow > 0 ? stream.velocity[a][c] : 0;
@@ -123,8 +123,8 @@ const double* Convection::Rows::force(int j, int k, std::ptrdiff_t begin) {
   const Grid& grid = apertures_.grid;
   const int count = apertures_.faces(axis_)[0];
   const std::size_t row = grid.row(j, k);
-  const int place = axis_ == 1 ? j : k;
-  const bool is_end = axis_ > 0 && apertures_.is_end(axis_, place);
+  const int index = axis_ == 1 ? j : k;
+  const bool is_end = axis_ > 0 && apertures_.is_end(axis_, index);
   const double* x = fluxes(along_x_, 0, row, begin, count + 1);
   // The fluxes to the next row are those from the one before it, when its turn comes.
   const auto two = [&](std::array<Fluxes, 2>& kept, int second) -> std::array<const double*, 2> {
@@ -149,19 +149,19 @@ const double* Convection::Rows::force(int j, int k, std::ptrdiff_t begin) {
     along_others(from, to);
     find_force_at_end(end, begin + from, to - from, force + from);
   };
-  if (is_end) at_end(0, count, place);
+  if (is_end) at_end(0, count, index);
   if (axis_ == 0 && apertures_.is_end(0, 0)) at_end(0, 1, 0), at_end(count - 1, count, count - 1);
   return force;
 }
 
 /// The volume of a face at an open end is half a cell, from the end inwards.
-void Convection::Rows::find_force_at_end(int place, std::ptrdiff_t from, int count, double* force) const {
+void Convection::Rows::find_force_at_end(int index, std::ptrdiff_t from, int count, double* force) const {
   const Grid& grid = apertures_.grid;
   const auto a = static_cast<std::size_t>(axis_);
   const std::ptrdiff_t along = grid.stride(axis_);
   const double *u = stream_.velocity[a].data(), *mass = stream_.mass[a].data(), *wide = apertures_.wide[a][a].data();
-  const std::ptrdiff_t outward = place == 0 ? -along : along, inward = place == 0 ? along : 0;
-  const double factor = (place == 0 ? 2 : -2) / grid.spacing[axis_];
+  const std::ptrdiff_t outward = index == 0 ? -along : along, inward = index == 0 ? along : 0;
+  const double factor = (index == 0 ? 2 : -2) / grid.spacing[axis_];
   for (auto f = from; f < from + count; ++f, ++force) {
     const auto at = f + inward;
     const double through = 0.5 * (mass[at] + mass[at - along]);

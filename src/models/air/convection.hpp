@@ -42,14 +42,14 @@ class Convection {
       std::vector<double> flux;   ///< N/m^2
     };
     const double* fluxes(Fluxes& kept, int second, std::size_t row, std::ptrdiff_t begin, int count) const;
-    void find_force_at_end(int place, std::ptrdiff_t from, int count, double* force) const;
+    void find_force_at_end(int index, std::ptrdiff_t from, int count, double* force) const;
 
     const FaceApertures& apertures_;
     const Stream& stream_;
     int axis_;
     double upwind_;
     Fluxes along_x_;
-    std::array<Fluxes, 2> along_y_;               // of the row and of that after it, in turn
+    std::array<Fluxes, 2> along_y_;               // of the row and the next one, alternately
     std::vector<std::array<Fluxes, 2>> along_z_;  // of each row of a plane, and of that above it
     std::vector<double> force_;
   };

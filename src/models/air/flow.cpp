@@ -98,8 +98,8 @@ void AirFlow::drag_alone(ThreadTeam& team, double dt, const Solids& solids, AirS
   for_each_row(team, apertures_.grid, apertures_.grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t) {
     measure_drag_of_row(begin, cells_from(begin, solids, state.velocity));
   });
-  for_each_cell(team, apertures_.grid, [&](int, int, int, std::ptrdiff_t place) {
-    const auto c = static_cast<std::size_t>(place);
+  for_each_cell(team, apertures_.grid, [&](int, int, int, std::ptrdiff_t index) {
+    const auto c = static_cast<std::size_t>(index);
     const double s = solids.fraction[c];
     for (std::size_t a = 0; a < 3; ++a) {
       state.drag[a][c] = s > 0 ? -drag_[c] * solids.flux[a][c] / s : 0;

@@ -2,7 +2,7 @@
 /// The air between the grains (Yuu & Umekage 2011, Eqs 18-21). Its input is the solid volume and the solid flux in
 /// every cell, its output the impulse per solid volume in every cell.
 ///
-/// A step. The momentum rho Phi u of every face is that of the previous step; the void fraction is the new one.
+/// A step. The momentum rho Phi u of every face is from the previous step; the void fraction is the new one.
 /// Convection, viscosity and the coefficient of the drag are evaluated once, at the midpoint of the step, with the
 /// momentum extrapolated there from the starts of this step and the last (of second order as Adams and Bashforth's
 /// method, for steps of any length; the first step is of first order). Drag is the exact solution of the linear decay
@@ -104,8 +104,8 @@ class AirFlow {
   FaceField void_fraction_, solid_fraction_, grain_velocity_;  // on faces
   CellField drag_;                                             // beta of cells, kg/(m^3 s)
   FaceField decay_, mean_, after_drag_;                        // of a step, on faces
-  FaceField predicted_;  // velocity before the pressure; then that of the midpoint
-  FaceField start_;      // of the implicit viscosity
+  FaceField predicted_;                                        // velocity before the pressure; then the midpoint's
+  FaceField start_;                                            // of the implicit viscosity
   FaceField conductance_;
   CellField source_;
   std::vector<double> max_flow_;  // of each row of cells

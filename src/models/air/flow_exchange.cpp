@@ -18,7 +18,7 @@ struct AirFlow::Finished {
 };
 
 /// The row that begins at `begin`, unless `kept` has it.
-/// \param state its momentum is that of the start of the step, its pressure that of the step, with ghosts
+/// \param state with the momentum at the start of the step and the pressure of the step, ghosts included
 const AirFlow::Finished& AirFlow::finish_faces(Finished& kept, double dt, const AirState& state, int axis,
                                                std::size_t row, std::ptrdiff_t begin, int count) const {
   if (kept.begin == begin) return kept;

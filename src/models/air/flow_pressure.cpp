@@ -65,8 +65,8 @@ double AirFlow::find_source(ThreadTeam& team, bool with_grains, const FaceField&
 void AirFlow::find_storage(ThreadTeam& team, double dt) {
   const Grid& grid = apertures_.grid;
   storage_.resize(source_.size());
-  for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t place) {
-    const auto c = static_cast<std::size_t>(place);
+  for_each_cell(team, grid, [&](int i, int j, int k, std::ptrdiff_t index) {
+    const auto c = static_cast<std::size_t>(index);
     const double absolute = parameters_.pressure + start_pressure_[c];
     if (!(absolute > 0)) {
       const Vector3 x = grid.centre(i, j, k);
@@ -93,7 +93,7 @@ void AirFlow::project(ThreadTeam& team, double dt, AirState& state) {
     for_each_run(team, apertures_, axis, [&](const FaceRun& run) {
       if (!run.is_end) return;
       const auto a = static_cast<std::size_t>(axis);
-      const double outside = apertures_.boundaries.pressure[2 * a + (run.place == 0 ? 0 : 1)];
+      const double outside = apertures_.boundaries.pressure[2 * a + (run.index == 0 ? 0 : 1)];
       for (auto f = run.begin; f < run.end; ++f) source[f + run.here] += conductance_[a][f] * outside;
     });
   }
@@ -120,8 +120,8 @@ void AirFlow::add_outflow(ThreadTeam& team, double dt, const AirState& state, Ce
   const double* pressure = state.pressure.data();
   const bool stores = parameters_.compressibility == Compressibility::isothermal;
   for_each_row(team, grid, grid.count, [&](int, int, std::ptrdiff_t begin, std::ptrdiff_t end) {
-    for (auto place = begin; place < end; ++place) {
-      const auto c = static_cast<std::size_t>(place);
+    for (auto index = begin; index < end; ++index) {
+      const auto c = static_cast<std::size_t>(index);
       sum[c] -= source_[c] * dt / grid.volume();
       if (stores) sum[c] += storage_[c] * dt / grid.volume() * (pressure[c] - start_pressure_[c]);
     }

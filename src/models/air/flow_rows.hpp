@@ -85,8 +85,8 @@ void finish_row(std::ptrdiff_t count, double dt, double rho, double factor, doub
                 const ExchangeRow& row, double* __restrict velocity, double* __restrict momentum,
                 double* __restrict received, double* __restrict drag);
 
-/// What a row of faces has of the two cells beside each, by place of the cells: mean solid and void fractions, velocity
-/// of the grains.
+/// What a row of faces has of the two cells next to each, by position of the cells: mean solid and void fractions,
+/// velocity of the grains.
 struct SolidsRow {
   const double *fraction_before, *fraction_here, *flux_before, *flux_here;
 };
@@ -127,7 +127,7 @@ inline Rates larger(const Rates& a, const Rates& b) {
 Rates max_rates_of_row(std::ptrdiff_t count, const Vector3& per_width, double grain_density, const CellRow& row,
                        const double* drag);
 
-/// coupling::SlipDecay on a row of faces, from the drag of the cells beside each. \param per_density dt/rho
+/// coupling::SlipDecay on a row of faces, from the drag of the cells next to each. \param per_density dt/rho
 void find_decay_of_row(std::ptrdiff_t count, double per_density, const double* drag_before, const double* drag_here,
                        const double* void_fraction, double* __restrict decay, double* __restrict mean);
 

@@ -66,8 +66,8 @@ std::vector<Problem> check(const ModelParameters& parameters);
 Grid grid_of(const ModelParameters& parameters);
 
 /// Velocity of Taylor and Green's vortices, an exact solution of the equations of Navier and Stokes in a box that is
-/// periodic along x and z: that of the start times exp(-nu (k_x^2 + k_z^2) t) (Taylor & Green 1937).
-Vector3 taylor_green(const ModelParameters& parameters, const Vector3& place, double time);
+/// periodic along x and z: the initial velocity times exp(-nu (k_x^2 + k_z^2) t) (Taylor & Green 1937).
+Vector3 taylor_green(const ModelParameters& parameters, const Vector3& position, double time);
 
 struct ModelState {
   double time = 0;         ///< s

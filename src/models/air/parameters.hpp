@@ -126,7 +126,7 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
           p.most_iterations);
 }
 
-/// Every key of the air among grains, once; those of a grain are the grains' own.
+/// Every key of the air among grains, once; keys of a grain belong to the grains.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"air.motion", {}, {}, "flowing, or frozen: at rest at uniform pressure, so that it only exerts drag"},

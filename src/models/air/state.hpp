@@ -20,7 +20,7 @@ struct AirState {
   FaceField velocity;         ///< m/s
   FaceField momentum;         ///< rho Phi u, kg/(m^2 s)
   FaceField momentum_before;  ///< at the start of the last step
-  CellField pressure;         ///< relative to that of the surroundings, Pa; mean of the last step
+  CellField pressure;         ///< relative to the surroundings, Pa; mean of the last step
   CellField pressure_before;  ///< of the step before
   FaceField drag;             ///< by component, of every cell: mean of the last step, on the grains, N/m^3; derived
   double last_step = 0;       ///< s; 0 before the first

@@ -19,7 +19,7 @@ struct InterleavedSum {
   }
 };
 
-/// Calls body(place, part) along a row.
+/// Calls body(index, part) along a row.
 template <class Body>
 TALUS_INLINE void for_each_interleaved(int count, Body&& body) {
   int f = 0;

@@ -23,7 +23,7 @@ class MobilitySum {
   /// \param radius m, one per grain; copied
   MobilitySum(const Parameters& parameters, std::span<const double> radius);
 
-  /// The cheapest way for grains at these places. \returns the cut-off of the spectral sum, m; 0: direct
+  /// The cheapest way for grains at these positions. \returns the cut-off of the spectral sum, m; 0: direct
   double choose(std::span<const Vector3> position) const;
 
   /// Takes a way that `choose` returned, for this run or an interrupted one. \param order as PairSum::reorder

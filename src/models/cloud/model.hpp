@@ -20,14 +20,14 @@ struct Grains {
   std::vector<double> radius;     ///< m
 };
 
-/// Packs the shape of the case by random sequential addition: each grain in turn is placed at random until it overlaps
-/// none placed before. All radii are drawn before the first place. With a slope, shapes on it (triangle, wedge, dome;
-/// any shape in the plane xz) keep every grain above it.
-/// \throws NumericalError if a grain finds no place after 10^6 trials (the fraction is too high)
+/// Packs the shape of the case by random sequential addition: one grain after another is placed at random until it
+/// overlaps none placed before. All radii are drawn before the first position. With a slope, shapes on it (triangle,
+/// wedge, dome; any shape in the plane xz) keep every grain above it. \throws NumericalError if a grain finds no
+/// position after 10^6 trials (the fraction is too high)
 Grains pack(const Parameters& parameters);
 
-/// Problems of grains that come from a file: radii not positive, places not finite, out of the plane of motion, too far
-/// apart, or within each other or the slope deeper than integration.largest_overlap.
+/// Problems of grains that come from a file: radii not positive, positions not finite, out of the plane of motion, too
+/// far apart, or within each other or the slope deeper than integration.largest_overlap.
 std::vector<Problem> check_grains(const Parameters& parameters, const Grains& grains);
 
 class Cloud {
@@ -35,7 +35,7 @@ class Cloud {
   using Parameters = cloud::Parameters;
   using State = cloud::State;
 
-  /// \param grains places and radii at the start; a resumed run replaces them
+  /// \param grains positions and radii at the start; a resumed run replaces them
   Cloud(const Parameters& parameters, Grains grains);
 
   const State& state() const { return state_; }

@@ -17,7 +17,7 @@ namespace {
 
 using hydrodynamics::Mobility;
 
-// Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the bits of the sums.
+// Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the sums, bitwise.
 constexpr std::size_t max_tasks = 64;
 constexpr std::size_t gather_block = 32 * padding;
 

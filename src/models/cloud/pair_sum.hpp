@@ -52,10 +52,10 @@ class PairSum {
   void reorder(std::span<const std::uint32_t> order);
 
   /// velocity[i] = sum over j != i of M_ij F_j; the sphere's own Stokes drag is not in it. Overwrites; components
-  /// outside the plane of motion become 0. With the printed tensor two spheres at one place get a velocity that is not
-  /// finite; with zuk-2014 every configuration has a finite one.
-  /// \param position m; \param force N; \param velocity m/s; one per sphere, in the order of the radii
-  /// \throws std::invalid_argument if a length is not the number of spheres
+  /// outside the plane of motion become 0. With the printed tensor two spheres at one position get a velocity that is
+  /// not finite; with zuk-2014 every configuration has a finite one. \param position m; \param force N; \param velocity
+  /// m/s; one per sphere, in the order of the radii \throws std::invalid_argument if a length is not the number of
+  /// spheres
   void velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                   std::span<Vector3> velocity);
 
@@ -81,7 +81,7 @@ class PairSum {
   std::size_t padded_;
   SumRows sum_rows_ = nullptr;        // none without interaction
   double length_ = 1;                 // m, unit of the packed lengths: the power of two at or below the largest radius
-  std::vector<std::uint32_t> order_;  // sphere at each packed place
+  std::vector<std::uint32_t> order_;  // sphere at each packed position
   std::vector<double> packed_;        // columns of padded_ numbers: positions, forces, radius, size
   std::vector<Task> tasks_;
   std::vector<double> sums_;

@@ -56,7 +56,8 @@ bool is_plane(Shape shape) {
   return shape == Shape::circle || shape == Shape::rectangle || shape == Shape::triangle || shape == Shape::wedge;
 }
 
-/// Mean square or cube of the radii over that of the mean radius; the cut of the normal distribution is neglected.
+/// Mean square or cube of the radii over the same power of the mean radius; the cut of the normal distribution is
+/// neglected.
 double moment(const Parameters::Particles& p, int power) {
   const double variance = p.radius_distribution == RadiusDistribution::uniform ? p.radius_spread * p.radius_spread / 3
                                                                                : p.radius_spread * p.radius_spread;
@@ -67,7 +68,7 @@ double moment(const Parameters::Particles& p, int power) {
 constexpr double jamming_plane = 0.54;
 constexpr double jamming_space = 0.37;
 
-constexpr double max_radii = 5e5;  // that a shape may extend: places are sorted into cells of a grain's size
+constexpr double max_radii = 5e5;  // that a shape may extend: positions are sorted into cells of a grain's size
 
 }  // namespace
 

@@ -191,7 +191,8 @@ void for_each_parameter(Visit&& visit, P& p) {
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
 
-/// Whether a case is within the assumptions of the model: the lines of the regime card that are known before the run.
+/// Whether a case is within the assumptions of the model: the lines of the validity report that are known before the
+/// run.
 std::vector<RegimeLine> regime_of_case(const Parameters& parameters);
 
 /// Quantities that follow from the parameters alone.
@@ -209,8 +210,8 @@ Scales scales(const Parameters& parameters);
 /// Of the stability polynomial: stiff modes decay by at least 10 % per step.
 inline constexpr double stage_damping = 0.1;
 
-/// Rate at which contacts that form within a step relax, 1/s: a floor for the estimate, since the power iteration sees
-/// only the contacts of the start. In units of k_n/(6 pi mu a_p): 1.5 with drag between the grains (the relative
+/// Rate at which contacts that form within a step relax, 1/s: a floor for the estimate, since the power iteration
+/// has only the contacts of the start. In units of k_n/(6 pi mu a_p): 1.5 with drag between the grains (the relative
 /// mobility of touching grains is small), 6 without (a triangular lattice of springs).
 double contact_rate(const Parameters& parameters);
 

@@ -99,11 +99,11 @@ SpectralSum::SpectralSum(SpectralSum&&) noexcept = default;
 SpectralSum& SpectralSum::operator=(SpectralSum&&) noexcept = default;
 
 void SpectralSum::reorder(std::span<const std::uint32_t> order) {
-  std::vector<bool> seen(engine_->order.size(), false);
-  bool permutation = order.size() == seen.size();
+  std::vector<bool> used(engine_->order.size(), false);
+  bool permutation = order.size() == used.size();
   for (std::size_t n = 0; permutation && n < order.size(); ++n) {
-    permutation = order[n] < seen.size() && !seen[order[n]];
-    if (permutation) seen[order[n]] = true;
+    permutation = order[n] < used.size() && !used[order[n]];
+    if (permutation) used[order[n]] = true;
   }
   require(permutation, "the order is no permutation of the spheres");
   engine_->order.assign(order.begin(), order.end());

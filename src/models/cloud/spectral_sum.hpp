@@ -3,11 +3,11 @@
 /// (spectral_sum/split.hpp) into a smooth part, summed on a grid by Fourier transforms, and a rest that near pairs
 /// alone have, summed directly.
 ///
-/// Unequal radii, coplanar places and unbounded space are exact; what errs is the grid (and single precision). For
-/// every place of the spheres and all forces,
+/// Unequal radii, coplanar positions and unbounded space are exact; what errs is the grid (and single precision). For
+/// every position of the spheres and all forces,
 ///     |error of velocity i| <= k/(8 pi mu) sum over j of |F_j| / max(r_ij, r_c),   j = i included,
 /// with k the `pair_error` of the accuracy and r_c the cut-off, and the rounding of near pairs, `pair_rounding`. Errors
-/// of pairs have no common sign: over clouds their root mean square is below `error` times that of the sums:
+/// of pairs have no common sign: over clouds their root mean square is below `error` times the sums' root mean square:
 /// docs/design/cloud-sums.md.
 #pragma once
 
@@ -27,7 +27,7 @@ namespace talus::cloud {
 
 /// Lengths in units of the cut-off r_c.
 struct SpectralAccuracy {
-  double error;  ///< root mean square of the error over that of the sums
+  double error;  ///< root mean square of the error over the same of the sums
   double
       pair_error;  ///< bound of |error of 8 pi mu M_ij| times max(r, r_c), for every pair and for i = j, but rounding
   double beta;     ///< of the window (split.hpp)
@@ -45,7 +45,7 @@ inline constexpr SpectralAccuracy spectral_accuracies[] = {
     {1e-5, 5e-5, 12.0, 3, 8, 8, 64, 12, false},
 };
 
-/// Rounding of a pair, over |M_ij| r_c/r: places of near spheres are rounded at the scale of the cut-off.
+/// Rounding of a pair, over |M_ij| r_c/r: positions of near spheres are rounded at the scale of the cut-off.
 constexpr double pair_rounding(const SpectralAccuracy& accuracy) {
   return accuracy.single ? 2e-6 : 1e-14;
 }
@@ -57,7 +57,7 @@ constexpr const SpectralAccuracy* spectral_accuracy(double error) {
   return nullptr;
 }
 
-/// What a sum by the split costs at some places of spheres, and by pairs; in units of about a second of a core.
+/// What a sum by the split costs at some positions of spheres, and by pairs; in units of about a second of a core.
 struct SpectralPlan {
   double cutoff = 0;  ///< m, the cheapest
   double cost = 0;
@@ -79,11 +79,11 @@ class SpectralSum {
   /// The order in which the spheres are gone through, as PairSum's.
   void reorder(std::span<const std::uint32_t> order);
 
-  /// The cheapest cut-off for these places, of those whose grid has room; nothing if the places are not finite.
+  /// The cheapest cut-off for these positions, of those whose grid has room; nothing if the positions are not finite.
   std::optional<SpectralPlan> plan(std::span<const Vector3> position) const;
 
   /// The distance beyond which pairs go by the grid alone. The lattice of the grid is fixed in space by it: the bits
-  /// depend on the cut-off, the places and the order, and on no other history.
+  /// depend on the cut-off, the positions and the order, and on no other history.
   /// \param cutoff m, > 0, at least min_cutoff()
   void set_cutoff(double cutoff);
   double cutoff() const;

@@ -120,7 +120,7 @@ double growth(double error, int order) {
   return std::clamp(0.8 / root, 0.5, 1.5);
 }
 
-/// That a step must be stable with, 1/s. The pair's error tells when grains come to touch: until they do, none is.
+/// That a step must be stable with, 1/s. The pair's error shows when grains come to touch: until they do, none is.
 double max_rate(const Parameters& p, const State& state, double largest_overlap) {
   if (p.integration.method == Method::dormand_prince && !(largest_overlap > 0)) return 0;
   return std::max(stiffness_margin * state.spectral_radius, contact_rate(p));

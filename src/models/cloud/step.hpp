@@ -33,7 +33,7 @@ NumericalError::Report step_limit(const Parameters& parameters, const State& sta
 
 /// Advances by one step of at most integration.largest_step.
 /// \throws NumericalError if velocities stop being finite or overlaps grow beyond integration.largest_overlap even at
-///         the least step; the state is then that of the last good step
+///         the least step; the state is then as after the last good step
 void advance(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 
 inline constexpr double max_move = 1e4;  // of a grain in a step, in mean radii: the error control refuses less

@@ -24,7 +24,7 @@ double error_of_first_order(ThreadTeam& team, const State& state, const Workspac
                             double second_order) {
   if (state.last_step == 0) return 0;
   // A first-order step errs by |1/2 - c_2| h^2 x''; the change of the displacement from one step to the next shows
-  // h (h + h_last)/2 x'', and unlike differences of velocities it does not see the stiff modes that the stages have
+  // h (h + h_last)/2 x'', and unlike differences of velocities it excludes the stiff modes that the stages have
   // damped.
   const double ratio = step / state.last_step;
   const double factor = std::abs(0.5 - second_order) * 2 * step / (step + state.last_step);

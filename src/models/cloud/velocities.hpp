@@ -23,7 +23,7 @@ class Velocities {
   /// Chooses how the sum over pairs is computed from here on. \returns the cut-off of the spectral sum, m; 0: direct
   double choose_sum(std::span<const Vector3> position) const { return sum_.choose(position); }
 
-  /// Sets what the bits of the sum depend on: the order in which it stores the grains, and what choose_sum returned.
+  /// Sets what the sum depends on bitwise: the order in which it stores the grains, and what choose_sum returned.
   void arrange_sum(std::span<const std::int64_t> order, double cutoff);
 
   /// Evaluates Eq. 4a. \param position m; \param velocity m/s, overwritten

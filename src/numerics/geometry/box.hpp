@@ -15,7 +15,7 @@ enum class FaceKind {
   symmetry,  ///< the same mirror without friction
   periodic,  ///< what leaves here comes in at the opposite face, which is periodic too
   printed,   ///< mirror particles with the velocity of their source, the "free" face of Yuu & Umekage 2011
-  open       ///< nothing: particles pass, the faces beside it reach on without end
+  open       ///< nothing: particles pass, adjacent faces reach on without end
 };
 
 template <>
@@ -35,7 +35,7 @@ struct Box {
   constexpr bool is_periodic(int axis) const { return face(axis, 0) == FaceKind::periodic; }
   constexpr double bound(int axis, int side) const { return side == 0 ? low[axis] : high[axis]; }
   constexpr double extent(int axis) const { return high[axis] - low[axis]; }
-  /// Its faces belong to it; no place that is not a number does.
+  /// Its faces belong to it; no position that is not a number does.
   constexpr bool contains(const Vector3& x) const {
     bool inside = true;
     for (int axis = 0; axis < 3; ++axis) inside = inside && x[axis] >= low[axis] && x[axis] <= high[axis];

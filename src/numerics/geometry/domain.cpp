@@ -9,8 +9,8 @@ namespace talus {
 
 namespace {
 
-/// One axis of an image. Copy n > 0 stands behind the high face: mirrored there last, and in turn at both faces n times
-/// in all; n < 0 likewise behind the low face. Periodic copies are shifted by n extents.
+/// One axis of an image. Copy n > 0 stands behind the high face: mirrored there last, and alternately at both faces n
+/// times in all; n < 0 likewise behind the low face. Periodic copies are shifted by n extents.
 struct AxisImage {
   int copy = 0;
   double sign = 1, offset = 0, vector_sign = 1;
@@ -86,7 +86,7 @@ Domain::Domain(const Box& box, std::vector<Wall> walls, double apart, std::optio
   if (walls_.size() > most_inner_walls) throw std::invalid_argument("too many walls");
   const auto is_open = [](FaceKind kind) { return kind == FaceKind::open; };
   if (sector_ && !(walls_.empty() && std::all_of(box.faces.begin(), box.faces.begin() + 4, is_open)))
-    throw std::invalid_argument("walls or side faces beside a sector");
+    throw std::invalid_argument("walls or side faces with a sector");
   layered_ = are_layers(apart);
   find_mirrors();
 }
@@ -195,12 +195,12 @@ bool Domain::is_near(const Image& image, const Vector3& x, double reach) const {
     if (copy < 0 && !(x[axis] >= box_.low[axis] - reach)) return false;
     if (copy > 0 && !(x[axis] <= box_.high[axis] + reach)) return false;
   }
-  Vector3 place = x;
+  Vector3 point = x;
   for (const std::int8_t number : image.mirrors) {
     if (number < 0) break;
     const Mirror& mirror = mirrors_[static_cast<std::size_t>(number)];
-    if (!(distance_to_segment(place, mirror.from, mirror.to) <= reach)) return false;
-    place = mirrored(Image{}, mirror).source(place);
+    if (!(distance_to_segment(point, mirror.from, mirror.to) <= reach)) return false;
+    point = mirrored(Image{}, mirror).source(point);
   }
   return true;
 }
@@ -211,21 +211,21 @@ bool Domain::is_near_wall(const Vector3& x, double reach) const {
   });
 }
 
-Domain::Sight Domain::sight(const Vector3& from, const Vector3& to, const Image& image, double margin) const {
-  if (!layered_) return Sight::may_change;
-  Sight found = Sight::always;
+Domain::Visibility Domain::visibility(const Vector3& from, const Vector3& to, const Image& image, double margin) const {
+  if (!layered_) return Visibility::may_change;
+  Visibility found = Visibility::always;
   for (int w = 0; w < static_cast<int>(walls_.size()); ++w) {
     const std::optional<bool> meets = meets_layer_within(walls_[static_cast<std::size_t>(w)], from, to, margin);
     if (!meets)
-      found = Sight::may_change;
+      found = Visibility::may_change;
     else if (*meets != (w == image.mirrors[0]))
-      return Sight::never;
+      return Visibility::never;
   }
   return found;
 }
 
-/// What meets_layer says wherever the ends are within `margin` of these places; nothing if that varies. The line passes
-/// the plane of the wall between its ends.
+/// What meets_layer says wherever the ends are within `margin` of these positions; nothing if that varies. The line
+/// passes the plane of the wall between its ends.
 std::optional<bool> Domain::meets_layer_within(const Wall& wall, const Vector3& from, const Vector3& to,
                                                double margin) const {
   const double own = wall.above(from), other = wall.above(to);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Images in walls that are no layers, and who sees them.
+/// Images in walls that are no layers, and from where they are visible.
 #include "numerics/geometry/domain.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace talus {
 
 namespace {
 
-/// Beyond an open face the faces beside it reach on.
+/// Beyond an open face adjacent faces reach on.
 constexpr double far_away = 1e3;  // m
 
 /// Turns the columns for x and z over in a plane with that normal, which has no y.
@@ -36,7 +36,7 @@ bool same_map(const Image& a, const Image& b, double length) {
 }
 
 Image mirrored(Image image, const Mirror& mirror) {
-  if (mirror.wall < 0) {  // seen through a periodic face: from the other side
+  if (mirror.wall < 0) {  // through a periodic face: from the other side
     image.offset += mirror.shift;
     return image;
   }
@@ -97,14 +97,14 @@ std::vector<Image> Domain::images_in_walls(double reach) const {
 }
 
 bool Domain::blocks(const Vector3& a, const Vector3& b) const {
-  // From both ends the same numbers, so that two never disagree on whether they see each other.
+  // From both ends the same numbers, so that two never disagree on whether they are mutually visible.
   const bool in_order = a.x != b.x ? a.x < b.x : a.z < b.z;
   const Vector3 &first = in_order ? a : b, &second = in_order ? b : a;
   return std::any_of(walls_.begin(), walls_.end(),
                      [&](const Wall& wall) { return wall.intersection(first, second).has_value(); });
 }
 
-bool Domain::sees_source(const Vector3& from, const Vector3& to, const Image& image) const {
+bool Domain::is_source_visible(const Vector3& from, const Vector3& to, const Image& image) const {
   if (image.is_identity()) return !blocks(from, to);
   const std::optional<Vector3> end = end_of_line(from, to);
   if (!end) return false;

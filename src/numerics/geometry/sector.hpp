@@ -17,24 +17,24 @@ class Sector {
   static constexpr double largest_angle = 2 * std::numbers::pi / fewest_copies,
                           least_angle = 2 * std::numbers::pi / most_copies;
 
-  /// From the direction of x on, counterclockwise as seen from above. \param axis a place on it, m; \param copies that
-  /// make up the circle, itself counted \throws std::invalid_argument for fewer or more copies than those
+  /// From the direction of x on, counterclockwise as seen from above. \param axis a position on it, m; \param copies
+  /// that make up the circle, itself counted \throws std::invalid_argument for fewer or more copies than those
   Sector(const Vector3& axis, int copies);
 
   int copies() const { return static_cast<int>(turns_.size()); }
-  const Vector3& axis() const { return axis_; }  ///< a place on it, m
+  const Vector3& axis() const { return axis_; }  ///< a position on it, m
 
   /// The turn by so many angles of the sector, any whole number; multiples of a quarter of a circle are exact.
   const Tensor3<>& turn(int angles) const;
-  /// A place turned about the axis.
+  /// A position turned about the axis.
   Vector3 turned(const Vector3& x, int angles) const { return axis_ + turn(angles) * (x - axis_); }
 
-  /// In which copy a place is, 0 to copies() - 1; 0: in the sector itself. A face belongs to the copy that begins with
-  /// it, the axis to the sector.
+  /// In which copy a position is, 0 to copies() - 1; 0: in the sector itself. A face belongs to the copy that begins
+  /// with it, the axis to the sector.
   int copy_at(const Vector3& x) const;
-  /// How far a place is from the sector, m; 0 within.
+  /// How far a position is from the sector, m; 0 within.
   double distance(const Vector3& x) const;
-  /// How far a place is from the axis, m.
+  /// How far a position is from the axis, m.
   double radius(const Vector3& x) const;
 
   /// The sum over all copies of a vector of the sector: what is across the axis adds up to nothing.

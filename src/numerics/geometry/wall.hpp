@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A straight wall without thickness between two places of the x-z plane, through the whole depth: the plate under a
+/// A straight wall without thickness between two positions of the x-z plane, through the whole depth: the plate under a
 /// bed, a wall of a wedge hopper, a chute, a partition. It has openings along its length; a gate is one that is closed
 /// at first.
 ///
@@ -50,7 +50,7 @@ class Wall {
 
   /// Signed distance from the plane of the wall, positive on the side of its normal, m.
   double above(const Vector3& x) const { return dot(normal_, x - from_); }
-  /// Whether a place lies on the side of the normal. The plane itself belongs to that side.
+  /// Whether a position lies on the side of the normal. The plane itself belongs to that side.
   bool is_above(const Vector3& x) const {
     if (axis_ >= 0) return normal_[axis_] > 0 ? x[axis_] >= from_[axis_] : x[axis_] <= from_[axis_];
     return cross(x) >= 0;
@@ -58,8 +58,8 @@ class Wall {
   /// Distance from the wall including its openings, m.
   double distance(const Vector3& x) const;
 
-  /// Whether it is solid there: at a place beside it, the nearest place of its plane counts. Ends and rims belong to
-  /// the wall; neighbours overlap by rounding.
+  /// Whether it is solid there: at a position beside it, the nearest position of its plane counts. Ends and rims belong
+  /// to the wall; neighbours overlap by rounding.
   bool is_solid(const Vector3& x) const {
     const double s = place_along(x), slack = 1e-9 * length_;
     if (!(s >= -slack && s <= length_ + slack) || is_gone_) return false;

@@ -23,7 +23,7 @@ class Numbered {
   }
 
   std::uint32_t cells() const { return static_cast<std::uint32_t>(place_.size()); }
-  std::uint32_t place(std::uint32_t c) const { return place_[c]; }
+  std::uint32_t index(std::uint32_t c) const { return place_[c]; }
   std::array<std::uint32_t, 3> at(std::uint32_t c) const {
     const auto nx = static_cast<std::uint32_t>(board_.count()[0]), ny = static_cast<std::uint32_t>(board_.count()[1]);
     return {c % nx, c / nx % ny, c / (nx * ny)};
@@ -36,11 +36,11 @@ class Numbered {
   std::uint32_t next(std::uint32_t c, int axis, int step) const {
     const auto a = static_cast<std::size_t>(axis);
     const auto n = static_cast<std::uint32_t>(board_.count()[a]);
-    std::array<std::uint32_t, 3> place = at(c);
-    const bool leaves = step < 0 ? place[a] == 0 : place[a] + 1 == n;
+    std::array<std::uint32_t, 3> index = at(c);
+    const bool leaves = step < 0 ? index[a] == 0 : index[a] + 1 == n;
     if (leaves && !board_.is_periodic(axis)) return none;
-    place[a] = (step < 0 ? place[a] + n - 1 : place[a] + 1) % n;
-    return number(place);
+    index[a] = (step < 0 ? index[a] + n - 1 : index[a] + 1) % n;
+    return number(index);
   }
   const Checkerboard& board() const { return board_; }
 
@@ -58,7 +58,7 @@ class Parents {
     for (std::uint32_t c = 0; c < fine.cells(); ++c) {
       std::array<std::uint32_t, 3> at = fine.at(c);
       for (std::size_t a = 0; a < 3; ++a) at[a] /= static_cast<std::uint32_t>(factor[a]);
-      beside_.push_back(coarse.number(at));
+      neighbour_.push_back(coarse.number(at));
     }
     find_parts();
     keep_largest(coarse.cells());
@@ -67,12 +67,12 @@ class Parents {
   }
 
   /// Of the cells that are joined in pairs.
-  std::uint32_t beside(std::uint32_t c) const { return beside_[c]; }
+  std::uint32_t neighbour(std::uint32_t c) const { return neighbour_[c]; }
   /// none: it is joined to no coarse cell.
-  std::uint32_t of(std::uint32_t c) const { return part_[c] == none ? beside_[c] : parent_[part_[c]]; }
-  bool is_moved(std::uint32_t c) const { return of(c) != beside_[c]; }
+  std::uint32_t of(std::uint32_t c) const { return part_[c] == none ? neighbour_[c] : parent_[part_[c]]; }
+  bool is_moved(std::uint32_t c) const { return of(c) != neighbour_[c]; }
   bool is_open(std::uint32_t c, int axis, int step, std::uint32_t next) const {
-    return low_[static_cast<std::size_t>(axis)][fine_.place(step < 0 ? c : next)] > 0;
+    return low_[static_cast<std::size_t>(axis)][fine_.index(step < 0 ? c : next)] > 0;
   }
 
  private:
@@ -103,7 +103,7 @@ class Parents {
         front.pop_back();
         cells_[part].push_back(c);
         for_each_open(c, [&](std::uint32_t n) {
-          if (beside_[n] == beside_[c] && part_[n] == none) part_[n] = part, front.push_back(n);
+          if (neighbour_[n] == neighbour_[c] && part_[n] == none) part_[n] = part, front.push_back(n);
         });
       }
     }
@@ -112,12 +112,12 @@ class Parents {
   void keep_largest(std::uint32_t coarse_cells) {
     std::vector<std::uint32_t> largest(coarse_cells, none);
     for (std::uint32_t p = 0; p < cells_.size(); ++p) {
-      std::uint32_t& most = largest[beside_[cells_[p].front()]];
+      std::uint32_t& most = largest[neighbour_[cells_[p].front()]];
       if (most == none || cells_[p].size() > cells_[most].size()) most = p;
     }
     parent_.assign(cells_.size(), none);
     for (std::uint32_t p = 0; p < cells_.size(); ++p)
-      if (const std::uint32_t own = beside_[cells_[p].front()]; largest[own] == p)
+      if (const std::uint32_t own = neighbour_[cells_[p].front()]; largest[own] == p)
         parent_[p] = own;
       else
         without_.push_back(p);
@@ -148,7 +148,7 @@ class Parents {
 
   const Numbered& fine_;
   const std::array<const float*, 3>& low_;
-  std::vector<std::uint32_t> beside_, part_;
+  std::vector<std::uint32_t> neighbour_, part_;
   std::vector<std::vector<std::uint32_t>> cells_;  // of every part
   std::vector<std::uint32_t> parent_;              // of every part
   std::vector<std::uint32_t> without_;             // parts that have none yet
@@ -163,14 +163,14 @@ Aggregates::Lists<Part> list(const Numbered& coarse, std::vector<std::pair<std::
   const auto nx = static_cast<std::uint32_t>(coarse.board().count()[0]);
   std::size_t next = 0;
   for (std::uint32_t c = 0; c < coarse.cells(); ++c) {
-    if (c % nx == 0) lists.of_row.push_back(static_cast<std::uint32_t>(lists.place.size()));
+    if (c % nx == 0) lists.of_row.push_back(static_cast<std::uint32_t>(lists.index.size()));
     if (!listed[c]) continue;
-    lists.place.push_back(coarse.place(c));
+    lists.index.push_back(coarse.index(c));
     lists.at.push_back(coarse.at(c));
     lists.begin.push_back(static_cast<std::uint32_t>(next));
     for (; next < parts.size() && parts[next].first == c; ++next) lists.parts.push_back(parts[next].second);
   }
-  lists.of_row.push_back(static_cast<std::uint32_t>(lists.place.size()));
+  lists.of_row.push_back(static_cast<std::uint32_t>(lists.index.size()));
   lists.begin.push_back(static_cast<std::uint32_t>(next));
   return lists;
 }
@@ -204,13 +204,13 @@ Aggregates find_aggregates(const Checkerboard& fine_board, const std::array<cons
   for (std::uint32_t c = 0; c < fine.cells(); ++c) {
     if (!parents.is_moved(c)) continue;
     is_any_moved = true;
-    cells_listed[parents.beside(c)] = true;
+    cells_listed[parents.neighbour(c)] = true;
     if (parents.of(c) != none) cells_listed[parents.of(c)] = true;
   }
   if (!is_any_moved) return {};
   for_each_face([&](int, std::uint32_t a, std::uint32_t b) {
     if (!parents.is_moved(a) && !parents.is_moved(b)) return;
-    for (const auto& [axis, cell] : {face_between(coarse, parents.beside(a), parents.beside(b)),
+    for (const auto& [axis, cell] : {face_between(coarse, parents.neighbour(a), parents.neighbour(b)),
                                      face_between(coarse, parents.of(a), parents.of(b))})
       if (axis < 3) faces_listed[axis][cell] = true;
   });
@@ -230,13 +230,13 @@ Aggregates find_aggregates(const Checkerboard& fine_board, const std::array<cons
                         static_cast<std::uint16_t>(colour), static_cast<std::uint16_t>(i / 2)}});
     if (colour == 0 && parents.is_moved(c))
       found.moved.push_back(
-          {fine.place(c), parent == none ? outside : coarse.place(parent), coarse.place(parents.beside(c))});
+          {fine.index(c), parent == none ? outside : coarse.index(parent), coarse.index(parents.neighbour(c))});
   }
   found.moved_of_row.push_back(static_cast<std::uint32_t>(found.moved.size()));
   for_each_face([&](int axis, std::uint32_t a, std::uint32_t b) {
     if (const auto [across, cell] = face_between(coarse, parents.of(a), parents.of(b));
         across < 3 && faces_listed[across][cell])
-      faces[across].push_back({cell, {static_cast<std::uint32_t>(axis), fine.place(b)}});
+      faces[across].push_back({cell, {static_cast<std::uint32_t>(axis), fine.index(b)}});
   });
   found.cells = list(coarse, std::move(cells), cells_listed);
   for (std::size_t a = 0; a < 3; ++a) found.faces[a] = list(coarse, std::move(faces[a]), faces_listed[a]);

@@ -64,9 +64,9 @@ struct FaceApertures {
   FlowBoundaries boundaries;
 
   FaceField open;  ///< 1: the fluid passes the face; 0: closed
-  /// 1 where the velocities along an axis of a face and of the face before it along a second axis see each other.
+  /// 1 where the velocities along an axis of a face and of the face before it along a second axis are mutually visible.
   std::array<FaceField, 3> link;  ///< [axis][second axis]
-  /// 1 where the two faces before and the two from there on all see each other: wide stencils.
+  /// 1 where the two faces before and the two from there on are all mutually visible: wide stencils.
   std::array<FaceField, 3> wide;
   FaceField wall;   ///< sum of 2/width^2 over the rough walls beside a face, 1/m^2
   FaceField drive;  ///< sum of 2/width^2 times the velocity of those walls, 1/(m s)
@@ -90,8 +90,8 @@ struct FaceApertures {
     return grid.count[static_cast<std::size_t>(along)] + (axis == along && !boundaries.is_periodic(axis));
   }
   std::array<int, 3> faces(int axis) const { return {faces(axis, 0), faces(axis, 1), faces(axis, 2)}; }
-  bool is_end(int axis, int place) const {
-    return !boundaries.is_periodic(axis) && (place == 0 || place == grid.count[static_cast<std::size_t>(axis)]);
+  bool is_end(int axis, int index) const {
+    return !boundaries.is_periodic(axis) && (index == 0 || index == grid.count[static_cast<std::size_t>(axis)]);
   }
   /// Repeats the ends of a periodic axis in the ghosts.
   void wrap(CellField& field) const;

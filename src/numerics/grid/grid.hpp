@@ -42,11 +42,11 @@ struct Grid {
     return static_cast<std::size_t>(i + margin) +
            length(0) * (static_cast<std::size_t>(j + margin) + length(1) * static_cast<std::size_t>(k + margin));
   }
-  /// Number of a row along x among all, ghosts included: places of a field from row to row are length(0) apart.
+  /// Number of a row along x among all, ghosts included: positions of a field from row to row are length(0) apart.
   constexpr std::size_t row(int j, int k) const {
     return static_cast<std::size_t>(j + margin) + length(1) * static_cast<std::size_t>(k + margin);
   }
-  /// From a row to that of the next cells along y or z.
+  /// From a row to the next along y or z.
   constexpr std::size_t row_stride(int axis) const { return axis == 0 ? 0 : axis == 1 ? 1 : length(1); }
   constexpr double volume() const { return spacing.x * spacing.y * spacing.z; }
   constexpr double face_area(int axis) const { return volume() / spacing[axis]; }

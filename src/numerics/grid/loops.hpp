@@ -12,8 +12,8 @@
 
 namespace talus {
 
-/// Calls body(what make() returns, j, k, begin, end) with the indices of each row of a block of so many places from the
-/// first cell on; what is made serves one row after another, along y, then z.
+/// Calls body(what make() returns, j, k, begin, end) with the indices of each row of a block of so many positions from
+/// the first cell on; what is made serves one row after another, along y, then z.
 template <class Make, class Body>
 void for_each_row(ThreadTeam& team, const Grid& grid, const std::array<int, 3>& count, Make&& make, Body&& body) {
   constexpr int rows_at_once = 16;
@@ -61,10 +61,10 @@ double largest_of_cells(ThreadTeam& team, const Grid& grid, Value&& value) {
       [](double a, double b) { return std::max(a, b); });
 }
 
-/// Faces of an axis, one after another along x, that have their neighbours in the same places.
+/// Faces of an axis, one after another along x, that have their neighbours in the same positions.
 struct FaceRun {
   std::ptrdiff_t begin, end;
-  int place;              ///< of the first along the axis
+  int index;              ///< of the first along the axis
   std::ptrdiff_t before;  ///< from a face to the cell below it; at the low end of the box to the one within
   std::ptrdiff_t here;    ///< to the cell above it; at the high end to the one within
   bool is_end;            ///< the faces lie in an end of the box, which is not periodic
@@ -77,9 +77,9 @@ void for_each_run_of_row(const FaceApertures& apertures, int axis, int j, int k,
   const int n = apertures.grid.count[static_cast<std::size_t>(axis)];
   const std::ptrdiff_t stride = apertures.grid.stride(axis);
   const bool ring = apertures.boundaries.is_periodic(axis);
-  const auto run = [&](std::ptrdiff_t from, std::ptrdiff_t to, int place) {
-    const std::ptrdiff_t before = place > 0 ? -stride : ring ? stride * (n - 1) : 0;
-    body(FaceRun{from, to, place, before, place < n ? 0 : before, apertures.is_end(axis, place)});
+  const auto run = [&](std::ptrdiff_t from, std::ptrdiff_t to, int index) {
+    const std::ptrdiff_t before = index > 0 ? -stride : ring ? stride * (n - 1) : 0;
+    body(FaceRun{from, to, index, before, index < n ? 0 : before, apertures.is_end(axis, index)});
   };
   if (axis > 0) return run(begin, end, axis == 1 ? j : k);
   run(begin, begin + 1, 0);

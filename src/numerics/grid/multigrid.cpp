@@ -21,8 +21,8 @@ int coarsening(const Checkerboard& board, int axis) {
   return !board.is_periodic(axis) || n == 2 || n % 4 == 0 ? 2 : 1;
 }
 
-/// Distance of the fine cells next to the low face of a coarse cell over that of the coarse ones; 0 for a face between
-/// the cell and itself.
+/// Distance of the fine cells next to the low face of a coarse cell over the distance of the coarse ones; 0 for a face
+/// between the cell and itself.
 float shorter(int factor, const std::vector<float>& narrow, const std::vector<float>& wide, std::size_t I) {
   if (factor == 1) return 1.0f;
   if (wide.size() == 1) return 0.0f;
@@ -199,15 +199,15 @@ void Multigrid::join_faces_beside_walls(const Level& fine, Level& coarse, std::s
   for (std::size_t a = 0; a < 3; ++a)
     for_each_listed(fine.aggregates.faces[a], row, [&](std::size_t list, auto faces) {
       float sum = 0;
-      for (const auto [axis, place] : faces) sum += fine.matrix.low[axis][place];
+      for (const auto [axis, index] : faces) sum += fine.matrix.low[axis][index];
       const auto& lists = fine.aggregates.faces[a];
-      coarse.matrix.low[a][lists.place[list]] =
+      coarse.matrix.low[a][lists.index[list]] =
           sum * shorter(fine.factor[a], fine.extent[a], coarse.extent[a], lists.at[list][a]);
     });
   for_each_listed(fine.aggregates.cells, row, [&](std::size_t list, auto cells) {
     float sum = 0;
     for (const auto& c : cells) sum += fine.matrix.outside[fine.board.run(c.colour, c.row) + c.m];
-    coarse.matrix.outside[fine.aggregates.cells.place[list]] = sum * to_outside;
+    coarse.matrix.outside[fine.aggregates.cells.index[list]] = sum * to_outside;
   });
 }
 
@@ -232,7 +232,7 @@ void Multigrid::restrict_residual(ThreadTeam& team, const Level& fine, Level& co
         float residual = 0;
         for (const auto& c : cells)
           if (c.colour == 0) residual += Runs<float>(fine.board, fine.low(), fine.value.data(), 0, c.row).inflow(c.m);
-        coarse.source[fine.aggregates.cells.place[list]] = residual;
+        coarse.source[fine.aggregates.cells.index[list]] = residual;
       });
     }
   });
@@ -259,7 +259,7 @@ void Multigrid::add_correction(ThreadTeam& team, const Level& coarse, Level& fin
       if (!fine.aggregates.empty())
         for (auto n = fine.aggregates.moved_of_row[r]; n < fine.aggregates.moved_of_row[r + 1]; ++n) {
           const Aggregates::Moved& cell = fine.aggregates.moved[n];
-          fine.value[cell.place] += coarse.value[cell.coarse] - coarse.value[cell.coarse_beside];
+          fine.value[cell.index] += coarse.value[cell.coarse] - coarse.value[cell.coarse_neighbour];
         }
       fine.board.fill_ghosts(x, length);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// One multigrid V-cycle for a seven-point Poisson matrix, as a preconditioner: symmetric, in single precision, the
-/// same bits for any number of threads.
+/// results are bitwise identical for any number of threads.
 ///
 /// Cells are joined in pairs along every axis, but for those that walls part (Aggregates); the conductances of joined
 /// faces are added and divided by the larger distance of the centres. Prolongation is constant, restriction sums the

@@ -28,7 +28,8 @@ std::array<const double*, 3> pointers(const std::array<std::vector<double>, 3>& 
 // What a refinement in single precision may be asked for: less would be lost in rounding, and is left to the next one.
 constexpr double min_reduction = 1e-4;
 // A refinement that leaves more than this share of the residual, or needs more iterations, meets a part of the value
-// that single precision does not see: the level of a region behind a bed that hardly lets air through. Doubles go on.
+// that single precision does not resolve: the level of a region behind a bed that hardly lets air through. Doubles go
+// on.
 constexpr double min_gain = 0.1;
 constexpr int max_iterations_of_floats = 50;
 
@@ -92,7 +93,7 @@ void PoissonSolver::for_each_run(ThreadTeam& team, Body&& body) const {
 void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductance, const CellField* storage) {
   std::vector<unsigned char> changed(board_.blocks(), 0);
   outside_before_ = matrix_.outside;
-  for_each_run(team, [&](std::size_t block, std::size_t own, int length, std::size_t from, std::array<int, 3> place) {
+  for_each_run(team, [&](std::size_t block, std::size_t own, int length, std::size_t from, std::array<int, 3> cell) {
     double* outside = matrix_.outside.data() + own;
     if (storage)
       run_loops::take(length, storage->data() + from, outside);
@@ -105,8 +106,8 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
       const int n = grid_.count[a];
       const bool ends = !board_.is_periodic(axis), leaves = ends && !to_itself_[a];
       if (axis == 0) {
-        const int skipped = place[0] == 0 && ends ? 1 : 0;
-        const bool ends_high = place[0] + 2 * (length - 1) == n - 1;
+        const int skipped = cell[0] == 0 && ends ? 1 : 0;
+        const bool ends_high = cell[0] + 2 * (length - 1) == n - 1;
         if (run_loops::take(length - skipped, low + 2 * skipped, own_low + skipped)) changed[block] = 1;
         if (skipped == 1) own_low[0] = 0;
         if (skipped == 1 && leaves) outside[0] += low[0];
@@ -114,12 +115,12 @@ void PoissonSolver::set_conductance(ThreadTeam& team, const FaceField& conductan
         board_.fill_ghosts(own_low, length);
         continue;
       }
-      if (place[a] == 0 && ends)
+      if (cell[a] == 0 && ends)
         std::fill_n(own_low, length, 0.0);
       else if (run_loops::take(length, low, own_low))
         changed[block] = 1;
-      if (place[a] == 0 && leaves) run_loops::add_strided(length, low, outside);
-      if (place[a] == n - 1 && leaves) run_loops::add_strided(length, high, outside);
+      if (cell[a] == 0 && leaves) run_loops::add_strided(length, low, outside);
+      if (cell[a] == n - 1 && leaves) run_loops::add_strided(length, high, outside);
     }
     for (int m = 0; m < length; ++m)
       if ((outside[m] > 0) != (outside_before_[own + static_cast<std::size_t>(m)] > 0)) changed[block] = 1;

@@ -5,8 +5,8 @@
 /// where the storage is zero unless given and the value outside an open boundary is zero (add conductance * outside
 /// value to the source for another one). Conjugate gradients in single precision, preconditioned by a multigrid cycle,
 /// solve for what the value lacks; the residual is then found in double precision, and what is left of it solved for
-/// again (iterative refinement, Wilkinson 1963), so that the precision of the value is that of doubles; where single
-/// precision gains nothing more, conjugate gradients in doubles finish. The bits do not depend on the number of
+/// again (iterative refinement, Wilkinson 1963), so that the value has the precision of doubles; where single
+/// precision gains nothing more, conjugate gradients in doubles finish. The result does not depend on the number of
 /// threads. Faces of zero conductance may divide the grid into regions; the value in a region without an open boundary
 /// is determined up to a constant, chosen so that its mean is zero, and its sources must balance.
 #pragma once

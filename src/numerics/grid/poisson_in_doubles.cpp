@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The pressure's equation by conjugate gradients in double precision, for what single precision does not see. Rare, so
-/// that clarity comes before speed; the preconditioner is the same cycle of the multigrid.
+/// The pressure's equation by conjugate gradients in double precision, for what single precision does not resolve.
+/// Rare, so that clarity comes before speed; the preconditioner is the same cycle of the multigrid.
 #include "numerics/grid/poisson.hpp"
 #include "numerics/grid/runs.hpp"
 

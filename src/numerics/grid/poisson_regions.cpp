@@ -13,7 +13,7 @@ namespace talus {
 /// Regions by flooding through open faces.
 void PoissonSolver::find_closed_regions() {
   closed_.clear();
-  std::vector<bool> seen(board_.size(), false);
+  std::vector<bool> visited(board_.size(), false);
   const auto [nx, ny, nz] = grid_.count;
   struct Place {
     int i, j, k;
@@ -23,8 +23,8 @@ void PoissonSolver::find_closed_regions() {
   for (int k0 = 0; k0 < nz; ++k0)
     for (int j0 = 0; j0 < ny; ++j0)
       for (int i0 = 0; i0 < nx; ++i0) {
-        if (seen[board_.at(i0, j0, k0)]) continue;
-        seen[board_.at(i0, j0, k0)] = true;
+        if (visited[board_.at(i0, j0, k0)]) continue;
+        visited[board_.at(i0, j0, k0)] = true;
         front.assign(1, {i0, j0, k0});
         region.clear();
         bool is_closed = true;
@@ -46,7 +46,7 @@ void PoissonSolver::find_closed_regions() {
               }
               const std::size_t there = board_.at(to.i, to.j, to.k);
               const double through = matrix_.low[static_cast<std::size_t>(axis)][step < 0 ? here : there];
-              if (through > 0 && !seen[there]) seen[there] = true, front.push_back(to);
+              if (through > 0 && !visited[there]) visited[there] = true, front.push_back(to);
             }
         }
         if (!is_closed) continue;

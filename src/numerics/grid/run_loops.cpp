@@ -9,7 +9,7 @@ namespace talus::run_loops {
 
 namespace {
 
-/// Calls body(place, lane) along a run, lanes in turn.
+/// Calls body(index, lane) along a run, lanes in turn.
 template <int lanes, class Body>
 TALUS_INLINE void for_each_interleaved(int length, Body&& body) {
   int m = 0;

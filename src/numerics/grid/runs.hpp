@@ -21,11 +21,11 @@ struct Runs {
        std::size_t r) {
     const int other = 1 - colour;
     const std::size_t own = board.run(colour, r);
-    const std::size_t beside = board.run(other, r) + static_cast<std::size_t>(board.first(colour, r));
+    const std::size_t adjacent = board.run(other, r) + static_cast<std::size_t>(board.first(colour, r));
     const auto& around = board.around(r);
     const auto row = [&](std::size_t n) { return board.run(other, around[n]); };
-    west = value + beside - 1, c_west = low[0] + own;
-    east = value + beside, c_east = low[0] + beside;
+    west = value + adjacent - 1, c_west = low[0] + own;
+    east = value + adjacent, c_east = low[0] + adjacent;
     south = value + row(0), c_south = low[1] + own;
     north = value + row(1), c_north = low[1] + row(1);
     below = value + row(2), c_below = low[2] + own;

@@ -87,7 +87,7 @@ inline double cubic_spline_line(double distance, double h) {
   return (detail::cubed_depth_of_chord(2, s) - 4 * detail::cubed_depth_of_chord(1, s)) / (2 * std::numbers::pi * h * h);
 }
 
-/// The bits of ratio * smoothing_length(mass, density) of each, in vectors. \param mass kg; \param density kg/m^3;
+/// Bitwise ratio * smoothing_length(mass, density) of each, in vectors. \param mass kg; \param density kg/m^3;
 /// \param length m
 void smoothing_lengths(std::size_t count, double mass, double ratio, const double* density, double* length);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double smooth = 0.848;   // cosine of 32 degrees
 constexpr double flat = 1 - 1e-9;  // of 0.003 degrees
-constexpr double rounding = 1e-9;  // of places, over the length of a line
+constexpr double rounding = 1e-9;  // of positions, over the length of a line
 
 Vector3 least(const Vector3& a, const Vector3& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};

@@ -3,8 +3,8 @@
 /// may stand on either side of it. Its triangles belong to patches, which a gate may open, and to smooth parts, which
 /// edges bound.
 ///
-/// A tree of boxes finds the triangles near a place, so that the cost hardly grows with their number. What is made of
-/// the triangles is made once: a copy of a surface shares it, and has only its own gates.
+/// A tree of boxes finds the triangles near a position, so that the cost hardly grows with their number. What is made
+/// of the triangles is made once: a copy of a surface shares it, and has only its own gates.
 #pragma once
 
 #include <array>
@@ -54,8 +54,8 @@ class Surface {
     Vector3 place;    ///< of the surface, m
     double distance;  ///< m
   };
-  /// The place of the surface nearest to x, open patches left out; nothing if none is within the distance. A triangle
-  /// that is near shortens the search. \param tried its number; any number without one
+  /// The position of the surface nearest to x, open patches left out; nothing if none is within the distance. A
+  /// triangle that is near shortens the search. \param tried its number; any number without one
   std::optional<Foot> nearest(const Vector3& x, double within, std::size_t tried = no_triangle) const;
   static constexpr std::size_t no_triangle = static_cast<std::size_t>(-1);
 
@@ -110,7 +110,7 @@ struct SurfacePoint {
 /// are about as many for a surface of any number of triangles of any shape. \param distance > 0, m
 std::vector<SurfacePoint> spread_points(const Surface& surface, double distance);
 
-/// The points of what of the surface is in a sector, and then those of each of its copies, in the same order: as
+/// The points of the part of the surface in a sector, and then the points of each of its copies, in the same order: as
 /// symmetric as the surface. \param surface whose triangles, and so its smooth parts, turn into each other by the angle
 /// of the sector
 std::vector<SurfacePoint> spread_points(const Surface& surface, double distance, const Sector& sector);

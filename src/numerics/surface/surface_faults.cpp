@@ -171,12 +171,12 @@ std::vector<bool> turned_of(std::size_t count, const TriangleEdges& edges) {
     std::uint32_t triangle;
     bool agrees;
   };
-  std::vector<std::vector<Neighbour>> beside(count);
+  std::vector<std::vector<Neighbour>> neighbours(count);
   edges.for_each([&](std::span<const TriangleEdges::Edge> same) {
     if (same.size() != 2) return;
     const bool agree = same[0].reversed != same[1].reversed;
-    beside[same[0].triangle].push_back({same[1].triangle, agree});
-    beside[same[1].triangle].push_back({same[0].triangle, agree});
+    neighbours[same[0].triangle].push_back({same[1].triangle, agree});
+    neighbours[same[1].triangle].push_back({same[0].triangle, agree});
   });
   std::vector<bool> turned(count), reached(count);
   std::vector<std::uint32_t> piece;
@@ -185,7 +185,7 @@ std::vector<bool> turned_of(std::size_t count, const TriangleEdges& edges) {
     piece.assign(1, first);
     reached[first] = true;
     for (std::size_t n = 0; n < piece.size(); ++n)
-      for (const Neighbour& next : beside[piece[n]]) {
+      for (const Neighbour& next : neighbours[piece[n]]) {
         if (reached[next.triangle]) continue;
         reached[next.triangle] = true;
         turned[next.triangle] = turned[piece[n]] == next.agrees;

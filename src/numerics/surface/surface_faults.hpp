@@ -19,7 +19,7 @@ struct SurfaceFault {
     not_finite,       ///< a coordinate is no number
     without_area,     ///< its corners lie on a line
     twice,            ///< the same corners as another triangle
-    turned_over,      ///< its normal is on the other side than that of its neighbour
+    turned_over,      ///< its normal is on the other side than its neighbour's
     branching,        ///< more than two triangles at an edge
     open_rim,         ///< one triangle alone at an edge, where the surface is to be closed
     crossing_another  ///< the surface passes through itself

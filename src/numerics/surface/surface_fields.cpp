@@ -11,7 +11,7 @@ namespace talus {
 
 namespace {
 
-constexpr double reach = 1.5;  // in sizes: so near a field's middle is to any of its places, but for rests
+constexpr double reach = 1.5;  // in sizes: so near a field's middle is to any of its positions, but for rests
 
 constexpr double max_cells = 2e6;
 

@@ -23,7 +23,7 @@ class SurfaceFields {
   /// The middle, normal and area of each, and the patch and the smooth part to which it belongs.
   std::span<const SurfacePoint> all() const { return fields_; }
 
-  /// The field of a smooth part that is nearest to a place; of several as near the first. \pre the part has an area
+  /// The field of a smooth part that is nearest to a position; of several as near the first. \pre the part has an area
   std::uint32_t at(std::uint32_t part, const Vector3& place) const;
 
   /// What notes a load in a sector notes it in all its copies: the sector, and the field that a field is in the copy so

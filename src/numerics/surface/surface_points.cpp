@@ -256,18 +256,18 @@ std::vector<SurfacePoint> spread(const Surface& surface, double distance, const 
   }
   // What is still small joins the nearest point.
   if (left.empty()) return points;
-  std::vector<Vector3> places;
-  for (const SurfacePoint& point : points) places.push_back(point.place);
-  const CellGrid grid(places, near * distance);
+  std::vector<Vector3> positions;
+  for (const SurfacePoint& point : points) positions.push_back(point.place);
+  const CellGrid grid(positions, near * distance);
   for (const Rest& rest : left) {
     const Vector3 x = (1 / rest.sum.area) * rest.sum.place;
-    std::size_t best = places.size();
+    std::size_t best = positions.size();
     double closest = near * distance;
     grid.for_each_candidate(x, [&](std::uint32_t n) {
-      const double d = norm(places[n] - x);
+      const double d = norm(positions[n] - x);
       if (points[n].part == rest.part && (d < closest || (d == closest && n < best))) closest = d, best = n;
     });
-    if (best == places.size()) {
+    if (best == positions.size()) {
       points.push_back(point_of(rest.sum, rest.patch, rest.part));
       continue;
     }

@@ -71,11 +71,11 @@ std::optional<double> crossing(const Triangle& triangle, const Vector3& a, const
 
 namespace {
 
-/// Numbers places as they come: a table of twice as many rows as there may be places, each looked for from the row of
-/// its bits on. Not for places that are no numbers, none of which is the same as another.
+/// Numbers positions as they come: a table of twice as many rows as there may be positions, each looked for from the
+/// row of its hash on. Not for positions that are no numbers, none of which is the same as another.
 class Numbering {
  public:
-  /// \param places that have numbers, as they come
+  /// \param positions that have numbers, as they come
   Numbering(std::size_t most, std::vector<Vector3>& places)
       : row_(std::bit_ceil(2 * most + 1), nothing), places_(places) {}
 

@@ -14,7 +14,7 @@
 namespace talus {
 
 struct Triangle {
-  std::array<Vector3, 3> corner;  ///< m; the normal is to the side from which they are seen counterclockwise
+  std::array<Vector3, 3> corner;  ///< m; the normal is to the side from which they appear counterclockwise
   std::uint32_t patch = 0;        ///< number of the part of the surface that it belongs to
 
   Vector3 area() const;    ///< area times unit normal, m^2
@@ -23,7 +23,8 @@ struct Triangle {
   Vector3 middle() const { return (1.0 / 3) * (corner[0] + corner[1] + corner[2]); }
 };
 
-/// The place of a triangle nearest to x. Source: Ericson, Real-Time Collision Detection (Morgan Kaufmann, 2005), 5.1.5.
+/// The position of a triangle nearest to x. Source: Ericson, Real-Time Collision Detection (Morgan Kaufmann,
+/// 2005), 5.1.5.
 Vector3 nearest_place(const Triangle& triangle, const Vector3& x);
 
 /// The fraction of the straight line from a to b at which it crosses the triangle; nothing if it does not. Edges and
@@ -46,7 +47,7 @@ class TriangleEdges {
 
   /// The numbers of the corners of each triangle, from 0 as they come; of one that is left out without meaning.
   std::span<const std::array<std::uint32_t, 3>> corners() const { return corners_; }
-  /// The places of the corners by their numbers.
+  /// The positions of the corners by their numbers.
   std::span<const Vector3> places() const { return places_; }
 
   /// Calls visit(edges) for the edges between the same two corners, by rising number of triangle.

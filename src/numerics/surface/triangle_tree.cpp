@@ -67,7 +67,7 @@ void TriangleTree::find_boxes(std::span<const Triangle> in_order) {
   }
 }
 
-/// The normal of a slab is that of the whole area of its triangles.
+/// The normal of a slab belongs to the whole area of its triangles.
 void TriangleTree::find_flatness(std::span<const Triangle> in_order) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<Vector3> areas;

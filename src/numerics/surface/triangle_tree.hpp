@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A tree of boxes over triangles, which finds those near a place, along a line or near each other. The time grows with
-/// the logarithm of their number, whatever their sizes are. Triangles are halved at the median of their middles along
-/// the longest extent of these, down to leaves of a few. Source: Ericson, Real-Time Collision Detection (Morgan
+/// A tree of boxes over triangles, which finds those near a position, along a line or near each other. The time grows
+/// with the logarithm of their number, whatever their sizes are. Triangles are halved at the median of their middles
+/// along the longest extent of these, down to leaves of a few. Source: Ericson, Real-Time Collision Detection (Morgan
 /// Kaufmann, 2005), 6.2.
 #pragma once
 

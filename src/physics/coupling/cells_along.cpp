@@ -13,10 +13,10 @@ namespace talus::coupling {
 namespace {
 
 /// The cell within the box that a cell beyond its ends stands for.
-int fold(int place, int count, bool is_periodic) {
-  if (is_periodic) return ((place % count) + count) % count;
-  while (place < 0 || place >= count) place = place < 0 ? -1 - place : 2 * count - 1 - place;
-  return place;
+int fold(int index, int count, bool is_periodic) {
+  if (is_periodic) return ((index % count) + count) % count;
+  while (index < 0 || index >= count) index = index < 0 ? -1 - index : 2 * count - 1 - index;
+  return index;
 }
 
 }  // namespace
@@ -29,19 +29,19 @@ int CellsAlong::parts(const Grid& grid, int axis) {
 void CellsAlong::find(const Grid& grid, const Box& box, int axis, bool is_mirrored, double x, double reach,
                       double per_width) {
   const int of_cell = parts(grid, axis);
-  const double width = grid.spacing[axis] / of_cell, place = (x - grid.low[axis]) / width - 0.5, far = reach / width;
+  const double width = grid.spacing[axis] / of_cell, centre = (x - grid.low[axis]) / width - 0.5, far = reach / width;
   // Rounded down and up.
   const auto floor_of = [](double number) {
     const int n = static_cast<int>(number);
     return n > number ? n - 1 : n;
   };
-  const int to = floor_of(place + far), count = of_cell * grid.count[static_cast<std::size_t>(axis)];
-  from = -floor_of(far - place);
+  const int to = floor_of(centre + far), count = of_cell * grid.count[static_cast<std::size_t>(axis)];
+  from = -floor_of(far - centre);
   const auto many = static_cast<std::size_t>(to - from + 1);
   slot.resize(many), square.resize((many + row_lanes - 1) / row_lanes * row_lanes);
   const double step = width * per_width;
   for (std::size_t n = 0; n < many; ++n) {
-    const double distance = (from + static_cast<int>(n) - place) * step;
+    const double distance = (from + static_cast<int>(n) - centre) * step;
     square[n] = static_cast<float>(distance * distance);
   }
   for (std::size_t n = many; n < square.size(); ++n) square[n] = static_cast<float>(4 * sph::support * sph::support);
@@ -49,7 +49,7 @@ void CellsAlong::find(const Grid& grid, const Box& box, int axis, bool is_mirror
   if (is_plain) {
     cell.resize(many);
     for (std::size_t n = 0; n < many; ++n) slot[n] = n, cell[n] = from + static_cast<int>(n);
-  } else if (is_mirrored && place > -1 && place < count && from >= -count && to < 2 * count) {
+  } else if (is_mirrored && centre > -1 && centre < count && from >= -count && to < 2 * count) {
     fold_at_mirrors(to, count);
   } else {
     fold_at_any(box, axis, to, count);
@@ -118,8 +118,8 @@ void CellsAlong::join_parts(int parts) {
 }
 
 std::optional<std::size_t> CellsAlong::slot_at(const Grid& grid, int axis, double x) const {
-  const double place = (x - grid.low[axis]) / grid.spacing[axis] - 0.5, nearest = std::round(place);
-  if (std::abs(place - nearest) > 1e-6) return std::nullopt;
+  const double centre = (x - grid.low[axis]) / grid.spacing[axis] - 0.5, nearest = std::round(centre);
+  if (std::abs(centre - nearest) > 1e-6) return std::nullopt;
   const bool within = nearest >= 0 && nearest < grid.count[static_cast<std::size_t>(axis)];
   const auto found = std::find(cell.begin(), cell.end(), within ? static_cast<int>(nearest) : left);
   if (found == cell.end()) return std::nullopt;

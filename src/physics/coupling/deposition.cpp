@@ -77,7 +77,7 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
     find_seen(x, scratch);
     weigh_seen(columns, scratch);
   }
-  // In a corner too narrow for a cell's centre a particle sees none: then it has all.
+  // In a corner too narrow for a cell's centre no cell is visible: then it has all.
   if (!beside_wall || std::none_of(scratch.sum.begin(), scratch.sum.end(), [](float w) { return w > 0; }))
     weigh_rows({.columns = columns,
                 .many_x = along_x.slot.size(),
@@ -94,20 +94,20 @@ void Deposition::find_weights(const Vector3& x, double h, Scratch& scratch, Bloc
   keep(columns, scratch, block);
 }
 
-/// Adds the weights of the cells that are seen to those that have their shares.
+/// Adds the weights of the cells that are visible to those that have their shares.
 void Deposition::weigh_seen(std::size_t columns, Scratch& scratch) {
   const auto& [along_x, along_y, along_z] = scratch.along;
   const std::size_t rows = along_y.cell.size();
   for (std::size_t k = 0; k < along_z.slot.size(); ++k)
     for (std::size_t j = 0; j < along_y.slot.size(); ++j) {
-      const float beside = along_y.square[j] + along_z.square[k];
-      if (!(beside < static_cast<float>(sph::support * sph::support))) continue;
+      const float across = along_y.square[j] + along_z.square[k];
+      if (!(across < static_cast<float>(sph::support * sph::support))) continue;
       const Scratch::Seen* seen = scratch.seen.data() + k * along_x.slot.size();
       for (std::size_t i = 0; i < along_x.slot.size(); ++i) {
         if (!seen[i]) continue;
         const std::size_t row = along_y.slot[j] + rows * seen[i]->z;
         scratch.fate[row] = RowFate::kept;
-        scratch.sum[seen[i]->x + columns * row] += weight_at(beside + along_x.square[i]);
+        scratch.sum[seen[i]->x + columns * row] += weight_at(across + along_x.square[i]);
       }
     }
 }
@@ -158,8 +158,8 @@ void Deposition::find_seen(const Vector3& x, Scratch& scratch) const {
 }
 
 /// Takes the weights of cells behind the surface, unless there are no others. A cell that stands for one beyond a
-/// mirror is seen as it is itself: where the surface meets the mirror, both are seen or neither. Cells on the
-/// particle's side of all of the surface that is near are seen; others are tried.
+/// mirror is as visible as the cell itself: where the surface meets the mirror, both are visible or neither. Cells on
+/// the particle's side of all of the surface that is near are visible; others are tested.
 void Deposition::leave_out_hidden(const Vector3& x, double reach, std::size_t columns, Scratch& scratch) const {
   constexpr std::size_t most = 64;           // slabs, and triangles, that are tried one by one
   constexpr double thin = 0.02, wide = 2.0;  // slabs, of the distance

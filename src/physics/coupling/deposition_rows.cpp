@@ -47,15 +47,15 @@ TALUS_CLONES void weigh_rows(const Reach& given, std::size_t rows_y, float* __re
   const Reach r = given;
   for (std::size_t k = 0; k < r.many_z; ++k)
     for (std::size_t j = 0; j < r.many_y; ++j) {
-      const float beside = r.square_y[j] + r.square_z[k];
-      if (!(beside < static_cast<float>(sph::support * sph::support))) continue;
-      const std::size_t place = r.row_y[j] + rows_y * r.row_z[k];
-      fate[place] = RowFate::kept;
-      float* row = sum + r.columns * place;
+      const float across = r.square_y[j] + r.square_z[k];
+      if (!(across < static_cast<float>(sph::support * sph::support))) continue;
+      const std::size_t number = r.row_y[j] + rows_y * r.row_z[k];
+      fate[number] = RowFate::kept;
+      float* row = sum + r.columns * number;
       for (std::size_t i = 0; i < r.many_x; i += row_lanes) {
         Floats weight, had;
         load(r.square_x + i, weight);
-        weight += beside;
+        weight += across;
         weigh(weight);
         if (r.column_x) {
           for (std::size_t l = 0; l < row_lanes && i + l < r.many_x; ++l) row[r.column_x[i + l]] += weight[l];

@@ -20,14 +20,14 @@ struct Reach {
   std::size_t columns;
   std::size_t many_x, many_y, many_z;
   const float *square_x, *square_y, *square_z;  ///< of the distance over the smoothing length
-  const std::size_t* column_x;                  ///< of each place along x; null: in order
-  const std::size_t *row_y, *row_z;             ///< of each place along y and z
+  const std::size_t* column_x;                  ///< of each position along x; null: in order
+  const std::size_t *row_y, *row_z;             ///< of each position along y and z
 };
 
 /// What becomes of a row of weights.
 enum class RowFate : std::uint8_t { empty, kept, lost };
 
-/// Adds the kernel at all cells, times a constant, to the rows of `sum`, \p rows_y of them for each place along z.
+/// Adds the kernel at all cells, times a constant, to the rows of `sum`, \p rows_y of them for each position along z.
 /// \param fate set to `kept` for rows that get any
 void weigh_rows(const Reach& reach, std::size_t rows_y, float* __restrict sum, RowFate* __restrict fate);
 

@@ -3,7 +3,7 @@
 ///
 ///     e_v = ln(rho_b/rho_ref)/3 + d,   d >= 0,   d' >= -ln(rho_b/rho_ref)/3,   dd/dgamma = -k d while e_v > 0
 ///
-/// Grains that come apart and are pressed again bear pressure from where they last touched, not first at the reference
+/// Grains that come apart and are pressed again carry pressure from where they last touched, not first at the reference
 /// packing: the dilation d grows with the expansion beyond e_v = 0. It is the paper's rule, "at the end of the
 /// unloading process, the point x_i was set to the initial point X_i", for the volume, with two bounds. Below the
 /// gate's packing there is no contact to remember; and shear packs loose grains again, at the rate k per shear strain

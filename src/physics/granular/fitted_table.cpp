@@ -61,7 +61,7 @@ struct Curve {
   double slope(double a) const { return c0 + a * (2 * c1 + a * (3 * c2 + a * 4 * c3)); }
 };
 
-/// The first place in (begin, end] at which `holds` is true, or `end`.
+/// The first position in (begin, end] at which `holds` is true, or `end`.
 template <class Predicate>
 double first_place(double begin, double end, Predicate&& holds) {
   constexpr int samples = 512;

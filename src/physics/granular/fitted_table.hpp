@@ -39,10 +39,10 @@ class PieceTable {
     return value[0];
   }
 
-  /// Adds the piece that follows. \param coefficients of each function in turn, lowest power first
+  /// Adds the piece that follows. \param coefficients of one function after another, lowest power first
   void append(double end, const double (&coefficients)[columns * (degree + 1)]);
   /// Completes the look-up; the last piece ends at max_fitted_strain.
-  /// \throws std::logic_error if three joints lie within 1/64 of an octave, too close for the look-up to tell them
+  /// \throws std::logic_error if three joints lie within 1/64 of an octave, too close for the look-up to separate them
   /// apart
   void finish();
 

@@ -8,7 +8,7 @@
 ///
 /// In shear at constant volume the deviator lies along the rate of deformation. In plane flow the principal stress
 /// across the plane is then the mean of the other two, which is p: Mohr's circle has the centre p and the radius M p,
-/// and the planes of simple shear, at 45 degrees to the principal axes, bear the stress p and the shear stress M p. In
+/// and the planes of simple shear, at 45 degrees to the principal axes, carry the stress p and the shear stress M p. In
 /// triaxial compression (sigma_1 - sigma_3)/3^(1/2) = M (sigma_1 + 2 sigma_3)/3. A Mohr-Coulomb material has the same
 /// angle in the last two. Source: Drucker & Prager, Q. Appl. Math. 10, 157 (1952), plane flow without dilatancy, and
 /// triaxial compression as in Chen & Mizuno, Nonlinear Analysis in Soil Mechanics (Elsevier, 1990). Range: M from 0 to

@@ -38,7 +38,7 @@ class HalfSpheres {
       const Side &before = side_[axis][0], &behind = side_[axis][1];
       if (before.count == 0 || behind.count == 0) continue;
       const double one = 1.0 / before.count, other = 1.0 / behind.count;
-      const double distance = one * before.place - other * behind.place;
+      const double distance = one * before.position - other * behind.position;
       if (distance > 0) column[axis] = (1.0 / distance) * (one * before.displacement - other * behind.displacement);
     }
     return {column[0].x, column[1].x, column[2].x, column[0].y, column[1].y,
@@ -48,9 +48,9 @@ class HalfSpheres {
  private:
   struct Side {
     int count = 0;
-    double place = 0;  // sum of X_j less x_k,j
+    double position = 0;  // sum of X_j less x_k,j
     Vector3 displacement;
-    void add(double at, const Vector3& by) { ++count, place += at, displacement += by; }
+    void add(double at, const Vector3& by) { ++count, position += at, displacement += by; }
   };
   Side side_[3][2];
 };

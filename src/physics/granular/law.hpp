@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The constitutive laws there are, and the table [law] of a case. A law is added by its header and a place in AnyLaw:
-/// its name in law.name, its keys in [law.NAME], the schema, the reference page, `talus law` and the loop over the
-/// particles follow. The loop visits the variant once, outside.
+/// The constitutive laws there are, and the table [law] of a case. A law is added by its header and a position in
+/// AnyLaw: its name in law.name, its keys in [law.NAME], the schema, the reference page, `talus law` and the loop over
+/// the particles follow. The loop visits the variant once, outside.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct LawsOf<std::variant<Law...>> {
 };
 using Laws = LawsOf<AnyLaw>;
 
-/// The place of a law in AnyLaw.
+/// The position of a law in AnyLaw.
 enum class LawName : std::size_t {};
 
 /// The table [law] of a case, with a table of each law within.

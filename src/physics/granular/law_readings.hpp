@@ -22,7 +22,7 @@ enum class Volume {
 /// What the strain of the printed components follows from.
 enum class Strain {
   rate,          ///< de/dt = -D - e L - L^T e (kinematics.hpp)
-  displacements  ///< Eqs 9-12 from x - X, with X the place at the last reset: the paper's own route
+  displacements  ///< Eqs 9-12 from x - X, with X the position at the last reset: the paper's own route
 };
 
 /// Which stresses fall along the initial stiffness times k_u when the strain falls, and rise again along the same line

@@ -35,7 +35,7 @@ struct MaterialPoint {
   typename Law::template History<Number> history;  ///< named by Law::for_each_slot(visit, history)
 };
 
-/// The range of validity of a law. Outside of it `talus check` and the regime card warn.
+/// The range of validity of a law. Outside of it `talus check` and the validity report warn.
 struct LawRange {
   double grain_diameter = 0;  ///< of the grains that it is a fit to, m; 0: of any
   double largest_pressure = std::numeric_limits<double>::infinity();  ///< Pa

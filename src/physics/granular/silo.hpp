@@ -19,7 +19,7 @@ inline double janssen_stress(double weight, double length, double depth, double 
   return weight * length * (1 - left) + surcharge * left;
 }
 
-/// How a cone bears: the stress across its walls over the vertical stress, F, and what follows.
+/// How a cone carries its load: the stress across its walls over the vertical stress, F, and what follows.
 struct ConeBearing {
   double ratio = 0;     ///< F
   double exponent = 0;  ///< n = 2 (F (1 + mu/tan beta) - 1)
@@ -64,7 +64,7 @@ inline double mass_flow_half_angle(double friction, double internal) {
 }
 
 /// The vertical stress in a cone, Pa: that of slices, dp/dx = n p/x - rho_b g, x the height above the apex.
-/// Source: Walker 1966. \param height x of the place, > 0 \param top x of the bed's top or of the cone's, m
+/// Source: Walker 1966. \param height x of the position, > 0 \param top x of the bed's top or of the cone's, m
 /// \param surcharge vertical stress there, Pa
 inline double cone_stress(const ConeBearing& bearing, double weight, double height, double top, double surcharge) {
   const double share = height / top, n = bearing.exponent, power = std::pow(share, n);

@@ -12,7 +12,7 @@
 ///
 /// Unloading. When the smoothed increment of the main strain turns negative an unloading process begins: stress falls
 /// by Eqs 1-6 with A1 to A4 at zero strain, times k_u, of the strain's increments; shear stresses fall in proportion to
-/// tau besides. When the main strain grows again stress rises the same way, until the main strain is back where the
+/// tau as well. When the main strain grows again stress rises the same way, until the main strain is back where the
 /// process began: the yield point, from which Eqs 1-8 hold again. Neither passes Eqs 1-8, nor the largest friction.
 /// When tau or the normal stress in the main direction has fallen to zero the process ends, without stress, and by the
 /// paper's rule the strain starts from zero.

@@ -74,7 +74,7 @@ constexpr PairMobility<Number> zuk_2014_apart(const Number& inverse_distance, co
 /// Spheres that overlap. With D = a_i - a_j and q = (D/r)^2:
 ///     |D| < r:   4/(3 a_i a_j) { [(a_i + a_j)/2 - r (3 + q)^2/32] I + [3 r (1 - q)^2/32] d d^T/r^2 }
 ///     r <= |D|:  4/(3 max(a_i, a_j)) I
-/// Centres nearer than 1e-15 of the radii count as one place, where q would not be a number.
+/// Centres nearer than 1e-15 of the radii count as one position, where q would not be a number.
 /// \param square r^2, m^2; \param inverse_distance 1/r, 1/m, anything where r = 0; \param a_i, a_j radii, m
 template <class Number, class RadiusI, class RadiusJ>
 constexpr PairMobility<Number> zuk_2014_overlapping(const Number& square, const Number& inverse_distance,

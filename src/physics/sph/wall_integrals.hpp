@@ -63,7 +63,7 @@ struct WallSums {
   /// \param d from the particle to a point of the wall, m; \param n the wall's unit normal, to either side; \param area
   /// that the point stands for, m^2; \param h smoothing length of the particle, m
   TALUS_INLINE void add(const Number (&d)[3], const Number (&n)[3], Number area, double h) {
-    // A particle nearer to a wall than the points of the wall are to each other would see them one by one: it is taken
+    // A particle nearer to a wall than the points of the wall are to each other would feel them one by one: it is taken
     // to be a little farther from the wall's plane.
     const double blur = 0.0225 * h * h;  // (0.15 h)^2
     const Number below = multiply_add(d[0], n[0], multiply_add(d[1], n[1], d[2] * n[2]));

@@ -166,16 +166,16 @@ TEST(Sees, WhatIsCertainWhereverBothStayNear) {
       const auto move = [&] { return Vector3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}; };
       const Vector3 source = domain.fold(from + reach * move()), to = image.position(source);
       if (norm(to - from) > reach) continue;
-      const Domain::Sight sight = domain.sight(from, to, image, margin);
-      always += sight == Domain::Sight::always;
-      never += sight == Domain::Sight::never;
-      may_change += sight == Domain::Sight::may_change;
-      if (sight == Domain::Sight::may_change) continue;
+      const Domain::Visibility visibility = domain.visibility(from, to, image, margin);
+      always += visibility == Domain::Visibility::always;
+      never += visibility == Domain::Visibility::never;
+      may_change += visibility == Domain::Visibility::may_change;
+      if (visibility == Domain::Visibility::may_change) continue;
       for (int k = 0; k < 20; ++k) {
         const Vector3 near_from = domain.fold(from + (margin / 2) * move());
         const Vector3 near_to = image.position(domain.fold(source + (margin / 2) * move()));
         for (const Domain* now : std::initializer_list<const Domain*>{&domain, &open})
-          EXPECT_EQ(now->is_visible(near_from, near_to, image), sight == Domain::Sight::always);
+          EXPECT_EQ(now->is_visible(near_from, near_to, image), visibility == Domain::Visibility::always);
       }
     }
   }
@@ -188,9 +188,9 @@ TEST(Sees, InTheMiddleOfAnOpenSlitNobodyIsInDoubt) {
   constexpr double margin = 0.5;
   const Domain shut = hopper(true), open = hopper(false);
   const Vector3 in_the_slit{50, 2, 100.1}, below{51, 2, 98}, at_the_rim{30.2, 2, 100.1};
-  EXPECT_EQ(open.sight(in_the_slit, below, {}, margin), Domain::Sight::always);
-  EXPECT_EQ(shut.sight(in_the_slit, below, {}, margin), Domain::Sight::may_change);
-  EXPECT_EQ(open.sight(at_the_rim, below, {}, margin), Domain::Sight::may_change);
+  EXPECT_EQ(open.visibility(in_the_slit, below, {}, margin), Domain::Visibility::always);
+  EXPECT_EQ(shut.visibility(in_the_slit, below, {}, margin), Domain::Visibility::may_change);
+  EXPECT_EQ(open.visibility(at_the_rim, below, {}, margin), Domain::Visibility::may_change);
 }
 
 TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {

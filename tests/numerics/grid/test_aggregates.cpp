@@ -53,10 +53,10 @@ TEST(Aggregates, OfAWallBetweenJoinedCellsHaveThreeLayersAndOne) {
   const Checkerboard coarse = half({4, 4, 8});
   const Aggregates found = aggregates(fine);
   std::map<std::uint32_t, std::size_t> cells, faces;
-  for (std::size_t list = 0; list < found.cells.place.size(); ++list)
-    cells[found.cells.place[list]] = found.cells.begin[list + 1] - found.cells.begin[list];
-  for (std::size_t list = 0; list < found.faces[2].place.size(); ++list)
-    faces[found.faces[2].place[list]] = found.faces[2].begin[list + 1] - found.faces[2].begin[list];
+  for (std::size_t list = 0; list < found.cells.index.size(); ++list)
+    cells[found.cells.index[list]] = found.cells.begin[list + 1] - found.cells.begin[list];
+  for (std::size_t list = 0; list < found.faces[2].index.size(); ++list)
+    faces[found.faces[2].index[list]] = found.faces[2].begin[list + 1] - found.faces[2].begin[list];
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i) {
       EXPECT_EQ(cells.at(static_cast<std::uint32_t>(coarse.at(i, j, 1))), 4u);   // the layer below the wall
@@ -65,7 +65,7 @@ TEST(Aggregates, OfAWallBetweenJoinedCellsHaveThreeLayersAndOne) {
     }
   // Red ones of the 16 cells in the fourth layer.
   EXPECT_EQ(found.moved.size(), 8u);
-  for (const auto& m : found.moved) EXPECT_NE(m.coarse, m.coarse_beside);
+  for (const auto& m : found.moved) EXPECT_NE(m.coarse, m.coarse_neighbour);
 }
 
 TEST(Aggregates, NeverJoinBothSidesOfAConeNorLeadThroughIt) {
@@ -83,13 +83,13 @@ TEST(Aggregates, NeverJoinBothSidesOfAConeNorLeadThroughIt) {
         for (int i = 0; i < n; ++i) body(i, j, k);
   };
   for_each_cell(24, [&](int i, int j, int k) { side_of_place[fine.board.at(i, j, k)] = side(i, j, k); });
-  const std::set<std::size_t> listed(found.cells.place.begin(), found.cells.place.end());
+  const std::set<std::size_t> listed(found.cells.index.begin(), found.cells.index.end());
   std::size_t parts = 0;
-  for (std::size_t list = 0; list < found.cells.place.size(); ++list)
+  for (std::size_t list = 0; list < found.cells.index.size(); ++list)
     for (auto n = found.cells.begin[list]; n < found.cells.begin[list + 1]; ++n, ++parts) {
       const auto& c = found.cells.parts[n];
       const int own = side_of_place.at(fine.board.run(c.colour, c.row) + c.m);
-      EXPECT_EQ(side_of_coarse.emplace(found.cells.place[list], own).first->second, own);
+      EXPECT_EQ(side_of_coarse.emplace(found.cells.index[list], own).first->second, own);
     }
   EXPECT_GT(parts, 500u);
   for_each_cell(24, [&](int i, int j, int k) {
@@ -102,8 +102,8 @@ TEST(Aggregates, NeverJoinBothSidesOfAConeNorLeadThroughIt) {
   std::size_t faces_through = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     std::map<std::size_t, std::size_t> faces;
-    for (std::size_t list = 0; list < found.faces[a].place.size(); ++list)
-      faces[found.faces[a].place[list]] = found.faces[a].begin[list + 1] - found.faces[a].begin[list];
+    for (std::size_t list = 0; list < found.faces[a].index.size(); ++list)
+      faces[found.faces[a].index[list]] = found.faces[a].begin[list + 1] - found.faces[a].begin[list];
     for_each_cell(12, [&](int i, int j, int k) {
       const std::array at{i, j, k};
       if (at[a] == 0) return;

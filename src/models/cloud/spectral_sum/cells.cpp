@@ -68,7 +68,7 @@ void Cells::sort(ThreadTeam& team, const Lattice& lattice, std::span<const Vecto
   counts_.assign(chunks * rows, 0);
   first_.resize(rows * (columns + 1));
 
-  // By rows: the chunks count, then place, each its own.
+  // By rows: the chunks count, then position, each its own.
   team.run(chunks, [&](std::size_t chunk) {
     for (std::size_t n = begin_of(chunk); n < begin_of(chunk + 1); ++n) {
       row_[n] = row_of(order[n]);
@@ -89,7 +89,7 @@ void Cells::sort(ThreadTeam& team, const Lattice& lattice, std::span<const Vecto
     for (std::size_t n = begin_of(chunk); n < begin_of(chunk + 1); ++n)
       by_row_[counts_[chunk * rows + row_[n]]++] = order[n];
   });
-  // By cells of a row. `row_` is reused for the column of each place.
+  // By cells of a row. `row_` is reused for the column of each position.
   team.run(rows, [&](std::size_t row) {
     std::uint32_t* const first = first_.data() + row * (columns + 1);
     const std::uint32_t begin = first[0], end = first[columns];

@@ -29,11 +29,11 @@ struct Lattice {
   std::size_t layers() const { return count[2]; }
   std::size_t all_rows() const { return count[1] * count[2]; }
 
-  /// Where a place in the box is along an axis, in cells from the first: at least 0.
+  /// Where a position in the box is along an axis, in cells from the first: at least 0.
   double cells_along(std::size_t k, const Vector3& x) const { return x.*axis[k] * per_length - origin[k]; }
 };
 
-/// What places extend over.
+/// What positions extend over.
 struct Extent {
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   std::array<double, 3> least = {infinite, infinite, infinite}, most = {-infinite, -infinite, -infinite};
@@ -42,7 +42,7 @@ struct Extent {
 /// \param dimensions along the first so many axes, 2 or 3; along another they are taken to be at 0
 Extent extent_of(ThreadTeam& team, std::span<const Vector3> position, const Axes& axis, std::size_t dimensions);
 
-/// \param extent of at least one place, finite; \param cell m
+/// \param extent of at least one position, finite; \param cell m
 Lattice lattice_over(const Extent& extent, const Axes& axis, std::size_t dimensions, double cell);
 
 /// The spheres in the order of their cells, row by row and layer by layer; within a cell in the order in which they
@@ -55,7 +55,7 @@ class Cells {
 
   const Lattice& lattice() const { return lattice_; }
   std::span<const std::uint32_t> sphere() const { return sphere_; }
-  /// The first place of a cell in the order; that of the cell after the last of a row is the row's end.
+  /// The first position of a cell in the order; that of the cell after the last of a row is the row's end.
   /// \param row counted through all layers
   std::size_t first(std::size_t row, std::size_t column) const {
     return first_[row * (lattice_.columns() + 1) + column];

@@ -36,7 +36,7 @@ std::size_t Convolution<T, dimensions>::doubled(std::size_t nodes) const {
 
 template <class T, int dimensions>
 void Convolution<T, dimensions>::prepare(ThreadTeam& team, const NodeCount& count, double mean_size) {
-  // A few sizes serve many grids: the room is that of the transform.
+  // A few sizes serve many grids: the room is the transform's.
   NodeCount room = {1, 1, 1};
   for (std::size_t k = 0; k <= last; ++k) room[k] = (doubled(count[k]) - seam_) / 2;
   if (room != count_ || mean_size != mean_size_) {
@@ -102,7 +102,7 @@ void Convolution<T, dimensions>::transform_layers(std::size_t block, const Space
   }
 }
 
-/// The sources' spectra along the rows, of some columns, become those of the results.
+/// The sources' spectra along the rows, of some columns, become the results' spectra.
 template <class T, int dimensions>
 void Convolution<T, dimensions>::transform_block(std::size_t block, const Space& work) {
   Complex *const input = work.input[1].data(), *const output = work.across.data();

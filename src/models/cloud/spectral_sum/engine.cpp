@@ -79,7 +79,7 @@ class EngineOf final : public SpectralSum::Engine {
     T beyond[dimensions];
   };
 
-  /// What a sphere is spread over: weights along each axis. In a plane that of the third is 1.
+  /// What a sphere is spread over: weights along each axis. In a plane the third weight is 1.
   struct Weights {
     static constexpr int layers = dimensions == 2 ? 1 : points;
     const SplineWeights<T, points> x, y, z;
@@ -99,7 +99,7 @@ class EngineOf final : public SpectralSum::Engine {
     return at;
   }
 
-  // Columns of numbers: those of vectors hold one for each dimension.
+  // Columns of numbers; vectors have one for each dimension.
   static constexpr std::size_t position_of = 0, force_of = dimensions, near_of = 2 * dimensions,
                                cell_of = 3 * dimensions, size_of = cell_of + 1, radius_of = cell_of + 2,
                                all_columns = cell_of + 3;

@@ -12,7 +12,7 @@
 
 namespace talus::cloud {
 
-/// Numbers aligned to 64 bytes; those of a new array are 0.
+/// Numbers aligned to 64 bytes; 0 in a new array.
 template <class T>
 class AlignedArray {
  public:

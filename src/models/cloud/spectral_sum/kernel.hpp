@@ -37,7 +37,7 @@ template <class T, int dimensions>
 struct NearBlock {
   /// Neighbours, row by row: the next layer's follow after five.
   std::size_t begin[near_rows(dimensions)] = {}, end[near_rows(dimensions)] = {};
-  std::size_t first = 0, last = 0;  ///< the targets, among those of the middle row
+  std::size_t first = 0, last = 0;  ///< the targets, among the spheres of the middle row
   T first_cell = 0;                 ///< of the targets
 };
 

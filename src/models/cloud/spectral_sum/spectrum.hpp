@@ -36,9 +36,10 @@ class TensorSpectrum {
   void sample(ThreadTeam& team, const NodeCount& all, double mean_size);
 
   /// At the wave numbers `block` times the width and on along the first direction, and `at` along the others, the
-  /// sources' spectra become those of the results, both in the order of Convolution::fields.
+  /// sources' spectra become the results' spectra, both in the order of Convolution::fields.
   /// \param at of the doubled grid; those beyond the middle are negative
-  /// \param spectra complex numbers, real and imaginary part in turn; \param field numbers from one source to the next
+  /// \param spectra complex numbers, real and imaginary parts alternating; \param field numbers from one source to the
+  /// next
   void multiply(std::size_t block, const NodeCount& at, T* spectra, std::size_t field) const;
 
  private:

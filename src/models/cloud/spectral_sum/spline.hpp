@@ -33,7 +33,7 @@ struct SplineWeights {
 };
 
 /// What a spectrum is multiplied with to undo that it was spread and will be interpolated by the spline: the factor
-/// with the least mean square error over all places of source and target for a spectrum without aliases,
+/// with the least mean square error over all positions of source and target for a spectrum without aliases,
 ///     w(k)^2 / (sum over m of w(k + 2 pi m)^2)^2,  w(k) = [sin(k/2)/(k/2)]^order.
 /// Source: Hockney & Eastwood, Computer Simulation Using Particles (1981), section 8-3.
 /// \param k wave number times the spacing, at most pi

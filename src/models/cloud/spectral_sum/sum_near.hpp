@@ -21,7 +21,7 @@ TALUS_INLINE Number dot(const Number* u, const Vector* v) {
   return sum;
 }
 
-/// The spheres that a block's targets may be near, gathered: places relative to the block's first cell. Left out is
+/// The spheres that a block's targets may be near, gathered: positions relative to the block's first cell. Left out is
 /// what lies beyond the cut-off of the box around the targets.
 template <class T, int dimensions>
 struct Neighbours {
@@ -50,7 +50,7 @@ struct Neighbours {
       low[k] = Column(least), high[k] = Column(most);
     }
     const Column lane = Column::ramp(0), first_cell(block.first_cell);
-    std::size_t seen = 0;
+    std::size_t passed = 0;
     for (std::size_t row = 0; row < rows; ++row) {
       // From the targets' row to this one; 0 along the row.
       const std::size_t of_layer = row % 5, layer = row / 5;
@@ -65,7 +65,7 @@ struct Neighbours {
           beyond[k] = maximum(maximum(low[k] - x[k], x[k] - high[k]), Column(0));
         }
         const std::size_t left_over = block.end[row] - n;
-        // A little more than the cut-off: what rounding of the places could bring within it stays.
+        // A little more than the cut-off: what rounding of the positions could bring within it stays.
         const auto near =
             Column(1.0001) > dot<dimensions>(beyond, beyond) && Column(static_cast<double>(left_over)) > lane;
         for (int k = 0; k < dimensions; ++k) {
@@ -74,10 +74,10 @@ struct Neighbours {
         }
         store_packed(Column::load_unaligned(spheres.size + n), near, size + count);
         store_packed(Column::load_unaligned(spheres.radius + n), near, radius + count);
-        store_packed(lane + static_cast<double>(seen + n - block.begin[row]), near, number + count);
+        store_packed(lane + static_cast<double>(passed + n - block.begin[row]), near, number + count);
         count += static_cast<std::size_t>(__builtin_popcount(lane_bits(near)));
       }
-      seen += block.end[row] - block.begin[row];
+      passed += block.end[row] - block.begin[row];
     }
     const std::size_t padded = (count + Column::lanes - 1) / Column::lanes * Column::lanes;
     for (std::size_t n = count; n < padded; ++n) {  // beyond every cut-off
