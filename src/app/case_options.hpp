@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What every command that takes a case takes: the file, --set, --threads.
+/// Options that several commands take: the case, --set, --out, --threads.
 #pragma once
 
 #include <filesystem>
@@ -31,5 +31,8 @@ void add_out_option(CLI::App& command, std::string& out, const std::string& text
 
 /// Adds --threads N with the number of processors as default.
 void add_threads_option(CLI::App& command, int& threads);
+
+/// What a command was given, checked: --NAME, --NAME=VALUE, the places behind "--".
+std::vector<std::string> words_of(const CLI::App& command);
 
 }  // namespace talus::app
