@@ -7,6 +7,7 @@
     quantities  {"texts"}                                            "5 mm" -> {"value": 0.005, "unit": "m", "si": 0.005}
     measures    {}                                                   quantities of summaries: name, unit, may_be_missing
     numbers     {"runs": [{"folder", "questions"}]}                  quantities of runs over windows of time
+    points      {"file"}                                             columns of points as CSV: name, unit, values
     report      {"path", "title", "runs", "comparisons"}             the page of runs
 """
 import json

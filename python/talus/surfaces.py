@@ -85,3 +85,66 @@ def swelling_above_flanks(surface, middle, start, end, width):
         intercept, slope = line(x, z)
         prolonged.append(intercept + slope * middle)
     return surface.mean_height(middle - 0.5 * width, middle + 0.5 * width) - np.mean(prolonged)
+
+
+def surface_angle(surface, middle):
+    """The surface's slope as a whole, rad: of the mean of the sizes of the slopes of the lines left and right of the middle. Of
+    one alone if the other has fewer than three heights."""
+    rounding = 1e-9 * np.ptp(surface.x)  # a column in the middle belongs to both sides
+    slopes = [abs(_slope(surface, -np.inf, middle + rounding)), abs(_slope(surface, middle - rounding, np.inf))]
+    known = [slope for slope in slopes if not np.isnan(slope)]
+    return float(np.arctan(np.mean(known))) if known else np.nan
+
+
+class HeapSlope(NamedTuple):
+    """A stretch of a surface that rises or falls all along, and dZ/dx of the line through its middle 80 % in x."""
+
+    start: float
+    end: float
+    slope: float
+
+    @property
+    def length(self):
+        return self.end - self.start
+
+    @property
+    def angle(self):
+        """Against the horizontal, rad."""
+        return float(np.arctan(abs(self.slope)))
+
+
+def _smoothed(z):
+    """Means over up to two neighbours on each side, as many on one as on the other, none of them beyond a gap."""
+    means = np.array(z, dtype=float)
+    for n in np.flatnonzero(np.isfinite(z)):
+        for wide in (2, 1):
+            window = z[n - wide:n + wide + 1] if n >= wide else z[:0]
+            if len(window) == 2 * wide + 1 and np.isfinite(window).all():
+                means[n] = window.mean()
+                break
+    return means
+
+
+def heap_slopes(surface, least_length):
+    """The slopes longer than `least_length` along x. Where they begin and end is decided on the 5-point mean of the heights
+    (shorter near gaps and ends); the lines go through the heights themselves."""
+    z, slopes, first = _smoothed(surface.z), [], 0
+    while first + 1 < len(z):
+        direction, last = z[first + 1] - z[first], first
+        while last + 1 < len(z) and (z[last + 1] - z[last]) * direction > 0:  # of nan false: gaps end a stretch
+            last += 1
+        start, end = surface.x[first], surface.x[last]
+        if end - start > least_length:
+            margin = 0.1 * (end - start)
+            slopes.append(HeapSlope(start, end, line(*surface.heights(start + margin, end - margin))[1]))
+        first = max(last, first + 1)
+    return slopes
+
+
+def repose_angles(slopes, middle):
+    """Of the longest slope left and right of the middle, and of the steepest of all, rad; nan where there is none."""
+    def longest(some):
+        return max(some, key=lambda slope: slope.length).angle if some else np.nan
+    left = [slope for slope in slopes if 0.5 * (slope.start + slope.end) < middle]
+    return (longest(left), longest([slope for slope in slopes if slope not in left]),
+            max((slope.angle for slope in slopes), default=np.nan))

@@ -73,12 +73,8 @@ HeadSize head_size(std::span<const Vector3> position, std::span<const double> ra
             [&](std::uint32_t a, std::uint32_t b) { return position[a].y < position[b].y; });
   const double half = 0.5 * reach * mean_radius;
   size.inner = -infinity;
-  double rear_left = infinity, rear_right = infinity;
   for (std::size_t n = 0, begin = 0; n < across.size(); ++n) {
     const Vector3& x = position[across[n]];
-    const double rear = x.x - radius[across[n]];
-    if (x.y > size.centre) rear_left = std::min(rear_left, rear);
-    if (x.y < size.centre) rear_right = std::min(rear_right, rear);
     if (!size.in_central_half(x)) continue;
     while (position[across[begin]].y < x.y - half) ++begin;
     double boundary = infinity;
@@ -88,9 +84,6 @@ HeadSize head_size(std::span<const Vector3> position, std::span<const double> ra
   }
   if (size.inner == -infinity) size.inner = std::numeric_limits<double>::quiet_NaN();
   size.thickness = size.foremost - size.inner;
-  const double rear_sides = 0.5 * (rear_left + rear_right);
-  size.concavity =
-      std::isfinite(rear_sides) ? (size.inner - rear_sides) / size.thickness : std::numeric_limits<double>::quiet_NaN();
   return size;
 }
 

@@ -31,8 +31,8 @@ NeighbourNumbers neighbour_numbers(const Links& links);
 /// \param position centres, m; \param mean_radius a of the case, > 0, m
 std::vector<GrainSet> find_heads(std::span<const Vector3> position, double mean_radius);
 
-/// Size of a head in the plane x, y; lengths in m, from outer edge to outer edge of the grains (choice). Thickness,
-/// inner edge and concavity are nan if no grain lies in the central half, which a head of a few grains may do.
+/// Size of a head in the plane x, y; lengths in m, from outer edge to outer edge of the grains (choice). Thickness
+/// and inner edge are nan if no grain lies in the central half, which a head of a few grains may do.
 struct HeadSize {
   double width = 0;      ///< w_h: across, y
   double thickness = 0;  ///< l_h: foremost edge less inner edge
@@ -41,9 +41,6 @@ struct HeadSize {
   /// x of the most advanced point of the rear boundary in the central half. Choice: the paper's Figure 8c shows "the
   /// forefront of the inner position".
   double inner = 0;
-  /// How far the centre of the rear boundary is ahead of the rearmost edges left and right of the middle (their mean),
-  /// over the thickness: positive for a crescent. nan if one side has no grain.
-  double concavity = 0;
 
   double aspect_ratio() const { return width / thickness; }
   bool in_central_half(const Vector3& x) const { return 4 * std::abs(x.y - centre) <= width; }

@@ -42,14 +42,6 @@ Particles particles_of_density(std::span<const Vector3> position, std::span<cons
   return particles;
 }
 
-Particles particles_of_spheres(std::span<const Vector3> position, double radius) {
-  const double cube = 8 * radius * radius * radius;
-  return {.position = position,
-          .smoothing_length = std::vector<double>(position.size(), 2 * radius),
-          .volume = std::vector<double>(position.size(), cube),
-          .solid_volume = std::numbers::pi / 6 * cube};
-}
-
 ParticleField::ParticleField(Particles particles, Domain domain)
     : particles_(std::move(particles)),
       domain_(std::move(domain)),

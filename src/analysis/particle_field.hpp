@@ -31,9 +31,6 @@ struct Particles {
 Particles particles_of_density(std::span<const Vector3> position, std::span<const double> density, double mass,
                                double grain_density, std::optional<double> smoothing_length = {});
 
-/// Spheres of one radius a each as particles: smoothing length and volume of a cube of edge 2 a.
-Particles particles_of_spheres(std::span<const Vector3> position, double radius);
-
 class ParticleField {
  public:
   /// \param domain with its gates in their state at that time

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /// talus analyze: what the analysis makes of one set of points, whoever made it; or a run's analysis once more.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
-#include "app/points/measures.hpp"
+#include "app/project/project.hpp"
 #include "app/report/report.hpp"
 #include "base/text.hpp"
-#include "base/unit.hpp"
 #include "io/case_file.hpp"
-#include "io/points_csv.hpp"
 #include "io/report_page.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_json.hpp"
-#include "io/vtkhdf.hpp"
 #include "run/progress.hpp"
 
 namespace talus::app {
@@ -27,53 +23,22 @@ namespace {
 
 struct AnalyzeOptions {
   std::string file, measure, radius, column;
-  int bins = 20;
+  int bins = 20;  ///< the package reads it, and what else is of a file of points
   bool json = false;
 };
 
-const MeasureEntry* find_measure(const std::string& name, std::vector<Problem>& problems) {
-  std::vector<std::string_view> names;
-  for (const MeasureEntry& entry : measures) {
-    if (entry.name == name) return &entry;
-    names.push_back(entry.name);
+/// As text, or as {"file", "as", "quantities": {name: {"value", "unit"}}, "table": []}; what is not finite is null.
+void print_quantities(const AnalyzeOptions& options, const std::vector<NamedValue>& quantities) {
+  if (!options.json) {
+    for (const NamedValue& q : quantities)
+      print("{:32} {:.6g}{}\n", q.name, q.value, q.unit == "1" ? "" : " " + q.unit);
+    return;
   }
-  problems.push_back({.where = name.empty() ? "--as" : "--as " + name,
-                      .what = name.empty() ? "missing: a file of points can be looked at in many ways" : "is not known",
-                      .allowed = fmt::format("{}", fmt::join(names, ", ")),
-                      .nearest = std::string(nearest(name, names))});
-  return nullptr;
-}
-
-std::optional<double> read_radius(const std::string& text, std::vector<Problem>& problems) {
-  if (text.empty()) return std::nullopt;
-  std::string why;
-  const auto radius = parse_quantity(text, &why);
-  if (radius && radius->dimension == dimension::length && radius->value > 0) return radius->value;
-  problems.push_back({.where = "--radius " + text,
-                      .what = !radius                                  ? why
-                              : radius->dimension != dimension::length ? "is not a length (unit missing?)"
-                                                                       : "is not above 0",
-                      .allowed = "a length, above 0 mm, such as \"5 mm\""});
-  return std::nullopt;
-}
-
-ExitStatus analyze_file(const AnalyzeOptions& options) {
-  std::vector<Problem> problems;
-  const MeasureEntry* measure = find_measure(options.measure, problems);
-  const std::optional<double> radius = read_radius(options.radius, problems);
-  const bool csv = std::filesystem::path(options.file).extension() == ".csv";
-  PointSet points;
-  try {
-    points = csv ? read_points_csv(options.file) : read_points(options.file);
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  }
-  if (!problems.empty()) throw InputError(problems);
-
-  const Measured measured = measure->of(PointsToMeasure(options.file, points.view(), radius), options.column,
-                                        static_cast<std::size_t>(options.bins));
-  print("{}", options.json ? to_json(measured, options.file, measure->name) : to_text(measured));
-  return ExitStatus::done;
+  nlohmann::ordered_json json{{"file", options.file}, {"as", "run"}};
+  json["quantities"] = nlohmann::ordered_json::object();
+  for (const NamedValue& q : quantities) json["quantities"][q.name] = {{"value", q.value}, {"unit", q.unit}};
+  json["table"] = nlohmann::ordered_json::array();
+  print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 /// The quantities of the analysis replace the quantities of the summary; what the run itself measured stays.
@@ -99,8 +64,7 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
   write_summary(folder.summary(), summary);
   if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(folder.path(), runs);
   waiting.reset();
-  const Measured measured{.quantities = quantities, .columns = {}, .rows = {}};
-  print("{}", options.json ? to_json(measured, options.file, "run") : to_text(measured));
+  print_quantities(options, quantities);
   return ExitStatus::done;
 }
 
@@ -110,8 +74,6 @@ void add_analyze_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<AnalyzeOptions>();
   CLI::App* command = app.add_subcommand("analyze", "measure a file of points, or a run's folder once more");
   command->add_option("FILE", options->file, "points as CSV or VTKHDF, or the folder of a run")->required();
-  std::string footer = "--as is one of\n";
-  for (const MeasureEntry& entry : measures) footer += fmt::format("  {:14} {}\n", entry.name, entry.text);
   command->add_option("--as", options->measure, "what is measured; see below");
   command->add_option("--radius", options->radius, "mean radius a, such as \"5 mm\"; that of the points if not given");
   command->add_option("--column", options->column, "histogram, layers: of this column; a vector's component is NAME_x");
@@ -119,13 +81,25 @@ void add_analyze_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print JSON");
-  command->footer(footer +
-                  "x points down the slope, y to its left, z away from it; of a heap z is up. Of a run's folder, "
-                  "analysis/, pictures/ and\n"
-                  "the quantities of summary.json are computed again from its snapshots and its series.");
-  command->callback([options, &action] {
-    action = [options] {
-      return std::filesystem::is_directory(options->file) ? analyze_run_folder(*options) : analyze_file(*options);
+  command->footer(
+      "--as is one of\n"
+      "  heads          heads seen from above: grains, width, thickness, concavity of each\n"
+      "  front          place of the foremost grain, and of the foremost below 2 a\n"
+      "  frontal-angle  angle of the front against the slope, seen from the side\n"
+      "  head-tail      thickness of head and rear, seen from the side; their velocities\n"
+      "  neighbours     numbers of neighbours within 4 a, n and n' of Niiya et al. 2020, Eq. 11\n"
+      "  repose         angle of repose: slopes of a heap longer than 20 a, seen along y\n"
+      "  surface        height of the free surface, seen along y\n"
+      "  packing        packing fraction at the points, and in layers; spheres of radius a\n"
+      "  layers         means of a column in horizontal layers, from the lowest point up (--column, --bins)\n"
+      "  histogram      moments, normality and histogram of a column (--column, --bins)\n"
+      "x points down the slope, y to its left, z away from it; of a heap z is up. Of a run's folder, "
+      "analysis/, pictures/ and\n"
+      "the quantities of summary.json are computed again from its snapshots and its series.");
+  command->callback([command, options, &action] {
+    action = [options, words = words_of(*command)] {
+      return std::filesystem::is_directory(options->file) ? analyze_run_folder(*options)
+                                                          : become_package("analyze", words);
     };
   });
 }

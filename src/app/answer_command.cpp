@@ -19,9 +19,10 @@
 #include "app/runs/run_case.hpp"
 #include "base/unit.hpp"
 #include "io/file_list.hpp"
-#include "io/run_json.hpp"
+#include "io/points_csv.hpp"
 #include "io/report_page.hpp"
 #include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 
 namespace talus::app {
 
@@ -32,6 +33,15 @@ using Texts = std::vector<std::string>;
 
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value));
+}
+
+Json json_of(const Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+
+template <class Number>
+Json json_of(const Number& value) {
+  return value;
 }
 
 double number_of(const Json& value) {
@@ -125,6 +135,21 @@ Json plan(const Json& question) {
   return answer;
 }
 
+/// The columns of {"file"}, points as CSV: {"name", "unit", "values"}.
+Json points(const Json& question) {
+  Json columns = Json::array();
+  for (const PointSet::Column& column : read_points_csv(question.at("file").get<std::string>()).columns) {
+    Json values = Json::array();
+    std::visit(
+        [&](const auto& all) {
+          for (const auto& value : all) values.push_back(json_of(value));
+        },
+        column.values);
+    columns.push_back({{"name", column.name}, {"unit", column.unit}, {"values", std::move(values)}});
+  }
+  return columns;
+}
+
 /// Whether a folder may be used, and makes it: {"folder", "resume", "known": runs have begun there}.
 Json begin(const Json& question) {
   begin_output(question.at("folder").get<std::string>(),
@@ -191,9 +216,9 @@ struct Question {
   std::string_view name;
   Json (*answer)(const Json& question);
 };
-constexpr Question questions[] = {{"plan", plan},         {"begin", begin},           {"claim", claim},
-                                  {"measures", measures}, {"quantities", quantities}, {"numbers", numbers},
-                                  {"report", report}};
+constexpr Question questions[] = {{"plan", plan},       {"begin", begin},       {"claim", claim},
+                                  {"points", points},   {"measures", measures}, {"quantities", quantities},
+                                  {"numbers", numbers}, {"report", report}};
 
 ExitStatus answer_question() {
   const std::string text(std::istreambuf_iterator<char>(std::cin), {});

@@ -73,4 +73,19 @@ void add_man_command(CLI::App& app, Action& action) {
   });
 }
 
+std::vector<std::string> words_of(const CLI::App& command) {
+  std::vector<std::string> words, places{"--"};
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0) continue;
+    if (option->get_items_expected_max() == 0) {
+      words.push_back(option->get_name());
+      continue;
+    }
+    for (const std::string& value : option->as<std::vector<std::string>>())
+      option->get_positional() ? places.push_back(value) : words.push_back(option->get_name() + "=" + value);
+  }
+  words.insert(words.end(), places.begin(), places.end());
+  return words;
+}
+
 }  // namespace talus::app

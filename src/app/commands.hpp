@@ -57,4 +57,7 @@ void add_out_option(CLI::App& command, std::string& out, const std::string& text
 /// Adds --threads N with the number of processors as default.
 void add_threads_option(CLI::App& command, int& threads);
 
+/// What a command was given, checked: --NAME, --NAME=VALUE, positional values after "--".
+std::vector<std::string> words_of(const CLI::App& command);
+
 }  // namespace talus::app

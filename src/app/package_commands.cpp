@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Commands that are modules of the package python/talus: ensemble, compare, reproduce. Here are their options, for
-/// help, completion and man page; the module gets them checked, NAME=VALUE each, the places behind "--".
+/// help, completion and man page; the module gets them checked.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.hpp"
 #include "app/commands.hpp"
 #include "app/project/project.hpp"
 
@@ -25,27 +24,12 @@ struct Options {
   bool flag = false;
 };
 
-std::vector<std::string> given_to(const CLI::App& command) {
-  std::vector<std::string> words, places{"--"};
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->count() == 0) continue;
-    if (option->get_items_expected_max() == 0) {
-      words.push_back(option->get_name());
-      continue;
-    }
-    for (const std::string& value : option->as<std::vector<std::string>>())
-      option->get_positional() ? places.push_back(value) : words.push_back(option->get_name() + "=" + value);
-  }
-  words.insert(words.end(), places.begin(), places.end());
-  return words;
-}
-
 CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Options>& options, const std::string& name,
                       const std::string& text, const std::string& footer) {
   CLI::App* command = app.add_subcommand(name, text);
   command->footer(footer);
   command->callback([command, options, &action] {
-    action = [command, words = given_to(*command)] { return become_package(command->get_name(), words); };
+    action = [command, words = words_of(*command)] { return become_package(command->get_name(), words); };
   });
   return command;
 }

@@ -69,7 +69,6 @@ TEST(Heads, TwoBowsAndACrumb) {
   EXPECT_DOUBLE_EQ(large.centre, 0);
   EXPECT_DOUBLE_EQ(large.foremost, 1);
   EXPECT_DOUBLE_EQ(large.inner, -7);
-  EXPECT_DOUBLE_EQ(large.concavity, 1);
   EXPECT_DOUBLE_EQ(large.aspect_ratio(), 7.75);
   const HeadSize small = head_size(points, radius, heads[1], 1);
   EXPECT_DOUBLE_EQ(small.width, 42);
@@ -184,7 +183,6 @@ TEST(Heads, OfNoGrainsAndOfOne) {
   const HeadSize size = head_size(one, radius, {0}, 1);
   EXPECT_DOUBLE_EQ(size.width, 1);
   EXPECT_DOUBLE_EQ(size.thickness, 1);
-  EXPECT_TRUE(std::isnan(size.concavity));
   EXPECT_TRUE(largest_set({}, one).empty());
 }
 

@@ -131,7 +131,7 @@ TEST(VelocityGradients, AreSumsOverAllParticlesAndImages) {
   EXPECT_EQ(ParticleField({}, box(1, 1, 1)).packing({0.5, 0.5, 0.5}), 0);
 }
 
-TEST(ParticleField, ParticlesOfADensityAndSpheres) {
+TEST(ParticleField, ParticlesOfADensity) {
   const std::vector<Vector3> points = {{0, 0, 0}, {1, 0, 0}};
   const Particles particles = particles_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500);
   EXPECT_DOUBLE_EQ(particles.volume[0], 8e-6);
@@ -140,10 +140,9 @@ TEST(ParticleField, ParticlesOfADensityAndSpheres) {
   EXPECT_DOUBLE_EQ(particles.solid_volume, 4.8e-6);
   EXPECT_DOUBLE_EQ(particles_of_density(points, std::vector<double>{1500, 12}, 12e-3, 2500, 0.03).smoothing_length[1],
                    0.03);
-  const Particles spheres = particles_of_spheres(points, 0.5);
-  EXPECT_DOUBLE_EQ(spheres.smoothing_length[1], 1);
-  EXPECT_DOUBLE_EQ(spheres.solid_volume / spheres.volume[0], std::numbers::pi / 6);
-  EXPECT_THROW(ParticleField(particles_of_spheres(points, 0), box(1, 1, 1)), std::invalid_argument);
+  Particles without_extent = particles;
+  without_extent.smoothing_length[0] = 0;
+  EXPECT_THROW(ParticleField(without_extent, box(1, 1, 1)), std::invalid_argument);
 }
 
 TEST(ParticleField, TheParticlesAroundAPlaceAreEnoughThere) {

@@ -14,10 +14,11 @@ PROGRAM = Path(sys.argv.pop()).resolve()
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(PROJECT / "python"), str(PROJECT / "validation" / "niiya2020")]
 
-import grains  # noqa: E402
 import numpy as np  # noqa: E402
 import talus  # noqa: E402
 from curves import mean_and_deviation, nearest_gaussian, gaussian  # noqa: E402
+
+from talus import grains  # noqa: E402
 
 
 class Grains(unittest.TestCase):

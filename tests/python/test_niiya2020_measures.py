@@ -11,8 +11,8 @@ sys.path[:0] = [str(PROJECT / "python"), str(PROJECT / "validation/niiya2020")]
 
 import avalanche  # noqa: E402
 import numpy as np  # noqa: E402
-import samples  # noqa: E402
 
+from talus import samples  # noqa: E402
 from talus.curves import curve, part  # noqa: E402
 from talus.measures import Measures, NotEvaluated, Window, table  # noqa: E402
 

@@ -6,16 +6,12 @@ import math
 from functools import cached_property, partial
 
 import numpy as np
-from grains import REACH, find_heads, head_size, pairs
 
 from talus.curves import mean as mean_of
+from talus.grains import REACH, UPPER_SHARE, find_heads, head_size, pairs, thickness_profile
 from talus.measures import NotEvaluated, once
 
 FRONT_WINDOW = 0.25  # of the front speed, a/v_s
-COLUMN = 4           # length of a column along the slope, in radii
-STRAGGLERS = 0.05    # share of the grains, the rearmost, that the rear does not reach back to
-HEAD_SHARE = 0.5     # of the head's thickness, down to which columns behind it belong to it
-UPPER_SHARE = 2 / 3  # of the head's thickness, above which a grain belongs to the upper head
 ROUNDING = 1e-9      # between times that count as equal, which are sums of steps
 
 
@@ -187,32 +183,10 @@ class View:
         return thickness_profile(self.positions, self.radii, self.a)
 
 
-def thickness_profile(positions, radii, a):
-    """Of an avalanche seen from the side: thickness of the columns counted backwards from the foremost centre to the one
-    that holds the last grain which is no straggler, the column of each grain, and of the columns the crest (the thickest of
-    the front half) and how many belong to the head."""
-    x, z = positions[:, 0], positions[:, 2]
-    column = ((x.max() - x) / (COLUMN * a)).astype(int)
-    count = int((x.max() - np.quantile(x, STRAGGLERS)) / (COLUMN * a)) + 1
-    thickness = np.zeros(count)
-    within = column < count
-    np.maximum.at(thickness, column[within], (z + radii)[within])
-    crest = int(thickness[:(count + 1) // 2].argmax())
-    thin = np.flatnonzero(thickness[crest + 1:] < HEAD_SHARE * thickness[crest])
-    return thickness, column, crest, crest + 1 + (int(thin[0]) if len(thin) else count - crest - 1)
-
-
 # ------------------------------------------------------------------------------------------------- numbers of a snapshot
 
 def concavity(view):
-    if view.head is None:
-        return math.nan
-    x, y = view.positions[view.head, :2].T
-    rear, centre = x - view.radii[view.head], (view.size.left + view.size.right) / 2
-    sides = rear[y > centre], rear[y < centre]
-    if not all(map(len, sides)):
-        return math.nan
-    return (view.size.inner - sum(side.min() for side in sides) / 2) / view.size.thickness
+    return math.nan if view.head is None else view.size.concavity
 
 
 def in_head(of):

@@ -8,11 +8,11 @@ from functools import partial
 
 import numpy as np
 from avalanche import Avalanche, MeanAvalanche, common_part
-from samples import anderson_darling, finite_values, fit_line, skewness, spearman_correlation
 
 from talus.curves import Curve, curve, first_time_at_or_below, part
 from talus.curves import mean as mean_of
 from talus.measures import NotEvaluated, Quantity, once
+from talus.samples import anderson_darling, finite_values, fit_line, skewness, spearman_correlation
 
 # ------------------------------------------------------------------------------------------------- numbers of one run
 

@@ -2,9 +2,9 @@
 """The grains in the figures: one run's snapshots, in particle radii. Times are in a/v_s."""
 import numpy as np
 import talus.draw
-from grains import angle_of_line, find_heads, head_size, surface_walk
 from measures import avalanche
 from talus.draw import INK, PALE
+from talus.grains import angle_of_line, find_heads, head_size, surface_walk
 
 HEAD, LIGHT_HEAD, SURFACE, MEASURED, MEASURE = "#0072b2", "#6fb1dd", "#d55e00", "#009e73", "#d55e00"
 GRAIN = "#7d8a99"
