@@ -138,7 +138,7 @@ Waiting::~Waiting() {
 
 void Waiting::watch(double first) {
   using Seconds = std::chrono::duration<double>;
-  constexpr Seconds between_live_lines{1}, between_lines{60};
+  constexpr Seconds per_live_line{1}, per_line{60};
   const bool terminal = isatty(fileno(stream_)) != 0;
   const auto began = std::chrono::steady_clock::now();
   bool shown = false;
@@ -150,7 +150,7 @@ void Waiting::watch(double first) {
     std::fprintf(stream_, terminal ? "\r\033[K%s" : "%s\n", line.c_str());
     std::fflush(stream_);
     shown = true;
-    next += terminal ? between_live_lines : std::min(next, between_lines);
+    next += terminal ? per_live_line : std::min(next, per_line);
   }
   if (shown && terminal) {
     std::fprintf(stream_, "\r\033[K");
