@@ -48,21 +48,18 @@ ExitStatus analyze_run_folder(const AnalyzeOptions& options) {
                        .what = "is a run's folder; its case says what is measured",
                        .allowed = "a snapshot's file with --as, --radius, --column; a folder without them"}});
   const RunFolder folder(options.file);
-  const Manifest manifest = read_manifest(folder.manifest());
+  const std::unique_ptr<OpenedRun> run = open_run(folder.path());
   Summary summary = read_summary(folder.summary());
-  const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
-  const ModelEntry& model = model_of(resolved);
-  ReadRuns runs;
   auto waiting = std::make_unique<run::Waiting>("analysing the run, drawing pictures, writing the report");
-  const std::vector<NamedValue> quantities = model.analyse(resolved, folder.path(), runs);
-  if (model.answers) summary.answers = model.answers(resolved, folder.path(), quantities, runs);
-  if (model.draw) model.draw(resolved, folder.path(), runs);
+  const std::vector<NamedValue> quantities = run->analyse();
+  summary.answers = run->answers(quantities);
+  run->draw();
   std::erase_if(summary.quantities, [&](const NamedValue& old) {
     return std::any_of(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == old.name; });
   });
   summary.quantities.insert(summary.quantities.begin(), quantities.begin(), quantities.end());
   write_summary(folder.summary(), summary);
-  if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(folder.path(), runs);
+  if (has_report_page() && std::filesystem::exists(folder.report())) write_run_report(*run);
   waiting.reset();
   print_quantities(options, quantities);
   return ExitStatus::done;

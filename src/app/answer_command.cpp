@@ -166,7 +166,7 @@ Json claim(const Json& question) {
 }
 
 /// {"quantity": name or null, "at", "from", "to"} of a run: {"reaches": the end of the window, "value" or "fault"}.
-Json answer_of_run(const StudiedRun& run, const Json& question) {
+Json answer_of_run(OpenedRun& run, const Json& question) {
   Window window{.from = number_of(question.at("from")), .to = number_of(question.at("to"))};
   if (!question.at("at").is_null()) window.at = number_of(question.at("at"));
   const double last = window.at.value_or(std::isfinite(window.to) ? window.to : window.from);
@@ -184,18 +184,9 @@ Json answer_of_run(const StudiedRun& run, const Json& question) {
 Json numbers(const Json& question) {
   Json all = Json::array();
   for (const Json& asked : question.at("runs")) {
-    const RunFolder folder(asked.at("folder").get<std::string>());
-    const CaseFile resolved =
-        CaseFile::from_text(read_manifest(folder.manifest()).case_text, folder.manifest().string());
-    const ModelEntry& model = model_of(resolved);
-    if (!model.study)
-      throw InputError({{.where = folder.manifest().string(),
-                         .key = "model",
-                         .what = fmt::format("no study is of runs of the model \"{}\"", model.name)}});
-    ReadRuns runs(ReadRuns::many_times);
-    const StudiedRun run = model.study(resolved, folder.path(), runs);
+    const auto run = open_run(asked.at("folder").get<std::string>(), OpenedRun::many_times);
     Json answers = Json::array();
-    for (const Json& one : asked.at("questions")) answers.push_back(answer_of_run(run, one));
+    for (const Json& one : asked.at("questions")) answers.push_back(answer_of_run(*run, one));
     all.push_back(std::move(answers));
   }
   return all;
@@ -205,10 +196,9 @@ Json numbers(const Json& question) {
 /// of reports nothing.
 Json report(const Json& question) {
   if (!has_report_page()) return false;
-  ReadRuns runs;
   ReportRequest request = request_of(question.dump());
   request.title = question.at("title");
-  write_report(request, question.at("path").get<std::string>(), runs);
+  write_report(request, question.at("path").get<std::string>());
   return true;
 }
 

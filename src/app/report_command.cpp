@@ -26,7 +26,6 @@ struct ReportOptions {
 ExitStatus report(const ReportOptions& options) {
   if (!has_report_page()) throw FileError("talus report", without_report_page());
   ReportRequest request{.title = {}, .runs = {}, .comparisons = {}, .limits = options.limits};
-  ReadRuns runs(ReadRuns::many_times);
   for (const std::string& folder : options.folders) {
     ReportRequest of_folder = gathered(folder);
     std::move(of_folder.runs.begin(), of_folder.runs.end(), std::back_inserter(request.runs));
@@ -43,7 +42,7 @@ ExitStatus report(const ReportOptions& options) {
                                            : std::filesystem::path("report.html");
   {
     const run::Waiting waiting("writing the report");
-    write_report(request, path, runs);
+    write_report(request, path);
   }
   print("Report: {} ({:.1f} MB)\n", path.string(), static_cast<double>(std::filesystem::file_size(path)) / 1e6);
   return ExitStatus::done;

@@ -65,25 +65,42 @@ Problem too_large(const ModelParameters& p, double available) {
 
 }  // namespace
 
-Scene scene_of_air(const CaseFile& resolved) {
-  ParameterReader reader(resolved);
-  const auto& box = read_case<ModelParameters>(reader).model.box;
-  const Vector3 high{box.width, box.depth, box.height};
-  return {.walls = {{{0, 0, 0}, {high.x, 0, 0}},
-                    {{0, 0, high.z}, {high.x, 0, high.z}},
-                    {{0, 0, 0}, {0, 0, high.z}},
-                    {{high.x, 0, 0}, {high.x, 0, high.z}}},
-          .box = {{{0, 0, 0}, high}}};
+namespace {
+
+class AirRun : public OpenedRun {
+ public:
+  AirRun(std::filesystem::path folder, const Vector3& size) : OpenedRun(std::move(folder)), size_(size) {}
+
+  std::vector<NamedValue> analyse() override {
+    const Series series = read_series(RunFolder(folder()).series());
+    std::vector<NamedValue> quantities;
+    for (std::size_t n = 0; n < series.names.size(); ++n)
+      if (series.rows() > 0 && series.names[n] != "time" && series.names[n] != "step")
+        quantities.push_back({series.names[n], series.units[n], series.columns[n].back()});
+    return quantities;
+  }
+  Scene scene() override {
+    return {.walls = {{{0, 0, 0}, {size_.x, 0, 0}},
+                      {{0, 0, size_.z}, {size_.x, 0, size_.z}},
+                      {{0, 0, 0}, {0, 0, size_.z}},
+                      {{size_.x, 0, 0}, {size_.x, 0, size_.z}}},
+            .box = {{{0, 0, 0}, size_}}};
+  }
+
+ private:
+  Vector3 size_;
+};
+
+std::unique_ptr<OpenedRun> opened(const ModelParameters& p, const std::filesystem::path& folder) {
+  return std::make_unique<AirRun>(folder, Vector3{p.box.width, p.box.depth, p.box.height});
 }
 
-std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std::filesystem::path& folder,
-                                        ReadRuns& /*runs*/) {
-  const Series series = read_series(RunFolder(folder).series());
-  std::vector<NamedValue> quantities;
-  for (std::size_t n = 0; n < series.names.size(); ++n)
-    if (series.rows() > 0 && series.names[n] != "time" && series.names[n] != "step")
-      quantities.push_back({series.names[n], series.units[n], series.columns[n].back()});
-  return quantities;
+}  // namespace
+
+std::unique_ptr<OpenedRun> open_air_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                        std::size_t /*snapshot_memory*/) {
+  ParameterReader reader(resolved);
+  return opened(read_case<ModelParameters>(reader).model, folder);
 }
 
 PreparedCase prepare_air(const CaseFile& file) {
@@ -94,6 +111,7 @@ PreparedCase prepare_air(const CaseFile& file) {
   prepared.instruction_set = choice_name(resolve(InstructionSet::automatic));
   prepared.groups = groups(p);
   prepared.regime = air::regime_of_case(p);
+  prepared.open = [p](const std::filesystem::path& folder) { return opened(p, folder); };
   prepared.make_model = [p] { return run::any_model(AirModel(p)); };
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };

@@ -3,11 +3,9 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
+#include <memory>
 
 #include "app/case/prepared_case.hpp"
-#include "app/case/read_runs.hpp"
-#include "app/case/scene.hpp"
 #include "io/case_file.hpp"
 
 namespace talus::app {
@@ -15,8 +13,8 @@ namespace talus::app {
 /// Reads a case of air alone. \throws InputError with every problem
 PreparedCase prepare_air(const CaseFile& file);
 
-/// As ModelEntry (models.hpp) has them. The scene is the box; the analysis the last row of the series.
-Scene scene_of_air(const CaseFile& resolved);
-std::vector<NamedValue> analyse_air_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
+/// As ModelEntry (models.hpp) has it. The scene is the box; the analysis the last row of the series.
+std::unique_ptr<OpenedRun> open_air_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                        std::size_t snapshot_memory);
 
 }  // namespace talus::app

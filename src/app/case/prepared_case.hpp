@@ -2,7 +2,6 @@
 /// A case that was read and found valid, joined to its model: what the commands work with.
 #pragma once
 
-#include <any>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/case/opened_run.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "io/parameter_value.hpp"
@@ -51,8 +51,9 @@ struct PreparedCase {
   std::string instruction_set;                                ///< that the choice resolves to on this machine
   std::vector<std::string> remarks;  ///< what was made of the files that the case names, a line each
   std::string inputs;                ///< digest of what the files hold that the case names; empty if it names none
-  std::any read;  ///< what the model has read, for the analysis of the run (ReadRuns); empty: it reads it again
 
+  /// Opens the folder of this case's run for analysis. \throws FileError
+  std::function<std::unique_ptr<OpenedRun>(const std::filesystem::path& folder)> open;
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
   std::vector<run::Observer> observers;

@@ -182,34 +182,44 @@ CloudStudy study_of(const CaseFile& file) {
   return {run.title, frame_of(p)};
 }
 
-Scene scene_of_cloud(const CaseFile& resolved) {
-  const CloudFrame frame = study_of(resolved).frame;
-  const std::string_view view = !frame.has_slope                     ? "xz"
-                                : frame.motion == cloud::Motion::xy  ? "xy"
-                                : frame.motion == cloud::Motion::xyz ? "free"
-                                                                     : "xz";
-  return {.walls = {}, .box = {}, .slope = frame.has_slope, .radius = frame.scales.mean_radius, .view = view};
-}
+namespace {
 
-StudiedRun study_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  const CloudFrame frame = study_of(resolved).frame;
-  const auto& run =
-      runs.of<AvalancheRun>(folder, [&] { return read_avalanche(folder, frame, runs.snapshot_memory()); });
-  return studied<AvalancheRun>(std::make_shared<AvalancheRun>(run), avalanche_measures());
-}
+class CloudRun : public OpenedRun {
+ public:
+  CloudRun(std::filesystem::path folder, CloudStudy study, std::size_t snapshot_memory)
+      : OpenedRun(std::move(folder)), study_(std::move(study)), snapshot_memory_(snapshot_memory) {}
 
-std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                          ReadRuns& runs) {
-  const CloudFrame frame = study_of(resolved).frame;
-  return analyze_cloud(folder, frame, runs.of<AvalancheRun>(folder, [&] {
-    return read_avalanche(folder, frame, runs.snapshot_memory());
-  }));
-}
+  std::vector<NamedValue> analyse() override { return analyze_cloud(folder(), study_.frame, run()); }
+  std::vector<std::filesystem::path> draw() override { return draw_cloud(folder(), study_.frame, study_.title); }
+  Scene scene() override {
+    const CloudFrame& frame = study_.frame;
+    const std::string_view view = !frame.has_slope                     ? "xz"
+                                  : frame.motion == cloud::Motion::xy  ? "xy"
+                                  : frame.motion == cloud::Motion::xyz ? "free"
+                                                                       : "xz";
+    return {.walls = {}, .box = {}, .slope = frame.has_slope, .radius = frame.scales.mean_radius, .view = view};
+  }
+  bool reaches(double time) override { return run().reaches(time); }
+  double number(const std::string& quantity, const Window& window) override {
+    return number_of<AvalancheRun>(run(), avalanche_measures(), quantity, window);
+  }
 
-std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                                  ReadRuns& /*runs*/) {
-  const CloudStudy study = study_of(resolved);
-  return draw_cloud(folder, study.frame, study.title);
+ private:
+  const AvalancheRun& run() {
+    if (!run_) run_ = read_avalanche(folder(), study_.frame, snapshot_memory_);
+    return *run_;
+  }
+
+  CloudStudy study_;
+  std::size_t snapshot_memory_;
+  std::optional<AvalancheRun> run_;
+};
+
+}  // namespace
+
+std::unique_ptr<OpenedRun> open_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                          std::size_t snapshot_memory) {
+  return std::make_unique<CloudRun>(folder, study_of(resolved), snapshot_memory);
 }
 
 PreparedCase prepare_cloud(const CaseFile& file) {
@@ -242,6 +252,9 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.groups = groups(p);
   prepared.regime = cloud::regime_of_case(p);
   auto grains = [p, given] { return given ? *given : cloud::pack(p); };
+  prepared.open = [study = CloudStudy{read.run.title, frame_of(p)}](const std::filesystem::path& folder) {
+    return std::make_unique<CloudRun>(folder, study, OpenedRun::one_by_one);
+  };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};

@@ -3,13 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/case/prepared_case.hpp"
-#include "app/case/read_runs.hpp"
-#include "app/case/scene.hpp"
-#include "app/case/studied_run.hpp"
 #include "app/cloud/cloud_analysis.hpp"
 #include "io/case_file.hpp"
 
@@ -18,14 +16,9 @@ namespace talus::app {
 /// \throws InputError with every problem of the case, of the file of points it names, and of their combination
 PreparedCase prepare_cloud(const CaseFile& file);
 
-/// As ModelEntry (models.hpp) has them. \param resolved the manifest's case, whose points need not be there any more
-std::vector<NamedValue> analyse_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                          ReadRuns& runs);
-StudiedRun study_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
-/// The slope, if there is one.
-Scene scene_of_cloud(const CaseFile& resolved);
-std::vector<std::filesystem::path> draw_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                                  ReadRuns& runs);
+/// As ModelEntry (models.hpp) has it. \param resolved the manifest's case, whose points need not be there any more
+std::unique_ptr<OpenedRun> open_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                          std::size_t snapshot_memory);
 
 /// What a study needs to know of a run's case.
 struct CloudStudy {

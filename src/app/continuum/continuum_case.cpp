@@ -235,10 +235,61 @@ struct WithoutWhatFollows {
   }
 };
 
-/// That of a run, read once by those who share what they read.
-const ContinuumCase& case_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  return runs.case_of<ContinuumCase>(folder, [&] { return read_continuum(resolved); });
-}
+class ContinuumRun : public OpenedRun {
+ public:
+  ContinuumRun(std::filesystem::path folder, std::shared_ptr<const Setup> setup, std::string title,
+               std::size_t snapshot_memory)
+      : OpenedRun(std::move(folder)),
+        setup_(std::move(setup)),
+        title_(std::move(title)),
+        snapshot_memory_(snapshot_memory) {}
+
+  std::vector<NamedValue> analyse() override {
+    const Parameters& p = setup_->given;
+    std::vector<NamedValue> quantities = analyze_continuum(folder(), run());
+    write_box_walls(folder(), run(), *setup_);
+    if (!p.vessel.empty()) {
+      const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
+      const auto within = [&](const Vector3& x) {
+        return Vector3{std::clamp(x.x, 0.0, p.box.width), std::clamp(x.y, 0.0, p.box.depth), x.z};
+      };
+      write_wall_loads(folder(), run(), *setup_);
+      write_fields(folder(), run(), within(around.low), within(around.high));
+    }
+    return quantities;
+  }
+  std::vector<std::filesystem::path> draw() override { return draw_continuum(folder(), run(), title_); }
+  std::vector<Answer> answers(const std::vector<NamedValue>& quantities) override {
+    return answers_of(*setup_, quantities, folder());
+  }
+  /// The middle of the discharge, from the opening of the gate, s; nothing where there is none.
+  std::optional<double> telling_time() override {
+    if (!run().setting.shape.plate || hopper::flow_end(run()).state == hopper::FlowState::has_not_started)
+      return std::nullopt;
+    return hopper::while_it_flows(run()).at;
+  }
+  /// Box, walls and gates.
+  Scene scene() override {
+    Scene scene = scene_of(setup_->boundary->domain(), 0.5 * setup_->given.bed.spacing);
+    for (const auto& [from, to] : section_of_vessel(*setup_)) scene.walls.push_back({from, to});
+    return scene;
+  }
+  bool reaches(double time) override { return run().reaches(time); }
+  double number(const std::string& quantity, const Window& window) override {
+    return number_of<HopperRun>(run(), hopper_measures(), quantity, window);
+  }
+
+ private:
+  const HopperRun& run() {
+    if (!run_) run_ = read_hopper(folder(), hopper_setting(*setup_), snapshot_memory_);
+    return *run_;
+  }
+
+  std::shared_ptr<const Setup> setup_;
+  std::string title_;
+  std::size_t snapshot_memory_;
+  std::optional<HopperRun> run_;
+};
 
 }  // namespace
 
@@ -255,7 +306,7 @@ ParameterList continuum_parameters() {
 }
 
 PreparedCase prepare_continuum(const CaseFile& file) {
-  ContinuumCase read = read_continuum(file);
+  const ContinuumCase read = read_continuum(file);
   const Parameters& p = read.model;
   const std::shared_ptr<const Setup> setup = read.setup;
   const double end = read.run.end;
@@ -280,63 +331,16 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.too_large = [setup](double available) { return too_large(*setup, available); };
   prepared.headline = p.plate.height || setup->outlet ? run::Headline{.column = "discharge_rate", .name = "discharge"}
                                                       : run::Headline{.column = "speed_max", .name = "fastest"};
-  prepared.read = std::move(read);
+  prepared.open = [setup, title = read.run.title](const std::filesystem::path& folder) {
+    return std::make_unique<ContinuumRun>(folder, setup, title, OpenedRun::one_by_one);
+  };
   return prepared;
 }
 
-StudiedRun study_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  return studied<HopperRun>(std::make_shared<HopperRun>(hopper_run_of(resolved, folder, runs)), hopper_measures());
-}
-
-const HopperRun& hopper_run_of(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  return runs.of<HopperRun>(folder, [&] {
-    const auto* const read = runs.find_case<ContinuumCase>(folder);
-    return read_hopper(folder, hopper_setting(read ? *read->setup : *read_continuum(resolved).setup),
-                       runs.snapshot_memory());
-  });
-}
-
-Scene scene_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs) {
-  const Setup& setup = *case_of(resolved, folder, runs).setup;
-  Scene scene = scene_of(setup.boundary->domain(), 0.5 * setup.given.bed.spacing);
-  for (const auto& [from, to] : section_of_vessel(setup)) scene.walls.push_back({from, to});
-  return scene;
-}
-
-std::vector<NamedValue> analyse_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                              ReadRuns& runs) {
-  const Setup& setup = *case_of(resolved, folder, runs).setup;
-  const Parameters& p = setup.given;
-  const HopperRun& run = hopper_run_of(resolved, folder, runs);
-  std::vector<NamedValue> quantities = analyze_continuum(folder, run);
-  write_box_walls(folder, run, setup);
-  if (!p.vessel.empty()) {
-    const continuum::VesselBounds around = continuum::bounds_of_vessel(p);
-    const auto within = [&](const Vector3& x) {
-      return Vector3{std::clamp(x.x, 0.0, p.box.width), std::clamp(x.y, 0.0, p.box.depth), x.z};
-    };
-    write_wall_loads(folder, run, setup);
-    write_fields(folder, run, within(around.low), within(around.high));
-  }
-  return quantities;
-}
-
-std::vector<Answer> answer_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                         const std::vector<NamedValue>& quantities, ReadRuns& runs) {
-  return answers_of(*case_of(resolved, folder, runs).setup, quantities, folder);
-}
-
-std::optional<double> telling_time_of_continuum(const CaseFile& resolved, const std::filesystem::path& folder,
-                                                ReadRuns& runs) {
-  const HopperRun& run = hopper_run_of(resolved, folder, runs);
-  if (!run.setting.shape.plate || hopper::flow_end(run).state == hopper::FlowState::has_not_started)
-    return std::nullopt;
-  return hopper::while_it_flows(run).at;
-}
-
-std::vector<std::filesystem::path> draw_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                                      ReadRuns& runs) {
-  return draw_continuum(folder, hopper_run_of(resolved, folder, runs), case_of(resolved, folder, runs).run.title);
+std::unique_ptr<OpenedRun> open_continuum_run(const CaseFile& resolved, const std::filesystem::path& folder,
+                                              std::size_t snapshot_memory) {
+  const ContinuumCase read = read_continuum(resolved);
+  return std::make_unique<ContinuumRun>(folder, read.setup, read.run.title, snapshot_memory);
 }
 
 }  // namespace talus::app

@@ -13,6 +13,8 @@
 #include "app/continuum/continuum_case.hpp"
 #include "base/system.hpp"
 #include "base/text.hpp"
+#include "io/run_folder.hpp"
+#include "io/run_json.hpp"
 #include "models/air/model.hpp"
 #include "models/cloud/parameters.hpp"
 
@@ -23,33 +25,18 @@ namespace {
 constexpr ModelEntry entries[] = {
     {.name = "cloud",
      .prepare = prepare_cloud,
-     .analyse = analyse_cloud_run,
-     .draw = draw_cloud_run,
-     .answers = nullptr,
-     .telling_time = nullptr,
-     .scene = [](const CaseFile& file, const std::filesystem::path&, ReadRuns&) { return scene_of_cloud(file); },
+     .open = open_cloud_run,
      .parameters = [] { return ModelCase<cloud::Parameters>().list(); },
-     .study = study_cloud_run,
      .measures = texts_of_avalanche_measures},
     {.name = "continuum",
      .prepare = prepare_continuum,
-     .analyse = analyse_continuum_run,
-     .draw = draw_continuum_run,
-     .answers = answer_continuum_run,
-     .telling_time = telling_time_of_continuum,
-     .scene = scene_of_continuum,
+     .open = open_continuum_run,
      .parameters = continuum_parameters,
-     .study = study_continuum_run,
      .measures = texts_of_hopper_measures},
     {.name = "air",
      .prepare = prepare_air,
-     .analyse = analyse_air_run,
-     .draw = nullptr,
-     .answers = nullptr,
-     .telling_time = nullptr,
-     .scene = [](const CaseFile& file, const std::filesystem::path&, ReadRuns&) { return scene_of_air(file); },
+     .open = open_air_run,
      .parameters = [] { return ModelCase<air::ModelParameters>().list(); },
-     .study = nullptr,
      .measures = nullptr},
 };
 
@@ -77,6 +64,12 @@ const ModelEntry& model_of(const CaseFile& file) {
                       .allowed = fmt::format("{}", fmt::join(names, ", ")),
                       .nearest = name ? std::string(nearest(*name, names)) : std::string()});
   throw InputError(problems);
+}
+
+std::unique_ptr<OpenedRun> open_run(const std::filesystem::path& folder, std::size_t snapshot_memory) {
+  const RunFolder run(folder);
+  const CaseFile resolved = CaseFile::from_text(read_manifest(run.manifest()).case_text, run.manifest().string());
+  return model_of(resolved).open(resolved, folder, snapshot_memory);
 }
 
 PreparedCase prepare_case(const CaseFile& file) {

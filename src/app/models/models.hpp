@@ -3,16 +3,13 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "analysis/measure.hpp"
 #include "app/case/prepared_case.hpp"
-#include "app/case/read_runs.hpp"
-#include "app/case/scene.hpp"
-#include "app/case/studied_run.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "numerics/run_record.hpp"
@@ -23,23 +20,12 @@ struct ModelEntry {
   std::string_view name;  ///< of the key `model`
   /// Reads and checks a case. \throws InputError with every problem
   PreparedCase (*prepare)(const CaseFile& file);
-  /// Analyses a run's folder: writes its tables and returns the quantities of its summary.
-  /// \param resolved the manifest's case; \throws FileError, InputError
-  std::vector<NamedValue> (*analyse)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
-  /// Draws the pictures of a run and returns their paths, the most important one first. Null: none.
-  std::vector<std::filesystem::path> (*draw)(const CaseFile& resolved, const std::filesystem::path& folder,
-                                             ReadRuns& runs);
-  /// The key results of a run, once it is analysed. Null: none. \throws FileError, InputError
-  std::vector<Answer> (*answers)(const CaseFile& resolved, const std::filesystem::path& folder,
-                                 const std::vector<NamedValue>& quantities, ReadRuns& runs);
-  /// The time at which a picture says most of a run, in the time of its report. Null, or nothing: the middle of it.
-  std::optional<double> (*telling_time)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
-  /// What stands around the particles of a run, for a viewer.
-  Scene (*scene)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
+  /// Opens the folder of a run for analysis. \param resolved the manifest's case \param snapshot_memory
+  /// OpenedRun::one_by_one or many_times \throws FileError, InputError
+  std::unique_ptr<OpenedRun> (*open)(const CaseFile& resolved, const std::filesystem::path& folder,
+                                     std::size_t snapshot_memory);
   /// All parameters of a model and of a run of it, with their defaults: for the schema and the reference page.
   ParameterList (*parameters)();
-  /// Reads a run that a reference is about. Null: no study is of this model. \throws FileError
-  StudiedRun (*study)(const CaseFile& resolved, const std::filesystem::path& folder, ReadRuns& runs);
   /// What a summary of its runs can list, where the case has it. Null: nothing that is known before a run.
   std::vector<MeasureText> (*measures)();
 };
@@ -48,6 +34,10 @@ std::span<const ModelEntry> models();
 
 /// The model that a case names. \throws InputError if it names none, or one that there is not, with the nearest
 const ModelEntry& model_of(const CaseFile& file);
+
+/// The run in a folder, as its manifest has it. \throws FileError, InputError
+std::unique_ptr<OpenedRun> open_run(const std::filesystem::path& folder,
+                                    std::size_t snapshot_memory = OpenedRun::one_by_one);
 
 /// Reads a case: the model it names, then all parameters of model and run.
 /// \throws InputError with every problem; where there is no such model, with that alone

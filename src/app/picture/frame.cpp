@@ -119,9 +119,7 @@ RunFrames::RunFrames(const std::filesystem::path& path) : folder_(path) {
   const RunFolder folder(path);
   if (!std::filesystem::exists(folder.manifest()))
     throw FileError(path.string(), "is not a Talus run folder (manifest.json missing)");
-  const CaseFile resolved = CaseFile::from_text(read_manifest(folder.manifest()).case_text, folder.manifest().string());
-  ReadRuns runs;
-  scene_ = model_of(resolved).scene(resolved, path, runs);
+  scene_ = open_run(path)->scene();
   numbers_ = folder.snapshot_numbers();
   has_particles_ = !numbers_.empty();
   if (!has_particles_) numbers_ = folder.snapshot_numbers("air");

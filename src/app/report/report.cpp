@@ -79,7 +79,7 @@ Json quantities_of(const ReportEntry& entry, const Summary& summary) {
 }
 
 Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& limits,
-             std::vector<std::string>& blocks, ReadRuns& runs) {
+             std::vector<std::string>& blocks, OpenedRun* open) {
   const RunFolder folder(entry.folder);
   const Manifest manifest = read_manifest(folder.manifest());
   const Summary summary = read_summary(folder.summary());
@@ -102,13 +102,17 @@ Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& 
   run["key_results"] = Json::array();
   for (const Answer& answer : summary.answers)
     run["key_results"].push_back({{"title", answer.question}, {"value", answer.answer}, {"estimate", answer.by_hand}});
-  if (model.telling_time && series.rows() > 0)
-    if (const auto time = model.telling_time(resolved, entry.folder, runs); time && std::isfinite(*time))
-      run["telling_time"] = *time;
+  std::unique_ptr<OpenedRun> opened;
+  if (!open || !std::filesystem::equivalent(open->folder(), entry.folder)) {
+    opened = model.open(resolved, entry.folder, OpenedRun::many_times);
+    open = opened.get();
+  }
+  if (series.rows() > 0)
+    if (const auto time = open->telling_time(); time && std::isfinite(*time)) run["telling_time"] = *time;
   run["quantities"] = quantities_of(entry, summary);
   if (model.name == "continuum") run["symbols"] = symbols_of_hopper_measures;
   if (model.name == "cloud") run["symbols"] = symbols_of_avalanche_measures;
-  run["scene"] = json_of(model.scene(resolved, entry.folder, runs));
+  run["scene"] = json_of(open->scene());
   if (with_particles) run["frames"] = pack_run(entry.folder, origin, limits, blocks);
   if (entry.bands.empty()) {
     run["tables"] = pack_tables(entry.folder, series, origin, blocks);
@@ -163,12 +167,12 @@ bool is_run(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void write_report(const ReportRequest& request, const std::filesystem::path& path, ReadRuns& runs) {
+void write_report(const ReportRequest& request, const std::filesystem::path& path, OpenedRun* open) {
   ReportContent content{.title = request.title, .header = {}, .blocks = {}, .pictures = {}};
   Json header{{"title", request.title}, {"version", program_version()}, {"revision", program_revision()}};
   header["runs"] = Json::array();
   for (const ReportEntry& entry : request.runs)
-    header["runs"].push_back(json_of(entry, header["runs"].size() < max_viewers, request.limits, content.blocks, runs));
+    header["runs"].push_back(json_of(entry, header["runs"].size() < max_viewers, request.limits, content.blocks, open));
   header["definitions"] = definitions_of(header["runs"]);
   header["comparisons"] = Json::array();
   for (const std::string& comparison : request.comparisons) header["comparisons"].push_back(Json::parse(comparison));
@@ -215,10 +219,10 @@ ReportRequest gathered(const std::filesystem::path& folder) {
   return request;
 }
 
-void write_run_report(const std::filesystem::path& folder, ReadRuns& runs) {
-  ReportRequest request = gathered(folder);
-  request.title = title_of_run(folder);
-  write_report(request, RunFolder(folder).report(), runs);
+void write_run_report(OpenedRun& run) {
+  ReportRequest request = gathered(run.folder());
+  request.title = title_of_run(run.folder());
+  write_report(request, RunFolder(run.folder()).report(), &run);
 }
 
 std::string title_of_run(const std::filesystem::path& folder) {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/case/read_runs.hpp"
+#include "app/case/opened_run.hpp"
 #include "numerics/run_record.hpp"
 
 namespace talus::app {
@@ -52,11 +52,12 @@ ReportRequest request_of(const std::string& json);
 ReportRequest gathered(const std::filesystem::path& folder);
 
 /// \throws FileError; InputError if a manifest's case cannot be read
-void write_report(const ReportRequest& request, const std::filesystem::path& path, ReadRuns& runs);
+/// \param open a run that is open already, null: none
+void write_report(const ReportRequest& request, const std::filesystem::path& path, OpenedRun* open = nullptr);
 
 /// The report of one run in its own folder, with what a paper prints about its case.
 /// \throws FileError, InputError
-void write_run_report(const std::filesystem::path& folder, ReadRuns& runs);
+void write_run_report(OpenedRun& run);
 
 /// The title of its case, or the name of its folder. \throws FileError
 std::string title_of_run(const std::filesystem::path& folder);

@@ -196,19 +196,17 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
                   .wall_seconds = loop.wall_seconds,
                   .instruction_set = manifest.instruction_set};
   std::vector<std::filesystem::path> pictures;
-  ReadRuns runs;
+  std::unique_ptr<OpenedRun> opened;
   if (!loop.interrupted) {
-    const CaseFile resolved = CaseFile::from_text(manifest.case_text, folder.manifest().string());
-    const ModelEntry& entry = model_of(resolved);
-    runs.keep_case(folder.path(), prepared.read);
     {
       const run::Waiting waiting("analysing the run");
-      summary.quantities = entry.analyse(resolved, folder.path(), runs);
-      if (entry.answers) summary.answers = entry.answers(resolved, folder.path(), summary.quantities, runs);
+      opened = prepared.open(folder.path());
+      summary.quantities = opened->analyse();
+      summary.answers = opened->answers(summary.quantities);
     }
-    if (prepared.run.pictures && entry.draw) {
+    if (prepared.run.pictures) {
       const run::Waiting waiting("drawing pictures");
-      pictures = entry.draw(resolved, folder.path(), runs);
+      pictures = opened->draw();
     }
   }
   const std::vector<RegimeLine> regime = model->regime({read_series(folder.series()), summary.quantities});
@@ -238,7 +236,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
   print_answers(summary.answers, log);
   if (prepared.run.report && has_report_page()) {
     const run::Waiting waiting("writing the report");
-    write_run_report(folder.path(), runs);
+    write_run_report(*opened);
   } else if (prepared.run.report) {
     log.write("no report.html: {}", without_report_page());
     print("No report.html: this program was built without npm; talus report says what to install.\n");
