@@ -42,7 +42,8 @@ SHORT = {
 
 def run(program, folder, case, settings):
     """Values of a run, a list of arrays: columns of the series, then columns of each snapshot."""
-    words = [program, "run", CASES / f"{case}.toml", "--out", folder, "--threads", "2", "--set", "output.pictures=false"]
+    words = [program, "run", CASES / f"{case}.toml", "--out", folder, "--threads", "2", "--set", "output.pictures=false",
+             "--set", "output.report=false"]
     for key, value in settings.items():
         words += ["--set", f"{key}={value}"]
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, check=False)

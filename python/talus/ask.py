@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Asks the program what it alone knows: `talus answer`, JSON in and out. Here are the questions:
 
-    plan        {"case", "settings", "groups": [{"folder", "settings"}], "members", "resume"}     members of an ensemble, checked
+    plan        {"case", "settings", "groups": [{"folder", "settings"}], "members", "resume"}   members of an ensemble, checked
     begin       {"folder", "resume", "known"}                        whether a folder may be used, and makes it
     claim       {"folders", "files"}                                 makes folders, enters files into the list of Talus's own
     quantities  {"texts"}                                            "5 mm" -> {"value": 0.005, "unit": "m", "si": 0.005}

@@ -80,7 +80,7 @@ bool has_seed(const PreparedCase& prepared) {
 
 /// The members of a group: member k has the case's seed + k; where nothing is random there is one, in the group's
 /// folder.
-Json members_of(CaseFile file, Texts settings, const std::filesystem::path& folder, int count, bool resume) {
+Json members_of(CaseFile file, const Texts& settings, const std::filesystem::path& folder, int count, bool resume) {
   const PreparedCase first = prepare_case(file);
   check_memory(first, file);
   const bool random = has_seed(first);

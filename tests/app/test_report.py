@@ -119,6 +119,16 @@ class Content(ProgramTest):
         self.assertEqual(len(Page(self.folder / "e/report.html").header["runs"][0]["quantities"]), len(run["quantities"]))
         self.assertGreater(len(made), 100_000)
 
+    def test_a_signal_while_a_done_run_is_compared_takes_only_the_comparison(self):
+        stand_in = self.folder / "bin/python3"
+        stand_in.parent.mkdir()
+        stand_in.write_text('#!/bin/sh\ncase "$*" in *gathered*) kill -TERM $PPID; exit 1;; esac\n')
+        stand_in.chmod(0o755)
+        said = self.talus("run", "case.toml", "--out", "r", env={**os.environ, "PATH": str(stand_in.parent)}).stdout
+        self.assertIn("Done", said)
+        self.assertEqual(json.loads((self.folder / "r/summary.json").read_text())["status"], "done")
+        self.assertEqual(Page(self.folder / "r/report.html").header["comparisons"], [])
+
     def test_what_is_no_report_is_not_replaced(self):
         self.talus("run", "case.toml", "--out", "r", "--set", "output.report=false")
         self.assertFalse((self.folder / "r/report.html").exists())

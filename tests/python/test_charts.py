@@ -58,7 +58,8 @@ class OfCommands(ChartTest):
         self.talus(*command, "--gather", "--plot", "front_speed_max")
         self.assertNotEqual((self.folder / "e/sweep.png").read_bytes(), before)
         self.assertNotIn("Picture", self.talus(*command, "--gather", "--set", "output.pictures=false"))
-        said = self.talus(*command, "--gather", env={**os.environ, "PATH": "/nonexistent"})
+        (self.folder / "sitecustomize.py").write_text("import sys\nsys.modules['matplotlib'] = None\n")
+        said = self.talus(*command, "--gather", env={**os.environ, "PYTHONPATH": str(self.folder)})
         self.assertIn("python3-matplotlib", said)
 
     def test_two_runs_and_one(self):

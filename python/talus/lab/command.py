@@ -36,15 +36,16 @@ def can_draw():
 
 
 class Interruption:
-    """Whether a signal to leave has come: SIGINT, SIGTERM, SIGHUP."""
+    """Whether a signal to leave has come, SIGINT or SIGTERM; the second one ends the process."""
 
     def __init__(self):
         self.come = False
-        for number_of_signal in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number_of_signal, self._note)
+        for one in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(one, self._note)
 
-    def _note(self, *_):
+    def _note(self, which, _):
         self.come = True
+        signal.signal(which, signal.SIG_DFL)
 
     def __bool__(self):
         return self.come

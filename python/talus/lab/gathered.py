@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a report shows of a folder: python3 -m talus.lab.gathered FOLDER prints {"runs": [...], "comparisons": [...]}, the
-members of ensembles together, and the comparisons with papers of validation/. Started by `talus report` and at the end of runs."""
+members of ensembles together, and the comparisons with papers of validation/. Started by `talus report` and at the end of
+runs."""
 import json
 import sys
 from pathlib import Path

@@ -17,6 +17,7 @@
 #include "io/run_folder.hpp"
 #include "io/run_json.hpp"
 #include "io/series.hpp"
+#include "run/interrupt.hpp"
 
 namespace talus::app {
 
@@ -202,16 +203,21 @@ ReportRequest request_of(const std::string& json) {
 
 ReportRequest gathered(const std::filesystem::path& folder) {
   const auto python = find_python({"numpy", "h5py"});
-  if (!python && is_run(folder)) {
-    const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
-    return {.runs = {{.folder = path, .name = path.filename().string()}}};
-  }
+  const std::filesystem::path path = folder.has_filename() ? folder : folder.parent_path();
+  const ReportRequest alone{.runs = {{.folder = path, .name = path.filename().string()}}};
+  if (!python && is_run(folder)) return alone;
   if (!python)
     throw FileError(folder.string(),
                     "runs together take python3 with numpy, h5py and the package talus (Debian: "
                     "python3-numpy, python3-h5py, python3-talus)");
   if (!std::filesystem::is_directory(folder)) throw FileError(folder.string(), "no such folder");
-  ReportRequest request = request_of(said_by_package(*python, "talus.lab.gathered", {folder.string()}, folder));
+  ReportRequest request;
+  try {
+    request = request_of(said_by_package(*python, "talus.lab.gathered", {folder.string()}, folder));
+  } catch (const FileError&) {  // a signal ends the package too; the run has been done
+    if (run::signal_has_come() && is_run(folder)) return alone;
+    throw;
+  }
   if (request.runs.empty())
     throw InputError({{.where = folder.string(),
                        .what = "holds no finished run",
