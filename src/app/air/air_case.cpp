@@ -37,7 +37,7 @@ Forecast forecast(const ModelParameters& p, const run::RunParameters& run) {
   const Grid grid = air::grid_of(p);
   // Vortices of speed u along x move as fast along z; walls drag along one axis.
   const double crossing = air::given_speed(p) * (1 / grid.spacing[0] + 1 / grid.spacing[2]);
-  const double step = crossing > 0 ? std::min(p.gas.longest_step, p.gas.courant / crossing) : p.gas.longest_step;
+  const double step = crossing > 0 ? std::min(p.gas.max_step, p.gas.courant / crossing) : p.gas.max_step;
   const double steps = std::ceil(run.end / step), cells = cells_of(p);
   Forecast f;
   f.phases = {{.name = "flow", .steps = steps, .evaluations = steps}};
@@ -66,7 +66,7 @@ Problem too_large(const ModelParameters& p, double available) {
 }  // namespace
 
 Scene scene_of_air(const CaseFile& resolved) {
-  ParameterReader reader(resolved);
+  ParameterReader reader(resolved, air::renamed_keys);
   const auto& box = read_case<ModelParameters>(reader).model.box;
   const Vector3 high{box.width, box.depth, box.height};
   return {.walls = {{{0, 0, 0}, {high.x, 0, 0}},
@@ -87,7 +87,7 @@ std::vector<NamedValue> analyse_air_run(const CaseFile& /*resolved*/, const std:
 }
 
 PreparedCase prepare_air(const CaseFile& file) {
-  ParameterReader reader(file);
+  ParameterReader reader(file, air::renamed_keys);
   const auto read = read_case<ModelParameters>(reader);
   const ModelParameters& p = read.model;
   PreparedCase prepared = prepared_case("air", read);
