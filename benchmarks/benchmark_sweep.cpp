@@ -46,15 +46,15 @@ struct Bed {
     p.bed.height = static_cast<double>(run.range(2)) * spacing;
     // As cases/yuu2011-hopper-vacuum.toml.
     granular::CriticalState::Parameters law;
-    law.friction = 0.48;
-    law.fast_friction = 0.72;
+    law.static_friction = 0.48;
+    law.dynamic_friction = 0.72;
     law.inertial_number = 0.27;
     law.critical_packing = 0.555;
-    law.loosening = 0.09;
-    law.loosest_packing = 0.52;
+    law.packing_slope = 0.09;
+    law.random_loose_packing = 0.52;
     law.dilatancy = 8;
     law.dilatant_friction = 0.5;
-    law.strength_at_rest = 0.097;
+    law.ageing_strength = 0.097;
     p.law = law;
     p.collisions.form = granular::Collisions::none;
     p.sph.viscosity_alpha = 0.01;

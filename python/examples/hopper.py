@@ -22,8 +22,8 @@ folder.mkdir(parents=True, exist_ok=True)
 # %% A case, and two runs of it: in a vacuum, and with another friction
 case = talus.new("hopper", folder / "hopper.toml", overwrite=True, width="60 mm", fill="40 mm", outlet="30 mm", drop="40 mm")
 coarse = {"bed.spacing": "3.75 mm", "box.depth": "3.75 mm", "run.end": "0.2 s", "output.report": False}
-smooth = talus.simulate(case, folder / "smooth", coarse | {"law.critical-state.friction": 0.3}, existing="resume")
-rough = talus.simulate(case, folder / "rough", coarse | {"law.critical-state.friction": 0.6}, existing="resume")
+smooth = talus.simulate(case, folder / "smooth", coarse | {"law.critical-state.static_friction": 0.3}, existing="resume")
+rough = talus.simulate(case, folder / "rough", coarse | {"law.critical-state.static_friction": 0.6}, existing="resume")
 
 # %% Numbers with their units
 print(rough.case["grains"]["diameter"], rough.status)

@@ -29,10 +29,10 @@ constexpr double max_steps = 1e9;
 void check_steps(const FollowedPath& path, const std::string& file) {
   const double steps = granular::steps_of_path(path.stretches, path.options);
   if (steps <= max_steps) return;
-  throw InputError({{.where = file,
-                     .what = fmt::format("takes {:.2g} steps of path.largest_increment = {:g}", steps,
-                                         path.options.largest_increment),
-                     .allowed = fmt::format("at most {:.0g} steps: less strain, or a larger increment", max_steps)}});
+  throw InputError(
+      {{.where = file,
+        .what = fmt::format("takes {:.2g} steps of path.max_increment = {:g}", steps, path.options.max_increment),
+        .allowed = fmt::format("at most {:.0g} steps: less strain, or a larger increment", max_steps)}});
 }
 
 /// \throws NumericalError at the first point that is not finite
@@ -109,7 +109,7 @@ void add_law_command(CLI::App& app, Action& action) {
   command->footer(
       "CASE holds a table [law] with that of its law, [law.NAME], and may hold [collisions], grains.density,\n"
       "grains.diameter and gravity.acceleration, as a case of the model continuum does; of such a case the rest is\n"
-      "passed over. Its table [path] has packing, points and largest_increment.\n\n"
+      "passed over. Its table [path] has packing, points and max_increment.\n\n"
       "A line of the path is a stretch: how long it lasts, and the velocity gradient du_x/dz as gradient_xz, ...;\n"
       "components left out are zero. The grains are squashed by 0.02 %, then sheared, back, and on:\n"
       "  duration [s],gradient_zz [1/s],gradient_xz [1/s]\n"

@@ -46,8 +46,8 @@ class Choices(InputTest):
                 ("sph.density_relaxation=0.5", 'law.name is "linear-elastic"; allowed: law.name of a law without tensile strength',
                  "law.name=linear-elastic"),
                 ("collisions.range=printed", 'collisions.form is "none"', "collisions.form=none"),
-                ("law.critical-state.healing_time=1 ms", "law.critical-state.strength_at_rest is 0",
-                 "law.name=critical-state", "law.critical-state.strength_at_rest=0")):
+                ("law.critical-state.ageing_time=1 ms", "law.critical-state.ageing_strength is 0",
+                 "law.name=critical-state", "law.critical-state.ageing_strength=0")):
             self.assert_one(setting, f"given, but {but}", others=others)
 
     def test_keys_of_the_cloud_too(self):
@@ -66,6 +66,28 @@ class Choices(InputTest):
             self.assertTrue(problem.startswith(f"case.toml:{line}: law.{key}: has another name now"), problem)
             self.assertIn(now, problem)
         self.assert_nothing_written()
+
+    def test_old_names_of_every_model_tell_one_new_key(self):
+        for case, known, pairs in (
+                (HOPPER, "continuum", {
+                    "law.critical-state.friction": "static_friction", "law.critical-state.fast_friction": "dynamic_friction",
+                    "law.critical-state.loosest_packing": "random_loose_packing",
+                    "law.critical-state.loosening": "packing_slope", "law.critical-state.strength_at_rest": "ageing_strength",
+                    "law.critical-state.strength_adds": "ageing_adds", "law.critical-state.healing_time": "ageing_time",
+                    "law.critical-state.breaking_strain": "ageing_strain", "law.yuu-umekage.largest_deviator": "max_deviator",
+                    "law.yuu-umekage-printed.largest_deviator": "max_deviator",
+                    "law.drucker-prager.largest_deviator": "max_deviator", "settle.longest": "max_time",
+                    "air.longest_step": "max_step", "air.most_iterations": "max_iterations"}),
+                (CASE, "cloud", {"integration.largest_step": "max_step", "integration.largest_overlap": "max_overlap"}),
+                ('model = "air"\n', "air", {"air.longest_step": "max_step", "air.most_iterations": "max_iterations"})):
+            (self.folder / "case.toml").write_text(case)
+            page = self.talus("schema", known).stdout
+            for old, name in pairs.items():
+                with self.subTest(model=known, key=old):
+                    now = old.rpartition(".")[0] + "." + name
+                    problems = "\n".join(self.problems("check", "case.toml", "--set", f"{old}=1"))
+                    self.assertIn(f"{old}: has another name now; allowed: {now}", problems)
+                    self.assertIn(f'"{name}"', page)
 
     def test_an_angle_for_a_friction(self):
         self.assert_one("walls.coefficient=35", "35 looks like an angle in degrees, whose tangent is 0.70")

@@ -10,7 +10,7 @@ from program import PROJECT, ProgramTest, bits, rows, state, tree
 
 VARIED = ("--members", 3, "--vary", "slope.angle=30 deg,50 deg")
 # A member takes a few tenths of a second.
-UNHURRIED = ("--members", 3, "--set", "integration.largest_step=0.001", "--set", "output.checkpoint_interval=20 ms")
+UNHURRIED = ("--members", 3, "--set", "integration.max_step=0.001", "--set", "output.checkpoint_interval=20 ms")
 GROUPS = ("angle=30deg", "angle=50deg")
 
 

@@ -129,10 +129,10 @@ TEST_F(LawCommand, TakesTheLawOutOfAWholeCaseAndNothingElse) {
 }
 
 TEST_F(LawCommand, NamesEveryProblemOfTheCase) {
-  const std::string text = "[bed]\nheight = 3\n[law]\nname = \"yuu\"\n[law.critical-state]\nfriction = -1\n";
+  const std::string text = "[bed]\nheight = 3\n[law]\nname = \"yuu\"\n[law.critical-state]\nstatic_friction = -1\n";
   EXPECT_THAT(problems({file("case.toml", text), "--path", "none.csv", "--set", "law.critical-state.dilatancy=-1"}),
               ElementsAre(HasSubstr("case.toml:1: bed: unknown table"), HasSubstr("case.toml:4: law.name: "),
-                          HasSubstr("case.toml:6: law.critical-state.friction: "), HasSubstr("--set")));
+                          HasSubstr("case.toml:6: law.critical-state.static_friction: "), HasSubstr("--set")));
 }
 
 TEST_F(LawCommand, NamesEveryBadLineOfThePath) {
@@ -162,7 +162,7 @@ TEST_F(LawCommand, RefusesFoldersThatAreNotEmptyAndPathsWithoutEnd) {
 
 TEST_F(LawCommand, FailsWhereTheNumbersEnd) {
   const std::string path = file("a.csv", "duration,gradient_zz\n1,-0.4\n");
-  const std::string law = file("case.toml", std::string(elastic) + "[path]\nlargest_increment = 1e-3\n");
+  const std::string law = file("case.toml", std::string(elastic) + "[path]\nmax_increment = 1e-3\n");
   EXPECT_EQ(run({law, "--path", path, "--out", out()}), ExitStatus::done);
   EXPECT_THROW(run({law, "--path", file("b.csv", "duration,gradient_zz\n1,-900\n"), "--out", out(), "--overwrite"}),
                NumericalError);

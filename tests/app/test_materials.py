@@ -50,7 +50,7 @@ class Materials(ProgramTest):
         self.assertEqual(line_of(said, "grains.density"), ("2650", "material"))
         self.assertEqual(line_of(said, "walls.coefficient"), ("0.48", "material"))
         self.assertEqual(line_of(said, "law.name")[1], "material")
-        self.assertEqual(line_of(said, "law.critical-state.friction"), ("0.675", "material"))
+        self.assertEqual(line_of(said, "law.critical-state.static_friction"), ("0.675", "material"))
         modulus, origin = line_of(said, "law.critical-state.bulk_modulus")
         self.assertEqual(origin, "bed")
         self.assertAlmostEqual(float(modulus) / (1000 * 0.55 * 2650 * 9.81 * 0.02), 1, 6)
@@ -62,7 +62,7 @@ class Materials(ProgramTest):
         self.talus("run", "case.toml", "--out", "first")
         case = json.loads((self.folder / "first" / "manifest.json").read_text())["case"]
         self.assertIn('material = "sand"', case)
-        self.assertIn("friction = 0.675", case)
+        self.assertIn("static_friction = 0.675", case)
         (self.folder / "again.toml").write_text(case)
         self.talus("run", "again.toml", "--out", "second")
         self.assertEqual((self.folder / "first" / "series.csv").read_bytes(),

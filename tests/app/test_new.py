@@ -74,7 +74,7 @@ class Cases(ProgramTest):
         self.assertNotIn("removal", case)
         self.assertEqual(case["gate"], {"opens": "from-the-start"})
         self.assertEqual(case["grains"], {"material": "wheat", "density": "1300 kg/m3", "diameter": "3 mm"})
-        self.assertEqual(case["law"]["critical-state"], {"friction": 0.5, "fast_friction": 0.76})
+        self.assertEqual(case["law"]["critical-state"], {"static_friction": 0.5, "dynamic_friction": 0.76})
         self.new("silo", "--wall-friction", "0.6")
         case = tomllib.loads((self.folder / "new.toml").read_text())
         self.assertEqual(case["walls"]["coefficient"], 0.6)

@@ -12,7 +12,7 @@ import unittest
 from program import HOPPER, PROGRAM, ProgramTest
 
 # A second or two.
-LONG = ("--set", "integration.largest_step=0.0001", "--set", "output.pictures=false")
+LONG = ("--set", "integration.max_step=0.0001", "--set", "output.pictures=false")
 
 
 class Progress(ProgramTest):

@@ -42,7 +42,7 @@ class Threads(ProgramTest):
 
 
 # More than a second: long enough to be stopped within, also by a test that has to wait for a processor.
-LONG = ("--set", "integration.largest_step=0.0002", "--set", "output.checkpoint_interval=20 ms")
+LONG = ("--set", "integration.max_step=0.0002", "--set", "output.checkpoint_interval=20 ms")
 
 
 class Resumed(ProgramTest):
@@ -226,7 +226,7 @@ class KilledWhileItWrites(Resumed):
     """A limit on the size of files makes the system kill the run in the middle of the write that would pass it."""
 
     settings = ("--set", "output.checkpoint_interval=1 us", "--set", "output.snapshots=1 s", "--set",
-                "integration.largest_step=0.02")
+                "integration.max_step=0.02")
 
     def setUp(self):
         super().setUp()

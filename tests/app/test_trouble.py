@@ -11,7 +11,7 @@ from program import CASE, PROJECT, ProgramTest, bits, checkpoints, rows, state, 
 
 # Snapshots of 15 kB after every step, 160 of them.
 FILLING = ("--set", "output.snapshots=1 ns", "--set", "run.end=0.1 ms", "--set",
-           "integration.largest_step=0.005")
+           "integration.max_step=0.005")
 
 
 class Disk(ProgramTest):
@@ -82,7 +82,7 @@ class Disk(ProgramTest):
         self.assertEqual((self.folder / "r").read_text(), "mine")
 
     def test_two_runs_do_not_share_a_folder(self):
-        many = ("--set", "integration.largest_step=0.00001")
+        many = ("--set", "integration.max_step=0.00001")
         process = self.start("run", "case.toml", "--out", "r", *many)
         self.wait_for_rows(process, "r", 1)
         said = self.talus("run", "case.toml", "--out", "r", "--overwrite", *many, status=2).stderr
@@ -123,7 +123,7 @@ class Numbers(ProgramTest):
 
     def test_pressure_of_the_air_that_does_not_converge(self):
         said = self.talus("run", PROJECT / "cases/yuu2011-section-air.toml", "--out", "r", "--set", "bed.spacing=5 mm",
-                          "--set", "box.depth=5 mm", "--set", "air.cell=5 mm", "--set", "air.most_iterations=1",
+                          "--set", "box.depth=5 mm", "--set", "air.cell=5 mm", "--set", "air.max_iterations=1",
                           "--set", "air.tolerance=1e-12", status=3).stderr.splitlines()[-1]
         self.assertRegex(said, r"the pressure equation has not converged \(largest residual of a cell \S+\) at cell "
                                r"\(\d+, \d+, \d+\) at \(.+\) m, step \d+, t = \S+ s; try: ")

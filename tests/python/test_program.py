@@ -137,7 +137,7 @@ class Examples(Scratch):
         return done.stdout
 
     def test_hopper(self):
-        self.assertIn("'law.critical-state.friction': (0.3, 0.6)", self.example("hopper", "hopper.png"))
+        self.assertIn("'law.critical-state.static_friction': (0.3, 0.6)", self.example("hopper", "hopper.png"))
 
     def test_avalanche(self):
         said = self.example("avalanche", "avalanche.png")

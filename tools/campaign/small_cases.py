@@ -13,7 +13,7 @@ density = "20 kg/m3"
 [slope]
 angle = "45 deg"
 [integration]
-largest_step = 0.003
+max_step = 0.003
 [run]
 end = "0.6 ms"
 [output]
@@ -47,7 +47,7 @@ continuity = "air-alone"
 formulation = "model-b"
 cell = "5 mm"
 [settle]
-longest = "10 ms"
+max_time = "10 ms"
 duration = "0.2 ms"
 speed = "200 mm/s"
 damping_time = "0.3 ms"

@@ -17,7 +17,7 @@ KICKS = 8              # as in kick.in, of each strength
 STEP = 0.002           # strain of a step of the law
 #: What counts as one standard deviation of a packing and of a friction in the fit.
 PACKING_ERROR, FRICTION_ERROR = 0.003, 0.03
-NAMES = ("fabric_contraction", "fabric_strain", "fabric_friction", "dilatancy", "critical_packing", "friction",
+NAMES = ("fabric_contraction", "fabric_strain", "fabric_friction", "dilatancy", "critical_packing", "static_friction",
          "dilatant_friction")
 
 

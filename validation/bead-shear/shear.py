@@ -145,13 +145,13 @@ def fit():
         slow, fast, scale, left = fit_friction(s["inertial_number"], s["friction"])
         hard = s["pressure_over_stiffness"] < SOFT
         critical, fall, critical_error, fall_error = fit_packing(s["inertial_number"][hard], s["packing"][hard])
-        print(f"rolling friction {rolling:g}: friction {slow:.3f}, fast_friction {fast:.3f}, inertial_number {scale:.2f} "
-              f"(left {left:.3f}); critical_packing {critical:.4f} +- {critical_error:.4f}, "
-              f"loosening {fall:.3f} +- {fall_error:.3f}")
+        print(f"rolling friction {rolling:g}: static_friction {slow:.3f}, dynamic_friction {fast:.3f}, "
+              f"inertial_number {scale:.2f} (left {left:.3f}); critical_packing {critical:.4f} +- {critical_error:.4f}, "
+              f"packing_slope {fall:.3f} +- {fall_error:.3f}")
         fits = dilatancy(rolling)
         print("    dense and sheared at constant pressure: " + ", ".join(
             f"{name} {values.mean():.3f} +- {values.std(ddof=1) / np.sqrt(len(values)):.3f}"
-            for name, values in zip(("dilatancy", "dilatant_friction", "critical_packing", "friction"), fits)))
+            for name, values in zip(("dilatancy", "dilatant_friction", "critical_packing", "static_friction"), fits)))
         k, _, packing, friction = fits.mean(axis=1)
         peaks = np.array([fit_peak(k, friction, packing, *run[1:]) for run in dense_runs(rolling)])
         print(f"    dilatant_friction by the peak {peaks.mean():.3f} +- {peaks.std(ddof=1) / np.sqrt(len(peaks)):.3f}")

@@ -132,7 +132,7 @@ def reversal(runs):
     places = runs.out / "reversal.csv"
     places.write_text("x [m],y [m],z [m]\n" + "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in last["position"].tolist()))
     back = runs("spheres", "back", particles__file=places.resolve(), fluid__mobility="zuk-2014",
-                gravity__direction="[0, 0, 1]", integration__largest_step=0.01, integration__tolerance=1e3,
+                gravity__direction="[0, 0, 1]", integration__max_step=0.01, integration__tolerance=1e3,
                 run__end=f"{last['time'] * (1 - 1e-9)!r} s")
     end = back.points(-1)
     assert abs(end["time"] / last["time"] - 1) < 1e-12, "another time"

@@ -37,7 +37,7 @@ Forecast forecast(const ModelParameters& p, const run::RunParameters& run) {
   const Grid grid = air::grid_of(p);
   // Vortices of speed u along x move as fast along z; walls drag along one axis.
   const double crossing = air::given_speed(p) * (1 / grid.spacing[0] + 1 / grid.spacing[2]);
-  const double step = crossing > 0 ? std::min(p.gas.longest_step, p.gas.courant / crossing) : p.gas.longest_step;
+  const double step = crossing > 0 ? std::min(p.gas.max_step, p.gas.courant / crossing) : p.gas.max_step;
   const double steps = std::ceil(run.end / step), cells = cells_of(p);
   Forecast f;
   f.phases = {{.name = "flow", .steps = steps, .evaluations = steps}};
@@ -99,12 +99,12 @@ std::unique_ptr<OpenedRun> opened(const ModelParameters& p, const std::filesyste
 
 std::unique_ptr<OpenedRun> open_air_run(const CaseFile& resolved, const std::filesystem::path& folder,
                                         std::size_t /*snapshot_memory*/) {
-  ParameterReader reader(resolved);
+  ParameterReader reader(resolved, air::renamed_keys);
   return opened(read_case<ModelParameters>(reader).model, folder);
 }
 
 PreparedCase prepare_air(const CaseFile& file) {
-  ParameterReader reader(file);
+  ParameterReader reader(file, air::renamed_keys);
   const auto read = read_case<ModelParameters>(reader);
   const ModelParameters& p = read.model;
   PreparedCase prepared = prepared_case("air", read);

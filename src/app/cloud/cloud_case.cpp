@@ -177,7 +177,7 @@ CloudFrame frame_of(const Parameters& p) {
 }  // namespace
 
 CloudStudy study_of(const CaseFile& file) {
-  ParameterReader reader(file);
+  ParameterReader reader(file, cloud::renamed_keys);
   const auto [run, p] = read_case<Parameters>(reader);
   return {run.title, frame_of(p)};
 }
@@ -223,7 +223,7 @@ std::unique_ptr<OpenedRun> open_cloud_run(const CaseFile& resolved, const std::f
 }
 
 PreparedCase prepare_cloud(const CaseFile& file) {
-  ParameterReader reader(file);
+  ParameterReader reader(file, cloud::renamed_keys);
   auto read = read_case<Parameters>(reader);
   Parameters& p = read.model;
   if (auto problem = cloud::check_steps(p, read.run.end)) {

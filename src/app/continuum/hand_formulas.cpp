@@ -138,7 +138,7 @@ double discharge_by_hand(const continuum::Layout& layout) {
 
 double internal_friction_by_hand(const continuum::Parameters& p) {
   double friction = 0;
-  if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().friction;
+  if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().static_friction;
   if (p.law.is<granular::DruckerPrager>()) friction = p.law.of<granular::DruckerPrager>().friction;
   return friction > 0 ? granular::angle_of_friction(granular::FrictionTest::plane_strain, std::min(friction, 1.0))
                       : usual_angle;

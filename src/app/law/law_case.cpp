@@ -75,7 +75,7 @@ granular::PathOptions path_options(const LawCase& parameters, std::size_t stretc
     return granular::Contact{}.reference_packing;
   });
   return {.density = path.packing.value_or(at_touch) * parameters.grains.density,
-          .largest_increment = path.largest_increment,
+          .max_increment = path.max_increment,
           .points = path.points > 0 ? static_cast<int>(path.points)
                                     : static_cast<int>((rows + stretches - 1) / std::max<std::size_t>(stretches, 1))};
 }

@@ -35,7 +35,7 @@ struct LawCase {
   } gravity;
   struct Path {
     std::optional<double> packing;
-    double largest_increment = 1e-6;
+    double max_increment = 1e-6;
     std::int64_t points = 0;
   } path;
 };
@@ -55,8 +55,8 @@ void for_each_parameter(Visit&& visit, P& p) requires std::same_as<std::remove_c
   visit(Parameter{"path.packing", dimension::none, between(0.01, 0.74),
                   "packing at the start, free of stress; left out: that at which the law's grains touch"},
         p.path.packing);
-  visit(Parameter{"path.largest_increment", dimension::none, between(1e-9, 1e-3), "largest strain within a step"},
-        p.path.largest_increment);
+  visit(Parameter{"path.max_increment", dimension::none, between(1e-9, 1e-3), "largest strain within a step"},
+        p.path.max_increment);
   visit(Parameter{"path.points", dimension::none, between(0, 1e6),
                   "rows recorded for each line of the path; 0: as many as make 600 rows in all, at least 1"},
         p.path.points);

@@ -220,7 +220,7 @@ void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double 
     filled.keys.insert_or_assign(key, "bed");
   };
   set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(layout, end));
-  if (p.bed.packing >= law.loosest_packing)
+  if (p.bed.packing >= law.random_loose_packing)
     set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
   set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);
 }

@@ -67,8 +67,8 @@ constexpr KeyOfAnswer keys_of_materials[] = {{"grains.diameter", "diameter"},
                                              {"grains.material", "material"},
                                              {"walls.material", "wall"},
                                              {"walls.coefficient", "wall-friction"},
-                                             {"critical-state.friction", "friction"},
-                                             {"critical-state.fast_friction", "friction"},
+                                             {"critical-state.static_friction", "friction"},
+                                             {"critical-state.dynamic_friction", "friction"},
                                              {"gate.time", "gate"},
                                              {"settle.damping_time", "gate"},
                                              {"removal.below", "removal"},
@@ -108,7 +108,7 @@ std::string grains(const Answers& a) {
 std::string frictions(double slow_friction) {
   return fmt::format(
       "# Fast flow has half as much friction again as slow flow (docs/theory/critical-state.md).\n"
-      "[law.critical-state]\nfriction = {:.5g}\nfast_friction = {:.5g}\n\n",
+      "[law.critical-state]\nstatic_friction = {:.5g}\ndynamic_friction = {:.5g}\n\n",
       slow_friction, std::min(2.0, 1.52 * slow_friction));
 }
 

@@ -74,7 +74,7 @@ void AirFlow::find_storage(ThreadTeam& team, double dt) {
           {.what = fmt::format("the air's absolute pressure is {:.4g} Pa", absolute),
            .term = "ideal gas, air.compressibility = \"isothermal\"",
            .place = fmt::format("cell ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m", i, j, k, x.x, x.y, x.z),
-           .advice = "a shorter air.longest_step"});
+           .advice = "a shorter air.max_step"});
     }
     storage_[c] = isothermal_compliance(cell_void_fraction_[c] * grid.volume(), absolute) / dt;
     source_[c] += storage_[c] * start_pressure_[c];
@@ -110,7 +110,7 @@ void AirFlow::project(ThreadTeam& team, double dt, AirState& state) {
                      .solve(team, source_, state.pressure,
                             {.tolerance = parameters_.tolerance,
                              .absolute = rounding,
-                             .most_iterations = static_cast<int>(parameters_.most_iterations)})
+                             .max_iterations = static_cast<int>(parameters_.max_iterations)})
                      .iterations;
 }
 

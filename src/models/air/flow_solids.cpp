@@ -86,7 +86,7 @@ double AirFlow::time_step(ThreadTeam& team, const Solids& solids, const AirState
   });
   Rates most{0, 0};
   for (const Rates& row : max_of_row_) most = larger(most, row);
-  double dt = parameters_.longest_step;
+  double dt = parameters_.max_step;
   if (most.crossing > 0) dt = std::min(dt, parameters_.courant / most.crossing);
   if (most.response > 0) dt = std::min(dt, parameters_.response / most.response);
   return dt;

@@ -52,12 +52,12 @@ struct Parameters {
   coupling::DragLaw drag = coupling::DragLaw::schiller_naumann_umekage_yuu;
   double grain_diameter = 200e-6;  ///< m
   double grain_density = 2500;     ///< kg/m^3
-  double upwind = 0.25;   ///< upstream weight of convection: 0 the printed central scheme, 1 third-order upstream
-  double courant = 0.5;   ///< most that the air moves in a step, cells
-  double response = 0.1;  ///< most of the time step over the time in which the pressure stops the grains' dilation
-  double longest_step = 100e-6;  ///< s
-  double tolerance = 1e-6;       ///< of the pressure equation, relative
-  std::int64_t most_iterations = 200;
+  double upwind = 0.25;      ///< upstream weight of convection: 0 the printed central scheme, 1 third-order upstream
+  double courant = 0.5;      ///< most that the air moves in a step, cells
+  double response = 0.1;     ///< most of the time step over the time in which the pressure stops the grains' dilation
+  double max_step = 100e-6;  ///< s
+  double tolerance = 1e-6;   ///< of the pressure equation, relative
+  std::int64_t max_iterations = 200;
   /// A vessel: walls left, right and below, planes of symmetry before and behind, open above.
   FlowBoundaries boundaries{.kind = {FlowBoundary::no_slip, FlowBoundary::no_slip, FlowBoundary::free_slip,
                                      FlowBoundary::free_slip, FlowBoundary::no_slip, FlowBoundary::open},
@@ -76,6 +76,11 @@ struct Parameters {
 
 /// Walls that move across themselves, or faces that move and are no walls.
 std::vector<Problem> check(const Parameters& parameters);
+
+inline constexpr RenamedKey renamed_keys[] = {
+    {"air.longest_step", "air.max_step"},
+    {"air.most_iterations", "air.max_iterations"},
+};
 
 /// The keys of any flow of air, once. \param flowing visits those that mean something only where the air flows
 template <class Visit, class Flowing, class P>
@@ -117,13 +122,13 @@ void for_each_parameter_of_flow(Visit&& visit, Flowing&& flowing, P& p) {
   visit(Parameter{"air.courant", dimension::none, above(0),
                   "largest number of cells that the air may move in one of its steps"},
         p.courant);
-  visit(Parameter{"air.longest_step", dimension::time, above(0), "upper limit of the step of the air"}, p.longest_step);
+  visit(Parameter{"air.max_step", dimension::time, above(0), "upper limit of the step of the air"}, p.max_step);
   flowing(Parameter{"air.tolerance", dimension::none, between(1e-12, 0.1),
                     "residual of the pressure equation over its source at which the iteration stops"},
           p.tolerance);
-  flowing(Parameter{"air.most_iterations", dimension::none, at_least(1),
+  flowing(Parameter{"air.max_iterations", dimension::none, at_least(1),
                     "iterations after which a pressure that has not converged ends the run"},
-          p.most_iterations);
+          p.max_iterations);
 }
 
 /// Every key of the air among grains, once; keys of a grain belong to the grains.

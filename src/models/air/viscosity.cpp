@@ -154,7 +154,7 @@ struct Viscosity::Diagonal {
 
 int Viscosity::advance_implicitly(ThreadTeam& team, const FaceField& start, const FaceField& weight, double amount,
                                   FaceField& velocity) {
-  constexpr int most_iterations = 500;
+  constexpr int max_iterations = 500;
   constexpr double tolerance = 1e-6;
   const Grid& grid = apertures_.grid;
   for (FaceField* field : {&residual_, &direction_, &applied_, &per_weight_, &per_diagonal_})
@@ -180,12 +180,12 @@ int Viscosity::advance_implicitly(ThreadTeam& team, const FaceField& start, cons
   System system{*this, team, amount, velocity};
   Diagonal diagonal{*this, team, system};
   const ConjugateGradients found =
-      solve_by_conjugate_gradients(system, diagonal, tolerance * std::sqrt(source), most_iterations);
+      solve_by_conjugate_gradients(system, diagonal, tolerance * std::sqrt(source), max_iterations);
   if (found.convergence != Convergence::reached)
     throw NumericalError({.what = "the implicit viscosity of the air has not converged",
                           .term = "viscous term of Eq. 18",
                           .place = "the whole grid",
-                          .advice = "a shorter air.longest_step"});
+                          .advice = "a shorter air.max_step"});
   return found.iterations;
 }
 

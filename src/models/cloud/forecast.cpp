@@ -16,7 +16,7 @@ namespace {
 constexpr double max_steps = 1e12;  // at a microsecond each, twelve days
 constexpr double impact_steps = 7;  // over integration.overlap_growth
 constexpr double max_impact_steps = 1e6;
-// Steps of Dormand and Prince's pair are held by the tolerance, not by largest_step; measured on a disc of 100 grains
+// Steps of Dormand and Prince's pair are held by the tolerance, not by max_step; measured on a disc of 100 grains
 // without contacts, the steps that are tried again included.
 constexpr double dormand_prince_steps = 1.8;
 constexpr double dormand_prince_evaluations = 8;
@@ -39,8 +39,8 @@ double max_rate(const Parameters& p, double grains) {
                                           : contact_rate_on_slope);
 }
 
-double longest_step(const Parameters& p, double rate) {
-  const double step = p.integration.largest_step * scales(p).stokes_time;
+double max_step(const Parameters& p, double rate) {
+  const double step = p.integration.max_step * scales(p).stokes_time;
   return rate > 0 ? std::min(step, max_stable_step(p, rate)) : step;
 }
 
@@ -54,7 +54,7 @@ double evaluations_of_step(const Parameters& p, double stiffness) {
 
 Forecast forecast(const Parameters& p, double end, double grains) {
   const double rate = max_rate(p, grains);
-  const double step = longest_step(p, rate);
+  const double step = max_step(p, rate);
   const double stages = evaluations_of_step(p, step * rate);
   const double more = p.integration.method == Method::dormand_prince ? dormand_prince_steps : 1;
   Forecast f{.steps = std::ceil(more * end / step), .evaluations = 0};
@@ -69,7 +69,7 @@ Forecast forecast(const Parameters& p, double end, double grains) {
 }
 
 std::optional<Problem> check_steps(const Parameters& p, double end) {
-  const double time = scales(p).stokes_time, step = longest_step(p, max_rate(p, 1));
+  const double time = scales(p).stokes_time, step = max_step(p, max_rate(p, 1));
   if (!(time > 0 && std::isfinite(time)))
     return Problem{.key = "particles.radius",
                    .what = fmt::format("the unit of time a_p/v_s is {} s (particles.density, fluid.density, "
@@ -78,7 +78,7 @@ std::optional<Problem> check_steps(const Parameters& p, double end) {
                    .allowed = "grains with a Stokes speed"};
   if (end / step <= max_steps) return std::nullopt;
   return Problem{.key = "run.end",
-                 .what = fmt::format("{:.3g} s takes {:.2g} steps of at most {:.2g} s (integration.largest_step of "
+                 .what = fmt::format("{:.3g} s takes {:.2g} steps of at most {:.2g} s (integration.max_step of "
                                      "a_p/v_s, which fluid.viscosity and the grains' weight make {:.2g} s)",
                                      end, end / step, step, scales(p).stokes_time),
                  .allowed = fmt::format("at most {:.2g} s: {:.0e} steps", max_steps * step, max_steps)};

@@ -158,7 +158,7 @@ struct Overlaps {
 Overlaps overlaps_beyond(const Parameters& p, const Grains& grains) {
   Overlaps found;
   const double widest = 2 * *std::max_element(grains.radius.begin(), grains.radius.end());
-  const double limit = p.integration.largest_overlap * p.particles.radius;
+  const double limit = p.integration.max_overlap * p.particles.radius;
   const bool singular = p.fluid.mobility == hydrodynamics::Mobility::rotne_prager_1969;
   const CellGrid grid(grains.position, std::max(widest, extent(grains.position) / (1 << 19)));
   for (std::size_t i = 0; i < grains.position.size(); ++i)
@@ -221,8 +221,8 @@ std::vector<Problem> check_grains(const Parameters& parameters, const Grains& gr
     add(fmt::format("{} points lie outside the plane of motion \"{}\"", out_of_plane, choice_name(parameters.motion)),
         "points in that plane, or motion = \"xyz\"");
   if (!problems.empty()) return problems;
-  const double a = parameters.particles.radius, limit = parameters.integration.largest_overlap;
-  const std::string allowed = fmt::format("overlaps up to integration.largest_overlap = {:g} radii", limit);
+  const double a = parameters.particles.radius, limit = parameters.integration.max_overlap;
+  const std::string allowed = fmt::format("overlaps up to integration.max_overlap = {:g} radii", limit);
   if (const Overlaps overlaps = overlaps_beyond(parameters, grains); overlaps.count > 0)
     add(fmt::format("{} pair{} overlap too much; points {} and {} by {:.3g} radii", overlaps.count,
                     overlaps.count == 1 ? "" : "s", overlaps.first + 1, overlaps.second + 1, overlaps.largest / a),

@@ -19,7 +19,7 @@ double largest_speed(const State& state) {
   return speed;
 }
 
-double largest_overlap(const State& state) {
+double max_overlap(const State& state) {
   return state.overlap.empty() ? 0 : *std::max_element(state.overlap.begin(), state.overlap.end());
 }
 
@@ -71,7 +71,7 @@ std::vector<NamedValue> Cloud::totals() const {
           {"stages", "1", static_cast<double>(state_.stages)},
           {"evaluations", "1", static_cast<double>(state_.evaluations)},
           {"spectral_radius", "1/s", state_.spectral_radius},
-          {"overlap_max", "m", largest_overlap(state_)},
+          {"overlap_max", "m", max_overlap(state_)},
           {"speed_max", "m/s", largest_speed(state_)},
           {"centre_x", "m", centre}};
 }

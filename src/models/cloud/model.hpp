@@ -27,7 +27,7 @@ struct Grains {
 Grains pack(const Parameters& parameters);
 
 /// Problems of grains that come from a file: radii not positive, positions not finite, out of the plane of motion, too
-/// far apart, or within each other or the slope deeper than integration.largest_overlap.
+/// far apart, or within each other or the slope deeper than integration.max_overlap.
 std::vector<Problem> check_grains(const Parameters& parameters, const Grains& grains);
 
 class Cloud {

@@ -60,12 +60,17 @@ struct Parameters {
   Motion motion = Motion::xy;
   struct Integration {
     Method method = Method::chebyshev;
-    double largest_step = 0.1;
+    double max_step = 0.1;
     double tolerance = 0.02;
     double overlap_growth = 0.05;
-    double largest_overlap = 0.5;
+    double max_overlap = 0.5;
     InstructionSet instruction_set = InstructionSet::automatic;
   } integration;
+};
+
+inline constexpr RenamedKey renamed_keys[] = {
+    {"integration.largest_step", "integration.max_step"},
+    {"integration.largest_overlap", "integration.max_overlap"},
 };
 
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
@@ -168,8 +173,8 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "for grains with few contacts (stiff contacts shorten its steps); or explicit Euler at its stability "
                   "limit (a reference for tests)"},
         p.integration.method);
-  visit(Parameter{"integration.largest_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
-        p.integration.largest_step);
+  visit(Parameter{"integration.max_step", dimension::none, above(0), "largest time step, in a_p/v_s"},
+        p.integration.max_step);
   auto adaptive = only_if(unless("integration.method", p.integration.method, Method::euler), visit);
   adaptive(Parameter{"integration.tolerance", dimension::none, above(0),
                      "allowed root mean square of the local error of a "
@@ -179,10 +184,10 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "a step that makes the largest overlap grow "
                   "by more than this, in a_p, is repeated at half its length"},
         p.integration.overlap_growth);
-  visit(Parameter{"integration.largest_overlap", dimension::none, above(0),
+  visit(Parameter{"integration.max_overlap", dimension::none, above(0),
                   "a run whose largest overlap passes this, in "
                   "a_p, is stopped"},
-        p.integration.largest_overlap);
+        p.integration.max_overlap);
   visit(
       Parameter{"integration.instruction_set", {}, {}, "instruction set of the sum over pairs; the bits depend on it"},
       p.integration.instruction_set);

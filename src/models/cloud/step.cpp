@@ -22,11 +22,11 @@ constexpr int steps_between_sorts = 16;
 constexpr double min_step_over_max = 1e-6;
 
 void sort_at_intervals(ThreadTeam& team, const Parameters& p, State& state, Workspace& work);
-double max_rate(const Parameters& p, const State& state, double largest_overlap);
+double max_rate(const Parameters& p, const State& state, double max_overlap);
 bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
                    double overlap_before);
 void accept(ThreadTeam& team, const Parameters& p, State& state, Workspace& work, const Trial& trial, double step);
-double largest_step(const Parameters& p, const Workspace& work);
+double max_step(const Parameters& p, const Workspace& work);
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
   const double overlap_before = *std::max_element(state.overlap.begin(), state.overlap.end());
   sort_at_intervals(team, p, state, work);
   if (state.step % steps_between_estimates == 0 && p.contact.enabled) estimate_stiffness(team, p, state, work, 3);
-  double step = std::min(state.next_step, largest_step(p, work));
+  double step = std::min(state.next_step, max_step(p, work));
   while (true) {
     const double rate = max_rate(p, state, overlap_before);
     if (rate > 0) step = std::min(step, max_stable_step(p, rate));
@@ -50,8 +50,8 @@ void advance(ThreadTeam& team, const Parameters& p, State& state, Workspace& wor
 
 namespace {
 
-double largest_step(const Parameters& p, const Workspace& work) {
-  return p.integration.largest_step * work.scales.stokes_time;
+double max_step(const Parameters& p, const Workspace& work) {
+  return p.integration.max_step * work.scales.stokes_time;
 }
 
 void keep_derived(State& state, Workspace& work) {
@@ -80,18 +80,18 @@ std::string place_of(const State& state, std::size_t grain) {
 }
 
 [[noreturn]] void give_up(const Parameters& p, const State& state, const Workspace& work, bool finite,
-                          double largest_overlap) {
+                          double max_overlap) {
   NumericalError::Report report{
       .what = {}, .term = {}, .place = {}, .step = state.step, .time = state.time, .advice = {}};
   std::size_t worst = 0;
   if (finite) {
     const auto overlap = work.velocities.overlap();
     worst = static_cast<std::size_t>(std::max_element(overlap.begin(), overlap.end()) - overlap.begin());
-    report.what = fmt::format("the largest overlap is {:.3g} radii", largest_overlap / p.particles.radius);
+    report.what = fmt::format("the largest overlap is {:.3g} radii", max_overlap / p.particles.radius);
     report.term = "contact force, Eq. 2";
     report.advice =
         "a larger contact.stiffness (overlaps grow like the square root of the number of grains), or a larger "
-        "integration.largest_overlap";
+        "integration.max_overlap";
   } else {
     // One force that is not finite leaves no velocity finite: it comes first.
     const auto forces = work.velocities.contact_force();
@@ -107,7 +107,7 @@ std::string place_of(const State& state, std::size_t grain) {
     report.what = infinite ? "the velocity is not finite"
                            : fmt::format("a grain moves by more than {:g} radii in the shortest step", max_move);
     report.term = contact ? "contact force, Eq. 2" : "velocity induced by the other grains, Eq. 3";
-    report.advice = "no two grains at one place at the start, a smaller integration.largest_step";
+    report.advice = "no two grains at one place at the start, a smaller integration.max_step";
   }
   report.place = place_of(state, worst);
   throw NumericalError(report);
@@ -121,8 +121,8 @@ double growth(double error, int order) {
 }
 
 /// That a step must be stable with, 1/s. The pair's error shows when grains come to touch: until they do, none is.
-double max_rate(const Parameters& p, const State& state, double largest_overlap) {
-  if (p.integration.method == Method::dormand_prince && !(largest_overlap > 0)) return 0;
+double max_rate(const Parameters& p, const State& state, double max_overlap) {
+  if (p.integration.method == Method::dormand_prince && !(max_overlap > 0)) return 0;
   return std::max(stiffness_margin * state.spectral_radius, contact_rate(p));
 }
 
@@ -136,8 +136,8 @@ double share_of_tolerance(const Parameters& p, const Trial& trial) {
 bool is_acceptable(const Parameters& p, const State& state, const Workspace& work, const Trial& trial, double step,
                    double overlap_before) {
   const double a = p.particles.radius;
-  const bool at_least = step < min_step_over_max * largest_step(p, work);
-  const bool overlapped = trial.overlap > p.integration.largest_overlap * a;
+  const bool at_least = step < min_step_over_max * max_step(p, work);
+  const bool overlapped = trial.overlap > p.integration.max_overlap * a;
   if ((!trial.finite || overlapped) && at_least) give_up(p, state, work, trial.finite, trial.overlap);
   const bool grew = trial.overlap > overlap_before + p.integration.overlap_growth * a;
   return trial.finite && !overlapped && ((share_of_tolerance(p, trial) <= 1 && !grew) || at_least);
@@ -153,12 +153,12 @@ void accept(ThreadTeam& team, const Parameters& p, State& state, Workspace& work
   state.last_step = step;
   state.stages = trial.stages;
   ++state.step;
-  state.next_step = std::min(largest_step(p, work), step * growth(share_of_tolerance(p, trial), trial.order));
+  state.next_step = std::min(max_step(p, work), step * growth(share_of_tolerance(p, trial), trial.order));
 }
 
 /// Steps as short as the shortest are never refused: with such contacts no error would be held, nor the run end.
 void check_stiffness(const Parameters& p, const State& state, const Workspace& work) {
-  const double share = max_stable_step(p, contact_rate(p)) / largest_step(p, work);  // infinite without contacts
+  const double share = max_stable_step(p, contact_rate(p)) / max_step(p, work);  // infinite without contacts
   if (share >= min_step_over_max) return;
   throw NumericalError({.what = fmt::format("the longest stable step is {:.2g} of the largest", share),
                         .term = "contact force, Eq. 2",
@@ -216,7 +216,7 @@ void begin(ThreadTeam& team, const Parameters& p, State& state, Workspace& work)
   work.trial_velocity = state.velocity;
   if (!all_finite(team, state.velocity)) give_up(p, state, work, false, 0);
   state.increment.assign(state.position.size(), Vector3{});
-  state.next_step = 0.1 * largest_step(p, work);
+  state.next_step = 0.1 * max_step(p, work);
   estimate_stiffness(team, p, state, work, 20);
 }
 

@@ -31,8 +31,8 @@ void derive(ThreadTeam& team, State& state, Workspace& workspace);
 /// The condition that limits the last step, and where: the stiffness of the contacts, or the error control.
 NumericalError::Report step_limit(const Parameters& parameters, const State& state);
 
-/// Advances by one step of at most integration.largest_step.
-/// \throws NumericalError if velocities stop being finite or overlaps grow beyond integration.largest_overlap even at
+/// Advances by one step of at most integration.max_step.
+/// \throws NumericalError if velocities stop being finite or overlaps grow beyond integration.max_overlap even at
 ///         the least step; the state is then as after the last good step
 void advance(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
 

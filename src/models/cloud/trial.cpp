@@ -115,7 +115,7 @@ Trial try_step(ThreadTeam& team, const Parameters& p, State& state, Workspace& w
   work.velocities(team, work.latest, work.trial_velocity);
   ++state.evaluations;
   trial.finite = all_finite(team, work.trial_velocity);
-  trial.overlap = work.velocities.largest_overlap();
+  trial.overlap = work.velocities.max_overlap();
   trial.error = pair ? error_of_dormand_prince(team, state, work, step)
                      : error_of_first_order(team, state, work, step, scheme.second_order);
   return trial;

@@ -32,7 +32,7 @@ class Velocities {
   /// Of the last evaluation.
   std::span<const Vector3> contact_force() const { return contact_force_; }
   std::span<const double> overlap() const { return overlap_; }
-  double largest_overlap() const { return max_overlap_; }
+  double max_overlap() const { return max_overlap_; }
 
   const MobilitySum& sum() const { return sum_; }
 

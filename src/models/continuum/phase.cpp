@@ -101,7 +101,7 @@ void update_phase(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) 
          .place = "the bed",
          .step = s.step,
          .time = s.time,
-         .advice = leak + "a shorter settle.damping_time, a larger settle.speed or settle.longest; along "
+         .advice = leak + "a shorter settle.damping_time, a larger settle.speed or settle.max_time; along "
                           "inclined walls, walls.friction_from = \"start\""});
   }
 }

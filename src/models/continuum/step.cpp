@@ -148,7 +148,7 @@ double step_of_grains(const Setup& setup, const GrainLimits& limits, const Works
 double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w) {
   if (w.air && !w.air->is_due(s)) return s.last_step;
   const double of_grains = step_of_grains(setup, limits_of_grains(team, s, w), w);
-  return w.air ? std::min(of_grains, w.air->longest_step()) : of_grains;
+  return w.air ? std::min(of_grains, w.air->max_step()) : of_grains;
 }
 
 Vector3 gravity(const Setup& setup, double time) {

@@ -35,13 +35,13 @@ struct ConjugateGradients {
 
 /// Iterates until |r| <= enough, from the x, r and d = 0 that the system has.
 template <LinearSystem S, Preconditioner P>
-ConjugateGradients solve_by_conjugate_gradients(S& system, P& preconditioner, double enough, int most_iterations) {
+ConjugateGradients solve_by_conjugate_gradients(S& system, P& preconditioner, double enough, int max_iterations) {
   double before = 0;
   for (int iteration = 0;; ++iteration) {
     const double norm = std::sqrt(system.residual_square());
     if (norm <= enough) return {Convergence::reached, iteration, norm};
     if (!(norm <= std::numeric_limits<double>::max())) return {Convergence::not_finite, iteration, norm};
-    if (iteration == most_iterations) return {Convergence::too_slow, iteration, norm};
+    if (iteration == max_iterations) return {Convergence::too_slow, iteration, norm};
     const double product = preconditioner.apply(norm);
     preconditioner.update_direction(before > 0 ? product / before : 0);
     before = product;

@@ -213,7 +213,7 @@ void PoissonSolver::remove_constants(std::vector<float>& column) const {
 
 /// Adds to value_ what it lacks for the residual, of size `norm`, to fall to `enough`, or as far as single precision
 /// reaches. \returns iterations
-int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most_iterations) {
+int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int max_iterations) {
   remove_means(residual_);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::scale(end - begin, 1 / norm, residual_.data() + begin, multigrid_.residual().data() + begin);
@@ -223,7 +223,7 @@ int PoissonSolver::refine(ThreadTeam& team, double norm, double enough, int most
   System system{*this, team, 1};
   MultigridCycle cycle{*this, team};
   const ConjugateGradients found =
-      solve_by_conjugate_gradients(system, cycle, std::max(0.9 * enough / norm, min_reduction), most_iterations);
+      solve_by_conjugate_gradients(system, cycle, std::max(0.9 * enough / norm, min_reduction), max_iterations);
   for_each_range(team, [&](std::size_t, std::size_t begin, std::size_t end) {
     run_loops::add(end - begin, norm * scale_, change_.data() + begin, value_.data() + begin);
   });
@@ -255,12 +255,12 @@ PoissonSolver::Outcome PoissonSolver::solve(ThreadTeam& team, const CellField& s
   while (!(norm <= enough)) {
     if (!(norm <= std::numeric_limits<double>::max()))
       fail("the pressure equation has a source or coefficient that is not finite", "a shorter time step");
-    if (iterations >= stop.most_iterations) fail_to_converge();
+    if (iterations >= stop.max_iterations) fail_to_converge();
     const double before = norm;
-    iterations += refine(team, norm, enough, std::min(stop.most_iterations - iterations, max_iterations_of_floats));
+    iterations += refine(team, norm, enough, std::min(stop.max_iterations - iterations, max_iterations_of_floats));
     norm = std::sqrt(find_residual(team));
     if (!(norm > min_gain * before)) continue;
-    const ConjugateGradients found = solve_in_doubles(team, enough, stop.most_iterations);
+    const ConjugateGradients found = solve_in_doubles(team, enough, stop.max_iterations);
     iterations += found.iterations;
     norm = std::sqrt(find_residual(team));
     if (norm > enough && found.convergence != Convergence::reached) fail_to_converge();

@@ -28,7 +28,7 @@ class PoissonSolver {
   struct Stop {
     double tolerance = 1e-6;  ///< of the residual over the source, both as root of the sum of squares
     double absolute = 0;      ///< absolute limit of the residual, root of the sum of squares
-    int most_iterations = 200;
+    int max_iterations = 200;
   };
   struct Outcome {
     int iterations = 0;
@@ -62,8 +62,8 @@ class PoissonSolver {
   template <class Body>
   void for_each_run(ThreadTeam& team, Body&& body) const;
   double find_residual(ThreadTeam& team);
-  int refine(ThreadTeam& team, double norm, double enough, int most_iterations);
-  ConjugateGradients solve_in_doubles(ThreadTeam& team, double enough, int most_iterations);
+  int refine(ThreadTeam& team, double norm, double enough, int max_iterations);
+  ConjugateGradients solve_in_doubles(ThreadTeam& team, double enough, int max_iterations);
   void find_closed_regions();
   double unbalanced() const;
   template <class Number>

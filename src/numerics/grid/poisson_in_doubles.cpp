@@ -69,12 +69,12 @@ struct PoissonSolver::SystemOfDoubles {
 };
 
 /// From value_ and its residual until that is `enough`.
-ConjugateGradients PoissonSolver::solve_in_doubles(ThreadTeam& team, double enough, int most_iterations) {
+ConjugateGradients PoissonSolver::solve_in_doubles(ThreadTeam& team, double enough, int max_iterations) {
   remove_means(residual_);
   direction_of_doubles_.assign(board_.size(), 0);
   applied_of_doubles_.assign(board_.size(), 0);
   SystemOfDoubles system{*this, team};
-  return solve_by_conjugate_gradients(system, system, 0.9 * enough, most_iterations);
+  return solve_by_conjugate_gradients(system, system, 0.9 * enough, max_iterations);
 }
 
 }  // namespace talus

@@ -22,7 +22,7 @@
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + r) p dgamma/dt with b = 1.
 /// With fabric M is M - mu_F (1 - N:F) there, and at least beta again.
-/// Healing and coming apart change no stored energy.
+/// Ageing and coming apart change no stored energy.
 ///
 /// Limits: at fixed I and p, 1/phi_s relaxes exponentially with gamma, that is, phi_s is logistic, at the rate k phi_c;
 /// the stress ratio passes mu(I) + b beta and ends at mu(I). At fixed phi sheared for long, p = K ln(phi/phi_c(I)), or
@@ -69,48 +69,50 @@ class CriticalState {
     visit(Parameter{"shear_modulus", dimension::pressure, above(0),
                     "shear modulus below yield; left out: 0.6 times bulk_modulus"},
           p.shear_modulus);
-    visit(Parameter{"friction", dimension::none, friction_coefficient(),
+    visit(Parameter{"static_friction", dimension::none, friction_coefficient(),
                     "mu_s, friction coefficient of slow flow at the critical packing, in simple shear"},
-          p.friction);
-    visit(Parameter{"fast_friction", dimension::none, friction_coefficient(),
-                    "mu_2, which the friction tends to at large inertial numbers; equal to friction: no dependence on "
-                    "the rate"},
-          p.fast_friction);
+          p.static_friction);
+    visit(
+        Parameter{
+            "dynamic_friction", dimension::none, friction_coefficient(),
+            "mu_2, which the friction tends to at large inertial numbers; equal to static_friction: no dependence on "
+            "the rate"},
+        p.dynamic_friction);
     visit(Parameter{"inertial_number", dimension::none, above(0), "I_0, at which it is half way between the two"},
           p.inertial_number);
     visit(Parameter{"reference_packing", dimension::none, between(0.1, 0.74),
                     "packing at which the grains just touch at the start; denser, they bear pressure; left out: "
-                    "bed.packing (talus law and a bed looser than loosest_packing: 0.6)"},
+                    "bed.packing (talus law and a bed looser than random_loose_packing: 0.6)"},
           p.reference_packing);
     visit(Parameter{"critical_packing", dimension::none, between(0.1, 0.74),
                     "phi_c, packing that slow shear leads to from any other"},
           p.critical_packing);
-    visit(Parameter{"loosest_packing", dimension::none, between(0.1, 0.74),
+    visit(Parameter{"random_loose_packing", dimension::none, between(0.1, 0.74),
                     "phi_min, packing below which grains that came apart do not touch again: random loose packing"},
-          p.loosest_packing);
-    visit(Parameter{"loosening", dimension::none, at_least(0),
+          p.random_loose_packing);
+    visit(Parameter{"packing_slope", dimension::none, at_least(0),
                     "Delta, fall of the critical packing with the inertial number, up to I = 0.3"},
-          p.loosening);
+          p.packing_slope);
     visit(Parameter{"dilatancy", dimension::none, at_least(0),
                     "k, growth of volume per shear strain over the excess of the packing beyond the critical one"},
           p.dilatancy);
     visit(Parameter{"dilatant_friction", dimension::none, between(0, 1),
                     "b, friction beyond that of the critical packing over the growth of volume per shear strain"},
           p.dilatant_friction);
-    visit(Parameter{"strength_at_rest", dimension::none, at_least(0),
+    visit(Parameter{"ageing_strength", dimension::none, at_least(0),
                     "Delta_mu, friction that grains at rest have beyond that in flow; 0: no hysteresis"},
-          p.strength_at_rest);
-    auto healing = only_if({"strength_at_rest", "is 0", "above 0", p.strength_at_rest > 0}, visit);
-    healing(Parameter{"strength_adds",
-                      {},
-                      {},
-                      "whether Delta_mu adds to the friction that a packing beyond the critical one gives, b beta, or "
-                      "counts only as far as it is more, as layers and heaps of beads have it"},
-            p.strength_adds);
-    healing(Parameter{"healing_time", dimension::time, above(0), "T, in which grains at rest regain that strength"},
-            p.healing_time);
-    healing(Parameter{"breaking_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},
-            p.breaking_strain);
+          p.ageing_strength);
+    auto ageing = only_if({"ageing_strength", "is 0", "above 0", p.ageing_strength > 0}, visit);
+    ageing(Parameter{"ageing_adds",
+                     {},
+                     {},
+                     "whether Delta_mu adds to the friction that a packing beyond the critical one gives, b beta, or "
+                     "counts only as far as it is more, as layers and heaps of beads have it"},
+           p.ageing_adds);
+    ageing(Parameter{"ageing_time", dimension::time, above(0), "T, in which grains at rest regain that strength"},
+           p.ageing_time);
+    ageing(Parameter{"ageing_strain", dimension::none, above(0), "gamma_0, shear strain by which they lose it"},
+           p.ageing_strain);
     visit(
         Parameter{"fabric_friction", dimension::none, at_least(0),
                   "mu_F, part of the friction that contacts bear which past shear has made, and against the shear when "

@@ -12,24 +12,24 @@
 namespace talus::granular {
 
 struct CriticalStateParameters {
-  double bulk_modulus = 4.9e6;      ///< K, Pa: (lambda + 2G/3) of Eqs 1-3 of Yuu & Umekage at zero strain
-  double shear_modulus = 2.94e6;    ///< G, Pa: the same
-  double friction = 0.38;           ///< mu_s
-  double fast_friction = 0.64;      ///< mu_2
-  double inertial_number = 0.279;   ///< I_0
-  double reference_packing = 0.6;   ///< phi_s of a new point
-  double critical_packing = 0.585;  ///< phi_c
-  double loosest_packing = 0.55;    ///< phi_min
-  double loosening = 0.25;          ///< Delta
-  double dilatancy = 4;             ///< k
-  double dilatant_friction = 1;     ///< b, up to 1
-  double strength_at_rest = 0.08;   ///< Delta_mu
-  bool strength_adds = true;        ///< to b beta, or counts where it is more
-  double healing_time = 10e-3;      ///< T, s
-  double breaking_strain = 0.05;    ///< gamma_0
-  double fabric_friction = 0;       ///< mu_F
-  double fabric_contraction = 0;    ///< chi
-  double fabric_strain = 0.3;       ///< gamma_F
+  double bulk_modulus = 4.9e6;         ///< K, Pa: (lambda + 2G/3) of Eqs 1-3 of Yuu & Umekage at zero strain
+  double shear_modulus = 2.94e6;       ///< G, Pa: the same
+  double static_friction = 0.38;       ///< mu_s
+  double dynamic_friction = 0.64;      ///< mu_2
+  double inertial_number = 0.279;      ///< I_0
+  double reference_packing = 0.6;      ///< phi_s of a new point
+  double critical_packing = 0.585;     ///< phi_c
+  double random_loose_packing = 0.55;  ///< phi_min
+  double packing_slope = 0.25;         ///< Delta
+  double dilatancy = 4;                ///< k
+  double dilatant_friction = 1;        ///< b, up to 1
+  double ageing_strength = 0.08;       ///< Delta_mu
+  bool ageing_adds = true;             ///< to b beta, or counts where it is more
+  double ageing_time = 10e-3;          ///< T, s
+  double ageing_strain = 0.05;         ///< gamma_0
+  double fabric_friction = 0;          ///< mu_F
+  double fabric_contraction = 0;       ///< chi
+  double fabric_strain = 0.3;          ///< gamma_F
 
   constexpr bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
 };
@@ -70,14 +70,16 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
 
   const Number inertial = c.grain_inertia * norm(rate) / sqrt(maximum(pressure, Number(c.tiny)));
   const Number critical_volume =
-      p.reference_packing / (p.critical_packing - p.loosening * minimum(inertial, Number(c.largest_inertial_number)));
+      p.reference_packing /
+      (p.critical_packing - p.packing_slope * minimum(inertial, Number(c.largest_inertial_number)));
   const Number dilatancy = (p.dilatancy * p.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
-  const Number flowing = p.friction + (p.fast_friction - p.friction) * (inertial / (inertial + p.inertial_number)) +
+  const Number flowing = p.static_friction +
+                         (p.dynamic_friction - p.static_friction) * (inertial / (inertial + p.inertial_number)) +
                          p.dilatant_friction * dilatancy;
-  Number friction = flowing + p.strength_at_rest * old.contacts;
-  if (!p.strength_adds) {
+  Number friction = flowing + p.ageing_strength * old.contacts;
+  if (!p.ageing_adds) {
     const Number packed = maximum(p.dilatant_friction * dilatancy, Number(0.0));
-    friction = flowing + maximum(p.strength_at_rest * old.contacts - packed, Number(0.0));
+    friction = flowing + maximum(p.ageing_strength * old.contacts - packed, Number(0.0));
   }
 
   const Tensor3<Number> turn = rotation_of_step(velocity_gradient, time_step);
@@ -117,9 +119,8 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
     point.fabric = (1.0 / (1.0 + share)) * (fabric + drawn * from_centre);
   }
   point.expansion = select(touch, dilated, touching) - 1.0;
-  const double healing = time_step / p.healing_time;
-  point.contacts =
-      select(touch, (old.contacts + healing) / (1.0 + healing + (1 / p.breaking_strain) * slip), Number(0.0));
+  const double ageing = time_step / p.ageing_time;
+  point.contacts = select(touch, (old.contacts + ageing) / (1.0 + ageing + (1 / p.ageing_strain) * slip), Number(0.0));
   return point;
 }
 

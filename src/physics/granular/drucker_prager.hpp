@@ -46,7 +46,7 @@ class DruckerPrager {
           p.friction);
     for_each_fit_parameter(visit, p.fits);
     auto hardening = only_if({"friction", "is given", "= 0", p.friction == 0}, visit);
-    visit_largest_deviator(hardening, p.fits, within_fits());
+    visit_max_deviator(hardening, p.fits, within_fits());
     for_each_contact_parameter(visit, p.contact);
   }
 
@@ -91,7 +91,7 @@ class DruckerPrager {
     MaterialPoint<DruckerPrager, Number> point;
     point.history.dilation = dilation;
     point.history.yield_deviator =
-        minimum(old.history.yield_deviator + inverse_two_g_ * excess, Number(parameters_.fits.largest_deviator));
+        minimum(old.history.yield_deviator + inverse_two_g_ * excess, Number(parameters_.fits.max_deviator));
     const Number most = friction_ratio(point.history.yield_deviator) * pressure;
     point.stress = isotropic(pressure) + (minimum(size, most) / maximum(size, Number(1e-30))) * shear;
     return point;

@@ -95,8 +95,8 @@ enum class Tables { repaired, printed };
 /// The fits as a law takes them: the keys that the fitted laws have in common.
 struct Fits {
   Tables tables = Tables::repaired;
-  double scale = 9.80;              ///< alpha, stress of the real field over that of the fits' (130 Pa at the bottom)
-  double largest_deviator = 0.014;  ///< |e_dev| beyond which A4 |e_dev| no longer changes
+  double scale = 9.80;          ///< alpha, stress of the real field over that of the fits' (130 Pa at the bottom)
+  double max_deviator = 0.014;  ///< |e_dev| beyond which A4 |e_dev| no longer changes
 
   const FittedFunctions& functions() const { return tables == Tables::printed ? printed_2011 : repaired_2011; }
 };
@@ -116,10 +116,10 @@ void for_each_fit_parameter(Visit&& visit, F& fits) {
 
 /// \param largest range of the key
 template <class Visit, class F>
-void visit_largest_deviator(Visit&& visit, F& fits, const Range& largest) {
-  visit(Parameter{"largest_deviator", dimension::none, largest,
+void visit_max_deviator(Visit&& visit, F& fits, const Range& largest) {
+  visit(Parameter{"max_deviator", dimension::none, largest,
                   "|e_dev| beyond which shear no longer hardens or softens the grains; the fits end at 0.035"},
-        fits.largest_deviator);
+        fits.max_deviator);
 }
 
 /// Up to where the fits go.

@@ -31,7 +31,7 @@ AnyLaw make_law(const LawParameters& parameters, double grain_density, double gr
 CriticalState::CriticalState(const Parameters& parameters, double grain_density, double grain_diameter)
     : parameters_(parameters),
       coefficients_{parameters, parameters.reference_packing * grain_density,
-                    parameters.reference_packing / parameters.loosest_packing,
+                    parameters.reference_packing / parameters.random_loose_packing,
                     std::sqrt(2 * grain_density) * grain_diameter} {}
 
 double CriticalState::sound_speed(double density) const {
@@ -40,20 +40,21 @@ double CriticalState::sound_speed(double density) const {
 
 std::vector<Problem> CriticalState::check(const Parameters& p) {
   std::vector<Problem> problems;
-  if (p.fast_friction < p.friction)
-    problems.push_back({.key = "fast_friction",
+  if (p.dynamic_friction < p.static_friction)
+    problems.push_back({.key = "dynamic_friction",
                         .what = "fast flow would have less friction than slow flow, and would run away",
-                        .allowed = "at least friction"});
-  if (p.fabric_friction > p.friction)
+                        .allowed = "at least static_friction"});
+  if (p.fabric_friction > p.static_friction)
     problems.push_back({.key = "fabric_friction",
                         .what = "grains whose shear turns back would push on by themselves",
-                        .allowed = "at most friction"});
+                        .allowed = "at most static_friction"});
   for (const auto& [key, packing] :
        {std::pair{"critical_packing", p.critical_packing}, std::pair{"reference_packing", p.reference_packing}})
-    if (packing < p.loosest_packing)
-      problems.push_back({.key = key, .what = "lies below the loosest packing", .allowed = "at least loosest_packing"});
-  if (!(p.critical_packing - CriticalStateCoefficients::largest_inertial_number * p.loosening > 0.1))
-    problems.push_back({.key = "loosening",
+    if (packing < p.random_loose_packing)
+      problems.push_back(
+          {.key = key, .what = "lies below the loosest packing", .allowed = "at least random_loose_packing"});
+  if (!(p.critical_packing - CriticalStateCoefficients::largest_inertial_number * p.packing_slope > 0.1))
+    problems.push_back({.key = "packing_slope",
                         .what = "fast flow would have next to no grains",
                         .allowed = "less than (critical_packing - 0.1)/0.3"});
   return problems;
@@ -65,7 +66,7 @@ DruckerPrager::DruckerPrager(const Parameters& parameters, double grain_density)
       shear_(shear_table(parameters.fits.functions())),
       inverse_grain_density_(1 / grain_density) {
   const Fits& fits = parameters.fits;
-  if (!(fits.largest_deviator <= max_fitted_strain))
+  if (!(fits.max_deviator <= max_fitted_strain))
     throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
   const FittedFunctions& functions = fits.functions();
   const double lambda = fits.scale * functions.a2.piece[0].c0;

@@ -19,7 +19,7 @@ double steps_between(const PathStretch& stretch, const PathOptions& options) {
   const Tensor3<> spin = antisymmetric_part(stretch.velocity_gradient);
   const double rate = norm(symmetric_part(stretch.velocity_gradient));
   const double turn = std::sqrt(spin.xy * spin.xy + spin.yz * spin.yz + spin.zx * spin.zx);
-  const double steps = stretch.duration / options.points * std::max(rate, turn / 1000) / options.largest_increment;
+  const double steps = stretch.duration / options.points * std::max(rate, turn / 1000) / options.max_increment;
   return std::max(1.0, std::ceil(steps));
 }
 
@@ -100,7 +100,7 @@ std::vector<HistorySlot> history_of(const AnyLaw& law) {
 }
 
 std::vector<PathPoint> follow_path(const AnyLaw& law, std::span<const PathStretch> path, const PathOptions& options) {
-  if (!(options.density > 0) || !(options.largest_increment > 0) || options.points < 1)
+  if (!(options.density > 0) || !(options.max_increment > 0) || options.points < 1)
     throw std::invalid_argument("a path needs a positive density, increment and number of points");
   for (const PathStretch& stretch : path)
     if (!(stretch.duration >= 0) || !std::isfinite(stretch.duration))

@@ -17,9 +17,9 @@ struct PathStretch {
 };
 
 struct PathOptions {
-  double density = 1500;            ///< kg/m^3, at the start, where there is no stress
-  double largest_increment = 1e-6;  ///< of the strain within a step; a thousand times that of the angle of rotation
-  int points = 100;                 ///< recorded a stretch, at equal times, the end of the stretch being the last
+  double density = 1500;        ///< kg/m^3, at the start, where there is no stress
+  double max_increment = 1e-6;  ///< of the strain within a step; a thousand times that of the angle of rotation
+  int points = 100;             ///< recorded a stretch, at equal times, the end of the stretch being the last
 };
 
 struct PathPoint {

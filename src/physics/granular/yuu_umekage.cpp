@@ -42,23 +42,22 @@ YuuUmekageIsotropic::YuuUmekageIsotropic(const Parameters& parameters, double gr
       line_ratio_(parameters.rule.unloading_stiffness * parameters.fits.functions().a4.piece[0].c0),
       inverse_line_ratio_(1 / line_ratio_),
       grain_density_(grain_density) {
-  if (!(parameters_.fits.largest_deviator <= max_fitted_strain))
+  if (!(parameters_.fits.max_deviator <= max_fitted_strain))
     throw std::invalid_argument("the largest deviator lies beyond the range of the fits");
   // Uniaxial strain e: e_v = e/3, e_dev,zz = 2e/3, |e_dev| = sqrt(2/3) e.
   const double deviator = std::sqrt(2.0 / 3.0);
   std::vector<double> joints;
   for (int k = 0; k < pressure_.pieces(); ++k) joints.push_back(sqrt3 * pressure_.end(k));
   for (int k = 0; k < shear_.pieces(); ++k) joints.push_back(shear_.end(k) / deviator);
-  joints.push_back(parameters_.fits.largest_deviator / deviator);
+  joints.push_back(parameters_.fits.max_deviator / deviator);
   steepest_ = parameters_.fits.scale * max_slope(
                                            [&](double e) {
-                                             const double held =
-                                                 std::min(deviator * e, parameters_.fits.largest_deviator);
+                                             const double held = std::min(deviator * e, parameters_.fits.max_deviator);
                                              return pressure_(e / sqrt3) / sqrt3 * (1 + deviator * shear_(held) * held);
                                            },
                                            joints);
   // Beyond close packing the stress ratio can be the largest one, and the pressure of the fits still rises a little.
-  const double most = parameters_.fits.largest_deviator;
+  const double most = parameters_.fits.max_deviator;
   const double close = (initial_pressure_ + pressure_(max_fitted_strain) / max_fitted_strain) / 3;
   steepest_ = std::max(steepest_, parameters_.fits.scale * close * (1 + deviator * shear_(most) * most));
   if (parameters_.unloading != Unloading::none) steepest_ *= parameters_.rule.unloading_stiffness;
@@ -91,7 +90,7 @@ YuuUmekagePrinted::YuuUmekagePrinted(const Parameters& parameters, double grain_
   for (int k = 0; k < table_.pieces(); ++k) joints.push_back(table_.end(k));
   for (int k = 1; k <= 3500; ++k) {
     const double a = max_fitted_strain * k / 3500;
-    if (a <= parameters_.fits.largest_deviator) max_ratio_ = std::max(max_ratio_, value(3, a) * a);
+    if (a <= parameters_.fits.max_deviator) max_ratio_ = std::max(max_ratio_, value(3, a) * a);
   }
   steepest_ = parameters_.fits.scale * max_slope([&](double e) { return value(0, e) * e; }, joints);
   if (parameters_.unloading != PrintedUnloading::none) steepest_ *= parameters_.rule.unloading_stiffness;

@@ -9,7 +9,7 @@
 /// deviates: Eqs 1-6 are component formulas; turned by 45 degrees a strain has another shear stress under them, an
 /// eighth to eight times as large. Here A1 and A2 are taken at the volumetric strain and A4 at the deviator; with the
 /// total |e| the stiffness would fall by more than ten times in a shear zone. The pressure does not fall as the
-/// compression grows (fitted_table.hpp). The deviator is held at `largest_deviator`, by default the peak of A4 a.
+/// compression grows (fitted_table.hpp). The deviator is held at `max_deviator`, by default the peak of A4 a.
 ///
 /// Close packing. The fits level off at 5 to 8 kPa; a stream that strikes the floor would be packed past 0.9. Grains at
 /// random are not packed denser than 0.64; from there on the pressure rises along its initial stiffness again (choice).
@@ -55,7 +55,7 @@ class YuuUmekageIsotropic {
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     for_each_fit_parameter(visit, p.fits);
-    visit_largest_deviator(visit, p.fits, within_fits());
+    visit_max_deviator(visit, p.fits, within_fits());
     for_each_contact_parameter(visit, p.contact);
     visit(Parameter{"close_packing", dimension::none, between(0.1, 1),
                     "random close packing, beyond which the pressure rises with its initial stiffness again; 1: never"},
@@ -195,7 +195,7 @@ class YuuUmekageIsotropic {
   template <class Number>
   Sheared<Number> along_curve(const SymmetricTensor3<Number>& strain) const {
     const Number size = norm(strain);
-    const Number held = minimum(size, Number(parameters_.fits.largest_deviator));
+    const Number held = minimum(size, Number(parameters_.fits.max_deviator));
     return {(held / maximum(size, Number(tiny))) * strain, shear_(held), Number(0.0)};
   }
 
@@ -204,7 +204,7 @@ class YuuUmekageIsotropic {
     const Number size = norm(strain);
     const Number yield_size = inverse_line_ratio_ * (old_yield * shear_(old_yield));
     const Number excess = maximum(size - yield_size, Number(0.0));
-    const Number yield = minimum(old_yield + excess, Number(parameters_.fits.largest_deviator));
+    const Number yield = minimum(old_yield + excess, Number(parameters_.fits.max_deviator));
     const Number held = minimum(size, inverse_line_ratio_ * (yield * shear_(yield)));
     return {(held / maximum(size, Number(tiny))) * strain, Number(line_ratio_), yield};
   }

@@ -49,7 +49,7 @@ class YuuUmekagePrinted {
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     for_each_fit_parameter(visit, p.fits);
-    visit_largest_deviator(visit, p.fits, above(0));
+    visit_max_deviator(visit, p.fits, above(0));
     for_each_contact_parameter(visit, p.contact);
     visit(
         Parameter{"strain", {}, {}, "the strain by its rate, or from displacements since the last reset (Appendix A)"},
@@ -198,7 +198,7 @@ class YuuUmekagePrinted {
     const SymmetricTensor3<Number> shear = deviator(strain);
     const Number size = norm(shear);
     return isotropic(volume) +
-           (minimum(size, Number(parameters_.fits.largest_deviator)) / maximum(size, Number(tiny))) * shear;
+           (minimum(size, Number(parameters_.fits.max_deviator)) / maximum(size, Number(tiny))) * shear;
   }
 
   template <class Number>

@@ -47,19 +47,20 @@ TEST(Materials, EveryValueHasASourceAndLiesInItsRange) {
       EXPECT_LE(value, high) << line.key;
     }
     EXPECT_THAT(keys, testing::IsSupersetOf({"grains.density", "grains.diameter", "bed.packing", "pressure",
-                                             "law.critical-state.friction", "walls.steel", "walls.concrete"}));
+                                             "law.critical-state.static_friction", "walls.steel", "walls.concrete"}));
   }
 }
 
 TEST(Materials, EveryFrictionIsThatOfTheTestThatItsFileNames) {
   for (std::size_t n = 0; n < count; ++n)
     for (const MaterialLine& line : lines_of(static_cast<GrainMaterial>(n))) {
-      if (line.key != "law.critical-state.friction" && line.key != "law.critical-state.fast_friction") continue;
+      if (line.key != "law.critical-state.static_friction" && line.key != "law.critical-state.dynamic_friction")
+        continue;
       std::size_t test = 0;
       while (test < choices<granular::FrictionTest>.size() && choices<granular::FrictionTest>[test] != line.test)
         ++test;
       ASSERT_LT(test, choices<granular::FrictionTest>.size()) << line.key << ": no test \"" << line.test << '"';
-      EXPECT_TRUE(!line.angle.empty() || line.key.ends_with("fast_friction"));
+      EXPECT_TRUE(!line.angle.empty() || line.key.ends_with("dynamic_friction"));
       if (line.angle.empty()) continue;
       EXPECT_NEAR(
           granular::angle_of_friction(static_cast<granular::FrictionTest>(test), parse_quantity(line.value)->value),

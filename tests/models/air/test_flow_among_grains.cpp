@@ -349,7 +349,7 @@ TEST(AirFlow, OutflowBalancesTheGrainsUnlessTheAirIsAlone) {
 TEST(AirFlow, TimeStepFollowsItsThreeLimits) {
   Parameters p;
   p.boundaries = all(FlowBoundary::periodic);
-  p.longest_step = 1;
+  p.max_step = 1;
   p.courant = 0.5;
   Case c({.count = {4, 4, 4}, .low = {}, .spacing = {1e-3, 1e-3, 1e-3}}, p);
   c.begin();

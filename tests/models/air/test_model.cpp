@@ -38,7 +38,7 @@ TEST(AirModel, TaylorGreenVorticesDecayAsTheExactOnesWithSecondOrder) {
     ModelParameters p = square(cells);
     p.box.height = 1.5;
     p.start.flow = InitialFlow::taylor_green;
-    p.gas.longest_step = step;
+    p.gas.max_step = step;
     p.gas.tolerance = 1e-9;
     const auto values = after(p, 0.2);
     EXPECT_NEAR(values.at("taylor_green_energy"), 1, 0.05 * 256 / cells / cells);
@@ -52,7 +52,7 @@ TEST(AirModel, LidDrivenCavityComesNearTheSpectralOneOnACoarseGrid) {
   p.gas.boundaries.kind = {FlowBoundary::no_slip,  FlowBoundary::no_slip, FlowBoundary::periodic,
                            FlowBoundary::periodic, FlowBoundary::no_slip, FlowBoundary::no_slip};
   p.gas.wall_velocity[5] = {1, 0, 0};
-  p.gas.longest_step = 25e-3;
+  p.gas.max_step = 25e-3;
   const auto values = after(p, 12.5);
   EXPECT_NEAR(values.at("middle_u_min") / -0.2140424, 1, 0.05);
   EXPECT_NEAR(values.at("middle_w_min") / -0.2538030, 1, 0.05);
@@ -62,7 +62,7 @@ TEST(AirModel, LidDrivenCavityComesNearTheSpectralOneOnACoarseGrid) {
 TEST(AirModel, GoesOnFromACheckpointToTheSameBits) {
   ModelParameters p = square(8);
   p.start.flow = InitialFlow::taylor_green;
-  p.gas.longest_step = 5e-3;
+  p.gas.max_step = 5e-3;
   ThreadTeam team(1);
   AirModel whole(p);
   whole.begin(team);

@@ -72,9 +72,9 @@ TEST(Advance, WithoutDragThePatternIsKept) {
 }
 
 /// A cloud falls and is brought back by reversed gravity. \returns by how much the grains miss their places, in radii
-double missed_on_return(Parameters p, Method method, double largest_step) {
+double missed_on_return(Parameters p, Method method, double max_step) {
   p.integration.method = method;
-  p.integration.largest_step = largest_step;
+  p.integration.max_step = max_step;
   ThreadTeam team(1);
   const Grains start = pack(p);
   Grains grains = start;
@@ -129,7 +129,7 @@ TEST(Advance, DormandPrinceIsOfFifthOrder) {
   const Grains grains{{{0, 0, 0}, {2.5 * a, 0.2 * a, 0.3 * a}, {-0.4 * a, 2.6 * a, 0.9 * a}}, {a, 0.8 * a, 1.1 * a}};
   ThreadTeam team(1);
   const auto after = [&](int steps) {
-    p.integration.largest_step = 4.0 / steps;
+    p.integration.max_step = 4.0 / steps;
     Cloud cloud(p, grains);
     cloud.begin(team);
     cloud.mutable_state().next_step = end;  // steps of equal length from the first
@@ -152,7 +152,7 @@ TEST(Advance, DormandPrinceIsOfFifthOrder) {
 TEST(Advance, DormandPrinceHoldsItsTolerance) {
   Parameters p = cloud_without_contacts(20);
   p.integration.method = Method::dormand_prince;
-  p.integration.largest_step = 10;
+  p.integration.max_step = 10;
   p.gravity.direction = {0, 0, -1};
   ThreadTeam team(1);
   const Grains grains = pack(p);
@@ -194,9 +194,9 @@ TEST(Stiffness, PowerIterationFindsTheRateOfTwoTouchingGrains) {
 TEST(Advance, ChebyshevAndEulerConvergeToTheSameMotion) {
   Parameters p = disc(60);
   ThreadTeam team(1);
-  auto after = [&](Method method, double largest_step) {
+  auto after = [&](Method method, double max_step) {
     p.integration.method = method;
-    p.integration.largest_step = largest_step;
+    p.integration.max_step = max_step;
     p.integration.tolerance = 1e3;
     p.integration.overlap_growth = 1e3;
     Cloud cloud = started(p, team);
@@ -299,8 +299,8 @@ TEST(Advance, StopsWhenAGrainSinksIntoTheSlope) {
     FAIL() << "no error";
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("contact.stiffness"), std::string::npos);
-    EXPECT_LE(cloud.state().overlap[0], p.integration.largest_overlap * p.particles.radius);
-    EXPECT_GT(cloud.state().overlap[0], 0.9 * p.integration.largest_overlap * p.particles.radius);
+    EXPECT_LE(cloud.state().overlap[0], p.integration.max_overlap * p.particles.radius);
+    EXPECT_GT(cloud.state().overlap[0], 0.9 * p.integration.max_overlap * p.particles.radius);
   }
 }
 

@@ -38,7 +38,7 @@ struct Points {
 /// Both ways in which the strength at rest counts.
 granular::CriticalState::Parameters grains(bool with_fabric) {
   if (!with_fabric) return {};
-  return {.strength_adds = false, .fabric_friction = 0.25, .fabric_contraction = 0.5};
+  return {.ageing_adds = false, .fabric_friction = 0.25, .fabric_contraction = 0.5};
 }
 
 TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {

@@ -255,7 +255,7 @@ TEST(Sector, LoadsAreThoseOfTheWholeVessel) {
   p.sph.viscosity_alpha = 0.3;
   p.walls.friction = Friction::none;
   p.gate.opens = GateOpens::when_settled;
-  p.settle = {.speed = 5e-3, .duration = 0.03, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
+  p.settle = {.speed = 5e-3, .duration = 0.03, .max_time = 2, .loading_time = {}, .damping_time = 5e-3};
   p.bed.height = 7 * spacing;
   Parameters whole = p;
   whole.box.sector = std::nullopt;

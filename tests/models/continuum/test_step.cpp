@@ -365,7 +365,7 @@ TEST(Advance, StopsAtTheFirstImpossibleValueAndNamesIt) {
 TEST(Advance, ABedThatDoesNotSettleInTimeIsAnError) {
   Parameters p = column(3, 1, 6, 10);
   p.gate.opens = GateOpens::when_settled;
-  p.settle.longest = 0.01;
+  p.settle.max_time = 0.01;
   ThreadTeam team(1);
   Continuum model = started(p, team);
   EXPECT_THROW(while (model.state().time < 0.02) model.advance(team), NumericalError);

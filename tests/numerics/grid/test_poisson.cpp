@@ -240,7 +240,7 @@ TEST(PoissonSolver, NamesTheWorstCellWhenItDoesNotConverge) {
   CellField source = silo.grid.cell_field(), value = silo.grid.cell_field();
   source[silo.grid.index(4, 1, 22)] = 1;
   try {
-    solver.solve(team, source, value, {.tolerance = 1e-6, .most_iterations = 0});
+    solver.solve(team, source, value, {.tolerance = 1e-6, .max_iterations = 0});
     FAIL();
   } catch (const NumericalError& error) {
     EXPECT_THAT(error.report().place, testing::HasSubstr("(4, 1, 22)"));

@@ -74,7 +74,7 @@ TEST(ContactMemory, ThereIsNoPressureBelowTheReferencePackingAfterLongShear) {
   for (const AnyLaw& law : laws(Volume::contact, 3)) {
     const auto points =
         follow_path(law, std::vector<PathStretch>{{1, squeeze(-apart)}, {1, squeeze(pressed)}, {1, shear(0.1)}},
-                    {.largest_increment = 1e-5, .points = 1});
+                    {.max_increment = 1e-5, .points = 1});
     EXPECT_LT(mean(points[3].stress), 0.01 * mean(points[2].stress));
   }
 }
@@ -83,7 +83,7 @@ TEST(ContactMemory, AClosedCycleGivesNoEnergy) {
   const std::vector<PathStretch> cycle = {{1, squeeze(-apart)}, {1, squeeze(pressed)}, {1, shear(2e-3)},
                                           {1, squeeze(apart)},  {1, shear(-2e-3)},     {1, squeeze(-pressed)}};
   const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.contact = {.volume = Volume::contact}}, 2500);
-  EXPECT_GT(work_of_path(cycle, follow_path(law, cycle, {.largest_increment = 1e-5, .points = 3000})), 0);
+  EXPECT_GT(work_of_path(cycle, follow_path(law, cycle, {.max_increment = 1e-5, .points = 3000})), 0);
 }
 
 }  // namespace

@@ -50,16 +50,16 @@ double inertial_number(double rate, double pressure) {
   return rate * diameter * std::sqrt(grain_density / pressure);
 }
 double friction_at(const Parameters& p, double inertial) {
-  return p.friction + (p.fast_friction - p.friction) / (1 + p.inertial_number / inertial);
+  return p.static_friction + (p.dynamic_friction - p.static_friction) / (1 + p.inertial_number / inertial);
 }
 
 TEST(CriticalState, StatePackingFollowsTheLogisticCurveFromLooseAndFromDense) {
   for (const double start : {0.53, 0.56, 0.62})
     for (const double rate : {0.5, 20.0}) {
       const double pressure = 1000;
-      ShearedAtPressure sheared{{.reference_packing = start, .strength_at_rest = 0}, pressure};
+      ShearedAtPressure sheared{{.reference_packing = start, .ageing_strength = 0}, pressure};
       const Parameters& p = sheared.parameters;
-      const double critical = p.critical_packing - p.loosening * inertial_number(rate, pressure);
+      const double critical = p.critical_packing - p.packing_slope * inertial_number(rate, pressure);
       const double increment = 1e-5;
       // The first strain is elastic, up to the yield point.
       double slipped = -(friction_at(p, inertial_number(rate, pressure)) + p.dilatancy * (start - critical)) *
@@ -77,7 +77,7 @@ TEST(CriticalState, EndsAtTheSamePackingAndStressFromLooseAndFromDense) {
   for (const double rate : {0.05, 50.0})
     for (const double start : {0.52, 0.585, 0.63}) {
       const double pressure = 500, inertial = inertial_number(rate, pressure);
-      ShearedAtPressure sheared{{.reference_packing = start, .strength_at_rest = 0}, pressure};
+      ShearedAtPressure sheared{{.reference_packing = start, .ageing_strength = 0}, pressure};
       sheared.advance(rate, 1e-4 / rate, 50000);
       EXPECT_NEAR(state_packing(sheared.parameters, sheared.point), 0.585 - 0.25 * inertial, 1e-6);
       EXPECT_NEAR(friction_of(sheared.point.stress), friction_at(sheared.parameters, inertial), 1e-5);
@@ -91,18 +91,18 @@ TEST(CriticalState, AtConstantVolumeEndsAtThePressureOfThatPacking) {
   for (const double start : {0.575, 0.589}) {
     const AnyLaw law = make_law(Parameters{.reference_packing = start}, grain_density, diameter);
     const auto points = follow_path(law, std::vector<PathStretch>{{5 / rate, shear(rate)}},
-                                    {.density = 0.59 * grain_density, .largest_increment = 2e-5, .points = 1});
+                                    {.density = 0.59 * grain_density, .max_increment = 2e-5, .points = 1});
     EXPECT_NEAR(mean(points[1].stress), 4.9e6 * std::log(0.59 / 0.585), 20);
   }
   const AnyLaw loose = make_law(Parameters{.reference_packing = 0.569}, grain_density, diameter);
   const auto points = follow_path(loose, std::vector<PathStretch>{{5 / rate, shear(rate)}},
-                                  {.density = 0.57 * grain_density, .largest_increment = 2e-5, .points = 1});
+                                  {.density = 0.57 * grain_density, .max_increment = 2e-5, .points = 1});
   EXPECT_NEAR(mean(points[1].stress), 0, 1e-9);
 }
 
 TEST(CriticalState, PassesAPeakThatIsItsDilatancy) {
   const double rate = 0.01, pressure = 1000;
-  ShearedAtPressure dense{{.reference_packing = 0.6, .strength_at_rest = 0}, pressure};
+  ShearedAtPressure dense{{.reference_packing = 0.6, .ageing_strength = 0}, pressure};
   double peak = 0;
   for (int k = 0; k < 20000; ++k) {
     dense.advance(rate, 1e-4 / rate, 1);
@@ -115,7 +115,7 @@ TEST(CriticalState, PassesAPeakThatIsItsDilatancy) {
 
 TEST(CriticalState, TakesAPartOfItsDilatancyIntoItsFriction) {
   const double rate = 0.01, pressure = 1000;
-  Parameters p{.reference_packing = 0.6, .dilatancy = 8, .dilatant_friction = 0.5, .strength_at_rest = 0};
+  Parameters p{.reference_packing = 0.6, .dilatancy = 8, .dilatant_friction = 0.5, .ageing_strength = 0};
   const double critical = friction_at(p, inertial_number(rate, pressure));
   ShearedAtPressure dense{p, pressure};
   double peak = 0;
@@ -128,7 +128,7 @@ TEST(CriticalState, TakesAPartOfItsDilatancyIntoItsFriction) {
   const double slipped = 0.2 - peak * pressure / p.shear_modulus;
   EXPECT_NEAR(state_packing(p, dense.point), 0.585 / (1 + (0.585 / 0.6 - 1) * std::exp(-8 * 0.585 * slipped)), 3e-5);
   // Far beyond the critical packing the friction is what the growth of volume takes.
-  p.reference_packing = 0.7, p.friction = p.fast_friction = 0.2;
+  p.reference_packing = 0.7, p.static_friction = p.dynamic_friction = 0.2;
   ShearedAtPressure tight{p, pressure};
   peak = 0;
   for (int k = 0; k < 100; ++k) {
@@ -150,10 +150,10 @@ double strength(ShearedAtPressure grains, double pressure) {
 
 TEST(CriticalState, IsStrongerAtRestAndLosesThatByFlowing) {
   const double pressure = 1000, rate = 5;
-  Parameters p{.reference_packing = 0.585, .loosening = 0};
+  Parameters p{.reference_packing = 0.585, .packing_slope = 0};
   ShearedAtPressure grains{p, pressure};
   EXPECT_NEAR(strength(grains, pressure), 0, 3e-3);  // new: nothing has healed yet
-  grains.advance(0, 1e-5, 2000);                     // two healing times
+  grains.advance(0, 1e-5, 2000);                     // two ageing times
   EXPECT_NEAR(grains.point.history.contacts, 1 - std::exp(-2.0), 2e-3);
   grains.advance(0, 1e-5, 10000);
   EXPECT_NEAR(strength(grains, pressure), 0.08, 3e-3);
@@ -169,8 +169,8 @@ TEST(CriticalState, StrengthAtRestAddsToThatOfThePackingOrCountsWhereItIsMore) {
   for (const auto& [packing, added, larger] :
        {std::tuple{0.575, 0.04, 0.04}, {0.585, 0.08, 0.08}, {0.595, 0.12, 0.08}, {0.61, 0.18, 0.10}})
     for (const bool adds : {true, false}) {
-      ShearedAtPressure grains{{.reference_packing = packing, .loosening = 0, .strength_adds = adds}, pressure};
-      grains.advance(0, 1e-5, 10000);  // ten healing times
+      ShearedAtPressure grains{{.reference_packing = packing, .packing_slope = 0, .ageing_adds = adds}, pressure};
+      grains.advance(0, 1e-5, 10000);  // ten ageing times
       EXPECT_NEAR(strength(grains, pressure), adds ? added : larger, 3e-3) << packing;
     }
 }
@@ -192,7 +192,7 @@ TEST(CriticalState, GrainsApartAreFreeAndTouchWhereTheyCame) {
   // Never looser than the loosest packing.
   const auto far =
       follow_path(law, std::vector<PathStretch>{{1, squeeze(-0.5)}, {1, squeeze(0.41)}, {1, squeeze(1e-2)}},
-                  {.density = 0.6 * grain_density, .largest_increment = 1e-5, .points = 1});
+                  {.density = 0.6 * grain_density, .max_increment = 1e-5, .points = 1});
   EXPECT_EQ(far[2].stress, SymmetricTensor3<>{});
   EXPECT_NEAR(mean(far[3].stress), 4.9e6 * (std::log(0.6 / 0.55) - 0.08), 1);
 }
@@ -207,11 +207,11 @@ TEST(CriticalState, ContractsAndIsWeakWhenItsShearTurnsBack) {
   const double pressure = 1000, increment = 1e-4;
   const Parameters p{.bulk_modulus = 4.9e9,
                      .shear_modulus = 2.94e9,
-                     .friction = 0.5,
-                     .fast_friction = 0.5,
-                     .loosening = 0,
+                     .static_friction = 0.5,
+                     .dynamic_friction = 0.5,
+                     .packing_slope = 0,
                      .dilatancy = 0,
-                     .strength_at_rest = 0,
+                     .ageing_strength = 0,
                      .fabric_friction = 0.2,
                      .fabric_contraction = 0.4,
                      .fabric_strain = 0.3};
@@ -278,7 +278,11 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
   Random random(11);
   const Parameters loose{.reference_packing = 0.57}, dense{},
       half{.dilatancy = 8, .dilatant_friction = 0.5},  // and one whose friction is beta alone
-      slippery{.friction = 0.1, .fast_friction = 0.1, .dilatancy = 10, .dilatant_friction = 0.2, .strength_at_rest = 0};
+      slippery{.static_friction = 0.1,
+               .dynamic_friction = 0.1,
+               .dilatancy = 10,
+               .dilatant_friction = 0.2,
+               .ageing_strength = 0};
   Parameters turning = half, slippery_turning = slippery;
   turning.fabric_friction = slippery_turning.fabric_friction = 0.2;
   turning.fabric_contraction = slippery_turning.fabric_contraction = 0.2;
@@ -301,7 +305,7 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
         path.push_back({1, (k % 3 == 0 ? 20.0 : 1.0) * gradient - squeeze(trace(gradient))});
       }
       const auto points =
-          follow_path(law, path, {.density = start * grain_density, .largest_increment = 2e-6, .points = 100});
+          follow_path(law, path, {.density = start * grain_density, .max_increment = 2e-6, .points = 100});
       const PathPoint& last = points.back();
       const double pressure = mean(last.stress), shear_stress = norm(deviator(last.stress));
       const double stored =
@@ -316,7 +320,8 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
 
 TEST(CriticalState, IsElasticAndPerfectlyPlasticWithoutItsState) {
   // The special case that `drucker-prager` is with a constant friction.
-  const Parameters plain{.friction = 0.5, .fast_friction = 0.5, .loosening = 0, .dilatancy = 0, .strength_at_rest = 0};
+  const Parameters plain{
+      .static_friction = 0.5, .dynamic_friction = 0.5, .packing_slope = 0, .dilatancy = 0, .ageing_strength = 0};
   const DruckerPrager::Parameters same{.friction = 0.5, .fits = {.tables = Tables::printed}};
   const std::vector<PathStretch> path = {{1, squeeze(3e-4)}, {1, shear(1e-3)}, {1, shear(-3e-4)}, {1, squash(1e-4)}};
   const auto points = follow_path(make_law(plain, grain_density), path, {.points = 1}),
@@ -330,13 +335,13 @@ TEST(CriticalState, SpeedOfSoundIsElastic) {
 
 TEST(CriticalState, NamesContradictions) {
   EXPECT_TRUE(CriticalState::check({}).empty());
-  ASSERT_EQ(CriticalState::check({.friction = 0.5, .fast_friction = 0.4}).size(), 1u);
-  EXPECT_EQ(CriticalState::check({.friction = 0.5, .fast_friction = 0.4})[0].key, "fast_friction");
-  ASSERT_EQ(CriticalState::check({.friction = 0.3, .fabric_friction = 0.31}).size(), 1u);
-  EXPECT_EQ(CriticalState::check({.friction = 0.3, .fabric_friction = 0.31})[0].key, "fabric_friction");
-  EXPECT_TRUE(CriticalState::check({.friction = 0.3, .fabric_friction = 0.3}).empty());
+  ASSERT_EQ(CriticalState::check({.static_friction = 0.5, .dynamic_friction = 0.4}).size(), 1u);
+  EXPECT_EQ(CriticalState::check({.static_friction = 0.5, .dynamic_friction = 0.4})[0].key, "dynamic_friction");
+  ASSERT_EQ(CriticalState::check({.static_friction = 0.3, .fabric_friction = 0.31}).size(), 1u);
+  EXPECT_EQ(CriticalState::check({.static_friction = 0.3, .fabric_friction = 0.31})[0].key, "fabric_friction");
+  EXPECT_TRUE(CriticalState::check({.static_friction = 0.3, .fabric_friction = 0.3}).empty());
   EXPECT_EQ(CriticalState::check({.reference_packing = 0.45})[0].key, "reference_packing");
-  EXPECT_EQ(CriticalState::check({.loosening = 1.7})[0].key, "loosening");
+  EXPECT_EQ(CriticalState::check({.packing_slope = 1.7})[0].key, "packing_slope");
 }
 
 }  // namespace

@@ -68,14 +68,14 @@ class Slope {
 TEST(CriticalStateOnASlope, FlowsAsBagnoldFound) {
   const double diameter = 5e-3, angle = 24 * M_PI / 180;
   const CriticalState::Parameters p{
-      .bulk_modulus = 1e6, .shear_modulus = 0.6e6, .reference_packing = 0.58, .strength_at_rest = 0};
+      .bulk_modulus = 1e6, .shear_modulus = 0.6e6, .reference_packing = 0.58, .ageing_strength = 0};
   Slope slope(p, diameter, 0.1, 40);
   slope.advance(0.1, angle, 200, true);
   slope.advance(8, angle, 20);
   // mu(I) = tan(angle) at every depth.
   const double ratio = std::tan(angle);
-  const double inertial = p.inertial_number * (ratio - p.friction) / (p.fast_friction - ratio);
-  const double packing = p.critical_packing - p.loosening * inertial;
+  const double inertial = p.inertial_number * (ratio - p.static_friction) / (p.dynamic_friction - ratio);
+  const double packing = p.critical_packing - p.packing_slope * inertial;
   const double height = slope.height();
   const double factor = 2.0 / 3.0 * inertial / diameter * std::sqrt(packing * gravity * std::cos(angle));
   const double most = factor * std::pow(height, 1.5);
@@ -89,7 +89,7 @@ TEST(CriticalStateOnASlope, FlowsAsBagnoldFound) {
 }
 
 TEST(CriticalStateOnASlope, StartsAtASteeperAngleThanItStops) {
-  // Grains of 0.2 mm at the critical packing, at rest for ten healing times; then the slope is tilted by 0.1 degrees
+  // Grains of 0.2 mm at the critical packing, at rest for ten ageing times; then the slope is tilted by 0.1 degrees
   // every 50 ms, and back once they flow.
   const CriticalState::Parameters p{.bulk_modulus = 1e6, .shear_modulus = 0.6e6, .reference_packing = 0.585};
   Slope slope(p, 200e-6, 0.02, 10);
@@ -102,13 +102,13 @@ TEST(CriticalStateOnASlope, StartsAtASteeperAngleThanItStops) {
     slope.advance(0.05, angle, 20);
   }
   const double starts = angle / degree;
-  EXPECT_NEAR(starts, std::atan(p.friction + p.strength_at_rest) / degree, 0.35);
+  EXPECT_NEAR(starts, std::atan(p.static_friction + p.ageing_strength) / degree, 0.35);
   while (slope.surface_speed() > 1e-3 && angle > 0) {
     angle -= 0.1 * degree;
     slope.advance(0.05, angle, 20);
   }
   const double stops = angle / degree;
-  EXPECT_NEAR(stops, std::atan(p.friction) / degree, 0.8);
+  EXPECT_NEAR(stops, std::atan(p.static_friction) / degree, 0.8);
   EXPECT_GT(starts - stops, 3);
 }
 

@@ -46,7 +46,7 @@ TEST(DruckerPrager, HardensAsA4) {
   // The yield point starts at zero, so in one direction kappa is the whole deviator, sheared/sqrt(2).
   for (const double sheared : {4e-3, 1e-2}) {
     const auto points = follow_path(law(), std::vector<PathStretch>{{1, squeeze(3e-4)}, {1, shear(sheared)}},
-                                    {.largest_increment = 1e-7, .points = 1});
+                                    {.max_increment = 1e-7, .points = 1});
     const double ratio = norm(deviator(points[2].stress)) / mean(points[2].stress), kappa = points[2].history[0];
     EXPECT_NEAR(kappa, sheared / std::sqrt(2.0), 0.003 * kappa);
     EXPECT_NEAR(ratio, value(printed_2011.a4, kappa) * kappa, 1e-9);

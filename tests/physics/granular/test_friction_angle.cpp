@@ -21,11 +21,11 @@ std::vector<SymmetricTensor3<>> yielding(double friction, const Tensor3<>& gradi
   for (const AnyLaw& law :
        {make_law(
             CriticalState::Parameters{
-                .friction = friction, .fast_friction = friction, .dilatancy = 0, .strength_at_rest = 0},
+                .static_friction = friction, .dynamic_friction = friction, .dilatancy = 0, .ageing_strength = 0},
             2500),
         make_law(DruckerPrager::Parameters{.friction = friction}, 2500)}) {
     const std::vector<PathStretch> path = {{1, squeeze(1e-3)}, {1, gradient}};
-    stresses.push_back(follow_path(law, path, {.largest_increment = 1e-5, .points = 1}).back().stress);
+    stresses.push_back(follow_path(law, path, {.max_increment = 1e-5, .points = 1}).back().stress);
   }
   return stresses;
 }

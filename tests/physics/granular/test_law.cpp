@@ -37,7 +37,7 @@ std::vector<LawParameters> many_laws() {
       DruckerPrager::Parameters{},
       DruckerPrager::Parameters{.friction = 0.4, .contact = {.volume = Volume::strain}},
       CriticalState::Parameters{},
-      CriticalState::Parameters{.dilatancy = 0, .strength_at_rest = 0},
+      CriticalState::Parameters{.dilatancy = 0, .ageing_strength = 0},
       LinearElastic::Parameters{}};
 }
 
@@ -118,7 +118,7 @@ TEST(Law, NamesItsSlotsOnceAndTensorsByTheirAxes) {
 }
 
 TEST(Law, KeysReachTheLaw) {
-  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.fits = {.scale = 4, .largest_deviator = 0.02},
+  const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{.fits = {.scale = 4, .max_deviator = 0.02},
                                                               .contact = {.volume = Volume::strain, .gate_power = 300},
                                                               .unloading = Unloading::shear,
                                                               .rule = {.unloading_stiffness = 3}},
@@ -126,7 +126,7 @@ TEST(Law, KeysReachTheLaw) {
   const YuuUmekageIsotropic::Parameters& p = std::get<YuuUmekageIsotropic>(law).parameters();
   EXPECT_EQ(p.fits.scale, 4);
   EXPECT_EQ(p.contact.volume, Volume::strain);
-  EXPECT_EQ(p.fits.largest_deviator, 0.02);
+  EXPECT_EQ(p.fits.max_deviator, 0.02);
   EXPECT_EQ(p.unloading, Unloading::shear);
   EXPECT_EQ(p.rule.unloading_stiffness, 3);
   EXPECT_EQ(p.contact.gate_power, 300);
@@ -190,7 +190,7 @@ TEST(Law, ContradictionsAreNamed) {
   EXPECT_EQ(problems[0].key, "law.yuu-umekage-printed.reset");
   EXPECT_THAT(problems[0].what, testing::HasSubstr("density"));
   EXPECT_EQ(check(YuuUmekageIsotropic::Parameters{.rule = {.reset = Reset::strain}})[0].key, "law.yuu-umekage.reset");
-  const Fits beyond{.largest_deviator = 0.04};
+  const Fits beyond{.max_deviator = 0.04};
   EXPECT_THROW(make_law(YuuUmekageIsotropic::Parameters{.fits = beyond}, 2500), std::invalid_argument);
   EXPECT_THROW(make_law(DruckerPrager::Parameters{.fits = beyond}, 2500), std::invalid_argument);
   EXPECT_NO_THROW(make_law(YuuUmekagePrinted::Parameters{.fits = beyond}, 2500));

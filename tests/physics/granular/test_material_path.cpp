@@ -49,7 +49,7 @@ TEST(MaterialPath, WorkIsTheElasticEnergyAndComesBack) {
 TEST(MaterialPath, RefusesWhatIsNoPath) {
   const std::vector<PathStretch> path = {{1, squash(1e-4)}};
   EXPECT_THROW(follow_path(elastic, path, {.density = 0}), std::invalid_argument);
-  EXPECT_THROW(follow_path(elastic, path, {.largest_increment = 0}), std::invalid_argument);
+  EXPECT_THROW(follow_path(elastic, path, {.max_increment = 0}), std::invalid_argument);
   EXPECT_THROW(follow_path(elastic, path, {.points = 0}), std::invalid_argument);
   EXPECT_THROW(follow_path(elastic, std::vector<PathStretch>{{-1, {}}}), std::invalid_argument);
   EXPECT_THROW(follow_path(elastic, std::vector<PathStretch>{{std::numeric_limits<double>::infinity(), {}}}),

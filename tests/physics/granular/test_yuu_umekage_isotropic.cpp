@@ -149,10 +149,10 @@ TEST(YuuUmekageIsotropic, ShearUnloadsReloadsAndGoesOn) {
 TEST(YuuUmekageIsotropic, ShearFollowsTheFrictionOfA4AndStaysAtItsLargestDeviator) {
   for (const Unloading unloading : {Unloading::none, Unloading::all}) {
     const AnyLaw law =
-        make_law(YuuUmekageIsotropic::Parameters{.fits = {.largest_deviator = 0.01}, .unloading = unloading}, 2500);
+        make_law(YuuUmekageIsotropic::Parameters{.fits = {.max_deviator = 0.01}, .unloading = unloading}, 2500);
     auto friction = [&](double sheared) {
       const auto points = follow_path(law, std::vector<PathStretch>{{1, squeeze(6e-4)}, {1, shear(sheared)}},
-                                      {.largest_increment = 1e-7, .points = 1});
+                                      {.max_increment = 1e-7, .points = 1});
       return -points[2].stress.zx / mean(points[2].stress);
     };
     for (const double deviator : {3e-4, 1e-3, 5e-3})
@@ -170,7 +170,7 @@ TEST(YuuUmekageIsotropic, ClosedCyclesOfPressureOrShearOnlyLoseEnergy) {
   const AnyLaw law = make_law(YuuUmekageIsotropic::Parameters{}, 2500);
   auto work = [&](const std::vector<PathStretch>& path, std::size_t skipped) {
     // The work from the end of the first `skipped` stretches on.
-    const auto points = follow_path(law, path, {.largest_increment = 1e-7, .points = 400});
+    const auto points = follow_path(law, path, {.max_increment = 1e-7, .points = 400});
     return work_of_path(path, points) -
            work_of_path(std::span(path).first(skipped), std::span(points).first(400 * skipped + 1));
   };
@@ -199,7 +199,7 @@ TEST(YuuUmekageIsotropic, ShearAtLowAndBackAtHighPressureGainsAKnownEnergy) {
                                          {1, squeeze(5e-5)},
                                          {1, shear(-sheared)},
                                          {1, squeeze(-5e-5)}};
-  const auto points = follow_path(law, path, {.largest_increment = 1e-8, .points = 200});
+  const auto points = follow_path(law, path, {.max_increment = 1e-8, .points = 200});
   const double low = mean(points[200 * 5].stress), high = mean(points[200 * 6].stress);
   expect_near(points.back().stress, points[200 * 4].stress, 0.02 * low);
   const double gain =

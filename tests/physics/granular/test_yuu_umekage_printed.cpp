@@ -16,13 +16,13 @@ constexpr double alpha = 9.8;
 
 /// The printed route: strain since the last reset, resets, no smoothing, nothing held.
 YuuUmekagePrinted::Parameters printed_route() {
-  return {.fits = {.tables = Tables::printed, .largest_deviator = 1},
+  return {.fits = {.tables = Tables::printed, .max_deviator = 1},
           .contact = {.volume = Volume::strain},
           .unloading = PrintedUnloading::all,
           .rule = {.reset = Reset::strain, .smoothing_time = 0}};
 }
 YuuUmekagePrinted loading_law(ShearSum sum = ShearSum::absolute) {
-  return YuuUmekagePrinted({.fits = {.tables = Tables::printed, .largest_deviator = 1},
+  return YuuUmekagePrinted({.fits = {.tables = Tables::printed, .max_deviator = 1},
                             .contact = {.volume = Volume::strain},
                             .shear_sum = sum,
                             .unloading = PrintedUnloading::none});

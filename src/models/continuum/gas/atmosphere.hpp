@@ -40,10 +40,10 @@ class Atmosphere {
   void take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
 
   /// The longest step of the air with the particles last deposited, s.
-  double longest_step() const { return longest_; }
+  double max_step() const { return longest_; }
 
   /// If due, advances the air by its next step: as many equal particle steps as fit within the longest step. Counts one
-  /// of them as taken. \param dt the particles' step, s, at most longest_step()
+  /// of them as taken. \param dt the particles' step, s, at most max_step()
   /// \throws NumericalError for a void fraction out of range, or a pressure that does not converge: cell and residual
   void advance(ThreadTeam& team, double dt, State& state);
 

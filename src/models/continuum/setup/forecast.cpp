@@ -27,7 +27,7 @@ struct SettlingTime {
 /// H, whose speed is at most 4/pi g/omega; one whose weight comes on as half a cosine over n periods of it has 1/(4
 /// n^2) of that left. Damping of time tau makes it die out with the slower root of s^2 - s/tau + omega^2, until hardly
 /// a particle is faster than settle.speed. Without damping it dies out by friction and by the scheme's own viscosity,
-/// in a time that no closed form gives: settle.longest bounds it.
+/// in a time that no closed form gives: settle.max_time bounds it.
 SettlingTime settling_time(const Setup& setup) {
   const Parameters& p = setup.given;
   const auto known = [&](double time) { return SettlingTime{time, time}; };

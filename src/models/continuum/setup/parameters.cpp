@@ -353,7 +353,7 @@ std::vector<Problem> check(const Parameters& given) {
   if (const double limit = time_scales_of(p).settling_limit; p.settle.loading_time && *p.settle.loading_time >= limit)
     problems.push_back({.key = "settle.loading_time",
                         .what = fmt::format("{:g} s: the bed could not settle before", *p.settle.loading_time),
-                        .allowed = fmt::format("less than settle.longest, {:g} s", limit)});
+                        .allowed = fmt::format("less than settle.max_time, {:g} s", limit)});
   for (const Problem& problem : granular::check(p.law)) problems.push_back(problem);
   for (const Problem& problem : check_air(p)) problems.push_back(problem);
   if (p.collisions.form != granular::Collisions::none && !(p.gravity.acceleration > 0))

@@ -83,7 +83,7 @@ struct Parameters {
     air::Parameters gas;  ///< of which the grains' size and density stand in `grains`
   } air;
   struct Settle {
-    std::optional<double> speed, duration, longest;  ///< left out: time_scale.hpp
+    std::optional<double> speed, duration, max_time;  ///< left out: time_scale.hpp
     std::optional<double> loading_time;
     std::optional<double> damping_time;
   } settle;
@@ -254,14 +254,14 @@ void for_each_parameter(Visit&& visit, P& p) {
            p.settle.speed);
   settling(Parameter{"settle.duration", dimension::time, at_least(0), "for this long; left out: 0.3 times (D/g)^½"},
            p.settle.duration);
-  settling(Parameter{"settle.longest", dimension::time, above(0),
+  settling(Parameter{"settle.max_time", dimension::time, above(0),
                      "a bed that is still moving then is a failure; left out: 15 times (L/g)^½, L the larger of D and "
                      "the height of the bed, after the last inlet that fills the vessel has ended"},
-           p.settle.longest);
+           p.settle.max_time);
   settling(Parameter{"settle.loading_time", dimension::time, at_least(0),
                      "time over which gravity is raised to its full value while the bed settles, so that no pressure "
                      "wave compresses it beyond its weight; 0: at once; left out: the time in which a pressure wave "
-                     "passes twenty times through the height of the bed, at most a quarter of settle.longest"},
+                     "passes twenty times through the height of the bed, at most a quarter of settle.max_time"},
            p.settle.loading_time);
   auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
   gated(

@@ -34,7 +34,7 @@ TimeScales time_scales_of(const Parameters& p) {
           .settled_speed = p.settle.speed.value_or(share_of_speed * std::sqrt(length * g)),
           .settled_duration = p.settle.duration.value_or(share_of_time * time),
           .settling_limit =
-              p.settle.longest.value_or(end_of_filling(p) + share_of_limit * std::sqrt(std::max(length, bed) / g)),
+              p.settle.max_time.value_or(end_of_filling(p) + share_of_limit * std::sqrt(std::max(length, bed) / g)),
           .averaging_time = p.analysis.averaging_time.value_or(share_of_time * time)};
 }
 

@@ -14,7 +14,7 @@ struct TimeScales {
   double time = 0;              ///< (D/g)^½; without gravity with that of the Earth
   double settled_speed = 0;     ///< settle.speed, or 0.0008 (g D)^½
   double settled_duration = 0;  ///< settle.duration, or 0.3 (D/g)^½
-  /// settle.longest, or 15 (L/g)^½, L the larger of D and the height of the bed, after the last inlet that fills the
+  /// settle.max_time, or 15 (L/g)^½, L the larger of D and the height of the bed, after the last inlet that fills the
   /// vessel has ended.
   double settling_limit = 0;
   double averaging_time = 0;  ///< analysis.averaging_time, or 0.3 (D/g)^½

@@ -24,7 +24,7 @@ TEST(InclinedWalls, BearTheHydrostaticLoadOfALiquid) {
   p.bed.height = 12 * spacing;
   p.plates = {{.from = {10 * spacing, 0}, .to = {30 * spacing, 20 * spacing}, .openings = {}, .opens_after = {}}};
   p.gate.opens = GateOpens::when_settled;
-  p.settle = {.speed = 2e-2, .duration = 0.02, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
+  p.settle = {.speed = 2e-2, .duration = 0.02, .max_time = 2, .loading_time = {}, .damping_time = 5e-3};
   ThreadTeam team(2);
   Continuum model = started(p, team);
   const State& s = model.state();

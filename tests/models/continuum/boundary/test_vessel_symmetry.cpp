@@ -65,7 +65,7 @@ TEST(VesselSymmetry, PlanesBearWhatTheOtherHalfWould) {
   p.law = granular::LinearElastic::Parameters{.lambda = 2e5, .shear_modulus = 1e2};
   p.sph.viscosity_alpha = 0.3;
   p.gate.opens = GateOpens::when_settled;
-  p.settle = {.speed = 2e-2, .duration = 0.01, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
+  p.settle = {.speed = 2e-2, .duration = 0.01, .max_time = 2, .loading_time = {}, .damping_time = 5e-3};
   ThreadTeam team(2);
   Continuum model = started(p, team);
   const State& s = model.state();

@@ -122,8 +122,8 @@ TEST(WallContact, LayersStopTogether) {
       make_granular(p);
       granular::CriticalState::Parameters sand;
       sand.bulk_modulus = 5e5, sand.shear_modulus = 3e5;
-      sand.friction = 0.675, sand.fast_friction = 0.935;
-      sand.reference_packing = p.bed.packing = 0.55, sand.critical_packing = 0.517, sand.loosest_packing = 0.506;
+      sand.static_friction = 0.675, sand.dynamic_friction = 0.935;
+      sand.reference_packing = p.bed.packing = 0.55, sand.critical_packing = 0.517, sand.random_loose_packing = 0.506;
       p.law = sand;
       p.box.left = p.box.right = p.box.front = p.box.rear = FaceKind::periodic;
       p.integration.method = Method::leapfrog;

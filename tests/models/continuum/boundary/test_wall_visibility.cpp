@@ -28,7 +28,7 @@ Parameters liquid(double x, double z) {
   p.gate.opens = GateOpens::when_settled;
   p.integration.method = Method::leapfrog;
   p.integration.courant = 0.8;
-  p.settle = {.speed = 5e-3, .duration = 0.02, .longest = 3, .loading_time = {}, .damping_time = 5e-3};
+  p.settle = {.speed = 5e-3, .duration = 0.02, .max_time = 3, .loading_time = {}, .damping_time = 5e-3};
   return p;
 }
 

@@ -191,7 +191,7 @@ TEST(Atmosphere, ABeadFallsThroughAirAtRestWithItsTerminalVelocity) {
   p.air.cell = 0.1;
   p.air.gas.motion = air::Motion::frozen;
   p.air.gas.boundaries.kind[2] = p.air.gas.boundaries.kind[3] = FlowBoundary::periodic;
-  p.air.gas.longest_step = 0.5e-3;
+  p.air.gas.max_step = 0.5e-3;
   p.integration.step = 0.5e-3;
   ThreadTeam team(1);
   Continuum model = started(p, team);
@@ -224,7 +224,7 @@ TEST(Atmosphere, DischargeIsFasterVentedThanAgainstAirAtRestThanSealed) {
 
 TEST(Atmosphere, APressureThatDoesNotConvergeNamesCellAndResidual) {
   Parameters p = small_hopper_in_air();
-  p.air.gas.most_iterations = 1;
+  p.air.gas.max_iterations = 1;
   p.air.gas.tolerance = 1e-12;
   ThreadTeam team(1);
   Continuum model = started(p, team);

@@ -11,11 +11,10 @@ namespace {
 
 /// The paper's route, as far as the law goes.
 granular::LawParameters printed_route() {
-  return granular::YuuUmekagePrinted::Parameters{
-      .fits = {.tables = granular::Tables::printed, .largest_deviator = 1000},
-      .contact = {.volume = granular::Volume::strain},
-      .strain = granular::Strain::displacements,
-      .rule = {.reset = granular::Reset::strain, .smoothing_time = 0}};
+  return granular::YuuUmekagePrinted::Parameters{.fits = {.tables = granular::Tables::printed, .max_deviator = 1000},
+                                                 .contact = {.volume = granular::Volume::strain},
+                                                 .strain = granular::Strain::displacements,
+                                                 .rule = {.reset = granular::Reset::strain, .smoothing_time = 0}};
 }
 
 std::vector<SymmetricTensor3<>> strain_of(const Parameters& p, std::vector<Vector3> places, double stretch) {

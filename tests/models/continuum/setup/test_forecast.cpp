@@ -53,7 +53,7 @@ TEST(ContinuumForecast, OfABedThatGetsItsWeightAtOnce) {
 
 TEST(Check, ABedThatIsNotLoadedBeforeItsTimeIsOverIsRefused) {
   Parameters p = section(10e-3, 30e-3);
-  p.settle.longest = 1;
+  p.settle.max_time = 1;
   p.settle.loading_time = 0.9;
   EXPECT_TRUE(check(p).empty());
   p.settle.loading_time = 1;

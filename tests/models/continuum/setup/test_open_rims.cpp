@@ -86,7 +86,7 @@ TEST(OpenRims, ABedThatDoesNotSettleSaysHowManyHaveLeft) {
   p.vessel[1].gate = false;
   p.vessel[1].first_edge[0] = 5 * spacing;  // half of the floor
   p.gate.opens = GateOpens::when_settled;
-  p.settle = {.speed = 1e-3, .duration = 0.01, .longest = 0.1, .loading_time = 0.0, .damping_time = {}};
+  p.settle = {.speed = 1e-3, .duration = 0.01, .max_time = 0.1, .loading_time = 0.0, .damping_time = {}};
   p.integration.method = Method::leapfrog;
   ThreadTeam team(2);
   Continuum model = started(p, team);

@@ -35,13 +35,13 @@ TEST(TimeScales, GrowWithTheRootOfTheOutlet) {
 
 TEST(TimeScales, AreWhatTheCaseGives) {
   Parameters p = hopper(100);
-  p.settle.speed = 0.5e-3, p.settle.duration = 20e-3, p.settle.longest = 1, p.analysis.averaging_time = 20e-3;
+  p.settle.speed = 0.5e-3, p.settle.duration = 20e-3, p.settle.max_time = 1, p.analysis.averaging_time = 20e-3;
   const TimeScales given = time_scales_of(p);
   EXPECT_EQ(given.settled_speed, 0.5e-3);
   EXPECT_EQ(given.settled_duration, 20e-3);
   EXPECT_EQ(given.settling_limit, 1);
   EXPECT_EQ(given.peak_time(), 10e-3);
-  EXPECT_EQ(loading_time(p, 0.08, given, 1), 0.25) << "a quarter of settle.longest";
+  EXPECT_EQ(loading_time(p, 0.08, given, 1), 0.25) << "a quarter of settle.max_time";
 }
 
 TEST(TimeScales, AreOfTheNarrowerSideOrTheBed) {

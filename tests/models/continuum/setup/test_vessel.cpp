@@ -27,7 +27,7 @@ void make_liquid(Parameters& p) {
   p.gate.opens = GateOpens::when_settled;
   p.integration.method = Method::leapfrog;
   p.integration.courant = 0.8;
-  p.settle = {.speed = 2e-2, .duration = 0.01, .longest = 2, .loading_time = {}, .damping_time = 5e-3};
+  p.settle = {.speed = 2e-2, .duration = 0.01, .max_time = 2, .loading_time = {}, .damping_time = 5e-3};
 }
 
 /// What every patch of the vessel received over a while after the bed has settled, N.
