@@ -33,9 +33,10 @@ def dependencies(build):
     return found
 
 
-def fingerprint(root, build, command, files):
+def fingerprint(root, build, commands, files):
     digest = hashlib.sha256((root / ".clang-tidy").read_bytes() + pathlib.Path(__file__).read_bytes())
-    digest.update(command["command"].encode())
+    for command in commands:
+        digest.update(command["command"].encode())
     for name in sorted(files):
         path = (build / name).resolve()
         if path.is_relative_to(root / "src"):
@@ -63,13 +64,15 @@ def main():
     clean.mkdir(exist_ok=True)
     made_of = dependencies(build)
 
-    waiting, keep = [], set()
+    commands = {}  # of each file: several where it is compiled for each instruction set, which clang-tidy runs in turn
     for command in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
-        path = pathlib.Path(command["file"])
+        commands.setdefault(pathlib.Path(command["file"]), []).append(command)
+    waiting, keep = [], set()
+    for path, several in commands.items():
         if not path.is_relative_to(root / "src"):
             continue
-        files = made_of.get(OUTPUT.search(command["command"]).group(1), [])
-        name = fingerprint(root, build, command, files)
+        files = {file for command in several for file in made_of.get(OUTPUT.search(command["command"]).group(1), [])}
+        name = fingerprint(root, build, several, files)
         keep.add(name)
         if not files or not (clean / name).exists():
             waiting.append((path, name if files else None))

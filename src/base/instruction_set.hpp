@@ -8,15 +8,16 @@
 
 #include "base/parameter.hpp"
 
-/// Of name_avx512, name_avx2 and name_portable, functions of one type, the one for a set that resolve() has returned.
-/// Only the last exists on processors other than x86-64. A macro, since their names are all that differs.
+/// Of name_avx512, name_avx2 and name_portable, functions of one type (with the template arguments that follow), the
+/// one for a set that resolve() has returned. Only the last exists on processors other than x86-64. A macro, since
+/// their names are all that differs.
 #if defined(__x86_64__)
-#define TALUS_COMPILED_FOR(set, name)                       \
-  ((set) == ::talus::InstructionSet::avx512 ? name##_avx512 \
-   : (set) == ::talus::InstructionSet::avx2 ? name##_avx2   \
-                                            : name##_portable)
+#define TALUS_COMPILED_FOR(set, name, ...)                              \
+  ((set) == ::talus::InstructionSet::avx512 ? name##_avx512 __VA_ARGS__ \
+   : (set) == ::talus::InstructionSet::avx2 ? name##_avx2 __VA_ARGS__   \
+                                            : name##_portable __VA_ARGS__)
 #else
-#define TALUS_COMPILED_FOR(set, name) (static_cast<void>(set), name##_portable)
+#define TALUS_COMPILED_FOR(set, name, ...) (static_cast<void>(set), name##_portable __VA_ARGS__)
 #endif
 
 namespace talus {

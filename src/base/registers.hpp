@@ -19,6 +19,10 @@
 #else
 #define TALUS_INSTRUCTION_SET portable
 #endif
+/// The function of this name for the instruction set (TALUS_COMPILED_FOR in instruction_set.hpp).
+#define TALUS_FOR_SET(name) TALUS_JOINED(name, TALUS_INSTRUCTION_SET)
+#define TALUS_JOINED(name, set) TALUS_JOINED_TOKENS(name, set)
+#define TALUS_JOINED_TOKENS(name, set) name##_##set
 #define TALUS_INLINE [[gnu::always_inline]] inline
 // Short loops over rows or dimensions have to vanish before the compiler gives registers to what they run over. Under
 // the sanitizers, which check every access, they stay: unrolled they take minutes to compile.

@@ -115,7 +115,7 @@ class Layers(Tree):
 
     def test_a_template_header_behind_an_instruction_set_file_is_found(self):
         self.write("src/base/v.hpp", "#include <vector>\n")
-        self.write("src/models/cloud/sum_avx2.cpp", '#include "base/v.hpp"\n')
+        self.write("src/models/cloud/sum_for_set.cpp", '#include "base/v.hpp"\n')
         self.assertRegex(check_layers.check_instruction_set_files(self.root)[0], r"src/base/v.hpp:1: <vector>")
 
     def test_a_long_file_needs_a_reason(self):

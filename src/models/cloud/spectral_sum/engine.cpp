@@ -21,16 +21,7 @@ constexpr std::size_t targets_wanted = 4;  // of a block of cells: gathering the
 
 template <class T, int dimensions>
 SumNear<T, dimensions> choose(InstructionSet set, Mobility mobility, int degree) {
-  switch (set) {
-#if defined(__x86_64__)
-    case InstructionSet::avx512:
-      return sum_near_avx512<T, dimensions>(mobility, degree);
-    case InstructionSet::avx2:
-      return sum_near_avx2<T, dimensions>(mobility, degree);
-#endif
-    default:
-      return sum_near_portable<T, dimensions>(mobility, degree);
-  }
+  return TALUS_COMPILED_FOR(set, sum_near, <T, dimensions>)(mobility, degree);
 }
 
 /// Lengths in units of the cut-off. A cell is half of it.

@@ -10,7 +10,7 @@
 /// the neighbours' images in it. At the distances a and b of two particles from a plane, each is at the distance
 /// (r^2 + 4 a b)^(1/2) from the other's image, and the forces along the wall are equal and opposite: the wall, which is
 /// smooth, has no part in them. Where a wall covers a part of its plane only, at a rim or a corner, the images count by
-/// the mean of the shares that both particles see (kernels/sum_walls.hpp).
+/// the mean of the shares that both particles see (kernels/sum_walls_for_set.cpp).
 #pragma once
 
 #include "models/continuum/boundary/vessel_walls.hpp"

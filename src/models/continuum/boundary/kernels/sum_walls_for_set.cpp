@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The sums over the points of a wall, and over neighbours at a wall, a register at a time. Included by one file for
-/// each instruction set; its contents live in that set's namespace.
-#pragma once
-
+/// The sums over the points of a wall, and over neighbours at a wall, a register at a time. Compiled once for each
+/// instruction set.
 #include "base/simd.hpp"
 #include "base/simd_columns.hpp"
 #include "models/continuum/boundary/kernels/kernel.hpp"
@@ -107,4 +105,9 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
 }
 
 }  // namespace TALUS_INSTRUCTION_SET
+
+WallKernels TALUS_FOR_SET(wall_kernels)() {
+  return {sum_points, sum_images};
+}
+
 }  // namespace talus::continuum

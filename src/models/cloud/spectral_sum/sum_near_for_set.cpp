@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The loop over near pairs: each target meets its neighbours a register at a time. Every target sums for itself, so
-/// that no other thread's sums are touched. Included by one file for each instruction set; its contents live in that
-/// set's namespace.
-#pragma once
-
+/// that no other thread's sums are touched. Compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "models/cloud/spectral_sum/kernel.hpp"
 #include "physics/hydrodynamics/mobility.hpp"
@@ -195,4 +192,25 @@ TALUS_INLINE SumNear<T, dimensions> choose_near(Mobility mobility, int degree) {
 }
 
 }  // namespace TALUS_INSTRUCTION_SET
+
+template <>
+SumNear<float, 2> TALUS_FOR_SET(sum_near)(Mobility mobility, int degree) {
+  return choose_near<float, 2>(mobility, degree);
+}
+
+template <>
+SumNear<float, 3> TALUS_FOR_SET(sum_near)(Mobility mobility, int degree) {
+  return choose_near<float, 3>(mobility, degree);
+}
+
+template <>
+SumNear<double, 2> TALUS_FOR_SET(sum_near)(Mobility mobility, int degree) {
+  return choose_near<double, 2>(mobility, degree);
+}
+
+template <>
+SumNear<double, 3> TALUS_FOR_SET(sum_near)(Mobility mobility, int degree) {
+  return choose_near<double, 3>(mobility, degree);
+}
+
 }  // namespace talus::cloud

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The sums over a particle's neighbours, a register of neighbours at a time: their records are loaded whole and turned
-/// into columns. Included by one file for each instruction set; its contents live in that set's namespace.
-#pragma once
-
+/// into columns. Compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "base/simd_columns.hpp"
 #include "base/tensor.hpp"
@@ -271,18 +269,6 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   }
 }
 
-TALUS_INLINE void velocity_gradients(const ParticleSums* sums, double (*gradient)[ParticleSums::together]) {
-  using Number = SimdVector<double>;
-  for (std::uint32_t n = 0; n < ParticleSums::together; n += Number::lanes) {
-    Number s[16];
-    load_columns([&](int lane) { return sums[n + static_cast<std::uint32_t>(lane)].moment; }, s);
-    const Tensor3<Number> l = sph::velocity_gradient<Number>(
-        {{s[0], s[1], s[2], s[3], s[4], s[5]}, {s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]}});
-    const Number component[9] = {l.xx, l.xy, l.xz, l.yx, l.yy, l.yz, l.zx, l.zy, l.zz};
-    TALUS_UNROLL for (int c = 0; c < 9; ++c) component[c].store(gradient[c] + n);
-  }
-}
-
 template <class Real, Stabilisers stabilisers, StressAround stress_around, StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(PairTerms terms) {
   return terms == PairTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient>
@@ -313,11 +299,24 @@ TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, Stre
              : choose<Real, StressGradient::unasked>(terms, stabilisers, stress_around);
 }
 
-TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                  StressAround stress_around, StressGradient stress_gradient) {
+}  // namespace TALUS_INSTRUCTION_SET
+
+SumNeighbours TALUS_FOR_SET(sum_neighbours)(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
+                                            StressAround stress_around, StressGradient stress_gradient) {
   return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers, stress_around, stress_gradient)
                                                : choose<double>(terms, stabilisers, stress_around, stress_gradient);
 }
 
-}  // namespace TALUS_INSTRUCTION_SET
+void TALUS_FOR_SET(velocity_gradients)(const ParticleSums* sums, double (*gradient)[ParticleSums::together]) {
+  using Number = SimdVector<double>;
+  for (std::uint32_t n = 0; n < ParticleSums::together; n += Number::lanes) {
+    Number s[16];
+    load_columns([&](int lane) { return sums[n + static_cast<std::uint32_t>(lane)].moment; }, s);
+    const Tensor3<Number> l = sph::velocity_gradient<Number>(
+        {{s[0], s[1], s[2], s[3], s[4], s[5]}, {s[6], s[7], s[8], s[9], s[10], s[11], s[12], s[13], s[14]}});
+    const Number component[9] = {l.xx, l.xy, l.xz, l.yx, l.yy, l.yz, l.zx, l.zy, l.zz};
+    TALUS_UNROLL for (int c = 0; c < 9; ++c) component[c].store(gradient[c] + n);
+  }
+}
+
 }  // namespace talus::continuum

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A law applied to a register of particles at a time. Included by one file for each instruction set; its contents live
-/// in that set's namespace.
-#pragma once
-
+/// A law applied to a register of particles at a time. Compiled once for each instruction set.
 #include "models/continuum/law_update/kernel.hpp"
 
 namespace talus::continuum {
@@ -19,8 +16,10 @@ TALUS_INLINE void store(const Number& x, double* values) {
   __builtin_memcpy(values, x.row, sizeof(x));
 }
 
-TALUS_INLINE void update_law(const granular::CriticalStateCoefficients& law, const LawColumns& c, std::size_t first,
-                             std::size_t end) {
+}  // namespace TALUS_INSTRUCTION_SET
+
+void TALUS_FOR_SET(update_law)(const granular::CriticalStateCoefficients& law, const LawColumns& c, std::size_t first,
+                               std::size_t end) {
   const bool has_fabric = law.parameters.has_fabric();
   for (std::size_t i = first; i < end; i += Number::lanes) {
     const auto stress = [&](int k) { return load(c.stress[k] + i); };
@@ -49,5 +48,4 @@ TALUS_INLINE void update_law(const granular::CriticalStateCoefficients& law, con
   }
 }
 
-}  // namespace TALUS_INSTRUCTION_SET
 }  // namespace talus::continuum

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The distance tests of kernel.hpp, a register of points at a time. Included by one file for each instruction set; its
-/// contents live in that set's namespace.
-#pragma once
-
+/// The distance tests of kernel.hpp, a register of points at a time. Compiled once for each instruction set.
 #include "base/simd.hpp"
 #include "numerics/near_points/kernel.hpp"
 
 namespace talus {
-inline namespace TALUS_INSTRUCTION_SET {
 
-TALUS_INLINE std::size_t pick_near(const PointBlock* blocks, const BlockBoxes* boxes, std::size_t count,
-                                   std::size_t self, double skin, std::uint32_t* near) {
+std::size_t TALUS_FOR_SET(pick_near)(const PointBlock* blocks, const BlockBoxes* boxes, std::size_t count,
+                                     std::size_t self, double skin, std::uint32_t* near) {
   using Number = SimdVector<double>;
   constexpr std::size_t size = PointBlock::size, lanes = Number::lanes;
   constexpr unsigned all = (1u << size) - 1;
@@ -52,5 +48,4 @@ TALUS_INLINE std::size_t pick_near(const PointBlock* blocks, const BlockBoxes* b
   return found;
 }
 
-}  // namespace TALUS_INSTRUCTION_SET
 }  // namespace talus
