@@ -33,7 +33,7 @@ double megabytes() {
 }
 
 template <class Body>
-double least_time(Body&& body, int repetitions) {
+double min_time(Body&& body, int repetitions) {
   double least = 1e30;
   for (int k = 0; k < repetitions; ++k) {
     const double begin = processor_time();
@@ -68,7 +68,7 @@ struct Setup {
   }
 };
 
-void measure(std::size_t count, bool space, std::size_t most_direct) {
+void measure(std::size_t count, bool space, std::size_t max_direct) {
   Setup s(count, space);
   ThreadTeam team(1);
   const PairSum::Options options{.motion = space ? Motion::xyz : Motion::xy, .viscosity = 1.82e-5};
@@ -80,14 +80,14 @@ void measure(std::size_t count, bool space, std::size_t most_direct) {
     sum.set_cutoff(plan->cutoff);
     const auto run = [&] { sum.velocities(team, s.position, s.force, s.velocity); };
     run();  // makes the tensor's spectrum
-    const double time = least_time(run, 7);
+    const double time = min_time(run, 7);
     fmt::print("{:9} spheres, spectral {:.0e}, r_c {:5.1f} a: {:9.3g} ms, {:9.3g} spheres/s, {:6.0f} MB\n", count,
                accuracy.error, plan->cutoff / 5e-3, 1e3 * time, static_cast<double>(count) / time, megabytes());
   }
-  if (count > most_direct) return;
+  if (count > max_direct) return;
   PairSum direct(options, s.radius, s.order);
   std::vector<Vector3> exact(count);
-  const double time = least_time([&] { direct.velocities(team, s.position, s.force, exact); }, count > 50000 ? 1 : 2);
+  const double time = min_time([&] { direct.velocities(team, s.position, s.force, exact); }, count > 50000 ? 1 : 2);
   double error = 0, size = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3 d = s.velocity[i] - exact[i];
@@ -102,7 +102,7 @@ void measure(std::size_t count, bool space, std::size_t most_direct) {
 
 int main(int count, char** argument) {
   const bool space = count > 1 && std::string_view(argument[1]) == "space";
-  const auto most_direct = static_cast<std::size_t>(count > 2 ? std::strtod(argument[2], nullptr) : 20000);
+  const auto max_direct = static_cast<std::size_t>(count > 2 ? std::strtod(argument[2], nullptr) : 20000);
   for (const std::size_t spheres : {500, 1000, 2000, 10000, 100000, 1000000})
-    talus::cloud::measure(spheres, space, most_direct);
+    talus::cloud::measure(spheres, space, max_direct);
 }

@@ -69,9 +69,9 @@ const std::vector<Row> list = {
     Row("front_speed_max", "1",
         "largest front speed over v_s. Front: the largest x of a grain's centre, seen from the side of those lower "
         "than 2 a; speed: its displacement over 0.25 a/v_s, one every 0.25 a/v_s",
-        of_front_speed([](const Curve& speed) { return extremes(speed).largest; }), {on_slope}),
+        of_front_speed([](const Curve& speed) { return extremes(speed).max; }), {on_slope}),
     Row("front_speed_min", "1", "the smallest of them",
-        of_front_speed([](const Curve& speed) { return extremes(speed).least; }), {on_slope}),
+        of_front_speed([](const Curve& speed) { return extremes(speed).min; }), {on_slope}),
     Row("front_speed_end", "1", "the last of them",
         of_front_speed([](const Curve& speed) { return speed.value.back(); }), {on_slope}),
     Row("head_count", "1",

@@ -23,10 +23,10 @@ double value_at(const Curve& curve, double t);
 /// The point nearest t; of two equally near the earlier. \throws std::invalid_argument for an empty curve
 std::size_t nearest_point(std::span<const double> time, double t);
 
-/// The least value, the largest, and the time of the largest (the first of equal ones); nan if a value is nan.
+/// Minimum, maximum, and the time of the maximum (the first of equal ones); nan if a value is nan.
 /// \throws std::invalid_argument for an empty curve
 struct Extremes {
-  double least, largest, largest_time;
+  double min, max, max_time;
 };
 Extremes extremes(const Curve& curve);
 

@@ -150,7 +150,7 @@ struct Stretch {
 };
 
 /// The longest stretch of which every mean lies within the spread of their mean.
-Stretch longest_level(std::span<const double> means, double least, double spread) {
+Stretch max_level_stretch(std::span<const double> means, double least, double spread) {
   Stretch best{.count = fewest - 1};
   for (std::size_t n = 0; n + best.count < means.size(); ++n) {
     if (means[n] < least) continue;
@@ -203,7 +203,7 @@ Plateau find_plateau(const Curve& cumulative, double length, double spread, doub
   if (means.value.size() < fewest) return {};
   const double half = 0.5 * *std::max_element(means.value.begin(), means.value.end());
   if (!(half > 0)) return {};
-  const Stretch level = longest_level(means.value, half, spread);
+  const Stretch level = max_level_stretch(means.value, half, spread);
   if (level.count == 0) return {};
   const double begin = means.time[level.begin] - 0.5 * length,
                end = means.time[level.begin + level.count - 1] + 0.5 * length;

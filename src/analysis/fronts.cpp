@@ -62,7 +62,7 @@ std::optional<std::uint32_t> next_grain(std::span<const Vector3> position, const
 
 GrainSet surface_walk(std::span<const Vector3> position, double mean_radius) {
   const Links wide(position, cluster_reach * mean_radius);
-  const GrainSet cluster = largest_set(wide.connected_sets(std::vector<bool>(position.size(), true)), position);
+  const GrainSet cluster = max_set(wide.connected_sets(std::vector<bool>(position.size(), true)), position);
   if (cluster.empty()) return {};
   const Links links(position, step * mean_radius);
 

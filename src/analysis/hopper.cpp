@@ -22,15 +22,15 @@ const T& made_once(std::optional<T>& value, Make&& make) {
 }  // namespace
 
 Vessel HopperShape::bin() const {
-  return {0, plate ? plate->height : height, Vessel::Search::from_below};
+  return {0, outlet ? outlet->height : height, Vessel::Search::from_below};
 }
 
 Vessel HopperShape::hopper() const {
-  return {plate.value().height, height, Vessel::Search::from_above};
+  return {outlet.value().height, height, Vessel::Search::from_above};
 }
 
 HopperSurfaces hopper_surfaces(const Section& packing, const HopperShape& shape) {
-  return {free_surface(packing, shape.bin()), shape.plate ? free_surface(packing, shape.hopper()) : FreeSurface{}};
+  return {free_surface(packing, shape.bin()), shape.outlet ? free_surface(packing, shape.hopper()) : FreeSurface{}};
 }
 
 std::vector<bool> deep_particles(std::span<const Vector3> position, const HopperSurfaces& surfaces,
@@ -38,9 +38,9 @@ std::vector<bool> deep_particles(std::span<const Vector3> position, const Hopper
   const double least = depth_in_spacings * shape.spacing;
   std::vector<bool> deep;
   for (const Vector3& x : position) {
-    const bool in_hopper = shape.plate && x.z >= shape.plate->height;
-    const bool at_slit = shape.plate && x.x > shape.plate->slit_left && x.x < shape.plate->slit_right &&
-                         std::abs(x.z - shape.plate->height) < least;
+    const bool in_hopper = shape.outlet && x.z >= shape.outlet->height;
+    const bool at_slit = shape.outlet && x.x > shape.outlet->left && x.x < shape.outlet->right &&
+                         std::abs(x.z - shape.outlet->height) < least;
     deep.push_back(!at_slit && (in_hopper ? surfaces.hopper : surfaces.bin).height(x.x) - x.z > least);
   }
   return deep;
@@ -54,7 +54,7 @@ double mean_between(std::span<const Vector3> position, std::span<const double> v
 }
 
 std::vector<bool> above_outlet(std::span<const Vector3> position, const HopperShape& shape) {
-  const double height = shape.plate ? shape.plate->height : 0;
+  const double height = shape.outlet ? shape.outlet->height : 0;
   std::vector<bool> above;
   for (const Vector3& x : position) above.push_back(x.z >= height);
   return above;

@@ -23,23 +23,23 @@
 
 namespace talus {
 
-/// The two vessels, one above the other; without a plate the box alone, as a bin.
+/// The two vessels, one above the other; without an outlet between them the box alone, as a bin.
 struct HopperShape {
   double width = 0, depth = 0, height = 0;  ///< of the box, from 0, m
-  struct Plate {
-    double height = 0;                     ///< between the vessels, m
-    double slit_left = 0, slit_right = 0;  ///< of its slit, x, m
+  struct Outlet {
+    double height = 0;           ///< between the vessels, m
+    double left = 0, right = 0;  ///< its ends along x, m
   };
-  std::optional<Plate> plate = {};
+  std::optional<Outlet> outlet = {};
   double spacing = 0;  ///< h, of the particles at the start, m
 
   double middle() const { return 0.5 * width; }
   Vessel bin() const;
-  /// \throws std::bad_optional_access without a plate
+  /// \throws std::bad_optional_access without an outlet
   Vessel hopper() const;
 };
 
-/// Free surfaces at one time; the surface of the hopper has no heights if there is no plate.
+/// Free surfaces at one time; the surface of the hopper has no heights if there is no outlet.
 struct HopperSurfaces {
   FreeSurface bin, hopper;
 };

@@ -192,7 +192,7 @@ MaxMean max_discharge(const HopperRun& run, const Window& window) {
   const Curve means = mean_rates(passed_mass(run), of.largest, of.max_every, window.from, end_of(window, run));
   if (means.time.empty()) return {};
   const Extremes found = extremes(means);
-  return {found.largest, found.largest_time};
+  return {found.max, found.max_time};
 }
 
 double extreme_time(const Curve& cumulative, const HopperRun& run, const Window& window) {

@@ -25,7 +25,7 @@ bool gravity(const Run& run) {
   return run.setting.gravity > 0;
 }
 bool outlet(const Run& run) {
-  return run.setting.shape.plate.has_value();
+  return run.setting.shape.outlet.has_value();
 }
 bool hand_formula(const Run& run) {
   return run.setting.hand_discharge > 0;

@@ -23,7 +23,7 @@ bool vessel(const Run& run) {
   return !run.setting.section.empty();
 }
 bool vessel_with_outlet(const Run& run) {
-  return vessel(run) && run.setting.shape.plate.has_value();
+  return vessel(run) && run.setting.shape.outlet.has_value();
 }
 bool vessel_with_slit(const Run& run) {
   return vessel_with_outlet(run) && run.setting.outlet_length > 0;
@@ -40,7 +40,7 @@ bool has_upright_walls(const Run& run) {
 }
 
 bool outlet(const Run& run) {
-  return run.setting.shape.plate.has_value();
+  return run.setting.shape.outlet.has_value();
 }
 bool hand_formula(const Run& run) {
   return outlet(run) && run.setting.hand_discharge > 0;
@@ -110,12 +110,12 @@ double mean_speed_above(double height, std::span<const Vector3> positions, std::
 double outlet_packing(const HopperSnapshot& s) {
   const HopperShape& shape = s.shape();
   const HopperSetting& of = s.setting;
-  if (!shape.plate || !(of.outlet_width > 0)) return none;
-  const double height = of.outlet_width, half_width = 0.5 * (shape.plate->slit_right - shape.plate->slit_left);
-  const Vector3 middle{shape.plate->slit_left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
+  if (!shape.outlet || !(of.outlet_width > 0)) return none;
+  const double height = of.outlet_width, half_width = 0.5 * (shape.outlet->right - shape.outlet->left);
+  const Vector3 middle{shape.outlet->left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
   double inside = 0;
   for (const Vector3& x : s.now.positions()) {
-    const double sideways = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y), up = x.z - shape.plate->height;
+    const double sideways = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y), up = x.z - shape.outlet->height;
     if (up < 0 || up > height) continue;
     inside += of.outlet_is_round ? std::hypot(sideways, along) <= half_width
                                  : sideways <= half_width && along <= 0.5 * of.outlet_depth;
@@ -137,10 +137,10 @@ double share_in_motion(const HopperRun& run, const Window& window) {
 
 double share_that_moves(const HopperSnapshot& s) {
   const Snapshot* before = s.before ? s.before() : nullptr;
-  if (!before || !s.shape().plate) return none;
+  if (!before || !s.shape().outlet) return none;
   const std::vector<double> speed = mean_speeds(*before, s.now);
   const auto positions = s.now.positions();
-  const double outlet = s.shape().plate->height, rests = hardly * mean_speed_above(outlet, positions, speed);
+  const double outlet = s.shape().outlet->height, rests = hardly * mean_speed_above(outlet, positions, speed);
   double above = 0, moving = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
     if (positions[i].z >= outlet) ++above, moving += speed[i] > rests;

@@ -52,7 +52,7 @@ bool is_larger(const GrainSet& a, const GrainSet& b, std::span<const Vector3> po
   return a.size() != b.size() ? a.size() > b.size() : foremost(a, position) > foremost(b, position);
 }
 
-GrainSet largest_set(std::vector<GrainSet> sets, std::span<const Vector3> position) {
+GrainSet max_set(std::vector<GrainSet> sets, std::span<const Vector3> position) {
   const auto largest = std::min_element(
       sets.begin(), sets.end(), [&](const GrainSet& a, const GrainSet& b) { return is_larger(a, b, position); });
   return largest == sets.end() ? GrainSet{} : std::move(*largest);

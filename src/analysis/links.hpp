@@ -38,7 +38,7 @@ class Links {
 
 /// The set with the most grains; of equal ones the one whose foremost grain is farther down (x). Empty if there is
 /// none.
-GrainSet largest_set(std::vector<GrainSet> sets, std::span<const Vector3> position);
+GrainSet max_set(std::vector<GrainSet> sets, std::span<const Vector3> position);
 
 /// True if a has more grains than b, or as many and its foremost grain is farther down. Neither is empty.
 bool is_larger(const GrainSet& a, const GrainSet& b, std::span<const Vector3> position);

@@ -100,7 +100,7 @@ BandLoad load_of(const Series& series, const BandOfWall& band, double gate_time,
       mean_rates(impulse.normal, peak * averaging_time, peaks_every * averaging_time, 0, impulse.normal.time.back());
   if (means.value.empty()) return load;
   const Extremes found = extremes(means);
-  load.pressure_largest = found.largest, load.time_of_largest = found.largest_time;
+  load.pressure_largest = found.max, load.time_of_largest = found.max_time;
   return load;
 }
 

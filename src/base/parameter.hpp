@@ -42,33 +42,33 @@ namespace talus {
 
 /// Allowed values, bounds in SI.
 struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool least_excluded = false;
-  bool most_excluded = false;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool min_excluded = false;
+  bool max_excluded = false;
   std::string (*hint)(double value) = nullptr;  ///< the probable intention of a value beyond the bounds; may be empty
 
   constexpr bool contains(double value) const {
-    return (least_excluded ? value > least : value >= least) && (most_excluded ? value < most : value <= most);
+    return (min_excluded ? value > min : value >= min) && (max_excluded ? value < max : value <= max);
   }
 };
 
 constexpr Range any() {
   return {};
 }
-constexpr Range above(double least) {
-  return {.least = least, .least_excluded = true};
+constexpr Range above(double min) {
+  return {.min = min, .min_excluded = true};
 }
-constexpr Range at_least(double least) {
-  return {.least = least};
+constexpr Range at_least(double min) {
+  return {.min = min};
 }
-constexpr Range between(double least, double most) {
-  return {.least = least, .most = most};
+constexpr Range between(double min, double max) {
+  return {.min = min, .max = max};
 }
 
 /// A coefficient of friction, the tangent of an angle: one beyond 2 (63 degrees) was probably meant for the angle.
 inline Range friction_coefficient() {
-  return {.least = 0, .most = 2, .hint = [](double value) -> std::string {
+  return {.min = 0, .max = 2, .hint = [](double value) -> std::string {
             if (!(value > 2 && value < 90)) return {};
             return fmt::format("{:g} looks like an angle in degrees, whose tangent is {:.2f}", value,
                                std::tan(value * std::numbers::pi / 180));

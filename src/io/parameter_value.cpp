@@ -45,11 +45,11 @@ double example_value(const Parameter& parameter) {
   const Range& range = parameter.range;
   const double usual = parse_quantity(unit_example(parameter.dimension))->value;
   if (range.contains(usual)) return usual;
-  const bool least = std::isfinite(range.least), most = std::isfinite(range.most);
-  if (least && !range.least_excluded) return range.least;
-  if (most && !range.most_excluded) return range.most;
-  if (least && most) return range.least + (range.most - range.least) / 2;
-  return least ? range.least + std::abs(range.least) + 1 : range.most - std::abs(range.most) - 1;
+  const bool has_min = std::isfinite(range.min), has_max = std::isfinite(range.max);
+  if (has_min && !range.min_excluded) return range.min;
+  if (has_max && !range.max_excluded) return range.max;
+  if (has_min && has_max) return range.min + (range.max - range.min) / 2;
+  return has_min ? range.min + std::abs(range.min) + 1 : range.max - std::abs(range.max) - 1;
 }
 
 std::string number_literal(double value, std::string_view unit) {
@@ -77,14 +77,14 @@ std::vector<std::string_view> ParameterList::tables() const {
 std::string range_text(const Parameter& parameter) {
   const Range& range = parameter.range;
   const std::string unit = example_unit(parameter.dimension);
-  const bool least = std::isfinite(range.least), most = std::isfinite(range.most);
-  const std::string low = least ? format_quantity(range.least, unit) : "";
-  const std::string high = most ? format_quantity(range.most, unit) : "";
-  if (least && most && !range.least_excluded && !range.most_excluded) return fmt::format("from {} to {}", low, high);
+  const bool has_min = std::isfinite(range.min), has_max = std::isfinite(range.max);
+  const std::string low = has_min ? format_quantity(range.min, unit) : "";
+  const std::string high = has_max ? format_quantity(range.max, unit) : "";
+  if (has_min && has_max && !range.min_excluded && !range.max_excluded) return fmt::format("from {} to {}", low, high);
   std::string text;
-  if (least) text = fmt::format("{} {}", range.least_excluded ? "above" : "at least", low);
-  if (least && most) text += " and ";
-  if (most) text += fmt::format("{} {}", range.most_excluded ? "below" : "at most", high);
+  if (has_min) text = fmt::format("{} {}", range.min_excluded ? "above" : "at least", low);
+  if (has_min && has_max) text += " and ";
+  if (has_max) text += fmt::format("{} {}", range.max_excluded ? "below" : "at most", high);
   return text;
 }
 
@@ -112,7 +112,7 @@ std::string example_text(const Parameter& parameter, const ValueType& type) {
       return type.shape == ValueType::Shape::any ? fmt::format("[{}]", one) : one;
     }
     case ValueType::Kind::integer:
-      return to_string(shortest_decimal(std::isfinite(parameter.range.least) ? std::ceil(parameter.range.least) : 1));
+      return to_string(shortest_decimal(std::isfinite(parameter.range.min) ? std::ceil(parameter.range.min) : 1));
     case ValueType::Kind::flag:
       return "true";
     case ValueType::Kind::text:
@@ -131,9 +131,9 @@ ParameterValue trial_value(const Parameter& parameter, const ValueType& type, in
     constexpr std::array<double, 4> sizes{0.3, 20, 0.007, 400}, shares{0.3, 0.8, 0.1, 0.55};
     const auto n = static_cast<std::size_t>(trial) % sizes.size();
     const double size = (1 + position) * of_key * sizes[n];
-    const bool least = std::isfinite(range.least), most = std::isfinite(range.most);
-    if (least && most) return range.least + shares[n] / (of_key * (1 + 0.1 * position)) * (range.most - range.least);
-    return least ? range.least + size : most ? range.most - size : size;
+    const bool has_min = std::isfinite(range.min), has_max = std::isfinite(range.max);
+    if (has_min && has_max) return range.min + shares[n] / (of_key * (1 + 0.1 * position)) * (range.max - range.min);
+    return has_min ? range.min + size : has_max ? range.max - size : size;
   };
   if (type.shape != ValueType::Shape::one) {
     std::vector<double> values;
@@ -145,7 +145,7 @@ ParameterValue trial_value(const Parameter& parameter, const ValueType& type, in
     case ValueType::Kind::number:
       return number(0);
     case ValueType::Kind::integer:
-      return static_cast<std::int64_t>(std::clamp(std::round(number(0)), std::ceil(range.least), range.most));
+      return static_cast<std::int64_t>(std::clamp(std::round(number(0)), std::ceil(range.min), range.max));
     case ValueType::Kind::flag:
       return trial % 2 == 0;
     case ValueType::Kind::text:

@@ -121,8 +121,8 @@ void add_bounds(Json& schema, const Range& range) {
     else
       schema[name] = value;
   };
-  bound("minimum", "exclusiveMinimum", range.least, range.least_excluded);
-  bound("maximum", "exclusiveMaximum", range.most, range.most_excluded);
+  bound("minimum", "exclusiveMinimum", range.min, range.min_excluded);
+  bound("maximum", "exclusiveMaximum", range.max, range.max_excluded);
 }
 
 Json schema_of_one(const Parameter& parameter, const ValueType& type) {

@@ -186,11 +186,11 @@ class PointsReader {
     };
     const std::int64_t count = number("copies"), identities = number("identities");
     const std::vector<Vector3> axis = file_.has(name + "axis") ? file_.vectors(name + "axis") : std::vector<Vector3>();
-    if (count < Sector::fewest_copies || count > Sector::most_copies || identities < 0 || identities > most ||
+    if (count < Sector::min_copies || count > Sector::max_copies || identities < 0 || identities > most ||
         axis.size() != 1)
       return problem(
           "field data 'sector_copies', 'sector_axis', 'sector_identities' describe no sector",
-          fmt::format("{} to {} copies, one axis, a number of identities", Sector::fewest_copies, Sector::most_copies));
+          fmt::format("{} to {} copies, one axis, a number of identities", Sector::min_copies, Sector::max_copies));
     points_.copies = SectorCopies{.axis = axis[0], .count = static_cast<int>(count), .identities = identities};
   }
 
@@ -223,7 +223,7 @@ int read_copies(const std::filesystem::path& path) {
   const hdf5::Reader file(path);
   const std::string name = root + "/FieldData/sector_copies";
   const std::vector<std::int64_t> copies = file.has(name) ? file.integers(name) : std::vector<std::int64_t>();
-  return copies.size() == 1 ? static_cast<int>(std::clamp<std::int64_t>(copies[0], 1, Sector::most_copies)) : 1;
+  return copies.size() == 1 ? static_cast<int>(std::clamp<std::int64_t>(copies[0], 1, Sector::max_copies)) : 1;
 }
 
 double read_points_time(const std::filesystem::path& path) {

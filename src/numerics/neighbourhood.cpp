@@ -26,12 +26,12 @@ std::pair<Vector3, Vector3> box_around(std::span<const Vector3> points) {
 void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
                           std::span<const double> margin) {
   const std::size_t count = position.size();
-  most_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) most_[i] = radius[i] + margin[i];
+  max_radius_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) max_radius_[i] = radius[i] + margin[i];
   max_margin_ = count == 0 ? 0.0 : *std::max_element(margin.begin(), margin.end());
-  reach_ = count == 0 ? 0.0 : 2 * *std::max_element(most_.begin(), most_.end());
+  reach_ = count == 0 ? 0.0 : 2 * *std::max_element(max_radius_.begin(), max_radius_.end());
   built_ = true;
-  if (!(reach_ <= domain_.largest_reach()))
+  if (!(reach_ <= domain_.max_reach()))
     throw std::invalid_argument("a particle reaches farther than walls and faces are apart");
   reference_.assign(position.begin(), position.end());
 
@@ -39,10 +39,10 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
   find_ghosts(team, position);
 
   reference_.resize(count + ghosts_.size());
-  most_.resize(count + ghosts_.size());
+  max_radius_.resize(count + ghosts_.size());
   for_each(team, ghosts_.size(), [&](std::size_t g) {
     reference_[count + g] = image(ghosts_[g]).position(position[ghosts_[g].source]);
-    most_[count + g] = most_[ghosts_[g].source];
+    max_radius_[count + g] = max_radius_[ghosts_[g].source];
   });
   const std::span<const Vector3> points = reference_;
   sight_may_change_.assign(count, 0);
@@ -72,7 +72,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     return static_cast<std::size_t>(end - near.begin());
   };
   const bool all_seen = domain_.walls().empty() && vessel_.is_empty();
-  list_.build(team, points, most_, 0, count, all_seen ? nullptr : keep_visible);
+  list_.build(team, points, max_radius_, 0, count, all_seen ? nullptr : keep_visible);
 
   first_doubt_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i)
@@ -168,7 +168,7 @@ void Neighbourhood::find_ghosts(ThreadTeam& team, std::span<const Vector3> posit
     for (std::size_t s = 0; s < spheres.size(); ++s)
       if (domain_.is_near(image, image.position(spheres[s].centre), rounding * (reach_ + spheres[s].radius)))
         within(s, [&](std::size_t j) {
-          if (domain_.is_near(image, image.position(position[j]), 0.5 * reach_ + most_[j]))
+          if (domain_.is_near(image, image.position(position[j]), 0.5 * reach_ + max_radius_[j]))
             found[n].push_back({static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(n)});
         });
   });
@@ -180,7 +180,7 @@ bool Neighbourhood::holds(ThreadTeam& team, std::span<const Vector3> position, s
   if (!built_ || particles() != position.size()) return false;
   return reduce(
       team, position.size(), true,
-      [&](std::size_t i) { return norm(position[i] - reference_[i]) + radius[i] <= most_[i]; },
+      [&](std::size_t i) { return norm(position[i] - reference_[i]) + radius[i] <= max_radius_[i]; },
       [](bool a, bool b) { return a && b; });
 }
 

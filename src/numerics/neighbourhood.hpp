@@ -86,7 +86,7 @@ class Neighbourhood {
   double max_margin_ = 0;
   double reach_ = 0;
   std::vector<Vector3> reference_;  // of particles and ghosts
-  std::vector<double> most_;        // that one may have moved, and its radius be, together, m
+  std::vector<double> max_radius_;  // that one may have moved, and its radius be, together, m
   std::vector<Image> images_;
   std::vector<Ghost> ghosts_;
   NeighbourList list_;

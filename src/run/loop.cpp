@@ -39,33 +39,33 @@ class StepGuard {
   void resume(const CheckpointReader& checkpoint);
 
  private:
-  double longest_ = 0;       ///< of the phase, s
+  double max_step_ = 0;      ///< of the phase, s
   std::uint64_t short_ = 0;  ///< steps in a row that were too short
   std::uint64_t begun_ = 0;
 };
 
 std::optional<std::string> StepGuard::take(double step, bool begun) {
   if (begun != (begun_ != 0)) {
-    longest_ = 0;
+    max_step_ = 0;
     short_ = 0;
     begun_ = begun;
   }
-  longest_ = std::max(longest_, step);
-  short_ = max_fall * step < longest_ ? short_ + 1 : 0;
+  max_step_ = std::max(max_step_, step);
+  short_ = max_fall * step < max_step_ ? short_ + 1 : 0;
   if (short_ < patience) return std::nullopt;
   return fmt::format("the time step has fallen from {:.3g} s to {:.3g} s, {} steps in a row: the run would not end",
-                     longest_, step, short_);
+                     max_step_, step, short_);
 }
 
 void StepGuard::save(CheckpointWriter& checkpoint) const {
-  checkpoint.put("run/longest_step", longest_, "s");
+  checkpoint.put("run/longest_step", max_step_, "s");
   checkpoint.put("run/short_steps", short_);
   checkpoint.put("run/origin_has_come", begun_);
 }
 
 void StepGuard::resume(const CheckpointReader& checkpoint) {
   if (!checkpoint.has("run/longest_step")) return;
-  checkpoint.get("run/longest_step", longest_);
+  checkpoint.get("run/longest_step", max_step_);
   checkpoint.get("run/short_steps", short_);
   checkpoint.get("run/origin_has_come", begun_);
 }

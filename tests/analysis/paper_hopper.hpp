@@ -14,7 +14,7 @@ inline constexpr double particle_mass = bulk_density * h * h * h;
 inline constexpr double gate = 0.25;  // s, in the run's time
 
 inline HopperSetting setting() {
-  return {.shape = {width, depth, height, HopperShape::Plate{plate, 0.03, 0.07}, h},
+  return {.shape = {width, depth, height, HopperShape::Outlet{plate, 0.03, 0.07}, h},
           .domain = test::box(width, depth, height, {test::plate(width, plate, 0.03, 0.07)}),
           .particle_mass = particle_mass,
           .particles = 9000,

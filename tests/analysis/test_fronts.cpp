@@ -68,13 +68,13 @@ TEST(FrontSpeed, StartsWhereTheRecordsStartAndEndsWithTheRun) {
 TEST(Curve, ExtremesAndCrossing) {
   const Curve curve{{1, 2, 3, 4, 5}, {4, 9, 2, 9, -1}};
   const Extremes found = extremes(curve);
-  EXPECT_EQ(found.least, -1);
-  EXPECT_EQ(found.largest, 9);
-  EXPECT_EQ(found.largest_time, 2);
+  EXPECT_EQ(found.min, -1);
+  EXPECT_EQ(found.max, 9);
+  EXPECT_EQ(found.max_time, 2);
   EXPECT_DOUBLE_EQ(first_time_at_or_below(curve, 3.75), 2.75);
   EXPECT_DOUBLE_EQ(first_time_at_or_below(curve, 4), 1);
   EXPECT_TRUE(std::isnan(first_time_at_or_below(curve, -2)));
-  EXPECT_TRUE(std::isnan(extremes({{1, 2}, {3, NAN}}).largest));
+  EXPECT_TRUE(std::isnan(extremes({{1, 2}, {3, NAN}}).max));
   EXPECT_THROW(extremes({}), std::invalid_argument);
 }
 

@@ -49,7 +49,7 @@ TEST(Links, ConnectedSetsOfTheGrainsThatTakePart) {
   EXPECT_THAT(links.connected_sets(std::vector<bool>(6, true)), ElementsAre(GrainSet{0, 1, 2, 5}, GrainSet{3, 4}));
   EXPECT_THAT(links.connected_sets({true, false, true, true, false, true}),
               ElementsAre(GrainSet{0}, GrainSet{2, 5}, GrainSet{3}));
-  EXPECT_THAT(largest_set(links.connected_sets({true, true, false, true, true, false}), points), ElementsAre(3, 4))
+  EXPECT_THAT(max_set(links.connected_sets({true, true, false, true, true, false}), points), ElementsAre(3, 4))
       << "of equal sets the one farther down";
 }
 
@@ -183,7 +183,7 @@ TEST(Heads, OfNoGrainsAndOfOne) {
   const HeadSize size = head_size(one, radius, {0}, 1);
   EXPECT_DOUBLE_EQ(size.width, 1);
   EXPECT_DOUBLE_EQ(size.thickness, 1);
-  EXPECT_TRUE(largest_set({}, one).empty());
+  EXPECT_TRUE(max_set({}, one).empty());
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(Hopper, ASummaryHoldsWhatTheCaseItselfDefines) {
   EXPECT_FALSE(contains(names, "repose_angle_bin"));
   EXPECT_FALSE(contains(names, "floor_arrival_time"));
 
-  run.setting.shape.plate.reset();
+  run.setting.shape.outlet.reset();
   run.setting.has_floor = true;
   run.setting.level_ground = false;
   names = names_in_summary(run);

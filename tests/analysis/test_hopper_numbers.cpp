@@ -110,7 +110,7 @@ TEST(HopperNumbers, TheShareOfSlowFlow) {
   const HopperSnapshot snapshot(paper, now.view(), gate);
   EXPECT_DOUBLE_EQ(hopper::inertial_share(snapshot), 2.0 / 4) << "above the outlet; those that bear nothing as fast";
   HopperSetting box = setting();
-  box.shape.plate.reset();
+  box.shape.outlet.reset();
   const HopperSnapshot whole(box, now.view(), gate);
   EXPECT_DOUBLE_EQ(hopper::inertial_share(whole), 4.0 / 8) << "without an outlet, of all";
 }

@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 
 constexpr double h = 2e-3;
-const HopperShape shape{0.1, 6e-3, 0.25, HopperShape::Plate{0.1, 0.03, 0.07}, h};
+const HopperShape shape{0.1, 6e-3, 0.25, HopperShape::Outlet{0.1, 0.03, 0.07}, h};
 
 FreeSurface level(double height) {
   FreeSurface surface;
@@ -34,7 +34,7 @@ TEST(DeepParticles, LieBelowTheSurfaceOfTheirVessel) {
   EXPECT_THAT(deep_particles(points, {level(0.02), level(0.15)}, shape),
               ElementsAre(true, true, false, false, true, false, true, false));
   HopperShape box = shape;
-  box.plate.reset();
+  box.outlet.reset();
   EXPECT_THAT(deep_particles(points, {level(0.12), {}}, box),
               ElementsAre(true, true, true, true, true, true, true, false));
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr double h = 5e-3, width = 0.1, height = 0.2, outlet = 0.1, gate = 0.1;
 
 HopperSetting setting() {
-  HopperSetting s{.shape = {width, width, height, HopperShape::Plate{outlet, 0.04, 0.06}, h},
+  HopperSetting s{.shape = {width, width, height, HopperShape::Outlet{outlet, 0.04, 0.06}, h},
                   .domain = test::box(width, width, height),
                   .particle_mass = 1500 * h * h * h,
                   .particles = 4000,

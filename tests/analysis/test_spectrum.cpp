@@ -33,8 +33,8 @@ TEST(Spectrum, FindsThePeriodOfASinusoidOnATrend) {
 TEST(Spectrum, PeakIsAQuarterOfTheAmplitudesSquare) {
   const Curve curve = sampled(1000, 0.999, [](double t) { return 3 * std::cos(2 * pi * 50 * t); });
   const Curve power = power_spectrum(curve, 40, 60);
-  EXPECT_NEAR(extremes(power).largest, 9.0 / 4, 1e-3);
-  EXPECT_NEAR(extremes(power).largest_time, 50, 1e-9);
+  EXPECT_NEAR(extremes(power).max, 9.0 / 4, 1e-3);
+  EXPECT_NEAR(extremes(power).max_time, 50, 1e-9);
 }
 
 TEST(Spectrum, TakesTheHigherOfTwoPeaksWithinTheBand) {

@@ -110,7 +110,7 @@ void read_cloud(const CaseFile& file) {
 void read_continuum(const CaseFile& file) {
   continuum::Parameters p;
   run::RunParameters run;
-  p.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
+  p.plates.resize(std::min<std::size_t>(file.tables("plates"), max_inner_walls + 1));
   ParameterReader reader(file);
   run::for_each_parameter(reader, run);
   continuum::for_each_parameter(reader, p);

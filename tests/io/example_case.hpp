@@ -65,9 +65,9 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"gravity.direction", {}, {}, "direction of gravity"}, p.gravity.direction);
   visit(Parameter{"gravity.origin", dimension::length, {}, "a place"}, p.gravity.origin);
   visit(Parameter{"numerics.scheme", {}, {}, "integrator"}, p.numerics.scheme);
-  visit(Parameter{"numerics.porosity", {}, {.least = 0, .most = 1, .least_excluded = true, .most_excluded = true}, "p"},
+  visit(Parameter{"numerics.porosity", {}, {.min = 0, .max = 1, .min_excluded = true, .max_excluded = true}, "p"},
         p.numerics.porosity);
-  visit(Parameter{"numerics.temperature_slope", {}, {.most = 0, .most_excluded = true}, "s"},
+  visit(Parameter{"numerics.temperature_slope", {}, {.max = 0, .max_excluded = true}, "s"},
         p.numerics.temperature_slope);
 }
 
@@ -79,7 +79,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"output.weights", {}, {}, "weights of the snapshots"}, p.weights);
 }
 
-inline constexpr const char* smallest_case = R"(
+inline constexpr const char* minimal_case = R"(
 particles.shape = "circle"
 particles.radius = "5 mm"
 run.end = "1 s"

@@ -43,7 +43,7 @@ Read read(const std::string& text, const std::vector<std::string>& options = {})
 
 /// The problem that one line, added to a valid case as its first, makes.
 std::string problem_of(const std::string& line) {
-  const std::vector<std::string> problems = read(line + example::smallest_case).problems;
+  const std::vector<std::string> problems = read(line + example::minimal_case).problems;
   EXPECT_EQ(problems.size(), 1u) << line << "\n" << testing::PrintToString(problems);
   return problems.empty() ? "" : problems.front();
 }
@@ -92,7 +92,7 @@ TEST(ParameterReader, ReadsEveryType) {
 }
 
 TEST(ParameterReader, WhatIsNotGivenKeepsItsDefault) {
-  const Read smallest = read(example::smallest_case);
+  const Read smallest = read(example::minimal_case);
   EXPECT_TRUE(smallest.problems.empty()) << testing::PrintToString(smallest.problems);
   EXPECT_EQ(smallest.parameters.particles.count, 2000);
   EXPECT_FALSE(smallest.parameters.particles.size);
@@ -101,9 +101,9 @@ TEST(ParameterReader, WhatIsNotGivenKeepsItsDefault) {
 }
 
 TEST(ParameterReader, RangesIncludeTheirBoundsUnlessSaid) {
-  EXPECT_TRUE(read("slope.angle = \"90 deg\"" + std::string(example::smallest_case)).problems.empty());
-  EXPECT_TRUE(read("slope.angle = \"0 deg\"" + std::string(example::smallest_case)).problems.empty());
-  EXPECT_TRUE(read("particles.count = 10000000" + std::string(example::smallest_case)).problems.empty());
+  EXPECT_TRUE(read("slope.angle = \"90 deg\"" + std::string(example::minimal_case)).problems.empty());
+  EXPECT_TRUE(read("slope.angle = \"0 deg\"" + std::string(example::minimal_case)).problems.empty());
+  EXPECT_TRUE(read("particles.count = 10000000" + std::string(example::minimal_case)).problems.empty());
   EXPECT_EQ(problem_of("slope.angle = \"90.0000001 deg\""),
             "c:1: slope.angle: \"90.0000001 deg\" is out of range; allowed: an angle, from 0 deg to 90 deg, such as "
             "\"45 deg\"");
@@ -176,10 +176,10 @@ TEST(ParameterReader, ATableIsATable) {
   EXPECT_EQ(read("particles = 5\nrun.end = \"1 s\"").problems,
             std::vector<std::string>{"c:1: particles: 5 is not a table; allowed: a table: [particles]"})
       << "that its required keys are missing is a consequence";
-  EXPECT_EQ(read(std::string(example::smallest_case) + "[[numerics]]\nporosity = 3").problems,
+  EXPECT_EQ(read(std::string(example::minimal_case) + "[[numerics]]\nporosity = 3").problems,
             std::vector<std::string>{"c:6: numerics.1.porosity: unknown key; did you mean 'numerics.porosity'?"})
       << "keys of an array of tables have its number";
-  EXPECT_TRUE(read(std::string(example::smallest_case) + "[numerics]\n").problems.empty()) << "may be empty";
+  EXPECT_TRUE(read(std::string(example::minimal_case) + "[numerics]\n").problems.empty()) << "may be empty";
 }
 
 TEST(ParameterReader, UnknownKeysNameTheNearest) {
@@ -199,7 +199,7 @@ TEST(ParameterReader, UnknownKeysNameTheNearest) {
 }
 
 TEST(ParameterReader, AnUnknownTableIsOneProblem) {
-  const std::string start = example::smallest_case;
+  const std::string start = example::minimal_case;
   EXPECT_EQ(read(start + "[numercs]\nscheme = \"euler\"\nporosity = 0.3").problems,
             std::vector<std::string>{"c:5: numercs: unknown table; did you mean 'numerics'?"});
   EXPECT_EQ(read(start + "[solver]\nscheme = \"euler\"\nporosity = 0.3").problems,
@@ -270,7 +270,7 @@ TEST(ParameterReader, OptionsNameThemselves) {
   const std::vector<std::string> options = {"particles.count=x",           "particles.raduis=3 mm", "seed",
                                             "slope.angle=95 deg",          "particles.count.x=3",   "title=2024",
                                             "particles.density=2000 kg/m3"};
-  const Read with_options = read(example::smallest_case, options);
+  const Read with_options = read(example::minimal_case, options);
   EXPECT_THAT(
       with_options.problems,
       ElementsAre(
@@ -286,12 +286,12 @@ TEST(ParameterReader, OptionsNameThemselves) {
 }
 
 TEST(ParameterReader, AFaultOfTheFileIsMendedByAnOption) {
-  EXPECT_TRUE(read("slope.angle = 3" + std::string(example::smallest_case), {"slope.angle=3 deg"}).problems.empty());
+  EXPECT_TRUE(read("slope.angle = 3" + std::string(example::minimal_case), {"slope.angle=3 deg"}).problems.empty());
 }
 
 TEST(ParameterReader, ContradictionsGetTheirLines) {
   CaseFile file =
-      CaseFile::from_text("particles.count = 0\nslope.angle = \"3 deg\"" + std::string(example::smallest_case), "c");
+      CaseFile::from_text("particles.count = 0\nslope.angle = \"3 deg\"" + std::string(example::minimal_case), "c");
   file.set("particles.size=3 mm");
   const auto contradiction = [](std::string key, std::string what) {
     return Problem{.where = {}, .key = std::move(key), .what = std::move(what), .allowed = "less"};
@@ -312,7 +312,7 @@ TEST(ParameterReader, ContradictionsGetTheirLines) {
 }
 
 TEST(ParameterReader, ALackThatAMisspellingExplainsIsNoProblem) {
-  const CaseFile file = CaseFile::from_text("particles.sise = \"3 mm\"" + std::string(example::smallest_case), "c");
+  const CaseFile file = CaseFile::from_text("particles.sise = \"3 mm\"" + std::string(example::minimal_case), "c");
   EXPECT_THAT(read(file, {{.where = {}, .key = "particles.size", .what = "missing: a circle needs it"}}).problems,
               ElementsAre("c:1: particles.sise: unknown key; did you mean 'particles.size'?"));
 }

@@ -260,7 +260,7 @@ TEST(JsonSchema, AgreesWithTheReader) {
                                 "particles.size = \"5 s\"", "particles.size = \"5 quux\"", "particles.size = \"-5 m\"",
                                 "slope.angle = \"91 deg\""};
   const auto verdicts = [](const std::string& line) {
-    const CaseFile file = CaseFile::from_text(line + example::smallest_case, "c");
+    const CaseFile file = CaseFile::from_text(line + example::minimal_case, "c");
     return std::pair(reader_accepts(file), satisfies(to_json(file), schema()));
   };
   for (const std::string& line : good) EXPECT_EQ(verdicts(line), std::pair(true, true)) << line;

@@ -46,7 +46,7 @@ Case read(const CaseFile& file) {
 }
 
 Case smallest() {
-  return read(CaseFile::from_text(example::smallest_case, "c"));
+  return read(CaseFile::from_text(example::minimal_case, "c"));
 }
 
 /// Numbers compared bit for bit: -0.0 is not 0.0.
@@ -172,7 +172,7 @@ TEST(ResolvedCase, ReadsBackToTheSameBits) {
 
 TEST(ResolvedTable, SaysWhereAValueComesFrom) {
   CaseFile file = CaseFile::from_text(
-      "title = \"a | b\"\ngravity.origin = [\"1 mm\", \"0 m\", \"-1 m\"]" + std::string(example::smallest_case), "c");
+      "title = \"a | b\"\ngravity.origin = [\"1 mm\", \"0 m\", \"-1 m\"]" + std::string(example::minimal_case), "c");
   file.set("slope.angle=30 deg");
   std::vector<std::string> lines;
   for (const ResolvedLine& line : resolved_table(list_of(read(file)), file))

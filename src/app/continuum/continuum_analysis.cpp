@@ -94,7 +94,7 @@ void write_residence(const std::filesystem::path& path, const HopperRun& run,
     if (residence)
       residence->take(points.view(), time[n]);
     else
-      residence.emplace(points.view(), run.setting.shape.plate->height, layers);
+      residence.emplace(points.view(), run.setting.shape.outlet->height, layers);
   }
   if (!residence) return;
   std::vector<std::vector<double>> rows;
@@ -131,7 +131,7 @@ HopperSetting hopper_setting(const continuum::Setup& setup) {
   HopperSetting setting{.shape = {.width = p.box.width,
                                   .depth = p.box.depth,
                                   .height = p.box.height,
-                                  .plate = {},
+                                  .outlet = {},
                                   .spacing = p.bed.spacing},
                         .domain = setup.boundary->domain().whole(),
                         .particle_mass = setup.lattice.mass,
@@ -166,10 +166,10 @@ HopperSetting hopper_setting(const continuum::Setup& setup) {
         setting.outlets.push_back({outlet.name, discharge_by_hand(setup, outlet), outlet.narrow});
   }
   if (setup.outlet)
-    setting.shape.plate = {setup.outlet->height, setup.outlet->left, setup.outlet->right};
+    setting.shape.outlet = {setup.outlet->height, setup.outlet->left, setup.outlet->right};
   else if (p.plate.height)
-    setting.shape.plate = {*p.plate.height, p.plate.slit_left.value_or(0.5 * p.box.width),
-                           p.plate.slit_right.value_or(0.5 * p.box.width)};
+    setting.shape.outlet = {*p.plate.height, p.plate.slit_left.value_or(0.5 * p.box.width),
+                            p.plate.slit_right.value_or(0.5 * p.box.width)};
   if (p.sph.smoothing == continuum::Smoothing::fixed)
     setting.smoothing_length = sph::smoothing_length(setup.lattice.mass, setup.density);
   return setting;
@@ -195,12 +195,12 @@ std::vector<NamedValue> analyze_continuum(const std::filesystem::path& run_folde
   const std::filesystem::path folder = run_folder / "analysis";
   make_folder(folder);
   write_snapshots(folder / "snapshots.csv", run, hopper_measures(), "s");
-  if (setting.shape.plate)
+  if (setting.shape.outlet)
     write_table(
         folder / "discharge.csv", {{"time", "s"}, {"discharge_rate", "kg/s"}},
         mean_rates(passed_mass(run), hopper::averages(run).largest, hopper::averages(run).curve_every, 0, run.end()));
   if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
-    if (setting.shape.plate && !setting.section.empty()) write_residence(folder / "residence.csv", run, paths);
+    if (setting.shape.outlet && !setting.section.empty()) write_residence(folder / "residence.csv", run, paths);
     const PointSet last = read_points(paths.back());
     write_surfaces(folder / "surfaces.csv", HopperSnapshot(setting, last.view(), run.gate_time).surfaces());
   }

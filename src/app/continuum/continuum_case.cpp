@@ -37,7 +37,7 @@ using continuum::Continuum;
 using continuum::Parameters;
 using continuum::Setup;
 
-constexpr std::size_t most_parts_of_vessel = 64, most_inlets = 16, most_beds = 64;
+constexpr std::size_t max_parts_of_vessel = 64, max_inlets = 16, max_beds = 64;
 
 std::vector<NamedValue> groups(const Setup& setup) {
   const Parameters& p = setup.given;
@@ -75,16 +75,16 @@ Forecast forecast(const Setup& setup, const run::RunParameters& run) {
   Forecast forecast{.phases = {}, .memory_bytes = continuum::memory_of(f), .disk_bytes = 0};
   if (f.settling_steps > 0)
     forecast.phases.push_back(
-        {"settling", f.settling_steps, f.settling_steps, f.most_settling_steps / f.settling_steps});
+        {"settling", f.settling_steps, f.settling_steps, f.max_settling_steps / f.settling_steps});
   forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
-  const double rows = run.series > 0 ? run.end / run.series : f.most_settling_steps + f.flow_steps;
+  const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
   forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
                         2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
   return forecast;
 }
 
 /// Of a step, by particle.
-double measure_particle(std::shared_ptr<const Setup> setup, ThreadTeam& team) {
+double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& team) {
   const Parameters& p = setup->given;
   Continuum model(setup);
   continuum::State& s = model.mutable_state();
@@ -172,11 +172,11 @@ struct ContinuumCase : ModelCase<Parameters> {
 
 /// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
 ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
-  defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), most_inner_walls + 1));
-  defaults.vessel.resize(std::min(file.tables("vessel"), most_parts_of_vessel));
-  defaults.inlets.resize(std::min(file.tables("inlet"), most_inlets));
+  defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), max_inner_walls + 1));
+  defaults.vessel.resize(std::min(file.tables("vessel"), max_parts_of_vessel));
+  defaults.inlets.resize(std::min(file.tables("inlet"), max_inlets));
   for (Problem& problem : read_surfaces(file, defaults)) unreadable.push_back(std::move(problem));
-  defaults.beds.resize(std::min(file.tables("beds"), most_beds));
+  defaults.beds.resize(std::min(file.tables("beds"), max_beds));
   for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
   FilledIn filled = fill_in_material(file, defaults);
   ParameterReader reader(file, continuum::renamed_keys);
@@ -264,7 +264,7 @@ class ContinuumRun : public OpenedRun {
   }
   /// The middle of the discharge, from the opening of the gate, s; nothing where there is none.
   std::optional<double> telling_time() override {
-    if (!run().setting.shape.plate || hopper::flow_end(run()).state == hopper::FlowState::has_not_started)
+    if (!run().setting.shape.outlet || hopper::flow_end(run()).state == hopper::FlowState::has_not_started)
       return std::nullopt;
     return hopper::while_it_flows(run()).at;
   }

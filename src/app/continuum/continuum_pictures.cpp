@@ -162,7 +162,7 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   const PointSet now = read_points(frames.paths[n]), before = read_points(frames.paths[earlier]);
   const std::vector<double> speed = mean_speeds(before.view(), now.view());
   const auto positions = now.view().positions();
-  const double mean = hopper::mean_speed_above(setting.shape.plate->height, positions, speed);
+  const double mean = hopper::mean_speed_above(setting.shape.outlet->height, positions, speed);
   if (!(mean > 0)) return false;
   const std::vector<std::size_t> seen = seen_particles(setting, positions);
   const std::vector<Vector3> places = picked(positions, seen);
@@ -208,7 +208,7 @@ std::vector<std::filesystem::path> draw_continuum(const std::filesystem::path& r
   }
   if (draw_air(run_folder, setting, title, pictures / "air.png")) drawn.push_back(pictures / "air.png");
   if (draw_fields(run_folder, setting, title, pictures / "fields.png")) drawn.push_back(pictures / "fields.png");
-  if (setting.shape.plate && !setting.section.empty() && draw_flow(frames, run, title, pictures / "flow.png"))
+  if (setting.shape.outlet && !setting.section.empty() && draw_flow(frames, run, title, pictures / "flow.png"))
     drawn.push_back(pictures / "flow.png");
   return drawn;
 }

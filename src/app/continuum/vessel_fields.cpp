@@ -34,7 +34,7 @@ struct Shown {
 void write_fields(const std::filesystem::path& run_folder, const HopperRun& run, const Vector3& low,
                   const Vector3& high) {
   Window window{.at = {}, .from = 0, .to = run.end()};
-  if (run.setting.shape.plate) window = hopper::while_it_flows(run);
+  if (run.setting.shape.outlet) window = hopper::while_it_flows(run);
   CellMeans means(cells_over(low, high, size_of_cell * run.setting.shape.spacing), run.setting.grain_diameter,
                   run.setting.grain_density);
   const auto paths = snapshot_paths(run_folder);

@@ -101,7 +101,7 @@ void write_box_walls(const std::filesystem::path& run_folder, const HopperRun& r
         std::find_if(patches.begin(), patches.end(), [&](const auto& patch) { return patch.name == wall.name; }) -
         patches.begin();
     rows.push_back({static_cast<double>(number + 1), wall.low, wall.high, wall.area, mean_rate(impulse, -t, 0),
-                    mean_rate(impulse, flow.from, flow.to), peak.largest, peak.largest_time});
+                    mean_rate(impulse, flow.from, flow.to), peak.max, peak.max_time});
   }
   if (rows.empty()) return;
   write_table(run_folder / "analysis" / "box_walls.csv",

@@ -68,8 +68,8 @@ continuum::MaterialRange range_of(const CaseFile& material) {
     return read<std::vector<double>>(material, key, Parameter{key, unit});
   };
   if (const auto d = pair("grains.diameter.range", dimension::length))
-    range.least_diameter = d->at(0), range.largest_diameter = d->at(1);
-  if (const auto p = pair("pressure.range", dimension::pressure)) range.largest_pressure = p->at(1);
+    range.min_diameter = d->at(0), range.max_diameter = d->at(1);
+  if (const auto p = pair("pressure.range", dimension::pressure)) range.max_pressure = p->at(1);
   return range;
 }
 

@@ -32,9 +32,9 @@ Answer read_answer(const Question& question, const std::string& text) {
   const std::string name = dimension_name(question.dimension);
   const std::string kind =
       (std::string_view("aeiou").find(name.front()) == std::string_view::npos ? "a " : "an ") + name;
-  answer.allowed = fmt::format("{} {} {}, at most {}, such as {}", kind, question.from_least ? "of at least" : "above",
-                               in_unit(question.least), in_unit(question.most),
-                               question.standard.empty() ? "none" : question.standard);
+  answer.allowed =
+      fmt::format("{} {} {}, at most {}, such as {}", kind, question.from_min ? "of at least" : "above",
+                  in_unit(question.min), in_unit(question.max), question.standard.empty() ? "none" : question.standard);
   if (question.standard.empty() || !question.words.empty())
     answer.allowed = answer.allowed.substr(0, answer.allowed.rfind(", such as"));
   if (!question.words.empty())
@@ -55,8 +55,8 @@ Answer read_answer(const Question& question, const std::string& text) {
     answer.what = why;
   } else if (!(quantity->dimension == question.dimension)) {
     answer.what = "is not " + kind;
-  } else if (!std::isfinite(quantity->value) || quantity->value > question.most ||
-             !(question.from_least ? quantity->value >= question.least : quantity->value > question.least)) {
+  } else if (!std::isfinite(quantity->value) || quantity->value > question.max ||
+             !(question.from_min ? quantity->value >= question.min : quantity->value > question.min)) {
     answer.what = "is out of range";
   } else {
     answer.value = quantity->value;

@@ -21,8 +21,8 @@ struct Question {
   std::string_view text;      ///< what it is
   std::string_view standard;  ///< answer if none is given, "40 mm"; empty: there may be none
   Dimension dimension = {};
-  double least = 0, most = 1e9;  ///< SI; allowed in between, the least itself only if `from_least`
-  bool from_least = false;
+  double min = 0, max = 1e9;  ///< SI; allowed in between, the minimum itself only if `from_min`
+  bool from_min = false;
   bool is_flag = false;                          ///< yes or no; no if not given
   std::span<const std::string_view> words = {};  ///< that may be the answer in place of a number
   bool only_words = false;

@@ -55,12 +55,12 @@ bool is_constant(std::span<const float> values) {
 /// The same particle has the same position in every frame, whatever the order in the files.
 class Particles {
  public:
-  Particles(std::size_t frames, std::size_t most) : frames_(frames), most_(most) {}
+  Particles(std::size_t frames, std::size_t most) : frames_(frames), max_particles_(most) {}
 
   void add(const Snapshot& snapshot) {
     of_particles_ = std::max(of_particles_, snapshot.size());
     if (frame_ == 0)
-      share_ = static_cast<double>(most_) / static_cast<double>(std::max<std::size_t>(1, snapshot.size()));
+      share_ = static_cast<double>(max_particles_) / static_cast<double>(std::max<std::size_t>(1, snapshot.size()));
     choose(snapshot);
     for_each_number(
         snapshot, [&](const std::string& name, const std::string& unit, const auto& value) { put(name, unit, value); });
@@ -127,7 +127,7 @@ class Particles {
       if (chosen_[n]) frame[*chosen_[n]] = static_cast<float>(value(n));
   }
 
-  std::size_t frames_, most_, frame_ = 0, of_particles_ = 0;
+  std::size_t frames_, max_particles_, frame_ = 0, of_particles_ = 0;
   double share_ = 1;
   std::map<std::int64_t, std::size_t> slots_;       // of the chosen ones, by identity
   std::vector<double> identities_;                  // by slot

@@ -133,8 +133,8 @@ double AirFlow::max_divergence(const Solids& solids, const AirState& state) {
   const Grid& grid = apertures_.grid;
   set_solids(alone, solids);
   find_source(alone, parameters_.continuity == Continuity::mixture, state.velocity);
-  return largest_of_cells(
-      alone, grid, [&](std::ptrdiff_t c) { return std::abs(source_[static_cast<std::size_t>(c)]) / grid.volume(); });
+  return max_of_cells(alone, grid,
+                      [&](std::ptrdiff_t c) { return std::abs(source_[static_cast<std::size_t>(c)]) / grid.volume(); });
 }
 
 }  // namespace talus::air

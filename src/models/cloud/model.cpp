@@ -13,7 +13,7 @@ namespace talus::cloud {
 
 namespace {
 
-double largest_speed(const State& state) {
+double max_speed(const State& state) {
   double speed = 0;
   for (const Vector3& v : state.velocity) speed = std::max(speed, norm(v));
   return speed;
@@ -72,7 +72,7 @@ std::vector<NamedValue> Cloud::totals() const {
           {"evaluations", "1", static_cast<double>(state_.evaluations)},
           {"spectral_radius", "1/s", state_.spectral_radius},
           {"overlap_max", "m", max_overlap(state_)},
-          {"speed_max", "m/s", largest_speed(state_)},
+          {"speed_max", "m/s", max_speed(state_)},
           {"centre_x", "m", centre}};
 }
 

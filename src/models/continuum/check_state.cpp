@@ -17,23 +17,23 @@ namespace {
 /// step was thrown by stresses that cannot be.
 struct Limits {
   const Box& box;
-  double least_density;  // kg/m^3
-  double most_speed;     // m/s
+  double min_density;  // kg/m^3
+  double max_speed;    // m/s
 
   Limits(const Parameters& p, const Domain& domain, const State& s, double dt)
       : box(domain.box()),
-        least_density(p.sph.smoothing == Smoothing::fixed
-                          ? 0
-                          : s.mass * std::pow(0.5 * (domain.largest_reach() - p.integration.skin * p.bed.spacing) /
-                                                  p.sph.smoothing_ratio,
-                                              -3)),
-        most_speed(p.bed.spacing / dt) {}
+        min_density(p.sph.smoothing == Smoothing::fixed
+                        ? 0
+                        : s.mass * std::pow(0.5 * (domain.max_reach() - p.integration.skin * p.bed.spacing) /
+                                                p.sph.smoothing_ratio,
+                                            -3)),
+        max_speed(p.bed.spacing / dt) {}
 
-  bool allow_density(double value) const { return value > least_density && std::isfinite(value); }
+  bool allow_density(double value) const { return value > min_density && std::isfinite(value); }
   /// What has left the box falls on, and meets nobody.
   bool allow_velocity(const Vector3& v, const Vector3& x) const {
     const double speed = norm(v);
-    return speed <= most_speed || (std::isfinite(speed) && !box.contains(x));
+    return speed <= max_speed || (std::isfinite(speed) && !box.contains(x));
   }
 };
 

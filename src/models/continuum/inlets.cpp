@@ -17,14 +17,14 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double most_along_a_side = 1e4;  // places
+constexpr double max_along_side = 1e4;  // places
 
 /// Of the lattice, without regard to walls.
 std::vector<Vector3> lattice_in(const Parameters& p, const Inlet& inlet) {
   const double spacing = p.bed.spacing;
   const bool round = inlet.shape == InletShape::disc;
   const auto count = [&](double extent) {
-    return std::max<std::int64_t>(1, std::llround(std::min(most_along_a_side, extent / spacing)));
+    return std::max<std::int64_t>(1, std::llround(std::min(max_along_side, extent / spacing)));
   };
   const std::int64_t columns = count(round ? 2 * inlet.radius : inlet.width);
   const std::int64_t rows = count(round ? 2 * inlet.radius : inlet.depth);

@@ -25,9 +25,9 @@ constexpr double notable_share = 0.1;  // of the particles: fewer are the edge o
 
 /// Of all particles, found in one pass: a row of the series needs them every few steps.
 struct ParticleTotals {
-  double largest_speed = 0;                                                                   ///< m/s
-  Vector3 momentum;                                                                           ///< N s
-  double least_density = infinity, largest_density = -infinity, largest_packing = -infinity;  ///< kg/m^3, 1
+  double max_speed = 0;                                                             ///< m/s
+  Vector3 momentum;                                                                 ///< N s
+  double min_density = infinity, max_density = -infinity, max_packing = -infinity;  ///< kg/m^3, 1
   double mass_outside = 0;  ///< beyond the open faces of the box: what has left, kg
 };
 
@@ -41,22 +41,22 @@ ParticleTotals totals_of_particles(const Box& box, const State& s) {
     const Vector3 &x = s.position[i], &v = s.velocity[i];
     square = std::max(square, dot(v, v));
     momentum.add(point, s.mass * v);
-    totals.least_density = std::min(totals.least_density, s.density[i]);
-    totals.largest_density = std::max(totals.largest_density, s.density[i]);
-    totals.largest_packing = std::max(totals.largest_packing, s.packing[i]);
+    totals.min_density = std::min(totals.min_density, s.density[i]);
+    totals.max_density = std::max(totals.max_density, s.density[i]);
+    totals.max_packing = std::max(totals.max_packing, s.packing[i]);
     outside += (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
                (x.z > box.high.z);
   }
   if (s.position.empty())
-    totals.least_density = totals.largest_density = totals.largest_packing = std::numeric_limits<double>::quiet_NaN();
-  totals.largest_speed = std::sqrt(square);
+    totals.min_density = totals.max_density = totals.max_packing = std::numeric_limits<double>::quiet_NaN();
+  totals.max_speed = std::sqrt(square);
   totals.momentum = momentum.value(point);
   totals.mass_outside = s.mass * static_cast<double>(outside);
   return totals;
 }
 
 /// Of the particles, without the stress by collisions, Pa.
-double largest_pressure(const State& s) {
+double max_pressure(const State& s) {
   double pressure = 0;
   for (std::size_t i = 0; i < s.position.size(); ++i)
     pressure = std::max(pressure, trace(tensor_at(s.material.stress, i)) / 3);
@@ -77,13 +77,13 @@ double share_above_inertial_number(const Parameters& p, const State& s, double b
 
 /// Whether Eqs 13 and 14 are used at rates beyond those for which the paper has them.
 RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions, const RunRecord& record) {
-  const double over = std::max(record.value("velocity_gradient_shear_max") / granular::largest_shear_rate,
-                               record.value("velocity_gradient_normal_max") / granular::largest_normal_rate);
+  const double over = std::max(record.value("velocity_gradient_shear_max") / granular::max_shear_rate,
+                               record.value("velocity_gradient_normal_max") / granular::max_normal_rate);
   const bool unlimited = collisions.range == granular::CollisionRange::unlimited;
   return {"velocity gradients over the range of collisions", fmt::format("{:.3g}", over),
           fmt::format("the larger of velocity_gradient_shear_max over {:g} and velocity_gradient_normal_max over {:g}, "
                       "the largest in the paper's flow; beyond 1 the stress by collisions, Eqs 13 and 14, {}",
-                      granular::largest_shear_rate, granular::largest_normal_rate,
+                      granular::max_shear_rate, granular::max_normal_rate,
                       unlimited ? "is extrapolated; collisions.range = \"printed\" holds it at what it is there"
                                 : "stays what it is there"),
           unlimited && over > 1};
@@ -192,10 +192,10 @@ std::vector<NamedValue> Continuum::totals() const {
   const double copies = sector ? sector->copies() : 1;
   const ParticleTotals particles = totals_of_particles(domain().box(), s);
   std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
-                                    {"speed_max", "m/s", particles.largest_speed},
-                                    {"density_min", "kg/m3", particles.least_density},
-                                    {"density_max", "kg/m3", particles.largest_density},
-                                    {"packing_max", "1", particles.largest_packing},
+                                    {"speed_max", "m/s", particles.max_speed},
+                                    {"density_min", "kg/m3", particles.min_density},
+                                    {"density_max", "kg/m3", particles.max_density},
+                                    {"packing_max", "1", particles.max_packing},
                                     {"gate_time", "s", s.gate_time},
                                     {"mass_outside", "kg", copies * particles.mass_outside}};
   const auto add = [&](const std::string& name, const Vector3& given) {
@@ -220,9 +220,9 @@ std::vector<NamedValue> Continuum::totals() const {
     const AirTotals cells = totals_of_air(air);
     add("impulse_air", air.impulse);
     values.insert(values.end(), {{"air_force_z", "N", air.force.z},
-                                 {"air_speed_max", "m/s", cells.largest_speed},
-                                 {"air_pressure_min", "Pa", cells.least_pressure},
-                                 {"air_pressure_max", "Pa", cells.largest_pressure},
+                                 {"air_speed_max", "m/s", cells.max_speed},
+                                 {"air_pressure_min", "Pa", cells.min_pressure},
+                                 {"air_pressure_max", "Pa", cells.max_pressure},
                                  {"air_step_size", "s", air.flow.last_step},
                                  {"air_steps", "1", static_cast<double>(air.steps)},
                                  {"air_iterations", "1", static_cast<double>(air.iterations)},
@@ -284,7 +284,7 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
                           : s.last_step;
   const double courant = step * c / h;
   const double mach = record.largest("speed_max") / c, packing = record.largest("packing_max", has_moved_from());
-  constexpr double most_packing = 0.74, slack = 1.02;
+  constexpr double max_packing = 0.74, slack = 1.02;
   const double at_start = record.series.has("packing_max") && record.series.rows() > 0
                               ? record.series.column("packing_max").front()
                               : std::nan("");
@@ -299,25 +299,25 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
            "of a particle once the bed has settled or moved, as the kernel deposits it; at most 0.74 in grains; "
            "the lattice of the start, beside walls and about a sector's axis, has up to {:.3f}",
            at_start),
-       packing > std::max(most_packing, slack * at_start)},
+       packing > std::max(max_packing, slack * at_start)},
       {"share of slow flow", fmt::format("{:.3f}", slow),
        "inertial_share: particles with an inertial number below 0.01, where the stress does not depend on the rate",
        slow < 0.5},
   };
   lines.insert(lines.end(), of_run.begin(), of_run.end());
-  if (const double most = setup_->material.range().largest_pressure; std::isfinite(most)) {
-    const double pressure = largest_pressure(s);
+  if (const double most = setup_->material.range().max_pressure; std::isfinite(most)) {
+    const double pressure = max_pressure(s);
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
   }
   if (setup_->given.grains.material) {
-    const double pressure = largest_pressure(s), most = setup_->given.grains.range.largest_pressure;
+    const double pressure = max_pressure(s), most = setup_->given.grains.range.max_pressure;
     lines.push_back({"pressure for the material", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("largest at the end; the values of {} hold up to {:.4g} Pa",
                                  choice_name(*setup_->given.grains.material), most),
                      pressure > most});
   }
-  if (const double most = setup_->material.range().largest_inertial_number; std::isfinite(most)) {
+  if (const double most = setup_->material.range().max_inertial_number; std::isfinite(most)) {
     const double beyond = share_above_inertial_number(setup_->given, s, most);
     lines.push_back({"share of flow too fast for the law", fmt::format("{:.3f}", beyond),
                      fmt::format("at the end, of the particles that bear a pressure those with an inertial number "

@@ -14,8 +14,8 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double fewest_across = 12;  // particles
-constexpr double least_outlet_over_axis = 2.8;
+constexpr double min_across = 12;  // particles
+constexpr double min_outlet_over_axis = 2.8;
 constexpr double notable_share = 0.1;  // of an outlet, of a wall
 
 /// Over its area, Pa.
@@ -32,11 +32,11 @@ void add_range_of_law(const Setup& setup, std::vector<RegimeLine>& lines) {
     lines.push_back({"grain diameter", fmt::format("{:.4g} mm", p.grains.diameter / millimetre),
                      fmt::format("the law {} is a fit to grains of {:.4g} mm", law, fitted / millimetre),
                      p.grains.diameter < 0.5 * fitted || p.grains.diameter > 2 * fitted});
-  if (!std::isfinite(range.largest_pressure)) return;
+  if (!std::isfinite(range.max_pressure)) return;
   const double weight = weight_of_bed(setup);
   lines.push_back({"weight of the bed over its area", fmt::format("{:.4g} Pa", weight),
-                   fmt::format("the fit of the law {} ends at a pressure of {:.4g} Pa", law, range.largest_pressure),
-                   weight > range.largest_pressure});
+                   fmt::format("the fit of the law {} ends at a pressure of {:.4g} Pa", law, range.max_pressure),
+                   weight > range.max_pressure});
 }
 
 /// Where the values of the material hold.
@@ -46,14 +46,14 @@ void add_range_of_material(const Setup& setup, std::vector<RegimeLine>& lines) {
   const MaterialRange& range = p.grains.range;
   const std::string_view name = choice_name(*p.grains.material);
   lines.push_back({"diameter of the material's grains", fmt::format("{:.4g} mm", p.grains.diameter / millimetre),
-                   fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", name,
-                               range.least_diameter / millimetre, range.largest_diameter / millimetre),
-                   !(p.grains.diameter >= range.least_diameter && p.grains.diameter <= range.largest_diameter)});
+                   fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", name, range.min_diameter / millimetre,
+                               range.max_diameter / millimetre),
+                   !(p.grains.diameter >= range.min_diameter && p.grains.diameter <= range.max_diameter)});
   const double weight = weight_of_bed(setup);
   lines.push_back(
       {"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
-       fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", name, range.largest_pressure),
-       weight > range.largest_pressure});
+       fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", name, range.max_pressure),
+       weight > range.max_pressure});
 }
 
 /// A bed laid denser than its grains touch is under pressure before it bears its weight.
@@ -90,16 +90,16 @@ void add_sector(const Setup& setup, std::vector<RegimeLine>& lines) {
        fmt::format("radius of the outlet over that of the ring in which a particle and its copies stand about "
                    "the axis, {:.3g} mm; the outlet discharges 6 % less at 2.3, 16 % at 1.9, 33 % at 1.6 "
                    "(validation/sector): below {:g} take a larger sector or a smaller bed.spacing",
-                   ring / millimetre, least_outlet_over_axis),
-       ratio < least_outlet_over_axis});
+                   ring / millimetre, min_outlet_over_axis),
+       ratio < min_outlet_over_axis});
 }
 
 /// \param width the narrower side; \param name of one of several, with a blank before it
 void add_outlet(const Parameters& p, double width, const std::string& name, std::vector<RegimeLine>& lines) {
   if (!(width > 0)) return;
-  const bool few = width < fewest_across * (1 - 1e-9) * p.bed.spacing;
+  const bool few = width < min_across * (1 - 1e-9) * p.bed.spacing;
   const std::string advice =
-      few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / fewest_across / millimetre) : "";
+      few ? fmt::format("; take bed.spacing = \"{:.3g} mm\" or less", width / min_across / millimetre) : "";
   lines.push_back(
       {"particles across the outlet" + name, fmt::format("{:.3g}", width / p.bed.spacing),
        "the flow is underestimated as if the outlet were 3 spacings narrower; use at least 12 (validation/slots)" +

@@ -191,8 +191,8 @@ void for_each_field_of_loads(Visit&& visit, W& w) {
   column("load_traction", "Pa", w.traction);
   column("load_rest_pressure", "Pa", w.rest_pressure);
   column("load_rest_traction", "Pa", w.rest_traction);
-  column("load_largest", "Pa", w.largest);
-  column("load_largest_time", "s", w.largest_time);
+  column("load_largest", "Pa", w.max_pressure);
+  column("load_largest_time", "s", w.max_time);
   visit(FieldInfo{"load_window_start", "s"}, w.window_start);
 }
 

@@ -83,7 +83,7 @@ Domain::Domain(const Box& box, std::vector<Wall> walls, double apart, std::optio
     if ((box.face(axis, 0) == FaceKind::periodic) != (box.face(axis, 1) == FaceKind::periodic))
       throw std::invalid_argument("a periodic face needs a periodic one opposite");
   }
-  if (walls_.size() > most_inner_walls) throw std::invalid_argument("too many walls");
+  if (walls_.size() > max_inner_walls) throw std::invalid_argument("too many walls");
   const auto is_open = [](FaceKind kind) { return kind == FaceKind::open; };
   if (sector_ && !(walls_.empty() && std::all_of(box.faces.begin(), box.faces.begin() + 4, is_open)))
     throw std::invalid_argument("walls or side faces with a sector");
@@ -126,7 +126,7 @@ double Domain::above(int number, const Vector3& x) const {
   return number < 6 ? x[number / 2] - box_.bound(number / 2, number % 2) : wall_at(number).above(x);
 }
 
-double Domain::largest_reach() const {
+double Domain::max_reach() const {
   return layered_ ? distance_of_layers() : std::numeric_limits<double>::infinity();
 }
 

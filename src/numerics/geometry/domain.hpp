@@ -50,8 +50,8 @@ struct Mirror {
 };
 
 /// Boundaries that can carry load, by number: the six faces, then the walls.
-inline constexpr int most_inner_walls = 10;
-inline constexpr int most_walls = 6 + most_inner_walls;
+inline constexpr int max_inner_walls = 10;
+inline constexpr int max_walls = 6 + max_inner_walls;
 constexpr int wall_number(int wall) {
   return 6 + wall;
 }
@@ -61,7 +61,7 @@ class Domain {
   /// \param apart how far walls stand from faces and from each other at least if they are to be layers, m
   /// \param sector within which particles live; none: the whole box
   /// \throws std::invalid_argument for an empty box, a periodic face without its opposite, more than
-  ///         `most_inner_walls` walls, a sector with walls or side faces that are not open
+  ///         `max_inner_walls` walls, a sector with walls or side faces that are not open
   explicit Domain(const Box& box, std::vector<Wall> walls = {}, double apart = 0, std::optional<Sector> sector = {});
 
   const Box& box() const { return box_; }
@@ -100,10 +100,10 @@ class Domain {
   bool is_beside(int number, const Vector3& x) const { return number < 6 || wall_at(number).is_solid(x); }
 
   /// The largest reach for which the images are complete: the distance between layers and faces of the same axis.
-  double largest_reach() const;
+  double max_reach() const;
 
   /// All images that can stand within `reach` of the box or of a wall, in a fixed order, those in walls last; the
-  /// identity is not among them. \param reach m, at most largest_reach()
+  /// identity is not among them. \param reach m, at most max_reach()
   std::vector<Image> images(double reach) const;
 
   /// Whether an image at x lies within `reach` of what made it.

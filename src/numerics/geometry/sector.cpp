@@ -28,7 +28,7 @@ double across(double ux, double uy, const Vector3& v) {
 }  // namespace
 
 Sector::Sector(const Vector3& axis, int copies) : axis_(axis) {
-  if (copies < fewest_copies || copies > most_copies) throw std::invalid_argument("too few or too many copies");
+  if (copies < min_copies || copies > max_copies) throw std::invalid_argument("too few or too many copies");
   for (int k = 0; k < copies; ++k) turns_.push_back(turn_by(k, copies));
 }
 

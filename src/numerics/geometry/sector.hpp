@@ -13,9 +13,8 @@ namespace talus {
 
 class Sector {
  public:
-  static constexpr int fewest_copies = 4, most_copies = 72;
-  static constexpr double largest_angle = 2 * std::numbers::pi / fewest_copies,
-                          least_angle = 2 * std::numbers::pi / most_copies;
+  static constexpr int min_copies = 4, max_copies = 72;
+  static constexpr double max_angle = 2 * std::numbers::pi / min_copies, min_angle = 2 * std::numbers::pi / max_copies;
 
   /// From the direction of x on, counterclockwise as seen from above. \param axis a position on it, m; \param copies
   /// that make up the circle, itself counted \throws std::invalid_argument for fewer or more copies than those

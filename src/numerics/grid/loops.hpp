@@ -47,7 +47,7 @@ void for_each_cell(ThreadTeam& team, const Grid& grid, Body&& body) {
 
 /// Largest value(index) over the cells, at least 0.
 template <class Value>
-double largest_of_cells(ThreadTeam& team, const Grid& grid, Value&& value) {
+double max_of_cells(ThreadTeam& team, const Grid& grid, Value&& value) {
   const int ny = grid.count[1], rows = ny * grid.count[2];
   return reduce(
       team, static_cast<std::size_t>(rows), 0.0,

@@ -34,13 +34,13 @@ struct GradientSums {
 /// Least determinant of the moment that is inverted. On a lattice it is 1.06 within a body, 0.38 on its surface, 0.13
 /// at an edge, 0.044 at a corner; lower values occur for single particles and filaments, whose neighbours hardly span
 /// the space.
-inline constexpr double least_moment = 0.01;
+inline constexpr double min_moment = 0.01;
 
 /// L = velocity . moment^-1, L_ij = du_i/dx_j, 1/s; without the correction where the neighbours do not span the space.
 template <class Number>
 Tensor3<Number> velocity_gradient(const GradientSums<Number>& sums) {
   const Tensor3<Number> moment = full(sums.moment), raw = sums.velocity, l = raw * inverse(moment);
-  const auto spanned = determinant(moment) > Number(least_moment);
+  const auto spanned = determinant(moment) > Number(min_moment);
   return {select(spanned, l.xx, raw.xx), select(spanned, l.xy, raw.xy), select(spanned, l.xz, raw.xz),
           select(spanned, l.yx, raw.yx), select(spanned, l.yy, raw.yy), select(spanned, l.yz, raw.yz),
           select(spanned, l.zx, raw.zx), select(spanned, l.zy, raw.zy), select(spanned, l.zz, raw.zz)};

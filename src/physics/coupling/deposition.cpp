@@ -260,10 +260,10 @@ void Deposition::distribute(ThreadTeam& team, double solid_volume, const FaceFie
   });
 }
 
-double Deposition::largest_mean(ThreadTeam& team, const FaceField& vector, const CellField& square, double at_least) {
+double Deposition::max_mean(ThreadTeam& team, const FaceField& vector, const CellField& square, double at_least) {
   const CellField &x = vector[0], &y = vector[1], &z = vector[2];
-  largest_.resize((square.size() + row_lanes - 1) / row_lanes);
-  find_largest(square.size(), square.data(), largest_.data());
+  row_max_.resize((square.size() + row_lanes - 1) / row_lanes);
+  find_max(square.size(), square.data(), row_max_.data());
   // A mean is no larger than the largest, but for its rounding.
   const double enough = at_least * at_least * (1 - 1e-12);
   std::vector<double> found(blocks_.size());
@@ -275,7 +275,7 @@ double Deposition::largest_mean(ThreadTeam& team, const FaceField& vector, const
           for (std::size_t r = 0; r < rows; ++r) {
             const std::size_t last = (first[r] + particle.columns - 1) / row_lanes;
             for (std::size_t c = first[r] / row_lanes; c <= last; ++c)
-              bound = largest_[c] > bound ? largest_[c] : bound;
+              bound = row_max_[c] > bound ? row_max_[c] : bound;
           }
           if (bound <= enough) return;
           const Vector3 sum = sum_rows(rows, particle.columns, first, weight, x.data(), y.data(), z.data());

@@ -48,7 +48,7 @@ class Deposition {
   /// Largest size of a vector field's mean over the cells of a particle, by its weights; `at_least` if that is larger.
   /// Particles whose cells all have smaller ones are left out.
   /// \param square of the size of the vector of every cell
-  double largest_mean(ThreadTeam& team, const FaceField& vector, const CellField& square, double at_least);
+  double max_mean(ThreadTeam& team, const FaceField& vector, const CellField& square, double at_least);
 
  private:
   static constexpr std::size_t block_size = 64;
@@ -80,7 +80,7 @@ class Deposition {
   double beyond_reach_ = 0;            // that the centre of a cell may be, of which a part is within reach, m
   std::size_t count_ = 0;
   std::vector<Block> blocks_;
-  std::vector<double> largest_;  // of each row_lanes cells, one after another
+  std::vector<double> row_max_;  // of each row_lanes cells, one after another
 };
 
 }  // namespace talus::coupling

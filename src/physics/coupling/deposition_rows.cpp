@@ -90,7 +90,7 @@ TALUS_CLONES double keep_rows(std::size_t rows, std::size_t columns, const RowFa
   return total_of(total);
 }
 
-TALUS_CLONES void find_largest(std::size_t count, const double* number, double* __restrict largest) {
+TALUS_CLONES void find_max(std::size_t count, const double* number, double* __restrict largest) {
   for (std::size_t begin = 0; begin < count; begin += row_lanes) {
     double most = 0;
     for (std::size_t i = begin; i < std::min(begin + row_lanes, count); ++i) most = number[i] > most ? number[i] : most;

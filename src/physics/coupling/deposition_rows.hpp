@@ -38,7 +38,7 @@ float weight_at(float square);
 double keep_rows(std::size_t rows, std::size_t columns, const RowFate* fate, const float* sum, float* __restrict kept);
 
 /// The largest of each `row_lanes` numbers, one after another, at least 0.
-void find_largest(std::size_t count, const double* number, double* __restrict largest);
+void find_max(std::size_t count, const double* number, double* __restrict largest);
 
 /// Adds two amounts to two fields by weight, each rounded to fixed point. \param first cell of each row
 /// \param rounding of each field: what rounding_to gives

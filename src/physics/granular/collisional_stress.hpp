@@ -24,7 +24,7 @@ enum class CollisionRange {
 };
 
 /// (D/g)^(1/2) du_i/dx_j of that flow, i != j and i = j.
-inline constexpr double largest_shear_rate = 0.2, largest_normal_rate = 0.05;
+inline constexpr double max_shear_rate = 0.2, max_normal_rate = 0.05;
 
 /// The table [collisions] of a case.
 struct CollisionParameters {
@@ -79,18 +79,18 @@ SymmetricTensor3<Number> collisional_stress(const CollisionParameters& p, double
   const Number scale = -fall_time * mean_stress;
   const SymmetricTensor3<Number> rate = symmetric_part(velocity_gradient);
   if (p.form == Collisions::isotropic) {
-    const Number expansion = within(trace(rate), 3 * largest_normal_rate);
+    const Number expansion = within(trace(rate), 3 * max_normal_rate);
     SymmetricTensor3<Number> sheared = deviator(rate);
     if (!unlimited) {
-      const Number most = largest_shear_rate / fall_time / 1.4142135623730951;  // of |D_dev| = rate/2^(1/2)
+      const Number most = max_shear_rate / fall_time / 1.4142135623730951;  // of |D_dev| = rate/2^(1/2)
       sheared = (most / maximum(norm(sheared), most)) * sheared;
     }
     return scale * (isotropic<Number>((p.normal / 3.0) * expansion) + (2.0 * p.shear) * sheared);
   }
   const Number normal = (p.normal * p.diagonal) * scale;
   const Number shear = (2.0 * p.shear) * scale;
-  const auto along = [&](const Number& x) { return normal * within(x, largest_normal_rate); };
-  const auto across = [&](const Number& x) { return shear * within(x, 0.5 * largest_shear_rate); };
+  const auto along = [&](const Number& x) { return normal * within(x, max_normal_rate); };
+  const auto across = [&](const Number& x) { return shear * within(x, 0.5 * max_shear_rate); };
   return {along(rate.xx), along(rate.yy), along(rate.zz), across(rate.xy), across(rate.yz), across(rate.zx)};
 }
 

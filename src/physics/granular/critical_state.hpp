@@ -162,7 +162,7 @@ class CriticalState {
   /// c = ((K + 4G/3)/rho_b)^(1/2), m/s.
   double sound_speed(double density) const;
   /// Any dry beads, up to that inertial number.
-  LawRange range() const { return {.largest_inertial_number = CriticalStateCoefficients::largest_inertial_number}; }
+  LawRange range() const { return {.max_inertial_number = CriticalStateCoefficients::max_inertial_number}; }
   const Parameters& parameters() const { return parameters_; }
 
  private:

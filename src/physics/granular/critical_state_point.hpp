@@ -38,7 +38,7 @@ struct CriticalStateParameters {
 struct CriticalStateCoefficients {
   static constexpr double sqrt2 = 1.4142135623730951;
   static constexpr double tiny = 1e-30;
-  static constexpr double largest_inertial_number = 0.3;  // to which the packing is known to fall in proportion
+  static constexpr double max_inertial_number = 0.3;  // to which the packing is known to fall in proportion
 
   CriticalStateParameters parameters;
   double reference_density = 0;  ///< kg/m^3
@@ -70,8 +70,7 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
 
   const Number inertial = c.grain_inertia * norm(rate) / sqrt(maximum(pressure, Number(c.tiny)));
   const Number critical_volume =
-      p.reference_packing /
-      (p.critical_packing - p.packing_slope * minimum(inertial, Number(c.largest_inertial_number)));
+      p.reference_packing / (p.critical_packing - p.packing_slope * minimum(inertial, Number(c.max_inertial_number)));
   const Number dilatancy = (p.dilatancy * p.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
   const Number flowing = p.static_friction +
                          (p.dynamic_friction - p.static_friction) * (inertial / (inertial + p.inertial_number)) +

@@ -124,7 +124,7 @@ void visit_max_deviator(Visit&& visit, F& fits, const Range& largest) {
 
 /// Up to where the fits go.
 constexpr Range within_fits() {
-  return {.least = 0, .most = max_fitted_strain, .least_excluded = true};
+  return {.min = 0, .max = max_fitted_strain, .min_excluded = true};
 }
 
 /// Where the loading curve of the pressure ends with the fits, at f = 1, Pa.

@@ -53,7 +53,7 @@ std::vector<Problem> CriticalState::check(const Parameters& p) {
     if (packing < p.random_loose_packing)
       problems.push_back(
           {.key = key, .what = "lies below the loosest packing", .allowed = "at least random_loose_packing"});
-  if (!(p.critical_packing - CriticalStateCoefficients::largest_inertial_number * p.packing_slope > 0.1))
+  if (!(p.critical_packing - CriticalStateCoefficients::max_inertial_number * p.packing_slope > 0.1))
     problems.push_back({.key = "packing_slope",
                         .what = "fast flow would have next to no grains",
                         .allowed = "less than (critical_packing - 0.1)/0.3"});

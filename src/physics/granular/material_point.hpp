@@ -37,9 +37,9 @@ struct MaterialPoint {
 
 /// The range of validity of a law. Outside of it `talus check` and the validity report warn.
 struct LawRange {
-  double grain_diameter = 0;  ///< of the grains that it is a fit to, m; 0: of any
-  double largest_pressure = std::numeric_limits<double>::infinity();  ///< Pa
-  double largest_inertial_number = std::numeric_limits<double>::infinity();
+  double grain_diameter = 0;                                      ///< of the grains that it is a fit to, m; 0: of any
+  double max_pressure = std::numeric_limits<double>::infinity();  ///< Pa
+  double max_inertial_number = std::numeric_limits<double>::infinity();
 };
 
 /// What a law has to offer. `density` is the bulk density at the end of the time step, kg/m^3; the velocity gradient,

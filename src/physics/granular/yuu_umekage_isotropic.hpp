@@ -143,9 +143,9 @@ class YuuUmekageIsotropic {
   /// compression, times k_u if a stress unloads along its line. An upper bound for every state.
   double sound_speed(double density) const;
   /// Largest pressure of the loading curve at f = 1, Pa.
-  double largest_pressure() const { return parameters_.fits.scale * pressure_(max_fitted_strain) / sqrt3; }
+  double max_pressure() const { return parameters_.fits.scale * pressure_(max_fitted_strain) / sqrt3; }
   LawRange range() const {
-    return {.grain_diameter = fitted_diameter, .largest_pressure = max_fitted_pressure(parameters_.fits)};
+    return {.grain_diameter = fitted_diameter, .max_pressure = max_fitted_pressure(parameters_.fits)};
   }
   const Parameters& parameters() const { return parameters_; }
 

@@ -172,7 +172,7 @@ class YuuUmekagePrinted {
   /// k_u if stress unloads along its line.
   double sound_speed(double density) const;
   LawRange range() const {
-    return {.grain_diameter = fitted_diameter, .largest_pressure = max_fitted_pressure(parameters_.fits)};
+    return {.grain_diameter = fitted_diameter, .max_pressure = max_fitted_pressure(parameters_.fits)};
   }
   const Parameters& parameters() const { return parameters_; }
 

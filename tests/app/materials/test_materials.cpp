@@ -85,10 +85,10 @@ TEST(Materials, EveryEntryOfAFileIsTaken) {
       if (line.key == "pressure" || line.key.starts_with("walls.")) continue;
       EXPECT_TRUE(filled.keys.contains(line.key)) << "no key of a case: " << line.key;
     }
-    EXPECT_GT(p.grains.range.least_diameter, 0);
-    EXPECT_LE(p.grains.range.least_diameter, p.grains.diameter);
-    EXPECT_GE(p.grains.range.largest_diameter, p.grains.diameter);
-    EXPECT_LT(p.grains.range.largest_pressure, 1e6);
+    EXPECT_GT(p.grains.range.min_diameter, 0);
+    EXPECT_LE(p.grains.range.min_diameter, p.grains.diameter);
+    EXPECT_GE(p.grains.range.max_diameter, p.grains.diameter);
+    EXPECT_LT(p.grains.range.max_pressure, 1e6);
   }
 }
 

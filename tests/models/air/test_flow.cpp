@@ -58,7 +58,7 @@ TEST(AirFlow, LetsTaylorGreenVorticesDecayAsTheyShouldWithSecondOrder) {
 /// lines. Those of the tables of Ghia, Ghia & Shin 1982 are 1.5 to 3.4 % nearer to 0 than those of Botella & Peyret
 /// 1998 (Computers & Fluids 27, 421), whose spectral solution has seven digits.
 struct Cavity {
-  double least_u, least_w, largest_w;
+  double min_u, min_w, max_w;
 };
 Cavity cavity(int n, double dt, double end) {
   Parameters p;
@@ -73,9 +73,9 @@ Cavity cavity(int n, double dt, double end) {
   Cavity extremes{0, 0, 0};
   for (int m = 0; m < n; ++m) {
     const double w = c.state.velocity[2][c.grid.index(m, 0, n / 2)];
-    extremes.least_u = std::min(extremes.least_u, c.state.velocity[0][c.grid.index(n / 2, 0, m)]);
-    extremes.least_w = std::min(extremes.least_w, w);
-    extremes.largest_w = std::max(extremes.largest_w, w);
+    extremes.min_u = std::min(extremes.min_u, c.state.velocity[0][c.grid.index(n / 2, 0, m)]);
+    extremes.min_w = std::min(extremes.min_w, w);
+    extremes.max_w = std::max(extremes.max_w, w);
   }
   return extremes;
 }
@@ -83,9 +83,9 @@ Cavity cavity(int n, double dt, double end) {
 /// On 128 cells: validation/cavity.
 TEST(AirFlow, DrivenCavityComesNearGhiasOnACoarseGrid) {
   const Cavity coarse = cavity(20, 0.025, 12.5);
-  EXPECT_NEAR(coarse.least_u / -0.21090, 1, 0.05);
-  EXPECT_NEAR(coarse.least_w / -0.24533, 1, 0.05);
-  EXPECT_NEAR(coarse.largest_w / 0.17527, 1, 0.05);
+  EXPECT_NEAR(coarse.min_u / -0.21090, 1, 0.05);
+  EXPECT_NEAR(coarse.min_w / -0.24533, 1, 0.05);
+  EXPECT_NEAR(coarse.max_w / 0.17527, 1, 0.05);
 }
 
 /// Mean of a plane Poiseuille flow along x between rough walls over the exact one. It creeps: what open ends take from

@@ -113,7 +113,7 @@ inline Expected oracle(const Spheres& spheres, Mobility mobility) {
 }
 
 /// Largest |x_i - y_i|; not a number if one of them is not.
-inline double largest_difference(std::span<const Vector3> x, std::span<const Vector3> y) {
+inline double max_difference(std::span<const Vector3> x, std::span<const Vector3> y) {
   double largest = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double difference = norm(x[i] - y[i]);

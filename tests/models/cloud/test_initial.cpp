@@ -11,7 +11,7 @@
 namespace talus::cloud {
 namespace {
 
-double smallest_gap(const Grains& grains) {
+double min_gap(const Grains& grains) {
   double gap = 1e300;
   for (std::size_t i = 0; i < grains.radius.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -23,7 +23,7 @@ TEST(Pack, FillsTheDiscWithoutOverlap) {
   const Parameters p = disc(600);
   const Grains grains = pack(p);
   ASSERT_EQ(grains.position.size(), 600u);
-  EXPECT_GE(smallest_gap(grains), 0);
+  EXPECT_GE(min_gap(grains), 0);
   double furthest = 0;
   int quadrant[4] = {};
   for (const Vector3& x : grains.position) {
@@ -66,7 +66,7 @@ TEST(Pack, KeepsEveryGrainAboveTheSlope) {
   p.particles.size = 60 * p.particles.radius;
   p.motion = Motion::xz;
   const Grains triangle = pack(p);
-  EXPECT_GE(smallest_gap(triangle), 0);
+  EXPECT_GE(min_gap(triangle), 0);
   for (std::size_t i = 0; i < triangle.radius.size(); ++i) {
     EXPECT_GE(triangle.position[i].z, triangle.radius[i]);
     EXPECT_LE(std::abs(triangle.position[i].x) + triangle.position[i].z, p.particles.size);
@@ -76,7 +76,7 @@ TEST(Pack, KeepsEveryGrainAboveTheSlope) {
   q.particles.size = 12 * q.particles.radius;
   q.motion = Motion::xyz;
   const Grains dome = pack(q);
-  EXPECT_GE(smallest_gap(dome), 0);
+  EXPECT_GE(min_gap(dome), 0);
   for (std::size_t i = 0; i < dome.radius.size(); ++i) EXPECT_GE(dome.position[i].z, dome.radius[i]);
 }
 
@@ -87,7 +87,7 @@ TEST(Pack, AWedgeIsUprightAtItsGateAndLevelAtItsSurface) {
   p.slope.angle = 0.5;
   EXPECT_NEAR(scales(p).volume_fraction, 800 * std::numbers::pi * std::sin(1.0) / (75 * 75.0), 1e-3);
   const Grains wedge = pack(p);
-  EXPECT_GE(smallest_gap(wedge), 0);
+  EXPECT_GE(min_gap(wedge), 0);
   double front = -1, highest = 0;
   for (const Vector3& x : wedge.position) {
     const double above_the_foot = x.z * std::cos(0.5) - x.x * std::sin(0.5);

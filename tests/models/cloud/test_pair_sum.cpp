@@ -44,7 +44,7 @@ TEST(PairSum, AgreesWithTheOracleForEveryNumberOfSpheres) {
         const Expected expected = oracle(spheres, mobility);
         for_every_set_and_precision([&](InstructionSet set, Precision precision) {
           const auto velocity = velocities(spheres, {mobility, motion, precision, set});
-          EXPECT_LE(largest_difference(velocity, expected.velocity), bound(precision) * expected.scale)
+          EXPECT_LE(max_difference(velocity, expected.velocity), bound(precision) * expected.scale)
               << count << " " << name({mobility, motion, precision, set});
         });
       }
@@ -57,7 +57,7 @@ TEST(PairSum, AddsPairsAcrossTilesOfRowsAndColumns) {
   const Expected expected = oracle(spheres, Mobility::zuk_2014);
   for_every_set_and_precision([&](InstructionSet set, Precision precision) {
     const auto velocity = velocities(spheres, {Mobility::zuk_2014, Motion::xyz, precision, set});
-    EXPECT_LE(largest_difference(velocity, expected.velocity), bound(precision) * expected.scale)
+    EXPECT_LE(max_difference(velocity, expected.velocity), bound(precision) * expected.scale)
         << name({Mobility::zuk_2014, Motion::xyz, precision, set});
   });
 }
@@ -168,7 +168,7 @@ TEST(PairSum, PlaneIsSpaceForCoplanarSpheres) {
         const double scale = oracle(spheres, mobility).scale;
         const auto flat = velocities(spheres, {mobility, plane, precision, set});
         const auto full = velocities(spheres, {mobility, Motion::xyz, precision, set});
-        EXPECT_LE(largest_difference(flat, full), bound(precision) * scale);
+        EXPECT_LE(max_difference(flat, full), bound(precision) * scale);
         for (const Vector3& v : flat) EXPECT_EQ(plane == Motion::xy ? v.z : v.y, 0);
       }
     });
@@ -201,10 +201,10 @@ TEST(PairSum, OrderChangesNoMoreThanTheLastBits) {
     PairSum sum({Mobility::rotne_prager_1969, Motion::xyz, precision, set, viscosity}, spheres.radius, sorted);
     std::vector<Vector3> velocity(spheres.size()), again(spheres.size());
     sum.velocities(team, spheres.position, spheres.force, velocity);
-    EXPECT_LE(largest_difference(velocity, expected.velocity), bound(precision) * expected.scale);
+    EXPECT_LE(max_difference(velocity, expected.velocity), bound(precision) * expected.scale);
     sum.reorder(backward);
     sum.velocities(team, spheres.position, spheres.force, again);
-    EXPECT_LE(largest_difference(again, expected.velocity), bound(precision) * expected.scale);
+    EXPECT_LE(max_difference(again, expected.velocity), bound(precision) * expected.scale);
     sum.reorder(sorted);
     sum.velocities(team, spheres.position, spheres.force, again);
     EXPECT_EQ(again, velocity);
@@ -223,7 +223,7 @@ TEST(PairSum, SinglePrecisionKeepsSixDigitsOfASortedCloud) {
     for (const Vector3& v : exact) largest = std::max(largest, norm(v));
     for (const InstructionSet set : available_sets()) {
       const PairSum::Options options{Mobility::rotne_prager_1969, motion, Precision::single_precision, set};
-      const double error = largest_difference(velocities(spheres, options, 1, order), exact) / largest;
+      const double error = max_difference(velocities(spheres, options, 1, order), exact) / largest;
       EXPECT_LE(error, 1e-6) << name(options);
       EXPECT_GE(error, 1e-9) << name(options);  // it is single precision
     }
@@ -237,7 +237,7 @@ TEST(PairSum, TwoSpheresAtOnePlace) {
     const auto printed = velocities(spheres, {Mobility::rotne_prager_1969, Motion::xyz, precision, set});
     for (std::size_t i = 0; i < spheres.size(); ++i) EXPECT_EQ(std::isfinite(norm(printed[i])), i != 7 && i != 33) << i;
     const auto symmetric = velocities(spheres, {Mobility::zuk_2014, Motion::xyz, precision, set});
-    EXPECT_LE(largest_difference(symmetric, oracle(spheres, Mobility::zuk_2014).velocity),
+    EXPECT_LE(max_difference(symmetric, oracle(spheres, Mobility::zuk_2014).velocity),
               bound(precision) * oracle(spheres, Mobility::zuk_2014).scale);
   });
 }

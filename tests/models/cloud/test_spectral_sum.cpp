@@ -181,7 +181,7 @@ TEST(SpectralSum, AgreesBetweenInstructionSets) {
         const double scale = root_mean_square(portable);
         for (const InstructionSet set : available_sets()) {
           options.instruction_set = set;
-          EXPECT_LE(largest_difference(portable, spectral(spheres, options, accuracy)),
+          EXPECT_LE(max_difference(portable, spectral(spheres, options, accuracy)),
                     (accuracy.single ? 2e-5 : 1e-11) * scale)
               << choice_name(set);
         }

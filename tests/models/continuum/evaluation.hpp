@@ -51,10 +51,10 @@ struct Evaluation {
     for (std::size_t i = 0; i < state.position.size(); ++i) state.density[i] = field(state.position[i]);
   }
   /// Densities from a share of the bed's to 1.1 of it, velocities and stresses of any size and sign.
-  void randomise(double least_density) {
+  void randomise(double min_density) {
     Random random(5);
     for (std::size_t i = 0; i < state.position.size(); ++i) {
-      state.density[i] *= random.uniform(least_density, 1.1);
+      state.density[i] *= random.uniform(min_density, 1.1);
       state.velocity[i] = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
       for (auto& column : state.material.stress) column[i] = random.uniform(-1000, 1000);
     }

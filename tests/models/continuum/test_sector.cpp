@@ -70,17 +70,17 @@ TEST(Sector, FeelsWhatAWholeCircleOfItsCopiesFeels) {
       ASSERT_EQ(whole.position.size(), own * static_cast<std::size_t>(sector.copies()));
       const Domain part = Boundary(p).domain();
       const Sums of_part(p, part, s, walls), of_whole(p, part.whole(), whole, walls);
-      double largest = 0, most_open = 0;
+      double largest = 0, max_open = 0;
       for (std::size_t i = 0; i < own; ++i) {
         largest = std::max(largest, norm(of_part.rates.acceleration[i]));
-        most_open = std::max(most_open, std::abs(of_part.rates.density_rate[i]));
+        max_open = std::max(max_open, std::abs(of_part.rates.density_rate[i]));
       }
       // The points of walls are floats.
       const double rounding = walls ? 2e-6 : 1e-12;
       for (std::size_t n = 0; n < whole.position.size(); ++n) {
         const Vector3 turned = sector.turn(static_cast<int>(n / own)) * of_part.rates.acceleration[n % own];
         ASSERT_LT(norm(of_whole.rates.acceleration[n] - turned), rounding * largest) << degrees << walls << n;
-        ASSERT_NEAR(of_whole.rates.density_rate[n], of_part.rates.density_rate[n % own], rounding * most_open);
+        ASSERT_NEAR(of_whole.rates.density_rate[n], of_part.rates.density_rate[n % own], rounding * max_open);
         ASSERT_NEAR(of_whole.rates.kernel_density[n], of_part.rates.kernel_density[n % own],
                     rounding * of_part.rates.kernel_density[n % own]);
       }

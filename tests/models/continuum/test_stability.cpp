@@ -42,12 +42,12 @@ TEST(Advance, TheLeapfrogIsStableUpToTheStepThatTheLatticeAllows) {
     for (std::size_t i = 0; i < start.position.size(); ++i)
       start.velocity[i].z = 1e-6 * std::sin(pi * fastest * start.position[i].z / (layers * spacing));
     model.begin(team);
-    double largest_speed = 0;
-    for (int n = 0; n < 1000 && largest_speed < 1; ++n) {
+    double max_speed = 0;
+    for (int n = 0; n < 1000 && max_speed < 1; ++n) {
       model.advance(team);
-      for (const Vector3& v : model.state().velocity) largest_speed = std::max(largest_speed, std::abs(v.z));
+      for (const Vector3& v : model.state().velocity) max_speed = std::max(max_speed, std::abs(v.z));
     }
-    return largest_speed / 1e-6;
+    return max_speed / 1e-6;
   };
   EXPECT_LT(growth(0.98 * 2 / largest), 20);
   EXPECT_GT(growth(1.02 * 2 / largest), 1000);

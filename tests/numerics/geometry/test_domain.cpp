@@ -198,8 +198,8 @@ TEST(Sees, AWallAcrossTheBoxIsTheSameAsALayerAndFollowed) {
   const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, wall}};
   const Wall slit = plate(box, 100, {{30, 70}});
   const Domain layered(box, {slit}), followed(box, {slit}, 101);
-  ASSERT_EQ(layered.largest_reach(), 100);
-  ASSERT_NE(followed.largest_reach(), 100);
+  ASSERT_EQ(layered.max_reach(), 100);
+  ASSERT_NE(followed.max_reach(), 100);
   constexpr double reach = 8;
   const auto seen = [&](const Domain& domain, const Vector3& own, const Vector3& source) {
     std::vector<std::array<double, 3>> places;
@@ -279,17 +279,17 @@ TEST(Domain, FoldsIntoTheBoxAndWrapsPeriodicFaces) {
 }
 
 TEST(Domain, KnowsHowFarItsImagesReach) {
-  EXPECT_EQ(hopper().largest_reach(), 100);
+  EXPECT_EQ(hopper().max_reach(), 100);
   const Box box{{0, 0, 0}, {100, 5, 250}, {wall, wall, symmetry, symmetry, wall, open}};
   const Domain two(box, {plate(box, 100), plate(box, 110)});
-  EXPECT_EQ(two.largest_reach(), 10);
+  EXPECT_EQ(two.max_reach(), 10);
   // Walls that are no layers are followed, however near.
   constexpr double endless = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(Domain(box, {plate(box, 100), plate(box, 110)}, 11).largest_reach(), endless);
-  EXPECT_EQ(Domain(box, {plate(box, 300)}).largest_reach(), endless);
-  EXPECT_EQ(Domain(box, {plate(box, 100), Wall("upright", {50, 0, 0}, {50, 0, 250})}).largest_reach(), endless);
-  EXPECT_EQ(Domain(box, {Wall("short", {0, 0, 100}, {99, 0, 100})}).largest_reach(), endless);
-  EXPECT_EQ(Domain(box, {Wall("to the open top", {50, 0, 0}, {50, 0, 250})}).largest_reach(), endless);
+  EXPECT_EQ(Domain(box, {plate(box, 100), plate(box, 110)}, 11).max_reach(), endless);
+  EXPECT_EQ(Domain(box, {plate(box, 300)}).max_reach(), endless);
+  EXPECT_EQ(Domain(box, {plate(box, 100), Wall("upright", {50, 0, 0}, {50, 0, 250})}).max_reach(), endless);
+  EXPECT_EQ(Domain(box, {Wall("short", {0, 0, 100}, {99, 0, 100})}).max_reach(), endless);
+  EXPECT_EQ(Domain(box, {Wall("to the open top", {50, 0, 0}, {50, 0, 250})}).max_reach(), endless);
 }
 
 }  // namespace

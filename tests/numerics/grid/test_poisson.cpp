@@ -46,7 +46,7 @@ void for_each_cell(const Grid& grid, Body&& body) {
 
 /// Value of -div(c grad p) for p = sin(pi x) sin(pi y) sin(pi z) and c = 1 + x + 0.5 y z, p = 0 on the unit cube's
 /// faces.
-double largest_error(int n) {
+double max_error(int n) {
   const Grid grid{.count = {n, n, n}, .low = {}, .spacing = {1.0 / n, 1.0 / n, 1.0 / n}};
   ThreadTeam team;
   PoissonSolver solver(grid, not_periodic);
@@ -71,7 +71,7 @@ double largest_error(int n) {
 }
 
 TEST(PoissonSolver, ConvergesWithSecondOrderToAManufacturedSolution) {
-  const double coarse = largest_error(12), fine = largest_error(24);
+  const double coarse = max_error(12), fine = max_error(24);
   EXPECT_LT(fine, 2e-3);
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
 }

@@ -214,9 +214,9 @@ TEST(Deposition, TheLargestMeanIsThatOfAllParticlesOrWhatIsKnown) {
   silo.deposition.distribute(silo.team, 1, given, mean);
   double largest = 0;
   for (const Vector3& m : mean) largest = std::max(largest, norm(m));
-  EXPECT_DOUBLE_EQ(silo.deposition.largest_mean(silo.team, given, square, 0), largest);
-  EXPECT_DOUBLE_EQ(silo.deposition.largest_mean(silo.team, given, square, 0.999 * largest), largest);
-  EXPECT_EQ(silo.deposition.largest_mean(silo.team, given, square, 1.5 * largest), 1.5 * largest);
+  EXPECT_DOUBLE_EQ(silo.deposition.max_mean(silo.team, given, square, 0), largest);
+  EXPECT_DOUBLE_EQ(silo.deposition.max_mean(silo.team, given, square, 0.999 * largest), largest);
+  EXPECT_EQ(silo.deposition.max_mean(silo.team, given, square, 1.5 * largest), 1.5 * largest);
 }
 
 TEST(Deposition, RefusesAGridThatDoesNotFillTheBox) {

@@ -294,7 +294,7 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
                                      {slippery_turning, 2e-5}}) {
     const double start = p.reference_packing;
     const AnyLaw law = make_law(p, grain_density, diameter);
-    double least_heat = 0, most_stored = 0;
+    double min_heat = 0, max_stored = 0;
     for (int trial = 0; trial < 20; ++trial) {
       std::vector<PathStretch> path = {{1, squeeze(2e-4)}};
       for (int k = 0; k < 12; ++k) {
@@ -310,11 +310,11 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
       const double pressure = mean(last.stress), shear_stress = norm(deviator(last.stress));
       const double stored =
           pressure * pressure / (2 * p.bulk_modulus) + shear_stress * shear_stress / (4 * p.shear_modulus);
-      least_heat = std::min(least_heat, work_of_path(path, points) - stored);
-      most_stored = std::max(most_stored, stored);
+      min_heat = std::min(min_heat, work_of_path(path, points) - stored);
+      max_stored = std::max(max_stored, stored);
     }
-    EXPECT_GT(most_stored, 0.01);
-    EXPECT_GT(least_heat, -1e-3 * most_stored);
+    EXPECT_GT(max_stored, 0.01);
+    EXPECT_GT(min_heat, -1e-3 * max_stored);
   }
 }
 

@@ -202,8 +202,8 @@ TEST(Law, SaysWhatItWasMadeFor) {
     return std::visit([](const auto& law) { return law.range(); }, make_law(parameters, 2500));
   };
   EXPECT_EQ(range(YuuUmekageIsotropic::Parameters{}).grain_diameter, 200e-6);
-  EXPECT_NEAR(range(YuuUmekageIsotropic::Parameters{}).largest_pressure,
-              4 * range(YuuUmekageIsotropic::Parameters{.fits = {.scale = 2.45}}).largest_pressure, 1e-9);
+  EXPECT_NEAR(range(YuuUmekageIsotropic::Parameters{}).max_pressure,
+              4 * range(YuuUmekageIsotropic::Parameters{.fits = {.scale = 2.45}}).max_pressure, 1e-9);
   EXPECT_EQ(range(DruckerPrager::Parameters{}).grain_diameter, 200e-6);
   EXPECT_EQ(range(DruckerPrager::Parameters{.friction = 0.5}).grain_diameter, 0);
   EXPECT_EQ(range(LinearElastic::Parameters{}).grain_diameter, 0);

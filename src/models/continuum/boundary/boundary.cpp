@@ -61,7 +61,7 @@ Domain domain_of(const Parameters& p) {
           .high = {p.box.width, p.box.depth, p.box.height},
           .faces = {p.box.left, p.box.right, p.box.front, p.box.rear, p.box.floor, p.box.top}};
   const std::optional<Sector> sector = sector_of(p);
-  if (!sector) return Domain(box, walls_of(p), least_distance_of_layers(p));
+  if (!sector) return Domain(box, walls_of(p), min_distance_of_layers(p));
   std::fill_n(box.faces.begin(), 4, FaceKind::open);  // no grains come so far
   return Domain(box, {}, 0, sector);
 }

@@ -43,7 +43,7 @@ void for_each_parameter_of_inner_walls(Visit&& visit, P& p) {
   visit(
       Parameter{"wedge.half_angle",
                 dimension::angle,
-                {.least = 0, .most = half_turn / 2, .least_excluded = true, .most_excluded = true},
+                {.min = 0, .max = half_turn / 2, .min_excluded = true, .max_excluded = true},
                 "angle to the vertical of the two walls of a wedge hopper, which reach from its outlet, in the middle "
                 "of the box, up to the left and right faces; left out: no wedge"},
       p.wedge.half_angle);

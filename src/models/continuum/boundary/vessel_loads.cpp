@@ -16,7 +16,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double size_of_field = 2, height_of_band = 4;  // spacings
-constexpr long most_bands = 12;
+constexpr long max_bands = 12;
 constexpr double level = 0.999;
 
 /// Unit vector down along a wall; none on a level one.
@@ -54,8 +54,8 @@ WallLoads no_loads(std::size_t fields, double unit) {
           .rest_pressure = none,
           .traction = nothing,
           .rest_traction = nothing,
-          .largest = none,
-          .largest_time = none,
+          .max_pressure = none,
+          .max_time = none,
           .window_start = 0};
 }
 
@@ -90,9 +90,9 @@ void close_window(const SurfaceFields& fields, double time, double length, WallL
     const double over = 1 / (duration * fields.all()[n].area);
     w.pressure[n] = over * w.point.value(w.window_push[n]);
     w.traction[n] = over * w.in_window(n);
-    if (w.pressure[n] > w.largest[n]) {
-      w.largest[n] = w.pressure[n];
-      w.largest_time[n] = time - 0.5 * duration;
+    if (w.pressure[n] > w.max_pressure[n]) {
+      w.max_pressure[n] = w.pressure[n];
+      w.max_time[n] = time - 0.5 * duration;
     }
   }
   begin_window(time, w);
@@ -104,8 +104,8 @@ void begin_flow(double time, WallLoads& w) {
   begin_window(time, w);
   w.gate_push = w.push;
   w.gate_received = w.received;
-  std::fill(w.largest.begin(), w.largest.end(), 0.0);
-  std::fill(w.largest_time.begin(), w.largest_time.end(), 0.0);
+  std::fill(w.max_pressure.begin(), w.max_pressure.end(), 0.0);
+  std::fill(w.max_time.begin(), w.max_time.end(), 0.0);
 }
 
 bool LoadBand::is_level() const {
@@ -127,8 +127,7 @@ std::vector<LoadBand> load_bands(const Parameters& p, const SurfaceFields& field
   std::vector<std::size_t> first;
   for (const auto& [patch, heights] : extent) {
     const double low = heights.low, extent_up = heights.high - low;
-    const long count =
-        std::clamp(std::lround(std::floor(extent_up / (height_of_band * p.bed.spacing))), 1L, most_bands);
+    const long count = std::clamp(std::lround(std::floor(extent_up / (height_of_band * p.bed.spacing))), 1L, max_bands);
     first.push_back(bands.size());
     for (long k = 0; k < count; ++k) {
       const auto height = [&](long border) {
@@ -196,8 +195,8 @@ SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, con
   add("pressure_in_flow", "Pa", [&](std::size_t n) { return since_gate(n) * (w.push_of(n) - w.gate_push[n]); });
   add("shear_in_flow", "Pa",
       [&](std::size_t n) { return along(since_gate(n) * (w.received_of(n) - w.gate_received[n]), normal(n)); });
-  add("pressure_largest", "Pa", [&](std::size_t n) { return w.largest[n]; });
-  add("time_of_largest", "s", [&](std::size_t n) { return w.largest_time[n]; });
+  add("pressure_largest", "Pa", [&](std::size_t n) { return w.max_pressure[n]; });
+  add("time_of_largest", "s", [&](std::size_t n) { return w.max_time[n]; });
   add("patch", "1", [&](std::size_t n) { return static_cast<double>(fields.all()[n].patch); });
   return snapshot;
 }

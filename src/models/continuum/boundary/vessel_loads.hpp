@@ -31,7 +31,7 @@ struct WallLoads {
   std::vector<double> pressure, rest_pressure;
   std::vector<Vector3> traction, rest_traction;
   // The largest mean of a window since the gate opened (until then: since the start), Pa, and the window's middle, s.
-  std::vector<double> largest, largest_time;
+  std::vector<double> max_pressure, max_time;
   double window_start = 0;  ///< s
 
   /// Since the start, N s.

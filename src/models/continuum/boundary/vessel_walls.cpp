@@ -90,7 +90,7 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     const Stand& stand = stands_[s];
     seats_[s].share = 0;
     if (surface_.is_open(stand.patch)) continue;
-    NearWall& wall = count < most_near_walls ? met[count] : one_more;
+    NearWall& wall = count < max_near_walls ? met[count] : one_more;
     kernels_.points({records_.data(), near_.data() + stand.first, stand.count, quantum_}, place.data(),
                     smoothing_length, wall.sums);
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};

@@ -47,7 +47,7 @@ struct NearWall {
 /// Those that a particle meets at once.
 using NearWalls = std::span<const NearWall>;
 /// The most of them; of more, those with the least weight are left out.
-inline constexpr std::size_t most_near_walls = 4;
+inline constexpr std::size_t max_near_walls = 4;
 
 /// A set of points of the walls, in spacings.
 struct PointsOfWalls {

@@ -47,7 +47,7 @@ std::optional<int> nearest_layers(int count, int least, int most, IsGood&& is_go
 /// Whether the cells can be numbered; the fault is told of the side of the box that is out of proportion, or of the
 /// cells' size where none is.
 std::optional<Problem> check_number_of_cells(const Parameters& p) {
-  constexpr double most_cells = 1e9;
+  constexpr double max_cells = 1e9;
   constexpr const char* sides[3] = {"box.width", "box.depth", "box.height"};
   Vector3 size = extent(p);
   for (int axis = 0; axis < 3; ++axis) size[axis] /= cell_size(p, axis);
@@ -57,21 +57,21 @@ std::optional<Problem> check_number_of_cells(const Parameters& p) {
     cells *= std::max(1.0, size[axis]);
     if (size[axis] > size[longest]) longest = axis;
   }
-  if (cells <= most_cells) return std::nullopt;
+  if (cells <= max_cells) return std::nullopt;
   const double length = extent(p)[longest];
   const double next = std::max({1.0, size[(longest + 1) % 3], size[(longest + 2) % 3]});
   if (size[longest] > 100 * next || !std::isfinite(size[longest]))
     return Problem{
         .key = sides[longest],
         .what = fmt::format("{:.4g} m is {:.3g} cells of the air: {:.3g} cells in all", length, size[longest], cells),
-        .allowed = fmt::format("at most {:.3g} m with cells of this size: {:.0e} cells", length * most_cells / cells,
-                               most_cells)};
+        .allowed = fmt::format("at most {:.3g} m with cells of this size: {:.0e} cells", length * max_cells / cells,
+                               max_cells)};
   const double dimensions = static_cast<double>((size.x > 1) + (size.y > 1) + (size.z > 1));
   return Problem{
       .key = p.air.cell ? "air.cell" : "bed.spacing",
       .what = fmt::format("makes {:.3g} cells of the air of {:.4g} mm", cells, cell_size(p) / millimetre),
       .allowed = fmt::format("cells of at least {:.3g} mm: {:.0e} cells",
-                             cell_size(p) * std::pow(cells / most_cells, 1 / dimensions) / millimetre, most_cells)};
+                             cell_size(p) * std::pow(cells / max_cells, 1 / dimensions) / millimetre, max_cells)};
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary)
     : boundary_(boundary),
       openings_(boundary.openings()),
       grain_density_(p.grains.density),
-      most_solid_(std::max(random_close_packing, p.bed.packing)),
+      max_solid_fraction_(std::max(random_close_packing, p.bed.packing)),
       medium_(gas_of(p).medium()),
       deposition_(air_grid(p), boundary_.domain(), boundary_.vessel()),
       flow_(air_grid(p), gas_of(p), boundary_.domain().walls(), boundary_.vessel()),
@@ -54,12 +54,12 @@ void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
   });
-  longest_ = flow_.time_step(team, a.solids, a.flow);
+  max_step_ = flow_.time_step(team, a.solids, a.flow);
 }
 
 void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   AirAround& a = s.air;
-  a.steps_left = static_cast<std::uint64_t>(longest_ / dt);
+  a.steps_left = static_cast<std::uint64_t>(max_step_ / dt);
   const double duration = static_cast<double>(a.steps_left) * dt;
   try {
     flow_.advance(team, duration, a.solids, a.flow, per_solid_volume_);
@@ -73,7 +73,7 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   flow_.add_outflow(team, duration, a.flow, a.excess);
   const double* pressure = a.flow.pressure.data();
   a.swing_max =
-      std::max(a.swing_max, largest_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
+      std::max(a.swing_max, max_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
   received_.resize(s.position.size());
   deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),
@@ -102,10 +102,10 @@ void Atmosphere::leave_overfull(air::Solids& solids) {
   overfull_.clear();
   for (std::size_t c = 0; c < solids.fraction.size(); ++c) {
     double& fraction = solids.fraction[c];
-    if (!(fraction > most_solid_)) continue;
-    const double share = most_solid_ / fraction;
+    if (!(fraction > max_solid_fraction_)) continue;
+    const double share = max_solid_fraction_ / fraction;
     overfull_.push_back({c, share});
-    fraction = most_solid_;
+    fraction = max_solid_fraction_;
     for (CellField& component : solids.flux) component[c] *= share;
   }
 }
@@ -124,8 +124,7 @@ void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
                           y.data() + begin, z.data() + begin, slip_square_.data() + begin);
   });
   const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
-  const double slip =
-      deposition_.largest_mean(team, per_solid_volume_, slip_square_, s.air.reynolds_max / reynolds_of_one);
+  const double slip = deposition_.max_mean(team, per_solid_volume_, slip_square_, s.air.reynolds_max / reynolds_of_one);
   s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds_of_one * slip);
 }
 
@@ -151,9 +150,9 @@ AirTotals totals_of_air(const AirAround& air) {
     most[n] = p > most[n] ? p : most[n];
     excess.add(std::abs(air.excess[c]));
   });
-  return {.largest_speed = std::sqrt(*std::max_element(square.begin(), square.end())),
-          .least_pressure = *std::min_element(least.begin(), least.end()),
-          .largest_pressure = *std::max_element(most.begin(), most.end()),
+  return {.max_speed = std::sqrt(*std::max_element(square.begin(), square.end())),
+          .min_pressure = *std::min_element(least.begin(), least.end()),
+          .max_pressure = *std::max_element(most.begin(), most.end()),
           .imbalance = 0.5 * excess.value() * air.grid.volume()};
 }
 

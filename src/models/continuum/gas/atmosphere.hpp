@@ -40,7 +40,7 @@ class Atmosphere {
   void take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
 
   /// The longest step of the air with the particles last deposited, s.
-  double max_step() const { return longest_; }
+  double max_step() const { return max_step_; }
 
   /// If due, advances the air by its next step: as many equal particle steps as fit within the longest step. Counts one
   /// of them as taken. \param dt the particles' step, s, at most max_step()
@@ -61,7 +61,7 @@ class Atmosphere {
   const Boundary& boundary_;
   int openings_;  // known to the air
   double grain_density_;
-  double most_solid_;  // of a cell beside the vessel
+  double max_solid_fraction_;  // of a cell beside the vessel
   struct Overfull {
     std::size_t cell;
     double share;  // of its grains, that the air meets
@@ -73,7 +73,7 @@ class Atmosphere {
   FaceField per_solid_volume_;  // of cells: impulse, then slip
   CellField slip_square_;
   std::vector<Vector3> received_;
-  double longest_ = 0;
+  double max_step_ = 0;
 };
 
 // Sums over the cells.
@@ -96,8 +96,8 @@ void for_each_air_cell(const AirAround& air, Body&& body) {
 
 /// Of all cells of the air, found in one pass.
 struct AirTotals {
-  double largest_speed = 0;                         ///< m/s
-  double least_pressure = 0, largest_pressure = 0;  ///< Pa
+  double max_speed = 0;                       ///< m/s
+  double min_pressure = 0, max_pressure = 0;  ///< Pa
   /// Volume that grains have left or taken without air that came or went, m^3: half of the sum over the cells of what
   /// continuity lacks, since what one lacks another has too much.
   double imbalance = 0;

@@ -23,7 +23,7 @@ void PairLists::find_groups() {
   for (std::size_t g = 0; g < ghosts.size(); ++g) end[ghosts[g].image] = count + g + 1;
   std::vector<char> is_listed(ghosts.size(), 0);
   groups_.clear();
-  longest_ = 1;
+  max_neighbours_ = 1;
   first_group_.assign(1, 0);
   loads_.clear();
   first_load_.assign(1, 0);
@@ -31,7 +31,7 @@ void PairLists::find_groups() {
   first_wall_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto neighbours = neighbourhood_.of(i);
-    longest_ = std::max(longest_, neighbours.size());
+    max_neighbours_ = std::max(max_neighbours_, neighbours.size());
     groups_.push_back({static_cast<std::uint32_t>(neighbourhood_.first_ghost_of(i)), -1});
     std::uint32_t walls = 0;
     std::size_t group_end = count;
@@ -77,7 +77,7 @@ void PairLists::add_loads(std::span<const NeighbourGroup> groups, std::uint32_t 
 }
 
 Neighbours PairLists::visible_from(std::span<const Vector3> position, std::size_t i, Visible& memory) const {
-  const std::size_t lines = 3 * ((longest_ + Neighbours::padded_to - 1) / Neighbours::padded_to);
+  const std::size_t lines = 3 * ((max_neighbours_ + Neighbours::padded_to - 1) / Neighbours::padded_to);
   if (memory.scratch.size() < lines) memory.scratch.resize(lines);
   Neighbours found{neighbourhood_.of(i).data(),
                    groups_.data() + first_group_[i],

@@ -61,7 +61,7 @@ class PairLists {
   std::vector<std::array<Domain::Load, 3>> loads_of_images_;
   std::vector<std::uint32_t> packed_ghosts_;
   std::vector<NeighbourGroup> groups_;      // of every particle's neighbours, one particle after the other
-  std::size_t longest_ = 1;                 // list of neighbours
+  std::size_t max_neighbours_ = 1;          // list of neighbours
   std::vector<std::uint32_t> first_group_;  // of a particle; one more than particles
   std::vector<WallLoad> loads_;             // of every particle's neighbours
   std::vector<std::uint32_t> first_load_;   // of a particle; one more than particles

@@ -39,7 +39,7 @@ struct WallForce {
 };
 struct WallForces {
   std::size_t count = 0;  // stands first: with the first force it is all that most particles need
-  std::array<WallForce, most_near_walls> of;
+  std::array<WallForce, max_near_walls> of;
 
   std::span<const WallForce> all() const { return std::span(of).first(count); }
 };

@@ -44,7 +44,7 @@ std::array<SymmetricTensor3<>, 3> stress_gradient(const Records& records, std::s
   const double* m = sums.moment;
   const SymmetricTensor3<> moment{m[0], m[1], m[2], m[3], m[4], m[5]};
   const Tensor3<> whole = full(moment);
-  if (!(determinant(whole) > sph::least_moment)) return {};
+  if (!(determinant(whole) > sph::min_moment)) return {};
   const Tensor3<> inverted = inverse(whole);
   double gradient[6][3];
   for (int c = 0; c < 6; ++c) {

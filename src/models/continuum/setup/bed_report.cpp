@@ -18,12 +18,12 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr double max_reported = 1e6;           // particles
-constexpr double max_positions = 3e5;          // of a region that is examined
-constexpr double beside = 0.8;                 // of a wall, in spacings
-constexpr double margin = 2;                   // of the region around the vessel, in spacings
-constexpr double wide_open = 6;                // in spacings
-constexpr std::size_t most_looked_from = 200;  // places
+constexpr double max_reported = 1e6;         // particles
+constexpr double max_positions = 3e5;        // of a region that is examined
+constexpr double beside = 0.8;               // of a wall, in spacings
+constexpr double margin = 2;                 // of the region around the vessel, in spacings
+constexpr double wide_open = 6;              // in spacings
+constexpr std::size_t max_viewpoints = 200;  // places
 
 std::string place_text(const Vector3& x) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g}) mm", x.x / millimetre, x.y / millimetre, x.z / millimetre);
@@ -100,7 +100,7 @@ std::optional<Vector3> way_out(const VesselPlaces& places, const Surroundings& a
   };
   std::vector<char> done(places.taken.size());
   std::priority_queue<Step> next;
-  const std::size_t stride = 1 + bed.size() / most_looked_from;
+  const std::size_t stride = 1 + bed.size() / max_viewpoints;
   std::optional<Step> start;
   for (std::size_t n = 0; n < bed.size(); n += stride)
     if (const Vector3 x = places.at(bed[n]); is_between_walls(places.surface, x))

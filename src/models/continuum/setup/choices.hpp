@@ -32,8 +32,8 @@ enum class WallMaterial { steel, acrylic, glass, concrete };
 
 /// Where the values of a material hold.
 struct MaterialRange {
-  double least_diameter = 0, largest_diameter = std::numeric_limits<double>::infinity();  ///< of its grains, m
-  double largest_pressure = std::numeric_limits<double>::infinity();                      ///< Pa
+  double min_diameter = 0, max_diameter = std::numeric_limits<double>::infinity();  ///< of its grains, m
+  double max_pressure = std::numeric_limits<double>::infinity();                    ///< Pa
 };
 
 inline constexpr RenamedKey renamed_keys[] = {

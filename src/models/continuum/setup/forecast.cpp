@@ -20,7 +20,7 @@ constexpr double hopeless_courant =
     50;  // of a fixed step, with the bound on the speed of waves; 5 may yet hold in a loose bed
 
 struct SettlingTime {
-  double least = 0, most = 0;  ///< s; of an undamped bed far apart
+  double min = 0, max = 0;  ///< s; of an undamped bed far apart
 };
 
 /// A bed whose weight comes on at once swings about its rest with its slowest wave, omega = pi c/(2 H) for the height
@@ -79,14 +79,14 @@ Forecast forecast(const Setup& setup, double end) {
   const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(setup);
   const double step = time_step_of(setup);
   const SettlingTime settling = settling_time(setup);
-  const double particles = bed + mass_to_come(p, end, settling.most) / setup.lattice.mass;
+  const double particles = bed + mass_to_come(p, end, settling.max) / setup.lattice.mass;
   return {.particles = particles,
           .written = setup.copies * particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
           .wall_points = points_on_square() * squares,
           .triangles = triangles.count,
-          .settling_steps = std::ceil(settling.least / step),
-          .most_settling_steps = std::ceil(settling.most / step),
+          .settling_steps = std::ceil(settling.min / step),
+          .max_settling_steps = std::ceil(settling.max / step),
           .flow_steps = std::ceil(end / step)};
 }
 
@@ -113,7 +113,7 @@ std::vector<Problem> check_steps(const Setup& setup, double end) {
                         .allowed = "a step above 0 s"});
     return problems;
   }
-  const double settling = settling_time(setup).least;
+  const double settling = settling_time(setup).min;
   const char* const key = p.integration.step                                                  ? "integration.step"
                           : settling <= end                                                   ? "run.end"
                           : p.gate.time > 0                                                   ? "gate.time"

@@ -13,15 +13,14 @@ namespace talus::continuum {
 double time_step_of(const Setup& setup);
 
 struct Forecast {
-  double particles = 0;       ///< that are computed
-  double written = 0;         ///< of a snapshot: in a sector those of the whole vessel
-  double cells = 0;           ///< of the air
-  double wall_points = 0;     ///< of the walls of a vessel, of all sets together
-  double triangles = 0;       ///< of these walls
-  double settling_steps = 0;  ///< until the gate opens; at least so many
-  double most_settling_steps =
-      0;                  ///< the same, unless the bed settles without damping: when it rests is not known then
-  double flow_steps = 0;  ///< from then on
+  double particles = 0;           ///< that are computed
+  double written = 0;             ///< of a snapshot: in a sector those of the whole vessel
+  double cells = 0;               ///< of the air
+  double wall_points = 0;         ///< of the walls of a vessel, of all sets together
+  double triangles = 0;           ///< of these walls
+  double settling_steps = 0;      ///< until the gate opens; at least so many
+  double max_settling_steps = 0;  ///< the same, unless the bed settles without damping: when it rests is not known then
+  double flow_steps = 0;          ///< from then on
 };
 
 /// \param end s, from the opening of the gate; \pre the case is valid: check()

@@ -14,8 +14,8 @@ namespace talus::continuum {
 namespace {
 
 constexpr double millimetre = 1e-3;
-constexpr std::size_t most_told = 10;
-constexpr double least_apart = 0.2;  // in spacings: sheared particles come as near as half a spacing
+constexpr std::size_t max_told = 10;
+constexpr double min_apart = 0.2;  // in spacings: sheared particles come as near as half a spacing
 
 /// As a user finds it in the file.
 std::string number_of(const GivenBed& bed, std::size_t n) {
@@ -33,7 +33,7 @@ std::vector<Problem> check_given_bed(const Parameters& p) {
   std::vector<Problem> problems;
   std::size_t found = 0;
   const auto add = [&](std::size_t n, std::string_view what, std::string allowed) {
-    if (++found <= most_told)
+    if (++found <= max_told)
       problems.push_back({.key = "bed.file",
                           .what = fmt::format("{}: {}: {}", p.bed.file, number_of(bed, n), what),
                           .allowed = std::move(allowed)});
@@ -58,7 +58,7 @@ std::vector<Problem> check_given_bed(const Parameters& p) {
       add(n, fmt::format("density = {:.6g} kg/m3", bed.density[n]), "above 0 kg/m3");
   }
   if (finite && p.bed.spacing > 0 && found == 0) {
-    const double apart = least_apart * p.bed.spacing;
+    const double apart = min_apart * p.bed.spacing;
     const Vector3 extent = bed.high - bed.low;
     const double finest = std::ldexp(std::max({extent.x, extent.y, extent.z}), -19);  // of a CellGrid
     const CellGrid grid(bed.position, std::max(apart, finest));
@@ -67,12 +67,12 @@ std::vector<Problem> check_given_bed(const Parameters& p) {
         const double distance = norm(bed.position[n] - bed.position[m]);
         if (m > n && distance < apart)
           add(n, fmt::format("is {:.3g} mm from {}", distance / millimetre, number_of(bed, m)),
-              fmt::format("at least {:.3g} mm, {:g} of bed.spacing", apart / millimetre, least_apart));
+              fmt::format("at least {:.3g} mm, {:g} of bed.spacing", apart / millimetre, min_apart));
       });
   }
-  if (found > most_told)
+  if (found > max_told)
     problems.push_back({.key = "bed.file",
-                        .what = fmt::format("{}: {} more such particles", p.bed.file, found - most_told),
+                        .what = fmt::format("{}: {} more such particles", p.bed.file, found - max_told),
                         .allowed = ""});
   return problems;
 }

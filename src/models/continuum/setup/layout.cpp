@@ -97,11 +97,11 @@ std::optional<Outlet> slit_of(const Parameters& p) {
 std::optional<Sector> sector_of(const Parameters& p) {
   if (!p.box.sector) return std::nullopt;
   const double copies = std::round(2 * std::numbers::pi / *p.box.sector);
-  if (!(copies >= Sector::fewest_copies && copies <= Sector::most_copies)) return std::nullopt;
+  if (!(copies >= Sector::min_copies && copies <= Sector::max_copies)) return std::nullopt;
   return Sector({0.5 * p.box.width, 0.5 * p.box.depth, 0}, static_cast<int>(copies));
 }
 
-double least_distance_of_layers(const Parameters& p) {
+double min_distance_of_layers(const Parameters& p) {
   // Images reach twice the support and the skin; particles grow as they thin out, so some room is left.
   return 3 * sph::support * p.sph.smoothing_ratio * p.bed.spacing;
 }
@@ -184,7 +184,7 @@ struct Bed {
 
 }  // namespace
 
-Layout::Layout(Parameters parameters) : Layout(parameters, std::make_shared<const Boundary>(parameters)) {}
+Layout::Layout(const Parameters& parameters) : Layout(parameters, std::make_shared<const Boundary>(parameters)) {}
 
 Layout::Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary)
     : given(std::move(parameters)),

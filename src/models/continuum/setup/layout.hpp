@@ -40,7 +40,7 @@ struct Lattice {
 
 /// Found once from the keys of a case; gates are shut unless there are none.
 struct Layout {
-  explicit Layout(Parameters parameters);
+  explicit Layout(const Parameters& parameters);
   /// \param parameters differ from those of the boundary in nothing that this depends on
   Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary);
 
@@ -96,7 +96,7 @@ std::optional<double> outlet_width_of(const Parameters& parameters);
 /// The sector that the case computes, about the upright axis through the middle of the box; none: the whole box.
 std::optional<Sector> sector_of(const Parameters& parameters);
 /// How far a wall from face to face is from others at least, to be a layer of the domain, m.
-double least_distance_of_layers(const Parameters& parameters);
+double min_distance_of_layers(const Parameters& parameters);
 
 /// The same with the height of each bed as its mass needs it: a whole number of spacings, or as the particles of
 /// bed.file have it. Unchanged without both, and where lengths are missing or the vessel does not hold that mass

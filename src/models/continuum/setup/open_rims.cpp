@@ -15,7 +15,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double around = 0.6, beside = 0.9, near = 1.2, deep = 1, least_length = 2;  // in spacings
+constexpr double around = 0.6, beside = 0.9, near = 1.2, deep = 1, min_length = 2;  // in spacings
 constexpr double max_positions = 2e5;  // of a lattice; a coarser one reports holes that matter as well
 
 /// A place on a rim.
@@ -144,7 +144,7 @@ std::vector<OpenRim> rims_below_bed(const Layout& of_case) {
         for (int axis = 0; axis < 3; ++axis)
           low[axis] = std::min(low[axis], end[axis]), high[axis] = std::max(high[axis], end[axis]);
     }
-    if (length < std::min(least_length * p.bed.spacing, 0.5 * candidate.length)) continue;
+    if (length < std::min(min_length * p.bed.spacing, 0.5 * candidate.length)) continue;
     std::array<double, 3> extent = {high.x - low.x, high.y - low.y, high.z - low.z};
     std::sort(extent.begin(), extent.end());
     rims.push_back({candidate.part, 0.5 * (low + high), extent[2], extent[1]});

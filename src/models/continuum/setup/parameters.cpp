@@ -47,7 +47,7 @@ void check_plate(const Parameters& p, std::vector<Problem>& problems) {
       add(p.plate.slit_left ? "plate.slit_left" : "plate.slit_right", "given, but there is no plate", "plate.height");
     return;
   }
-  const double room = least_distance_of_layers(p);
+  const double room = min_distance_of_layers(p);
   if (*p.plate.height < room || *p.plate.height > p.box.height - room)
     add("plate.height", fmt::format("{:.4g} mm is too near to floor or top", *p.plate.height / millimetre),
         fmt::format("{:.4g} to {:.4g} mm: six spacings from both", room / millimetre,
@@ -204,10 +204,10 @@ void check_wedge(const Parameters& p, std::vector<Problem>& problems) {
 
 void check_inclined_plates(const Parameters& p, std::vector<Problem>& problems) {
   const std::size_t taken = (p.plate.height ? 1 : 0) + (p.wedge.half_angle ? 3 : 0);
-  if (taken + p.plates.size() > most_inner_walls)
+  if (taken + p.plates.size() > max_inner_walls)
     problems.push_back({.key = "plates",
                         .what = fmt::format("{} plates, gate and walls of a wedge counted", taken + p.plates.size()),
-                        .allowed = fmt::format("at most {}", most_inner_walls)});
+                        .allowed = fmt::format("at most {}", max_inner_walls)});
   for (std::size_t n = 0; n < p.plates.size(); ++n) {
     const auto& plate = p.plates[n];
     const auto add = [&](int key, std::string what, std::string allowed) {

@@ -113,7 +113,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"box.height", dimension::length, above(0), "extent along z, from the floor at 0 to the top", true},
         p.box.height);
   visit(
-      Parameter{"box.sector", dimension::angle, between(Sector::least_angle, Sector::largest_angle),
+      Parameter{"box.sector", dimension::angle, between(Sector::min_angle, Sector::max_angle),
                 "angle of a sector about the upright axis through the middle of the box, computed in place of the "
                 "whole of an axisymmetric [[vessel]]: a whole part of 360 deg; what leaves through one of its faces "
                 "comes in through the other, all results are those of the whole vessel, and the box has no side faces; "

@@ -15,7 +15,7 @@ namespace {
 constexpr double golden = std::numbers::phi - 1;
 constexpr double on_the_wall = 0.02;                    // in spacings
 constexpr double around_seed = 1.5, above_gate = 0.01;  // in spacings
-constexpr double least_level = 0.7;                     // of a level gate: the mean of its normals' |z|
+constexpr double min_level = 0.7;                       // of a level gate: the mean of its normals' |z|
 
 /// Of a whole.
 double share(double x) {
@@ -111,7 +111,7 @@ std::vector<LevelOpening> level_openings(const Layout& layout) {
       const double own = norm(t.area());
       area += own, level += std::abs(t.area().z), middle += own * t.middle();
     }
-    if (!(level > least_level * area)) continue;
+    if (!(level > min_level * area)) continue;
     openings.push_back({.name = name_of(p, n),
                         .middle = (1 / area) * middle,
                         .low = bounds.low,

@@ -17,11 +17,11 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double largest_over_box = 1000;  // extents
-constexpr double least_of_file = 0.01;     // of its area within the box: all but none
-constexpr double over_edge = 0.1;          // of the box, by which walls that fit may stick out of it
-constexpr double least_over_box = 0.05;    // extents: smaller ones are no likely vessel
-constexpr double least_spacings = 4;       // nor those of another unit
+constexpr double max_over_box = 1000;       // extents
+constexpr double min_share_of_file = 0.01;  // of its area within the box: all but none
+constexpr double over_edge = 0.1;           // of the box, by which walls that fit may stick out of it
+constexpr double min_over_box = 0.05;       // extents: smaller ones are no likely vessel
+constexpr double min_spacings = 4;          // nor those of another unit
 
 Vector3 size_of_box(const Parameters& p) {
   return {p.box.width, p.box.depth, p.box.height};
@@ -78,7 +78,7 @@ bool has_size_of(const Vector3& box, const VesselBounds& b, double least) {
 bool is_within(const Vector3& box, const VesselBounds& b) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(b.low[axis] >= -over_edge * box[axis] && b.high[axis] <= (1 + over_edge) * box[axis])) return false;
-  return has_size_of(box, b, least_over_box * largest(box));
+  return has_size_of(box, b, min_over_box * largest(box));
 }
 
 /// Into the middle of the box, on its floor, where it lies beyond it.
@@ -104,7 +104,7 @@ std::string move_text(const VesselPart& v, const Vector3& shift, const VesselBou
 std::string cure_of(const Parameters& p, const VesselPart& v) {
   const Vector3 box = size_of_box(p);
   const VesselBounds own = placed_bounds(v);
-  if (has_size_of(box, own, least_spacings * p.bed.spacing)) return move_text(v, shift_into(box, own), own);
+  if (has_size_of(box, own, min_spacings * p.bed.spacing)) return move_text(v, shift_into(box, own), own);
   std::optional<FileUnit> fitting, of_size;
   const auto is_larger = [&](FileUnit unit, const std::optional<FileUnit>& than) {
     return !than || metres(unit) > metres(*than);
@@ -112,7 +112,7 @@ std::string cure_of(const Parameters& p, const VesselPart& v) {
   for (const FileUnit unit : {FileUnit::mm, FileUnit::cm, FileUnit::inch, FileUnit::m}) {
     const VesselBounds b = with_unit(v, unit);
     if (is_within(box, b) && is_larger(unit, fitting)) fitting = unit;
-    if (has_size_of(box, b, least_over_box * largest(box)) && is_larger(unit, of_size)) of_size = unit;
+    if (has_size_of(box, b, min_over_box * largest(box)) && is_larger(unit, of_size)) of_size = unit;
   }
   if (fitting)
     return fmt::format("unit = \"{}\", with which it spans {}", choice_name(*fitting),
@@ -170,14 +170,14 @@ std::vector<Problem> check_extents(const Parameters& p) {
     const VesselBounds own = bounds_of(p, n);
     const double extent = largest(own.high - own.low), share = share_in_box(p, n);
     std::string fault;
-    if (extent > largest_over_box * largest(box))
+    if (extent > max_over_box * largest(box))
       fault = "it is more than a thousand times as large as the box";
     else if (extent < (of_file ? p.bed.spacing : p.grains.diameter))
       fault = of_file ? fmt::format("it is smaller than bed.spacing, {:.4g} mm", 1e3 * p.bed.spacing)
                       : "it is smaller than a grain";
     else if (!(share > 0))
       fault = "no part of it lies within";
-    else if (of_file && share < least_of_file)
+    else if (of_file && share < min_share_of_file)
       fault =
           share < 1e-4 ? "next to no part of it lies within" : fmt::format("{:.2g} % of it lies within", 100 * share);
     if (fault.empty()) continue;

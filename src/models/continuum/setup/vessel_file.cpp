@@ -19,7 +19,7 @@ namespace {
 
 using Kind = SurfaceFault::Kind;
 
-constexpr std::size_t most_faults = 5;
+constexpr std::size_t max_faults = 5;
 
 std::string place_text(const Vector3& x, FileUnit unit) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) {}", x.x, x.y, x.z, choice_name(unit));
@@ -124,7 +124,7 @@ void check_file(const VesselPart& v, std::size_t n, std::vector<Problem>& proble
   std::size_t told = 0, all = 0;
   for (const SurfaceFault& fault : v.drawn->faults()) {
     if (fault.kind != Kind::not_finite && !(fault.kind == Kind::open_rim && v.closed)) continue;
-    if (++all > most_faults) continue;
+    if (++all > max_faults) continue;
     ++told;
     add(fmt::format("triangle {} at {}: {}", fault.triangle + 1, place_text(fault.place, v.unit), text_of(fault.kind)),
         "a surface without such triangles");

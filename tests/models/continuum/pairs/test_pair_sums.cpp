@@ -72,7 +72,7 @@ TEST(PairSums, WallsBearTheStressTimesTheirArea) {
   Evaluation e(p);
   e.stress({3000, 2000, 1000, 0, 0, 0});
   e.evaluate();
-  std::array<double, wall_number(most_inner_walls)> by_wall{};
+  std::array<double, wall_number(max_inner_walls)> by_wall{};
   for (std::size_t i = 0; i < e.state.position.size(); ++i)
     e.rates.by_walls.of(i, [&](int wall, double a) { by_wall[static_cast<std::size_t>(wall)] += e.state.mass * a; });
   const double d2 = spacing * spacing, m = lattice_moment();

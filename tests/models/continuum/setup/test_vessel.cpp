@@ -109,15 +109,15 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
     }
   };
   press(3, 1), press(1, 2);
-  EXPECT_NEAR(loads.largest[2], 3 / area, 1e-3 * 3 / area);
-  EXPECT_NEAR(loads.largest_time[2], 5e-3, 1e-4);
+  EXPECT_NEAR(loads.max_pressure[2], 3 / area, 1e-3 * 3 / area);
+  EXPECT_NEAR(loads.max_time[2], 5e-3, 1e-4);
   begin_flow(time, loads);
   EXPECT_NEAR(loads.rest_pressure[2], 1 / area, 1e-3 / area);
   EXPECT_NEAR(loads.rest_traction[2].x, 0.25 / area, 1e-3 / area);
-  EXPECT_EQ(loads.largest[2], 0);
+  EXPECT_EQ(loads.max_pressure[2], 0);
   press(2, 1), press(0, 1);
-  EXPECT_NEAR(loads.largest[2], 2 / area, 1e-3 * 2 / area);
-  EXPECT_NEAR(loads.largest_time[2], 35e-3, 1e-4);
+  EXPECT_NEAR(loads.max_pressure[2], 2 / area, 1e-3 * 2 / area);
+  EXPECT_NEAR(loads.max_time[2], 35e-3, 1e-4);
   const FieldMesh mesh = mesh_of(Boundary(p).vessel(), fields, 3 * spacing);
   const SurfaceSnapshot shown = loads_on(mesh, fields, loads, time, 30.003e-3);
   const auto& in_flow = std::get<std::vector<double>>(shown.columns[4].values);

@@ -61,7 +61,7 @@ inline void sum_points(const WallPoints& points, const std::uint32_t* place, dou
 inline void sum_images(const Records& records, std::uint32_t self, const WallSeat& own, const WallSeat* seats,
                        const WallPairs& others, double mass, double* acceleration) {
   using Number = WallNumber;
-  constexpr double least_sum = 1.7 * 1.7;  // of two normals, squared: on one side, and not around a corner
+  constexpr double min_sum = 1.7 * 1.7;  // of two normals, squared: on one side, and not around a corner
   const MotionRecord& place = records.motion[self];
   const StressRecord& loaded = records.stress[self];
   const Number zero = 0.0;
@@ -79,7 +79,7 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
     const Number size = inner(both, both);
     // From the image: farther than from the particle itself.
     const Number square = inner(d, d) + 4.0 * own.distance * seat[3] + 1e-30;
-    const auto acts = square < 4.0 * h * h && size > Number(least_sum) && seat[4] > zero;
+    const auto acts = square < 4.0 * h * h && size > Number(min_sum) && seat[4] > zero;
     if (lane_bits(acts) == 0) continue;
     load_columns([&](int lane) { return records.stress[record[lane]].specific_stress; }, stress);
     const Number turned = reciprocal_sqrt(size + 1e-30);
