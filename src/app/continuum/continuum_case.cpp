@@ -84,7 +84,7 @@ Forecast forecast(const Setup& setup, const run::RunParameters& run) {
 }
 
 /// Of a step, by particle.
-double measure_particle(std::shared_ptr<const Setup> setup, ThreadTeam& team) {
+double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& team) {
   const Parameters& p = setup->given;
   Continuum model(setup);
   continuum::State& s = model.mutable_state();

@@ -184,7 +184,7 @@ struct Bed {
 
 }  // namespace
 
-Layout::Layout(Parameters parameters) : Layout(parameters, std::make_shared<const Boundary>(parameters)) {}
+Layout::Layout(const Parameters& parameters) : Layout(parameters, std::make_shared<const Boundary>(parameters)) {}
 
 Layout::Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary)
     : given(std::move(parameters)),

@@ -40,7 +40,7 @@ struct Lattice {
 
 /// Found once from the keys of a case; gates are shut unless there are none.
 struct Layout {
-  explicit Layout(Parameters parameters);
+  explicit Layout(const Parameters& parameters);
   /// \param parameters differ from those of the boundary in nothing that this depends on
   Layout(Parameters parameters, std::shared_ptr<const Boundary> same_boundary);
 
