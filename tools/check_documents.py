@@ -61,6 +61,15 @@ def check_paths(root, documents):
                         yield f"{path.relative_to(root)}:{number}: there is no {name}"
 
 
+MAX_WORDS = 85_000  # of all documents together: a page that grows takes from another
+
+
+def check_length(root, documents):
+    words = sum(len(path.read_text(encoding="utf-8").split()) for path in documents)
+    if words > MAX_WORDS:
+        yield f"{root.name}: all documents together have {words} words, at most {MAX_WORDS}"
+
+
 VERSION = re.compile(r"^project\(talus VERSION ([\d.]+)", re.MULTILINE)
 REPEATED = {"python/talus/__init__.py": re.compile(r'^__version__ = "([^"]*)"', re.MULTILINE),
             "CITATION.cff": re.compile(r"^version: (\S+)", re.MULTILINE),
@@ -146,7 +155,8 @@ def main():
     parser.add_argument("root", nargs="?", default=pathlib.Path(__file__).resolve().parent.parent, type=pathlib.Path)
     root = parser.parse_args().root
     documents = tracked(root, "*.md")
-    problems = [*check_width(root, documents), *check_links(root, documents), *check_paths(root, documents), *check_version(root),
+    problems = [*check_width(root, documents), *check_links(root, documents), *check_paths(root, documents),
+                *check_length(root, documents), *check_version(root),
                 *check_equations(root), *check_words(root)]
     print("\n".join(problems), end="\n" if problems else "")
     return 1 if problems else 0

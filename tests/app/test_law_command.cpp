@@ -135,6 +135,14 @@ TEST_F(LawCommand, NamesEveryProblemOfTheCase) {
                           HasSubstr("case.toml:6: law.critical-state.static_friction: "), HasSubstr("--set")));
 }
 
+TEST_F(LawCommand, AnOldKeyOfThePathNamesTheNewOne) {
+  const std::string path = file("path.csv", "duration [s],gradient_xx [1/s]\n1,1e-3\n");
+  const std::string old = file("old.toml", "[law]\nname = \"linear-elastic\"\n[path]\nlargest_increment = 1e-6\n");
+  EXPECT_THAT(
+      problems({old, "--path", path, "--out", out()}),
+      testing::Contains(HasSubstr("path.largest_increment: has another name now; allowed: path.max_increment")));
+}
+
 TEST_F(LawCommand, NamesEveryBadLineOfThePath) {
   const std::string law = file("case.toml", elastic);
   EXPECT_THAT(problems({law, "--path", file("a.csv", "gradient_zx [s],gradient_zy,gradeint_zz\n1,2,3\n")}),

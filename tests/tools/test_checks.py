@@ -148,6 +148,13 @@ class Documents(Tree):
         self.write("docs/a.md", "```\n[bad](b.md)\n```\n")
         self.assertEqual(list(check_documents.check_links(self.root, self.documents())), [])
 
+    def test_documents_that_are_too_long_together_are_found(self):
+        self.write("docs/a.md", "word " * 50_000)
+        self.assertEqual(list(check_documents.check_length(self.root, self.documents())), [])
+        self.write("docs/b.md", "word " * 35_001)
+        self.assertEqual(list(check_documents.check_length(self.root, self.documents())),
+                         [f"{self.root.name}: all documents together have 85001 words, at most 85000"])
+
     def test_a_word_that_was_replaced_is_found(self):
         self.write("tools/words.csv", "phrase,in its place\nolden days,the past\nOldName,NewName\n")
         self.write("docs/a.md", "Olden days it is quiet.\nGolden days.\n")

@@ -20,7 +20,7 @@ from talus.surfaces import free_surface, heap_slopes, repose_angles, surface_ang
 from talus.trouble import InputError, nearest, problem
 
 LAYER_ON_SLOPE = 2          # mean radii: the first layer of grains
-LEAST_SLOPE = 20            # mean radii: ten spacings, as in the hopper
+MIN_SLOPE = 20            # mean radii: ten spacings, as in the hopper
 ROOM = 6                    # mean radii above the highest point, so that the surface has an end
 FARTHEST_OVER_RADIUS = 1e6  # of two points, so that a grid of cells can hold them
 
@@ -197,7 +197,7 @@ def surface(points, *_):
 
 def repose(points, *_):
     heap = _Heap(points)
-    slopes = heap_slopes(heap.surface, LEAST_SLOPE * points.a)
+    slopes = heap_slopes(heap.surface, MIN_SLOPE * points.a)
     left, right, steepest = (math.degrees(angle) for angle in repose_angles(slopes, heap.middle))
     both = mean([angle for angle in (left, right) if not math.isnan(angle)])
     return {"repose_angle": ("deg", both), "repose_angle_left": ("deg", left), "repose_angle_right": ("deg", right),

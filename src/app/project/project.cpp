@@ -12,7 +12,7 @@
 
 #include "base/system.hpp"
 #include "base/text.hpp"
-#include "run/jobs.hpp"
+#include "run/program.hpp"
 
 namespace talus::app {
 

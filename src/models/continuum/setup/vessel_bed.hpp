@@ -17,7 +17,7 @@ struct LevelOpening {
   Vector3 middle, low, high;  ///< of it, and the corners of the box around it, m
   bool is_gate;
 };
-/// The gates of the vessel that are more level than upright; without any its outlet, if it has one (outlet_of_vessel).
+/// The gates of the vessel that are more level than upright; without any its lowest outlet, if it has one.
 std::vector<LevelOpening> level_openings(const Layout& layout);
 
 /// The places of all layers and which of them hold particles, layer by layer.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/jobs.hpp"
+#include "run/program.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>
