@@ -80,7 +80,7 @@ void update_phase(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) 
       team, s.velocity.size(), std::size_t{0},
       [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
       [](std::size_t a, std::size_t b) { return a + b; });
-  const bool quiet = s.time >= setup.loading_time && 100 * moving <= s.velocity.size();
+  const bool quiet = s.time >= setup.loading.time() && 100 * moving <= s.velocity.size();
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);

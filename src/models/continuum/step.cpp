@@ -151,9 +151,29 @@ double step_length(ThreadTeam& team, const Setup& setup, const State& s, const W
   return w.air ? std::min(of_grains, w.air->max_step()) : of_grains;
 }
 
-Vector3 gravity(const Setup& setup, double time) {
-  return {0, 0, -share_of_gravity(time, setup.loading_time) * setup.given.gravity.acceleration};
-}
+/// Gravity at a time; while a bed is filled in layers it depends on the height.
+struct Gravity {
+  const Setup& setup;
+  double time;
+  bool by_height = setup.loading.is_by_height(time);
+  Vector3 everywhere = at_height(0);
+
+  Vector3 at_height(double z) const {
+    return {0, 0, -setup.loading.share(time, z) * setup.given.gravity.acceleration};
+  }
+  Vector3 at(const Vector3& x) const { return by_height ? at_height(x.z) : everywhere; }
+
+  /// Impulse of all particles within a duration, N s.
+  Vector3 impulse(ThreadTeam& team, const State& s, double duration) const {
+    if (!by_height) return (duration * s.mass * static_cast<double>(s.velocity.size())) * everywhere;
+    const FixedPoint point(s.impulse_unit);
+    return accumulate(
+               team, s.position.size(), FixedVector{},
+               [&](std::size_t i, FixedVector& sum) { sum.add(point, (duration * s.mass) * at(s.position[i])); },
+               [](FixedVector a, const FixedVector& b) { return a += b; })
+        .value(point);
+  }
+};
 
 /// Acceleration by the air, constant during a step of the air.
 Vector3 by_air(const State& s, std::size_t i) {
@@ -172,10 +192,10 @@ void Step::air() const {
 
 /// The state at the midpoint of the step, in the workspace, from the rates at its start.
 void Step::half() const {
-  const Vector3 start = gravity(setup, s.time);
+  const Gravity start{setup, s.time};
   for_each(team, s.position.size(), [&](std::size_t i) {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
-    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start + by_air(s, i));
+    w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start.at(s.position[i]) + by_air(s, i));
     w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
     w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i]);
   });
@@ -194,18 +214,20 @@ void Step::gradients(std::span<const Vector3> velocity, std::span<const double> 
 /// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.
 void Step::kick() const {
   const double duration = 0.5 * (s.last_step + dt);
-  const Vector3 g = gravity(setup, s.time);
-  for_each(team, s.velocity.size(),
-           [&](std::size_t i) { s.velocity[i] += duration * (w.rates.acceleration[i] + g) + dt * by_air(s, i); });
-  s.gravity_impulse += (duration * s.mass * static_cast<double>(s.velocity.size())) * g;
+  const Gravity g{setup, s.time};
+  for_each(team, s.velocity.size(), [&](std::size_t i) {
+    s.velocity[i] += duration * (w.rates.acceleration[i] + g.at(s.position[i])) + dt * by_air(s, i);
+  });
+  s.gravity_impulse += g.impulse(team, s, duration);
 }
 
 /// Eq. 17 with the forces at the midpoint of the step.
 void Step::momentum() const {
-  const Vector3 g = gravity(setup, s.time + 0.5 * dt);
-  for_each(team, s.velocity.size(),
-           [&](std::size_t i) { s.velocity[i] += dt * (w.rates.acceleration[i] + g + by_air(s, i)); });
-  s.gravity_impulse += (dt * s.mass * static_cast<double>(s.velocity.size())) * g;
+  const Gravity g{setup, s.time + 0.5 * dt};
+  for_each(team, s.velocity.size(), [&](std::size_t i) {
+    s.velocity[i] += dt * (w.rates.acceleration[i] + g.at(s.position[i]) + by_air(s, i));
+  });
+  s.gravity_impulse += g.impulse(team, s, dt);
 }
 
 void Step::midpoint_positions() const {

@@ -17,6 +17,8 @@ enum class Continuity { printed, corrected };
 enum class ViscositySpeed { largest, local };
 enum class Friction { coulomb, printed, none };
 enum class FrictionFrom { gate, start };
+/// How a bed gets its weight: everywhere at once, or layer by layer from below.
+enum class Filling { at_once, layers };
 enum class Method { runge_kutta, leapfrog };
 
 /// Two thirds of what the leapfrog bears, and what the midpoint rule does
@@ -94,6 +96,8 @@ template <>
 inline constexpr auto choices<continuum::Friction> = std::to_array<std::string_view>({"coulomb", "printed", "none"});
 template <>
 inline constexpr auto choices<continuum::FrictionFrom> = std::to_array<std::string_view>({"gate", "start"});
+template <>
+inline constexpr auto choices<continuum::Filling> = std::to_array<std::string_view>({"at-once", "layers"});
 template <>
 inline constexpr auto choices<continuum::PairPrecision> = std::to_array<std::string_view>({"double", "single"});
 template <>

@@ -35,7 +35,7 @@ SettlingTime settling_time(const Setup& setup) {
   if (p.gate.opens == GateOpens::at_time) return known(p.gate.time);
   constexpr double pi = std::numbers::pi;
   const TimeScales& scales = setup.scales;
-  const double frequency = 0.5 * pi * setup.sound_speed / setup.depth, loading = setup.loading_time;
+  const double frequency = 0.5 * pi * setup.sound_speed / setup.depth, loading = setup.loading.time();
   const double periods = loading * frequency / (2 * pi);
   const double speed = 4 / pi * p.gravity.acceleration / frequency / std::max(1.0, 4 * periods * periods);
   const double excess = std::log(std::max(1.0, speed / scales.settled_speed)),

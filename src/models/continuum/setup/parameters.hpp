@@ -85,6 +85,7 @@ struct Parameters {
   struct Settle {
     std::optional<double> speed, duration, max_time;  ///< left out: time_scale.hpp
     std::optional<double> loading_time;
+    Filling filling = Filling::at_once;
     std::optional<double> damping_time;
   } settle;
   struct Analysis {
@@ -261,8 +262,15 @@ void for_each_parameter(Visit&& visit, P& p) {
   settling(Parameter{"settle.loading_time", dimension::time, at_least(0),
                      "time over which gravity is raised to its full value while the bed settles, so that no pressure "
                      "wave compresses it beyond its weight; 0: at once; left out: the time in which a pressure wave "
-                     "passes twenty times through the height of the bed, at most a quarter of settle.max_time"},
+                     "passes twenty times through the height of the bed, eighty times with settle.filling = "
+                     "\"layers\", at most a quarter of settle.max_time"},
            p.settle.loading_time);
+  settling(Parameter{"settle.filling",
+                     {},
+                     {},
+                     "how gravity is raised: everywhere at once, or in layers from below, as a silo is filled, so that "
+                     "what lies above a layer has no weight yet when the layer takes up its own"},
+           p.settle.filling);
   auto gated = only_if(unless("gate.opens", p.gate.opens, GateOpens::from_the_start), visit);
   gated(
       Parameter{"settle.damping_time", dimension::time, above(0),

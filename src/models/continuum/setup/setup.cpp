@@ -15,6 +15,6 @@ Setup::Setup(Layout layout)
       sound_speed(material.sound_speed(density)),
       smoothing_length(given.sph.smoothing_ratio * sph::smoothing_length(lattice.mass, density)),
       scales(time_scales_of(given)),
-      loading_time(continuum::loading_time(given, depth, scales, sound_speed)) {}
+      loading(given.settle.filling, loading_time(given, depth, scales, sound_speed), bottom, depth) {}
 
 }  // namespace talus::continuum

@@ -19,7 +19,7 @@ struct Setup : Layout {
   double sound_speed;       ///< of pressure waves in the bed, a bound for the time step, m/s
   double smoothing_length;  ///< in the bed, m
   TimeScales scales;
-  double loading_time;  ///< over which gravity is raised, s
+  Loading loading;  ///< how gravity is raised
 };
 
 }  // namespace talus::continuum

@@ -39,13 +39,23 @@ TimeScales time_scales_of(const Parameters& p) {
 }
 
 double loading_time(const Parameters& p, double depth, const TimeScales& scales, double sound_speed) {
-  constexpr double passages = 20, most = 0.25;
+  constexpr double most = 0.25;
+  const double passages = p.settle.filling == Filling::layers ? 80 : 20;
   if (p.gate.opens != GateOpens::when_settled) return 0;
   return p.settle.loading_time.value_or(std::min(passages * depth / sound_speed, most * scales.settling_limit));
 }
 
-double share_of_gravity(double time, double loading_time) {
-  return time < loading_time ? 0.5 * (1 - std::cos(std::numbers::pi * time / loading_time)) : 1.0;
+double Loading::share(double time, double height) const {
+  constexpr double layer = 0.1;  // of the loading time, in which a height gets its weight
+  if (!(time < time_)) return 1.0;
+  double passed = time, all = time_;
+  if (filling_ == Filling::layers) {
+    all = layer * time_;
+    passed = time - std::clamp((height - bottom_) / depth_, 0.0, 1.0) * (time_ - all);
+    if (!(passed < all)) return 1.0;
+    passed = std::max(passed, 0.0);
+  }
+  return 0.5 * (1 - std::cos(std::numbers::pi * passed / all));
 }
 
 }  // namespace talus::continuum

@@ -31,7 +31,23 @@ TimeScales time_scales_of(const Parameters& parameters);
 /// \param depth of the grains, m \param sound_speed of pressure waves in the bed, m/s
 double loading_time(const Parameters& parameters, double depth, const TimeScales& scales, double sound_speed);
 
-/// Share of gravity that the bed feels, 0 to 1, at a time from the start, s.
-double share_of_gravity(double time, double loading_time);
+/// Gravity while the bed gets its weight. At once: the same share of it everywhere. In layers: a front rises through
+/// the bed; each height gets its weight within a tenth of the loading time once the front has come there.
+class Loading {
+ public:
+  /// \param time over which gravity is raised, s; 0: there from the start \param bottom, depth of the bed, m
+  Loading(Filling filling, double time, double bottom, double depth)
+      : filling_(filling), time_(time), bottom_(bottom), depth_(depth) {}
+
+  double time() const { return time_; }
+  /// Whether the share depends on the height at this time.
+  bool is_by_height(double time) const { return filling_ == Filling::layers && time < time_; }
+  /// Share of gravity that a particle feels, 0 to 1. \param time from the start, s \param height z, m
+  double share(double time, double height) const;
+
+ private:
+  Filling filling_;
+  double time_, bottom_, depth_;
+};
 
 }  // namespace talus::continuum
