@@ -65,10 +65,13 @@ def loads_of(folder, edges):
 
     found = []
     for low, high in zip(edges[:-1], edges[1:]):
-        row = next(k for k in range(len(names)) if table["high"][k] > table["low"][k]
-                   and abs(table["low"][k] - OUTLET_HEIGHT - low) < 1e-3 and abs(table["high"][k] - OUTLET_HEIGHT - high) < 1e-3)
-        normal = run.series[f"normal_impulse_{names[row]}"] / table["area"][row]
-        shear = run.series[f"shear_impulse_{names[row]}"] / table["area"][row]
+        # Other spacings have other bands: their forces, by the share of each that lies between the edges.
+        begin, end = table["low"] - OUTLET_HEIGHT, table["high"] - OUTLET_HEIGHT
+        share = np.clip((np.minimum(end, high) - np.maximum(begin, low)) / np.maximum(end - begin, 1e-9), 0, 1)
+        rows = [k for k in range(len(names)) if share[k] > 1e-3]
+        area = sum(share[k] * table["area"][k] for k in rows)
+        normal, shear = (sum(share[k] * run.series[f"{kind}_impulse_{names[k]}"] for k in rows) / area
+                         for kind in ("normal", "shear"))
         found.append({"pressure_at_rest": rate(normal, -REST, 0), "shear_at_rest": rate(shear, -REST, 0),
                       "pressure_in_flow": rate(normal, first, last), "shear_in_flow": rate(shear, first, last),
                       "peak": max(rate(normal, start, start + width) for start in starts)})

@@ -70,5 +70,31 @@ TEST(TimeScales, AVesselThatIsFilledIsWaitedFor) {
   EXPECT_NEAR(time_scales_of(p).settling_limit, 30 + without, 1e-9);
 }
 
+TEST(Loading, InLayersAFrontRisesThroughTheBed) {
+  const Loading at_once(Filling::at_once, 2, 1, 10), layers(Filling::layers, 2, 1, 10);
+  for (const double z : {0.5, 1.0, 6.0, 11.0}) {
+    EXPECT_NEAR(at_once.share(1, z), 0.5, 1e-12);
+    EXPECT_EQ(layers.share(2, z), 1) << "the whole weight at the end";
+    EXPECT_EQ(layers.share(0, z), 0);
+  }
+  // Half way: below the front all of the weight, above it none; a height takes a tenth of the time.
+  EXPECT_EQ(layers.share(1, 1 + 0.44 * 10), 1);
+  EXPECT_EQ(layers.share(1, 1 + 0.56 * 10), 0);
+  EXPECT_NEAR(layers.share(1, 6), 0.5, 1e-12);
+  EXPECT_EQ(layers.share(1, 20), 0) << "above the bed as at its top";
+  EXPECT_FALSE(at_once.is_by_height(1));
+  EXPECT_TRUE(layers.is_by_height(1));
+  EXPECT_FALSE(layers.is_by_height(2));
+  EXPECT_EQ(Loading(Filling::layers, 0, 1, 10).share(0, 5), 1) << "a bed that has its weight from the start";
+}
+
+TEST(Loading, InLayersTakesFourTimesAsLong) {
+  Parameters p = hopper(1);
+  const TimeScales scales = time_scales_of(p);
+  const double at_once = loading_time(p, 0.08, scales, 50);
+  p.settle.filling = Filling::layers;
+  EXPECT_NEAR(loading_time(p, 0.08, scales, 50), 4 * at_once, 1e-12);
+}
+
 }  // namespace
 }  // namespace talus::continuum
