@@ -86,7 +86,8 @@ def run(folder, out):
 
 
 def wall_loads(ax, loads):
-    """Pressure on a vessel's walls against height, of each patch by its bands, with the analytical estimates."""
+    """Pressure on a vessel's walls against height, of each patch by its bands, with the analytical estimates
+    and what EN 1991-4 has for filling and discharge (upper characteristic values)."""
     has_height = np.asarray(loads["high"] > loads["low"])
     middle, patches = 500 * (loads["low"] + loads["high"]), np.asarray(loads["patch"])
     for column, text, style in (("pressure_at_rest", "at rest", {"color": "C0", "marker": "o"}),
@@ -95,12 +96,17 @@ def wall_loads(ax, loads):
                                 ("pressure_in_flow", "in flow", {"color": "C1", "marker": "o"}),
                                 ("pressure_in_flow_by_hand", "analytical estimate, in flow",
                                  {"color": "C1", "linestyle": "--"}),
+                                ("en_pressure_filling", "EN 1991-4, filling", {"color": "C0", "linestyle": "-."}),
+                                ("en_pressure_discharge", "EN 1991-4, discharge", {"color": "C1", "linestyle": "-."}),
                                 ("pressure_largest", "peak", {"color": draw.MUTED, "linestyle": ":"})):
+        if column not in loads:
+            continue  # a run of an earlier version
         for patch in np.unique(patches):
             there = has_height & (patches == patch) & np.isfinite(loads[column])
             order = np.argsort(middle[there])
             if there.any():
-                ax.plot(loads[column][there][order], middle[there][order], markersize=3, label=text, **style)
+                alone = {"marker": "d"} if there.sum() == 1 and "marker" not in style else {}  # no line
+                ax.plot(loads[column][there][order], middle[there][order], markersize=3, label=text, **style, **alone)
                 text = None  # one entry of the legend for all patches
     ax.set(xlabel="pressure on the wall (Pa)", ylabel="z (mm)")
     ax.legend()

@@ -15,7 +15,7 @@ import h5py
 import numpy
 
 import browser
-from program import HOPPER, PROGRAM, ProgramTest
+from program import HOPPER, PROGRAM, PROJECT, ProgramTest
 
 AIR = """[air]
 enabled = true
@@ -159,6 +159,23 @@ class InABrowser(ProgramTest):
         """Kept where TALUS_SCREENSHOTS says."""
         if "TALUS_SCREENSHOTS" in os.environ:
             page.screenshot(Path(os.environ["TALUS_SCREENSHOTS"]) / f"{name}.png")
+
+    def test_loads_of_walls_stand_beside_their_estimates(self):
+        self.talus("run", PROJECT / "cases/silo-cone.toml", "--set", "bed.spacing=6 mm", "--set", "gate.opens=at-time",
+                   "--set", "gate.time=20 ms", "--set", "run.end=60 ms", "--out", "silo")
+        loads = Page(self.folder / "silo/report.html").header["runs"][0]["wall_loads"]
+        self.assertEqual(loads["patch"], [1, 1, 2, 3])
+        self.assertGreater(loads["en_pressure_discharge"][2], loads["en_pressure_filling"][2])
+        self.assertIsNone(loads["en_pressure_filling"][3], "the gate under a cone has no formula")
+        page = self.open(self.folder / "silo/report.html")
+        self.assertIn("EN 1991-4, discharge", page.evaluate("document.getElementById('wall-loads').textContent"))
+        self.assertGreater(page.evaluate("document.querySelectorAll('#wall-loads polyline').length"), 3)
+        self.assertFalse(page.evaluate("document.getElementById('wall-loads').hidden"))
+        self.assert_quiet(page)
+        (self.folder / "hopper.toml").write_text(HOPPER + AIR)
+        self.talus("run", "hopper.toml", "--out", "r")
+        page = self.open(self.folder / "r/report.html")
+        self.assertTrue(page.evaluate("document.getElementById('wall-loads').hidden"), "without a vessel")
 
     def test_the_page_does_what_it_says(self):
         (self.folder / "hopper.toml").write_text(HOPPER + AIR)

@@ -118,9 +118,10 @@ class OfTables(ChartTest):
 
     def test_wall_loads_by_patch_against_height(self):
         columns = ("patch [1]", "low [m]", "high [m]", "pressure_at_rest [Pa]", "pressure_at_rest_by_hand [Pa]",
-                   "pressure_in_flow [Pa]", "pressure_in_flow_by_hand [Pa]", "pressure_largest [Pa]")
-        rows = ((1, 0.1, 0.2, 20, 21, 10, 11, 30), (1, 0, 0.1, 40, 41, 30, 31, 50), (2, 0.2, 0.3, 5, 6, 4, "nan", 7),
-                (3, 0, 0, 90, 91, 92, 93, 94))
+                   "pressure_in_flow [Pa]", "pressure_in_flow_by_hand [Pa]", "pressure_largest [Pa]",
+                   "en_pressure_filling [Pa]")
+        rows = ((1, 0.1, 0.2, 20, 21, 10, 11, 30, 25), (1, 0, 0.1, 40, 41, 30, 31, 50, 55),
+                (2, 0.2, 0.3, 5, 6, 4, "nan", 7, "nan"), (3, 0, 0, 90, 91, 92, 93, 94, 95))
         path = self.folder / "wall_loads.csv"
         path.write_text("".join(",".join(map(str, row)) + "\n" for row in (columns, *rows)))
         _, ax = pyplot.subplots()
@@ -129,6 +130,8 @@ class OfTables(ChartTest):
         self.assertEqual([line.get_xdata().tolist() for line in at_rest], [[40, 20], [5]], "floors have no height")
         np.testing.assert_allclose(at_rest[0].get_ydata(), [50, 150], rtol=1e-14)
         self.assertEqual([text.get_text() for text in ax.get_legend().get_texts()].count("at rest"), 1)
+        of_code = [line for line in ax.lines if line.get_label() == "EN 1991-4, filling"]
+        self.assertEqual([line.get_xdata().tolist() for line in of_code], [[55, 25]], "where the code has a formula")
 
     def test_a_histogram_has_unit_area(self):
         _, ax = pyplot.subplots()

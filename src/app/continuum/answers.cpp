@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <string>
 
 #include "analysis/hopper.hpp"
 #include "analysis/hopper_estimators.hpp"
+#include "app/continuum/design_code.hpp"
 #include "app/continuum/engineering_units.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
@@ -41,6 +43,11 @@ std::string formula_of_discharge(const continuum::Layout& layout) {
 
 const char* regime_of(bool all_moves) {
   return all_moves ? "mass flow" : "funnel flow";
+}
+
+std::string too_little_left(double discharged) {
+  return fmt::format("not yet known: {} has left, {} needed", share_text(discharged),
+                     share_text(hopper::share_of_regime));
 }
 
 /// Of each of several outlets what passes it.
@@ -83,10 +90,7 @@ class FlowAnswers {
  private:
   double of(std::string_view name) const { return value_of(quantities_, name); }
   double discharged() const { return 1 - left_; }
-  std::string too_little() const {
-    return fmt::format("not yet known: {} has left, {} needed", share_text(discharged()),
-                       share_text(hopper::share_of_regime));
-  }
+  std::string too_little() const { return too_little_left(discharged()); }
 
   Answer end() const {
     const std::string rest = of("residual_mass") > 0 ? fmt::format("{} ({}) left", mass_text(of("residual_mass")),
@@ -177,34 +181,72 @@ class LoadsOfWall {
   std::vector<std::size_t> rows_;
 };
 
+/// One of the pressures on a wall, and what stands beside it.
+struct Kind {
+  std::string title;
+  const char *pressure, *by_hand, *of_code, *load_case;
+};
+
+/// "1.04 kPa (Janssen), EN 1991-4: 1.5 kPa filling".
+std::string estimates_of(const LoadsOfWall& loads, const Kind& kind, std::size_t row, std::string_view formula) {
+  std::string text;
+  if (const double hand = loads.at(kind.by_hand, row); std::isfinite(hand))
+    text = fmt::format("{} ({})", pressure_text(hand), formula);
+  if (const double code = loads.at(kind.of_code, row); std::isfinite(code))
+    text += fmt::format("{}EN 1991-4: {} {}", text.empty() ? "" : ", ", pressure_text(code), kind.load_case);
+  return text;
+}
+
+/// What a table of loads is of.
+struct LoadTable {
+  const char *file, *column;
+  std::size_t walls;
+  std::function<std::string(std::size_t)> name, formula;
+  bool has_bands;
+};
+
+/// The area over which a pressure is a mean.
+std::string area_text(const LoadTable& of, const LoadsOfWall& loads, std::size_t row) {
+  if (!of.has_bands) return "all that the bed covers";
+  const double height = loads.at("high", row) - loads.at("low", row);
+  return height > 0 ? fmt::format("band {} high, whole circumference", length_text(height)) : "its whole area";
+}
+
 /// Of each wall the largest pressure at rest, in flow and at its peak; walls that carry almost no load are left out.
-/// \param flows whether enough has left to speak of a flow
-std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series& table, std::string_view column,
-                                     std::size_t walls, const auto& name, const auto& formula, bool flows) {
+/// \param unknown why there is no flow to speak of; empty if there is one, or no outlet \param flows whether there is
+std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series& table, const LoadTable& of,
+                                     bool flows, const std::string& unknown) {
   double most = 0;
-  for (const std::string_view of : {"pressure_at_rest", "pressure_largest"})
-    for (const double pressure : table.column(of))
+  for (const std::string_view column : {"pressure_at_rest", "pressure_largest"})
+    for (const double pressure : table.column(column))
       if (pressure > most) most = pressure;  // some may be nan
   const std::string peak = fmt::format("Peak pressure ({} average)", time_text(setup.scales.peak_time()));
-  struct Kind {
-    std::string title;
-    const char *pressure, *estimate;
-  };
-  std::vector<Kind> kinds = {{"Pressure at rest", "pressure_at_rest", "pressure_at_rest_by_hand"}};
-  if (flows) kinds.push_back({"Pressure in flow", "pressure_in_flow", "pressure_in_flow_by_hand"});
-  kinds.push_back({peak, "pressure_largest", nullptr});
+  std::vector<Kind> kinds = {
+      {"Pressure at rest", "pressure_at_rest", "pressure_at_rest_by_hand", "en_pressure_filling", "filling"}};
+  if (flows || !unknown.empty())
+    kinds.push_back(
+        {"Pressure in flow", "pressure_in_flow", "pressure_in_flow_by_hand", "en_pressure_discharge", "discharge"});
+  kinds.push_back({peak, "pressure_largest", "pressure_in_flow_by_hand", "en_pressure_discharge", "discharge"});
   std::vector<Answer> answers;
-  for (std::size_t w = 0; w < walls; ++w) {
-    const LoadsOfWall loads(table, column, static_cast<double>(w + 1));
+  for (std::size_t w = 0; w < of.walls; ++w) {
+    const LoadsOfWall loads(table, of.column, static_cast<double>(w + 1));
+    const bool bears = loads.largest("pressure_largest", hardly * most).has_value();
     for (const Kind& kind : kinds) {
+      const bool is_mean = kind.title == "Pressure in flow", is_peak = kind.title == peak;
+      const std::string question = fmt::format("{}, {}", kind.title, of.name(w));
+      if (is_mean && !flows) {
+        if (bears) answers.push_back({question, unknown, {}});
+        continue;
+      }
       if (!table.has(kind.pressure)) continue;
-      const auto row = loads.largest(kind.pressure, hardly * most);
+      // In flow a mean stands beside each peak, however small.
+      const auto row = loads.largest(kind.pressure, is_mean && bears ? -1 : hardly * most);
+      if (is_mean && bears && !row) answers.push_back({question, "not known: the run does not cover its window", {}});
       if (!row) continue;
-      Answer answer{.question = fmt::format("{}, {}", kind.title, name(w)), .answer = loads.text(kind.pressure, *row)};
-      if (!kind.estimate)
-        answer.answer += fmt::format(", after {}", time_text(loads.at("time_of_largest", *row)));
-      else if (const double estimate = loads.at(kind.estimate, *row); std::isfinite(estimate))
-        answer.by_hand = fmt::format("{} ({})", pressure_text(estimate), formula(w));
+      Answer answer{question, loads.text(kind.pressure, *row), estimates_of(loads, kind, *row, of.formula(w))};
+      if (is_peak)
+        answer.answer +=
+            fmt::format(", after {}, {}", time_text(loads.at("time_of_largest", *row)), area_text(of, loads, *row));
       answers.push_back(std::move(answer));
     }
   }
@@ -222,19 +264,27 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   const bool flows = 1 - left >= hopper::share_of_regime;  // nan: no outlet
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
-  const auto add = [&](const char* table, const char* column, std::size_t walls, const auto& name,
-                       const auto& formula) {
-    const std::filesystem::path path = run_folder / "analysis" / table;
-    if (!std::filesystem::exists(path)) return;
-    for (Answer& answer : answers_of_walls(setup, read_series(path), column, walls, name, formula, flows))
+  const std::string unknown = flows || !std::isfinite(left) ? std::string() : too_little_left(1 - left);
+  const LoadTable of_vessel{
+      "wall_loads.csv",
+      "patch",
+      p.vessel.size(),
+      [&](std::size_t w) { return continuum::name_of(p, w); },
+      [&](std::size_t w) { return p.vessel[w].shape == VesselShape::cone ? "Walker" : "Janssen"; },
+      true};
+  const LoadTable of_box{"box_walls.csv",
+                         "wall",
+                         setup.boundary->patches().size(),
+                         [&](std::size_t w) { return setup.boundary->patches()[w].name; },
+                         [](std::size_t) { return "Janssen"; },
+                         false};
+  for (const LoadTable* of : {&of_vessel, &of_box}) {
+    const std::filesystem::path path = run_folder / "analysis" / of->file;
+    if (!std::filesystem::exists(path)) continue;
+    for (Answer& answer : answers_of_walls(setup, read_series(path), *of, flows, unknown))
       answers.push_back(std::move(answer));
-  };
-  add(
-      "wall_loads.csv", "patch", p.vessel.size(), [&](std::size_t w) { return continuum::name_of(p, w); },
-      [&](std::size_t w) { return p.vessel[w].shape == VesselShape::cone ? "Walker" : "Janssen"; });
-  add(
-      "box_walls.csv", "wall", setup.boundary->patches().size(),
-      [&](std::size_t w) { return setup.boundary->patches()[w].name; }, [](std::size_t) { return "Janssen"; });
+  }
+  for (Answer& answer : answers_of_code(setup, run_folder)) answers.push_back(std::move(answer));
   return answers;
 }
 

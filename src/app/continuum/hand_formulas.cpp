@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "app/continuum/silo_shape.hpp"
 #include "physics/granular/friction_angle.hpp"
 #include "physics/granular/silo.hpp"
 
@@ -19,41 +20,6 @@ using continuum::VesselShape;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double usual_angle =
     30 * std::numbers::pi / 180;  // in plane strain, where the law has no friction of its own
-
-double friction_of(const continuum::Layout& layout, const VesselPart& v) {
-  const auto part = static_cast<std::size_t>(&v - layout.given.vessel.data());
-  return layout.boundary->patches()[layout.boundary->patch_of_part(part)].friction;
-}
-
-double bulk_density(const continuum::Parameters& p) {
-  return p.bed.packing * p.grains.density;
-}
-
-/// Of the angle between the cone's wall and the vertical.
-double tangent_of(const VesselPart& cone) {
-  return (cone.upper_radius - cone.lower_radius) / (cone.top - cone.bottom);
-}
-
-/// A cone that narrows downwards.
-bool is_hopper(const VesselPart& v) {
-  return v.shape == VesselShape::cone && v.along == continuum::Along::z && v.upper_radius > v.lower_radius;
-}
-
-/// Area over circumference of upright walls; 0 for others.
-double hydraulic_radius(const VesselPart& v) {
-  if (v.along != continuum::Along::z) return 0;
-  if (v.shape == VesselShape::cylinder) return 0.5 * v.radius;
-  if (v.shape == VesselShape::box) return 0.5 * v.width * v.depth / (v.width + v.depth);
-  return 0;
-}
-
-/// The upright walls that hold a height, or stand next above it.
-const VesselPart* upright_at(const continuum::Parameters& p, double height) {
-  const VesselPart* nearest = nullptr;
-  for (const VesselPart& v : p.vessel)
-    if (hydraulic_radius(v) > 0 && v.top > height && (!nearest || v.bottom < nearest->bottom)) nearest = &v;
-  return nearest;
-}
 
 /// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
 double janssen_at(const continuum::Layout& layout, double ratio, double top, double height) {

@@ -12,6 +12,7 @@
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
 #include "app/case/run_tables.hpp"
+#include "app/continuum/design_code.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "io/series.hpp"
 #include "models/continuum/boundary/vessel_loads.hpp"
@@ -36,10 +37,29 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   for (const BandOfWall& band : bands) {
     if (!(band.area > 0)) continue;
     const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to, run.setting.averaging_time);
-    const PressureByHand hand = pressure_by_hand(setup, band, ratio, top, 0.5 * (band.low + band.high));
-    rows.push_back({static_cast<double>(band.patch + 1), band.low, band.high, band.area, load.pressure_at_rest,
-                    load.shear_at_rest, load.pressure_in_flow, load.shear_in_flow, load.pressure_largest,
-                    load.time_of_largest, hand.at_rest, hand.in_flow});
+    const double middle = 0.5 * (band.low + band.high);
+    const PressureByHand hand = pressure_by_hand(setup, band, ratio, top, middle);
+    const CodeLoads code = code_loads(setup, band, top, middle);
+    rows.push_back({static_cast<double>(band.patch + 1),
+                    band.low,
+                    band.high,
+                    band.area,
+                    load.pressure_at_rest,
+                    load.shear_at_rest,
+                    load.pressure_in_flow,
+                    load.shear_in_flow,
+                    load.pressure_largest,
+                    load.time_of_largest,
+                    hand.at_rest,
+                    hand.in_flow,
+                    code.pressure_filling,
+                    code.shear_filling,
+                    code.pressure_discharge,
+                    code.shear_discharge,
+                    code.pressure_filling_lower,
+                    code.pressure_discharge_lower,
+                    code.in_channel,
+                    code.beside_channel});
     BandCurves of_band = curves_of(run.series, band, run.gate_time, run.setting.averaging_time);
     for (auto& [name, curve] : {std::pair{"pressure_", &of_band.pressure}, std::pair{"shear_", &of_band.shear}}) {
       if (curve->time.empty()) continue;
@@ -60,8 +80,17 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
                {"pressure_largest", "Pa"},
                {"time_of_largest", "s"},
                {"pressure_at_rest_by_hand", "Pa"},
-               {"pressure_in_flow_by_hand", "Pa"}},
+               {"pressure_in_flow_by_hand", "Pa"},
+               {"en_pressure_filling", "Pa"},
+               {"en_shear_filling", "Pa"},
+               {"en_pressure_discharge", "Pa"},
+               {"en_shear_discharge", "Pa"},
+               {"en_pressure_filling_lower", "Pa"},
+               {"en_pressure_discharge_lower", "Pa"},
+               {"en_pressure_in_channel", "Pa"},
+               {"en_pressure_beside_channel", "Pa"}},
               rows);
+  write_design_code(run_folder, setup, top);
   if (curves.empty()) return;
   std::vector<std::vector<double>> against_time;
   for (std::size_t n = 0; n < curves.front().time.size(); ++n) {

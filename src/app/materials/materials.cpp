@@ -139,6 +139,24 @@ std::string angles_of_friction(double friction) {
       degrees(granular::FrictionTest::triaxial_compression));
 }
 
+std::optional<granular::en1991::Solid> solid_of_code(GrainMaterial material) {
+  const CaseFile& file = file_of(material);
+  if (!file.find("en1991.ratio")) return std::nullopt;
+  granular::en1991::Solid solid;
+  const auto set = [&](const char* name, double& number, Dimension unit) {
+    const std::string key = fmt::format("en1991.{}.value", name);
+    number = read<double>(file, key, Parameter{key, unit}).value();
+  };
+  set("repose", solid.repose, dimension::angle);
+  set("internal", solid.internal, dimension::angle);
+  set("internal_factor", solid.internal_factor, dimension::none);
+  set("ratio", solid.ratio, dimension::none);
+  set("ratio_factor", solid.ratio_factor, dimension::none);
+  set("friction_factor", solid.friction_factor, dimension::none);
+  set("patch", solid.patch, dimension::none);
+  return solid;
+}
+
 FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults) {
   FilledIn filled;
   const auto grains = material_of(file);

@@ -2,7 +2,7 @@
 /// The materials that a case may name: their files stand in the program. A file has a table for each key of a case that
 /// it fills in, with `value`, and `range` and `source` of it, of a friction also `test` and the `angle` that it gave;
 /// [walls.NAME] of each wall that its friction is known of;
-/// [pressure] with the range in which all of it holds.
+/// [pressure] with the range in which all of it holds; [en1991.NAME] of what EN 1991-4 says of the solid.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@
 #include "io/case_file.hpp"
 #include "io/parameter_value.hpp"
 #include "models/continuum/setup/layout.hpp"
+#include "physics/granular/en1991.hpp"
 #include "physics/granular/friction_angle.hpp"
 
 namespace talus {
@@ -30,7 +31,7 @@ namespace talus::app {
 
 /// A line of a file, as it is written.
 struct MaterialLine {
-  std::string key;    ///< of a case, or "walls.steel", or "pressure"
+  std::string key;    ///< of a case, or "walls.steel", "en1991.ratio" or "pressure"
   std::string value;  ///< empty: there is a range alone
   std::string range;  ///< "2450 kg/m3 to 2600 kg/m3"; empty: none is said
   std::string source;
@@ -44,6 +45,9 @@ std::string title_of(continuum::GrainMaterial material);
 std::vector<MaterialLine> lines_of(continuum::GrainMaterial material);
 /// "30.0 degrees on the plane of a shear tester, 35.2 in plane strain, 25.4 in triaxial compression".
 std::string angles_of_friction(double friction);
+
+/// The means and factors of EN 1991-4, Table E.1; nothing if the code does not list the material.
+std::optional<granular::en1991::Solid> solid_of_code(continuum::GrainMaterial material);
 
 /// Values that follow from other keys.
 struct FilledIn {

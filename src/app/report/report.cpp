@@ -79,6 +79,16 @@ Json quantities_of(const ReportEntry& entry, const Summary& summary) {
   return quantities;
 }
 
+/// analysis/wall_loads.csv, the numbers of each column; none where there is no such table.
+Json loads_on_walls(const std::filesystem::path& run_folder) {
+  Json json;
+  const std::filesystem::path path = run_folder / "analysis" / "wall_loads.csv";
+  if (!std::filesystem::exists(path)) return json;
+  const Series table = read_series(path);
+  for (std::size_t c = 0; c < table.names.size(); ++c) json[table.names[c]] = table.columns[c];
+  return json;
+}
+
 Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& limits,
              std::vector<std::string>& blocks, OpenedRun* open) {
   const RunFolder folder(entry.folder);
@@ -117,6 +127,7 @@ Json json_of(const ReportEntry& entry, bool with_particles, const ReportLimits& 
   if (with_particles) run["frames"] = pack_run(entry.folder, origin, limits, blocks);
   if (entry.bands.empty()) {
     run["tables"] = pack_tables(entry.folder, series, origin, blocks);
+    if (Json loads = loads_on_walls(entry.folder); !loads.is_null()) run["wall_loads"] = std::move(loads);
   } else {
     run["tables"] = Json::array();
     for (const auto& [name, table] : entry.bands)

@@ -7,6 +7,7 @@ import { Plots } from "./plots.js";
 import { drawCase, drawKeyResults, drawPublished, drawRegime, drawSummary } from "./tables.js";
 import { element, name, number, practicalQuantity, unit } from "./text.js";
 import { Viewer, directions } from "./viewer.js";
+import { drawWalls } from "./walls.js";
 
 const by = (id) => document.getElementById(id);
 const preferredFields = ["velocity", "pressure", "packing"];
@@ -439,6 +440,7 @@ async function start() {
   drawPublished(by("published"), by("published-body"));
   drawCase(by("case-body"));
   unfoldForPrint();
+  drawWalls(by("wall-loads"), by("wall-loads-body"));
   const plots = new Plots((time) => view?.setTime(time));
   if (plots.curves.size === 0) by("curves").hidden = true;
   let view = null;
@@ -459,6 +461,7 @@ async function start() {
   connectTheme(() => {
     view?.retint();
     plots.redraw();
+    drawWalls(by("wall-loads"), by("wall-loads-body"));
   });
   by("help").addEventListener("click", () => by("keys").showModal());
   document.addEventListener("keydown", (event) => {

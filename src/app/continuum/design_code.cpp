@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/continuum/design_code.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "app/continuum/engineering_units.hpp"
+#include "app/continuum/hand_formulas.hpp"
+#include "app/continuum/silo_shape.hpp"
+#include "app/materials/materials.hpp"
+#include "io/series.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using continuum::VesselPart;
+using continuum::VesselShape;
+using granular::en1991::Limit;
+using granular::en1991::Load;
+using granular::en1991::Values;
+namespace code = granular::en1991;
+
+constexpr double degree = std::numbers::pi / 180;
+
+code::Silo section_of(const VesselPart& v) {
+  if (v.shape == VesselShape::cylinder)
+    return {.area = std::numbers::pi * v.radius * v.radius,
+            .circumference = 2 * std::numbers::pi * v.radius,
+            .width = 2 * v.radius};
+  return {.area = v.width * v.depth,
+          .circumference = 2 * (v.width + v.depth),
+          .width = std::min(v.width, v.depth),
+          .is_round = false};
+}
+
+/// Where the upright walls end: those that stand under these too count, and a disc within is a floor.
+double lower_end(const continuum::Parameters& p, const VesselPart& wall, double top) {
+  double end = wall.bottom;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n)
+    for (const VesselPart& v : p.vessel)
+      if (hydraulic_radius(v) > 0 && std::abs(v.top - end) <= p.bed.spacing && v.bottom < end) end = v.bottom;
+  for (const VesselPart& v : p.vessel)
+    if (v.shape == VesselShape::disc && v.along == continuum::Along::z && v.height < top) end = std::max(end, v.height);
+  return end;
+}
+
+bool has_hopper_at(const continuum::Parameters& p, double height) {
+  return std::any_of(p.vessel.begin(), p.vessel.end(),
+                     [&](const VesselPart& v) { return is_hopper(v) && std::abs(v.top - height) <= p.bed.spacing; });
+}
+
+double eccentricity_of_outlets(const continuum::Layout& layout, const VesselPart& wall) {
+  const Vector3 axis = continuum::on_axis(layout.given, wall);
+  double largest = 0;
+  for (const continuum::VesselOutlet& outlet : layout.vessel_outlets)
+    largest = std::max(largest, std::hypot(outlet.endless_along_x ? 0 : outlet.middle.x - axis.x,
+                                           outlet.endless_along_y ? 0 : outlet.middle.y - axis.y));
+  return largest;
+}
+
+}  // namespace
+
+bool CodeSilo::has_channel() const {
+  return silo.is_round && eccentricity > code::large_eccentricity * silo.width;
+}
+
+Values CodeSilo::values(Load load, Limit limit) const {
+  return code::values_for(solid, friction, load, limit);
+}
+
+code::Stresses CodeSilo::filling(Load load, Limit limit, double height) const {
+  return code::filling(silo, solid.repose, values(load, limit), weight, top - height);
+}
+
+std::optional<CodeSilo> silo_of_code(const continuum::Layout& layout, double top, double height) {
+  const continuum::Parameters& p = layout.given;
+  const VesselPart* v = upright_at(p, height);
+  if (!v || v->bottom > height + p.bed.spacing || !(top > height)) return std::nullopt;
+  const auto listed = p.grains.material ? solid_of_code(*p.grains.material) : std::nullopt;
+  CodeSilo found{.part = static_cast<std::size_t>(v - p.vessel.data()),
+                 .silo = section_of(*v),
+                 .solid = listed ? *listed : code::unknown_solid(internal_friction_by_hand(p)),
+                 .is_listed = listed.has_value(),
+                 .friction = friction_of(layout, *v),
+                 .weight = bulk_density(p) * p.gravity.acceleration,
+                 .top = top,
+                 .bottom = lower_end(p, *v, top),
+                 .eccentricity = eccentricity_of_outlets(layout, *v)};
+  found.silo.height = top - found.bottom;
+  found.silo.has_flat_bottom = !has_hopper_at(p, found.bottom);
+  return found;
+}
+
+namespace {
+
+CodeLoads loads_on_upright(const CodeSilo& s, double height) {
+  const code::DischargeFactors factors = code::discharge_factors(s.silo);
+  CodeLoads loads;
+  loads.pressure_filling = s.filling(Load::wall_pressure, Limit::upper, height).pressure;
+  loads.pressure_filling_lower = s.filling(Load::wall_pressure, Limit::lower, height).pressure;
+  loads.shear_filling = s.filling(Load::wall_shear, Limit::upper, height).shear;
+  loads.pressure_discharge = factors.pressure * loads.pressure_filling;
+  loads.pressure_discharge_lower = factors.pressure * loads.pressure_filling_lower;
+  loads.shear_discharge = factors.shear * loads.shear_filling;
+  if (!s.has_channel()) return loads;
+  // The channels press less than the bed at rest, and that beside them by as much more.
+  const Values values = s.values(Load::wall_pressure, Limit::upper);
+  for (const double share : code::channel_radii) {
+    const double within =
+        code::channel_pressure(code::flow_channel(0.5 * s.silo.width, share, values), s.weight, s.top - height);
+    const double beside = 2 * loads.pressure_filling - within;
+    loads.in_channel = std::fmin(loads.in_channel, within);  // of nan and a number the number
+    loads.beside_channel = std::fmax(loads.beside_channel, beside);
+  }
+  return loads;
+}
+
+CodeLoads loads_on_floor(CodeSilo s, double height) {
+  s.silo.height = s.top - height, s.silo.has_flat_bottom = true;
+  const auto pressure = [&](Limit limit) {
+    return code::bottom_pressure(s.silo, s.solid.repose, s.values(Load::bottom, limit), s.weight);
+  };
+  CodeLoads loads;
+  loads.pressure_filling = loads.pressure_discharge = pressure(Limit::upper);
+  loads.pressure_filling_lower = loads.pressure_discharge_lower = pressure(Limit::lower);
+  return loads;
+}
+
+CodeLoads loads_on_cone(const continuum::Layout& layout, const VesselPart& v, double top, double height) {
+  const auto above = silo_of_code(layout, top, v.top);
+  if (top > v.top && !above) return {};
+  const continuum::Parameters& p = layout.given;
+  const double angle = std::atan(tangent_of(v)), mean = friction_of(layout, v);
+  const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
+  const double weight = bulk_density(p) * p.gravity.acceleration;
+  const auto listed = p.grains.material ? solid_of_code(*p.grains.material) : std::nullopt;
+  const code::Solid solid = listed ? *listed : code::unknown_solid(internal_friction_by_hand(p));
+  // Whether the cone is steep does not depend on the load: by the lower K, as an upper one above 1 leaves none steep.
+  const double ratio = solid.ratio / solid.ratio_factor;
+  const auto stresses = [&](Load load, Limit limit) {
+    Values values = code::values_for(solid, mean, load, limit);
+    values.ratio = ratio;
+    const granular::ConeBearing bearing =
+        load == Load::hopper_filling ? code::hopper_filling(code::conical, angle, values.friction, values.ratio)
+                                     : code::hopper_discharge(code::conical, angle, values);
+    const double surcharge = above ? above->filling(Load::bottom, limit, v.top).vertical : 0;
+    const double pressure = bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, surcharge);
+    return code::Stresses{pressure, code::hopper_friction(angle, values.friction, values.ratio) * pressure, 0};
+  };
+  const code::Stresses filled = stresses(Load::hopper_filling, Limit::upper),
+                       flows = stresses(Load::hopper_discharge, Limit::upper);
+  CodeLoads loads;
+  loads.pressure_filling = filled.pressure, loads.shear_filling = filled.shear;
+  loads.pressure_discharge = flows.pressure, loads.shear_discharge = flows.shear;
+  loads.pressure_filling_lower = stresses(Load::hopper_filling, Limit::lower).pressure;
+  loads.pressure_discharge_lower = stresses(Load::hopper_discharge, Limit::lower).pressure;
+  return loads;
+}
+
+}  // namespace
+
+CodeLoads code_loads(const continuum::Layout& layout, const BandOfWall& band, double top, double height) {
+  if (!(height < top)) return {};
+  const VesselPart& v = layout.given.vessel[band.patch];
+  if (is_hopper(v)) return loads_on_cone(layout, v, top, height);
+  const bool is_upright = hydraulic_radius(v) > 0;
+  if (!is_upright && !(band.sine > 1 - 1e-3)) return {};
+  const auto silo = silo_of_code(layout, top, height);
+  if (!silo) return {};
+  return is_upright ? loads_on_upright(*silo, height) : loads_on_floor(*silo, height);
+}
+
+CodePatch patch_of_code(const CodeSilo& s) {
+  const double depth =
+      std::min(code::characteristic_depth(s.silo, s.values(Load::wall_pressure, Limit::upper)), 0.5 * s.silo.height);
+  const double filled = s.filling(Load::wall_pressure, Limit::upper, s.top - depth).pressure;
+  return {.filling = code::patch_of_filling(s.silo, s.solid.patch, 0) * filled,
+          .discharge = code::patch_of_discharge(s.silo, s.solid.patch, s.eccentricity) *
+                       code::discharge_factors(s.silo).pressure * filled,
+          .height = s.top - depth,
+          .extent = code::patch_extent(s.silo)};
+}
+
+namespace {
+
+/// Each of the upright walls that the bed reaches.
+std::vector<CodeSilo> silos_of(const continuum::Layout& layout, double top) {
+  std::vector<CodeSilo> silos;
+  const continuum::Parameters& p = layout.given;
+  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
+    if (!(hydraulic_radius(p.vessel[n]) > 0 && p.vessel[n].bottom < top)) continue;
+    if (const auto silo = silo_of_code(layout, top, p.vessel[n].bottom); silo && silo->part == n)
+      silos.push_back(*silo);
+  }
+  return silos;
+}
+
+}  // namespace
+
+void write_design_code(const std::filesystem::path& run_folder, const continuum::Layout& layout, double top) {
+  std::vector<std::vector<double>> rows;
+  for (const CodeSilo& s : silos_of(layout, top)) {
+    const CodePatch patch = patch_of_code(s);
+    const code::DischargeFactors factors = code::discharge_factors(s.silo);
+    const Values pressure = s.values(Load::wall_pressure, Limit::upper),
+                 shear = s.values(Load::wall_shear, Limit::upper), bottom = s.values(Load::bottom, Limit::upper);
+    rows.push_back({static_cast<double>(s.part + 1),
+                    s.top,
+                    s.silo.height,
+                    s.silo.width,
+                    s.weight,
+                    s.solid.ratio,
+                    s.friction,
+                    s.solid.internal / degree,
+                    s.solid.repose / degree,
+                    pressure.ratio,
+                    pressure.friction,
+                    pressure.internal / degree,
+                    shear.ratio,
+                    shear.friction,
+                    bottom.ratio,
+                    bottom.friction,
+                    bottom.internal / degree,
+                    factors.pressure,
+                    factors.shear,
+                    s.solid.patch,
+                    s.eccentricity,
+                    patch.filling,
+                    patch.discharge,
+                    patch.height,
+                    patch.extent});
+  }
+  if (rows.empty()) return;
+  write_table(run_folder / "analysis" / "en1991.csv",
+              {{"patch", "1"},
+               {"top", "m"},
+               {"h_c", "m"},
+               {"d_c", "m"},
+               {"unit_weight", "N/m3"},
+               {"K_mean", "1"},
+               {"mu_mean", "1"},
+               {"phi_i_mean", "deg"},
+               {"phi_r", "deg"},
+               {"K_for_pressure", "1"},
+               {"mu_for_pressure", "1"},
+               {"phi_i_for_pressure", "deg"},
+               {"K_for_shear", "1"},
+               {"mu_for_shear", "1"},
+               {"K_for_bottom", "1"},
+               {"mu_for_bottom", "1"},
+               {"phi_i_for_bottom", "deg"},
+               {"C_h", "1"},
+               {"C_w", "1"},
+               {"C_op", "1"},
+               {"e_o", "m"},
+               {"p_pf", "Pa"},
+               {"p_pe", "Pa"},
+               {"patch_height", "m"},
+               {"patch_extent", "m"}},
+              rows);
+}
+
+namespace {
+
+const char* name_of_class(const code::Silo& silo) {
+  switch (code::class_of(silo)) {
+    case code::Class::slender:
+      return "slender";
+    case code::Class::intermediate:
+      return "intermediate";
+    case code::Class::squat:
+      return "squat";
+    case code::Class::retaining:
+      return "retaining, as squat";
+  }
+  return "";
+}
+
+/// "K 0.6 (upper), mu 0.33 (lower), phi_i 26.8° (lower)".
+std::string values_text(const CodeSilo& s, Load load) {
+  const Values taken = s.values(load, Limit::upper), mean = s.values(load, Limit::mean);
+  const auto side = [](double value, double of_mean) { return value > of_mean ? "upper" : "lower"; };
+  return fmt::format("K {:.3g} ({}), μ {:.3g} ({}), φ_i {:.3g}° ({})", taken.ratio, side(taken.ratio, mean.ratio),
+                     taken.friction, side(taken.friction, mean.friction), taken.internal / degree,
+                     side(taken.internal, mean.internal));
+}
+
+}  // namespace
+
+std::vector<Answer> answers_of_code(const continuum::Layout& layout, const std::filesystem::path& run_folder) {
+  const std::filesystem::path path = run_folder / "analysis" / "en1991.csv";
+  if (!std::filesystem::exists(path)) return {};
+  const Series table = read_series(path);
+  std::vector<Answer> answers;
+  if (table.rows() == 0) return answers;
+  for (const CodeSilo& s : silos_of(layout, table.column("top").front())) {
+    const std::string name = continuum::name_of(layout.given, s.part);
+    const std::string solid = s.is_listed ? std::string(choice_name(*layout.given.grains.material)) + ", Table E.1"
+                                          : "not in Table E.1, φ_i of the law in plane strain";
+    answers.push_back({fmt::format("EN 1991-4 takes, {}", name),
+                       fmt::format("{}: h_c/d_c {:.3g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
+                                   s.silo.slenderness(), 1e-3 * s.weight),
+                       fmt::format("{}; wall pressure by {}; floor and cone's top by {}", solid,
+                                   values_text(s, Load::wall_pressure), values_text(s, Load::bottom))});
+    const CodePatch patch = patch_of_code(s);
+    if (patch.filling > 0 || patch.discharge > 0)
+      answers.push_back(
+          {fmt::format("Patch load, {}", name), "a local load that EN 1991-4 adds",
+           fmt::format("EN 1991-4: {} filling, {} discharge, at z = {} over {} of height", pressure_text(patch.filling),
+                       pressure_text(patch.discharge), length_text(patch.height), length_text(patch.extent))});
+    if (!s.has_channel()) continue;
+    const CodeLoads lowest = loads_on_upright(s, s.bottom);
+    answers.push_back(
+        {fmt::format("Flow channel, {}", name),
+         fmt::format("outlet off the axis by {:.2g} d_c, above {:.2g}", s.eccentricity / s.silo.width,
+                     code::large_eccentricity),
+         fmt::format("EN 1991-4: {} at least in it, {} at most beside it, at z = {}", pressure_text(lowest.in_channel),
+                     pressure_text(lowest.beside_channel), length_text(s.bottom))});
+  }
+  return answers;
+}
+
+}  // namespace talus::app

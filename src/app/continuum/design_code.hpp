@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What EN 1991-4 says of a vessel's walls (physics/granular/en1991.hpp), beside what they carry in a run.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/hopper.hpp"
+#include "models/continuum/setup/layout.hpp"
+#include "physics/granular/en1991.hpp"
+
+namespace talus::app {
+
+/// The upright walls that hold a height, as the code sees them.
+struct CodeSilo {
+  std::size_t part = 0;  ///< of the vessel
+  granular::en1991::Silo silo;
+  granular::en1991::Solid solid;
+  bool is_listed = false;      ///< in the code's table; else solid is unknown_solid() of the law's friction
+  double friction = 0;         ///< mean, of the wall
+  double weight = 0;           ///< gamma, of the bed, N/m^3
+  double top = 0, bottom = 0;  ///< of the bed, and of the walls or a floor within, m
+  double eccentricity = 0;     ///< e_o, the farthest outlet's from the axis, m; e_f is 0: beds are laid level
+
+  /// A round silo whose outlet is so far from its axis that the flow channel counts.
+  bool has_channel() const;
+  granular::en1991::Values values(granular::en1991::Load load, granular::en1991::Limit limit) const;
+  /// After filling, of the values for a load. \param height m
+  granular::en1991::Stresses filling(granular::en1991::Load load, granular::en1991::Limit limit, double height) const;
+};
+
+/// Nothing where no upright walls reach from the height to the bed's top. \param top of the bed, m
+std::optional<CodeSilo> silo_of_code(const continuum::Layout& layout, double top, double height);
+
+/// Characteristic loads on a band, Pa; nan where the code has no formula.
+struct CodeLoads {
+  double pressure_filling = HopperRun::none, shear_filling = HopperRun::none;
+  double pressure_discharge = HopperRun::none, shear_discharge = HopperRun::none;
+  double pressure_filling_lower = HopperRun::none, pressure_discharge_lower = HopperRun::none;
+  double in_channel = HopperRun::none, beside_channel = HopperRun::none;  ///< of the channel's radii the extremes
+};
+
+/// On upright round or square walls, cones under them and level floors between them. \param top of the bed, m \param
+/// height of the place, m
+CodeLoads code_loads(const continuum::Layout& layout, const BandOfWall& band, double top, double height);
+
+/// The local load that the code adds, at the depth min(z_o, h_c/2).
+struct CodePatch {
+  double filling = 0, discharge = 0;  ///< p_pf, p_pe, Pa, upper
+  double height = 0, extent = 0;      ///< of its middle, and along the wall, m
+};
+CodePatch patch_of_code(const CodeSilo& silo);
+
+/// Writes analysis/en1991.csv: of each upright wall that the bed reaches what the code takes, and its patch load;
+/// nothing without such walls. \throws FileError
+void write_design_code(const std::filesystem::path& run_folder, const continuum::Layout& layout, double top);
+
+/// The same as key results: class, values and limits, patch load, flow channel. \param run_folder with
+/// analysis/en1991.csv, if there is one \throws FileError
+std::vector<Answer> answers_of_code(const continuum::Layout& layout, const std::filesystem::path& run_folder);
+
+}  // namespace talus::app
