@@ -156,7 +156,7 @@ def _group(folder, name):
 
 
 def _samples(folder):
-    """By label: quantities of five members and more that differ, and the widths of their heads at the end."""
+    """By label: quantities of five members and more that differ."""
     with open(folder / "members.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     samples = {}
@@ -165,11 +165,6 @@ def _samples(folder):
         values = values[np.isfinite(values)]
         if len(values) >= 5 and values.std() > 0:
             samples[draw.label(*re.fullmatch(r"(.*) \[(.*)\]", heading).groups())] = values
-    done = [path for row in rows if row["status"] == "done"
-            for path in folder.glob(f"seed_{int(row['seed']):04}/analysis/head_widths.csv")]
-    widths = np.concatenate([Table(path)["width"] for path in done]) if done else np.array([])
-    if len(widths) >= 5:
-        samples["width of every head at the end (m)"] = widths
     return samples
 
 

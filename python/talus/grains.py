@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Grains of an avalanche: heads (Niiya, Awazu & Nishimori 2020, section 4.1), the surface of the front (section 4.3), the
 thickness along the slope (section 3.3), as the estimators of validation/niiya2020/reference.toml define them. x points down
-the slope, z away from it. tests/python/test_niiya2020.py holds them against the numbers of the program on the same runs."""
+the slope, z away from it. Tests: tests/python/test_niiya2020.py."""
 from dataclasses import dataclass
 from itertools import product
 

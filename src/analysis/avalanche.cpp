@@ -3,50 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "analysis/fronts.hpp"
 
 namespace talus {
-
-namespace {
-
-template <class T, class Make>
-const T& made_once(std::optional<T>& value, Make&& make) {
-  if (!value) value.emplace(make());
-  return *value;
-}
-
-}  // namespace
-
-AvalancheSnapshot::AvalancheSnapshot(const AvalancheScales& of, AvalancheView direction, Snapshot grains)
-    : scales(of), view(direction), now(std::move(grains)) {
-  if (view != AvalancheView::from_the_side) return;
-  projected_.assign(now.positions().begin(), now.positions().end());
-  for (Vector3& x : projected_) x.y = 0;
-}
-
-std::span<const Vector3> AvalancheSnapshot::position() const {
-  return view == AvalancheView::from_the_side ? std::span<const Vector3>(projected_) : now.positions();
-}
-
-const std::vector<GrainSet>& AvalancheSnapshot::heads() const {
-  return made_once(heads_, [&] { return find_heads(position(), scales.mean_radius); });
-}
-
-const std::optional<HeadSize>& AvalancheSnapshot::head_size() const {
-  return made_once(head_size_, [&] {
-    return heads().empty() ? std::optional<HeadSize>{}
-                           : talus::head_size(position(), now.scalars("radius"), heads()[0], scales.mean_radius);
-  });
-}
-
-const FallingCloud& AvalancheSnapshot::fall() const {
-  return made_once(
-      fall_, [&] { return measure_falling_cloud(now.positions(), now.vectors("velocity"), gravity, initial_radius); });
-}
 
 AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales& scales) {
   AvalancheRun run{.scales = scales, .end = end / scales.time()};
@@ -56,31 +18,6 @@ AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales
   for (double& v : run.front_speed.value) v /= scales.stokes_speed;
   return run;
 }
-
-}  // namespace talus
-
-namespace talus::avalanche {
-
-using View = AvalancheView;
-
-double head_count(const AvalancheSnapshot& s) {
-  return s.view == View::from_above ? static_cast<double>(s.heads().size()) : AvalancheRun::none;
-}
-
-double head_particles(const AvalancheSnapshot& s) {
-  if (s.view != View::from_above) return AvalancheRun::none;
-  return s.heads().empty() ? 0 : static_cast<double>(s.heads()[0].size());
-}
-
-double frontal_angle(const AvalancheSnapshot& s) {
-  if (s.view != View::from_the_side) return AvalancheRun::none;
-  const auto angle = angle_of_line(s.position(), surface_walk(s.position(), s.scales.mean_radius));
-  return angle ? *angle * 180 / std::numbers::pi : AvalancheRun::none;
-}
-
-}  // namespace talus::avalanche
-
-namespace talus {
 
 namespace {
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A run of a cloud of grains: an avalanche as evaluated by Niiya, Awazu & Nishimori (2020), its front's speed and, in
-/// each snapshot, the heads from above or the frontal angle from the side; or a cloud that falls in free
-/// space. Estimators: validation/niiya2020/reference.toml.
+/// A run of a cloud of grains: an avalanche, with the speed of its front, or a cloud that falls in free space. Heads
+/// and frontal angles of Niiya, Awazu & Nishimori (2020) are measured by validation/niiya2020/measures.py.
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "analysis/curve.hpp"
-#include "analysis/heads.hpp"
 #include "analysis/measure.hpp"
 #include "base/vector.hpp"
 #include "numerics/snapshot.hpp"
@@ -42,43 +39,25 @@ struct AvalancheScales {
   double time() const { return mean_radius / stokes_speed; }
 };
 
-/// On a slope seen from above, in the plane x, y, or from the side, x, z; in free space; or not at all.
-enum class AvalancheView { from_above, from_the_side, falling, unseen };
+/// On a slope, falling in free space, or neither.
+enum class CloudMotion { on_slope, falling, other };
 
-/// One snapshot of a run, and what several measures need of it, made when it is first asked for.
-class AvalancheSnapshot {
- public:
-  /// \param grains with the columns position, radius, velocity
-  AvalancheSnapshot(const AvalancheScales& of, AvalancheView direction, Snapshot grains);
-
-  const AvalancheScales scales;
-  const AvalancheView view;
-  const Snapshot now;
-  double initial_radius = 0;     ///< of the cloud at the start of the run, m
-  Vector3 gravity = {0, 0, -1};  ///< unit vector
-
-  std::span<const Vector3> position() const;         ///< as seen: from the side without y
-  const std::vector<GrainSet>& heads() const;        ///< find_heads()
-  const std::optional<HeadSize>& head_size() const;  ///< of the largest head; nothing without one
-  const FallingCloud& fall() const;
-
- private:
-  std::vector<Vector3> projected_;
-  mutable std::optional<std::vector<GrainSet>> heads_;
-  mutable std::optional<std::optional<HeadSize>> head_size_;
-  mutable std::optional<FallingCloud> fall_;
+/// A snapshot of a cloud that falls in free space.
+struct FallSnapshot {
+  FallingCloud cloud;
+  double stokes_speed = 0;  ///< v_s, m/s
 };
 
 struct AvalancheRun {
-  using Snapshot = AvalancheSnapshot;
-  using Numbers = SnapshotNumbers<AvalancheSnapshot>;
+  using Snapshot = FallSnapshot;
+  using Numbers = SnapshotNumbers<FallSnapshot>;
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   AvalancheScales scales;
-  AvalancheView view = AvalancheView::from_above;
+  CloudMotion motion = CloudMotion::on_slope;
   double end = 0;             ///< a/v_s
   Curve front_speed = {};     ///< v_s against a/v_s, at 0.25, 0.5, ... after the start
-  Numbers snapshots = {};     ///< against the time in a/v_s: the state at the start, then the data
+  Numbers snapshots = {};     ///< of a fall, against the time in a/v_s: the state at the start, then the data
   double overlap_max = none;  ///< over a
 
   /// Whether the run went on to that time, but for a step.
@@ -93,27 +72,3 @@ AvalancheRun avalanche_run(const Curve& front, double end, const AvalancheScales
 std::span<const Measure<AvalancheRun>> avalanche_measures();
 
 }  // namespace talus
-
-namespace talus::avalanche {
-
-double head_count(const AvalancheSnapshot& s);
-double head_particles(const AvalancheSnapshot& s);  ///< of the largest head
-double frontal_angle(const AvalancheSnapshot& s);
-
-/// Of the largest head.
-template <double HeadSize::*size>
-double head(const AvalancheSnapshot& s) {
-  return s.view == AvalancheView::from_above && s.head_size() ? (*s.head_size()).*size : AvalancheRun::none;
-}
-/// Of a cloud in free space.
-template <double FallingCloud::*number>
-double of_fall(const AvalancheSnapshot& s) {
-  return s.view == AvalancheView::falling ? s.fall().*number : AvalancheRun::none;
-}
-inline double fall_speed(const AvalancheSnapshot& s) {
-  return of_fall<&FallingCloud::fall_speed>(s) / s.scales.stokes_speed;
-}
-
-}  // namespace talus::avalanche
-
-namespace talus {}  // namespace talus

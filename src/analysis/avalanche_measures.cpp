@@ -11,7 +11,6 @@ namespace talus {
 
 namespace {
 
-using namespace avalanche;
 using Run = AvalancheRun;
 using Row = Measure<Run>;
 using Number = Run::Numbers::Number;
@@ -28,8 +27,16 @@ double value_at_window(Number number, const Run& run, const Window& window) {
   return run.snapshots.value(n, number);
 }
 
-Estimator<Run> at(Number number) {
-  return {[=](const Run& run, const Window& w) { return value_at_window(number, run, w); }, number};
+template <double FallingCloud::*of>
+double number(const FallSnapshot& s) {
+  return s.cloud.*of;
+}
+double fall_speed(const FallSnapshot& s) {
+  return s.cloud.fall_speed / s.stokes_speed;
+}
+
+Estimator<Run> at(Number of) {
+  return {[=](const Run& run, const Window& w) { return value_at_window(of, run, w); }, of};
 }
 
 Estimator<Run> of_front_speed(double (*of)(const Curve& within)) {
@@ -39,31 +46,14 @@ Estimator<Run> of_front_speed(double (*of)(const Curve& within)) {
   }};
 }
 
-/// Width over thickness of the largest head, mean over the snapshots after the start.
-double head_aspect_ratio(const Run& run, const Window& window) {
-  Curve ratio = run.snapshots.curve(head<&HeadSize::width>, 1);
-  const Curve thickness = run.snapshots.curve(head<&HeadSize::thickness>, 1);
-  for (std::size_t n = 0; n < ratio.value.size(); ++n) ratio.value[n] /= thickness.value[n];
-  return mean(part(ratio, window.from, window.to).value);
-}
-
 bool on_slope(const Run& run) {
-  return run.view == AvalancheView::from_above || run.view == AvalancheView::from_the_side;
-}
-bool from_above(const Run& run) {
-  return run.view == AvalancheView::from_above;
-}
-bool from_the_side(const Run& run) {
-  return run.view == AvalancheView::from_the_side;
+  return run.motion == CloudMotion::on_slope;
 }
 bool falling(const Run& run) {
-  return run.view == AvalancheView::falling;
+  return run.motion == CloudMotion::falling;
 }
 bool always(const Run&) {
   return true;
-}
-Window second_half(const Run& run) {
-  return {.from = 0.5 * run.end};
 }
 const std::vector<Row> list = {
     Row("front_speed_max", "1",
@@ -74,23 +64,6 @@ const std::vector<Row> list = {
         of_front_speed([](const Curve& speed) { return extremes(speed).min; }), {on_slope}),
     Row("front_speed_end", "1", "the last of them",
         of_front_speed([](const Curve& speed) { return speed.value.back(); }), {on_slope}),
-    Row("head_count", "1",
-        "number of heads: connected sets (link 4 a) of at least 5 grains whose n' is above a quarter of the largest in "
-        "their part of the avalanche; n' is the sum of the neighbours' numbers of neighbours, within 4 a",
-        at(head_count), {from_above}),
-    Row("head_particles", "1", "grains of the largest head", at(head_particles), {from_above}),
-    Row("head_width", "m", "width of the largest head across the slope, outer edge to outer edge",
-        at(head<&HeadSize::width>), {from_above}),
-    Row("head_thickness", "m",
-        "of the largest head, from its foremost edge to the most advanced point of its rear boundary in the central "
-        "half",
-        at(head<&HeadSize::thickness>), {from_above}),
-    Row("head_aspect_ratio", "1", "width over thickness of the largest head, mean over the snapshots",
-        {head_aspect_ratio}, {from_above, second_half}),
-    Row("frontal_angle", "deg",
-        "seen from the side: angle between the slope behind the front and the line through the surface grains from the "
-        "foremost up to the top; below 90 the front leans back",
-        at(frontal_angle), {from_the_side}, true),
     Row("fall_speed_start", "1",
         "mean velocity along gravity over v_s at the start, of the grains that have not leaked",
         {[](const Run& r, const Window&) {
@@ -100,13 +73,13 @@ const std::vector<Row> list = {
     Row("fall_speed_end", "1", "mean velocity along gravity over v_s at the end, of the grains that have not leaked",
         {[](const Run& r, const Window& w) { return value_at_window(fall_speed, r, w); }}, {falling}),
     Row("leaked_fraction", "1", "share of the grains more than two initial radii behind the median of all",
-        at(of_fall<&FallingCloud::leaked_fraction>), {falling}),
+        at(number<&FallingCloud::leaked_fraction>), {falling}),
     Row("axial_density", "1",
         "grains within 0.3 of the lateral radius (that holds 90 %) of the axis, over those of an even disc: 1.27 for a "
         "sphere, below 1 for a torus",
-        at(of_fall<&FallingCloud::axial_density>), {falling}),
+        at(number<&FallingCloud::axial_density>), {falling}),
     Row("flatness", "1", "root mean square lateral distance over √2 times that along gravity: 1 for a sphere",
-        at(of_fall<&FallingCloud::flatness>), {falling}),
+        at(number<&FallingCloud::flatness>), {falling}),
     Row("overlap_max", "1", "largest overlap of two grains, or of a grain and the slope, over a, at any step",
         {[](const Run& r, const Window&) { return r.overlap_max; }}, {always}),
 };

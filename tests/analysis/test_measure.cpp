@@ -15,9 +15,9 @@ TEST(Measures, AreNamedOnce) {
     EXPECT_TRUE(names.insert(measure.name).second) << measure.name;
     EXPECT_FALSE(measure.text.empty()) << measure.name;
   }
-  ASSERT_TRUE(find_measure("head_width"));
-  EXPECT_EQ(find_measure("head_width")->unit, "m");
-  EXPECT_FALSE(find_measure("head_widths"));
+  ASSERT_TRUE(find_measure("overlap_max"));
+  EXPECT_EQ(find_measure("overlap_max")->unit, "1");
+  EXPECT_FALSE(find_measure("overlaps_max"));
 }
 
 }  // namespace

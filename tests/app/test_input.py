@@ -361,13 +361,13 @@ class ExistingFolder(ProgramTest):
 
     def test_overwriting_leaves_nothing_of_the_old_run_but_what_others_put_there(self):
         self.talus("run", "case.toml", "--out", "r", "--set", "output.pictures=true")
-        for name in ("analysis/head_widths.csv", "pictures/frames.png", "pictures/front.png",
+        for name in ("analysis/front_speed.csv", "pictures/frames.png", "pictures/front.png",
                      "snapshots/particles_0010.vtkhdf"):
             self.assertTrue((self.folder / "r" / name).exists(), name)
         (self.folder / "r/snapshots/particles_0077.vtkhdf.part").touch()
         for name in ("notes.txt", "analysis/mine.txt", "pictures/mine.svg"):
             (self.folder / "r" / name).write_text("mine")
-        # Without a slope there is neither a head nor a front.
+        # Without a slope there is no front.
         other = ("--set", "slope.enabled=false", "--set", "gravity.direction=[1, 0, 0]", "--set",
                  "output.snapshots=0.5 ms")
         self.talus("run", "case.toml", "--out", "r", "--overwrite", *other)

@@ -147,7 +147,7 @@ class Numbers(ProgramTest):
         self.talus("run", "case.toml", "--out", "r", "--set", "run.end=10 us")
         quantities = json.loads((self.folder / "r/summary.json").read_text())["quantities"]
         self.assertEqual(quantities["front_speed_end"], {"value": None, "unit": "1", "reason": "not a number"})
-        self.assertEqual(quantities["head_count"]["value"], 1)
+        self.assertGreaterEqual(quantities["overlap_max"]["value"], 0)
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ class OfCommands(ChartTest):
         said = self.talus(*command)
         self.assertIn("Picture: e/sweep.png", said)
         for group in ("angle=30deg", "angle=50deg"):
-            for name in ("bands_front_speed", "bands_snapshots", "histograms"):
+            for name in ("bands_front_speed", "histograms"):
                 self.assert_png(f"e/{group}/pictures/{name}.png")
         samples = charts._samples(self.folder / "e/angle=30deg")
         self.assertEqual(len(samples["front speed max"]), 5)

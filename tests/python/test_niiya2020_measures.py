@@ -240,8 +240,8 @@ class OfASnapshot(unittest.TestCase):
         run = Still()
         view = avalanche.View(run, Frame(places, np.zeros_like(places)))
         rear_of_sides = -15 - 1
-        self.assertAlmostEqual(avalanche.concavity(view), (view.size.inner - rear_of_sides) / view.size.thickness, places=12)
-        self.assertGreater(avalanche.concavity(view), 0.5)
+        self.assertAlmostEqual(avalanche.SNAPSHOT_NUMBERS["head_concavity"](view), (view.size.inner - rear_of_sides) / view.size.thickness, places=12)
+        self.assertGreater(avalanche.SNAPSHOT_NUMBERS["head_concavity"](view), 0.5)
 
     def test_no_value_without_grains(self):
         run = Still()

@@ -8,7 +8,8 @@ from functools import cached_property, partial
 import numpy as np
 
 from talus.curves import mean as mean_of
-from talus.grains import REACH, UPPER_SHARE, find_heads, head_size, pairs, thickness_profile
+from talus.grains import (REACH, UPPER_SHARE, angle_of_line, find_heads, head_size, pairs, surface_walk,
+                          thickness_profile)
 from talus.measures import NotEvaluated, once
 
 FRONT_WINDOW = 0.25  # of the front speed, a/v_s
@@ -78,18 +79,14 @@ class Avalanche:
         return self.front_speed_at(float(self.run.series["time"][-1]))
 
     def column(self, name):
-        """A number of every snapshot: of analysis/snapshots.csv, or of SNAPSHOT_NUMBERS."""
+        """A number of every snapshot, of SNAPSHOT_NUMBERS."""
         if name not in self._columns:
-            if name in SNAPSHOT_NUMBERS:
-                self._columns[name] = np.array([self.number(name, n) for n in range(len(self.time))])
-            else:
-                table = self.run.table("snapshots")
-                self._columns[name] = np.asarray(table[name]) if name in table else np.full(len(self.time), math.nan)
+            self._columns[name] = np.array([self.number(name, n) for n in range(len(self.time))])
         return self._columns[name]
 
     def number(self, name, n):
         """A number of the n-th snapshot."""
-        return SNAPSHOT_NUMBERS[name](self.view(n)) if name in SNAPSHOT_NUMBERS else self.column(name)[n]
+        return SNAPSHOT_NUMBERS[name](self.view(n))
 
     @once
     def view(self, n):
@@ -98,7 +95,8 @@ class Avalanche:
     @property
     def widths(self):
         """Of every head at the end, m."""
-        return np.asarray(self.run.table("head_widths")["width"])
+        view = self.view(len(self.time) - 1)
+        return np.array([head_size(view.positions, view.radii, head, self.radius).width for head in view.heads])
 
 
 class MeanAvalanche:
@@ -143,10 +141,14 @@ class View:
         self.front_speed = run.front_speed_at(snapshot.time)
 
     @cached_property
+    def heads(self):
+        """Largest first, each by index; none from the side."""
+        return [] if self.run.from_the_side else find_heads(self.positions, self.a)
+
+    @property
     def head(self):
-        """The largest, by index; None without one, or from the side."""
-        heads = [] if self.run.from_the_side else find_heads(self.positions, self.a)
-        return heads[0] if heads else None
+        """The largest; None without one."""
+        return self.heads[0] if self.heads else None
 
     @cached_property
     def size(self):
@@ -185,8 +187,19 @@ class View:
 
 # ------------------------------------------------------------------------------------------------- numbers of a snapshot
 
-def concavity(view):
-    return math.nan if view.head is None else view.size.concavity
+def from_above(of):
+    return lambda view: math.nan if view.run.from_the_side else of(view)
+
+
+def of_size(name):
+    """Of the largest head; nan without one."""
+    return lambda view: math.nan if view.head is None else getattr(view.size, name)
+
+
+def frontal_angle(view):
+    """From the side, degrees; nan where fewer than three grains make the surface, or they prefer no direction."""
+    walk = surface_walk(view.positions, view.a) if view.run.from_the_side else []
+    return math.degrees(angle_of_line(view.positions, walk)) if len(walk) > 2 else math.nan
 
 
 def in_head(of):
@@ -246,7 +259,12 @@ def displacement(of, view):
 
 SNAPSHOT_NUMBERS = {
     "front_speed": lambda view: view.front_speed,
-    "head_concavity": concavity,
+    "head_count": from_above(lambda view: len(view.heads)),
+    "head_particles": from_above(lambda view: 0 if view.head is None else len(view.head)),
+    "head_width": of_size("width"),
+    "head_thickness": of_size("thickness"),
+    "frontal_angle": frontal_angle,
+    "head_concavity": of_size("concavity"),
     "head_curl_left": in_head(partial(curl, 1)),
     "head_curl_right": in_head(partial(curl, -1)),
     "head_rear_relative_velocity": in_head(rear_relative_velocity),

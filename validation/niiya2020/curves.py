@@ -116,7 +116,7 @@ def width_against_thickness(ax, radii):
 
 def widths_at_end(ensemble):
     """Of the heads of all members, in radii."""
-    return np.concatenate([run.table("head_widths")["width"] for run in ensemble.runs]) / radius_of(ensemble)
+    return np.concatenate([avalanche(run).widths for run in ensemble.runs]) / radius_of(ensemble)
 
 
 def nearest_gaussian(x, density):
@@ -173,7 +173,7 @@ def width_against_radius(ax, radii):
 
 
 def head_counts(ax, radii):
-    counts = [np.array([run.table("snapshots")["head_count"][-1] for run in ensemble.runs]) for ensemble in radii]
+    counts = [np.array([avalanche(run).column("head_count")[-1] for run in ensemble.runs]) for ensemble in radii]
     mean, deviation = zip(*(mean_and_deviation(c[:, None]) for c in counts))
     points(ax, [1e3 * radius_of(e) for e in radii], np.ravel(mean), 0, yerr=np.ravel(deviation), label="computed")
     beside = 0.12  # mm, so that the error bars are told apart

@@ -132,8 +132,8 @@ def width_line(through_origin, groups, _):
     return fit_line(radii, [w.mean() * a for w, a in zip(widths, radii)], through_origin=through_origin)[1]
 
 
-def _at(name, unit, text):
-    return Quantity(unit, text, at(name))
+def _at(name, unit, text, **more):
+    return Quantity(unit, text, at(name), **more)
 
 
 QUANTITIES = {
@@ -154,6 +154,9 @@ QUANTITIES = {
     "front_speed_slope_change": Quantity("1", "that of the second half less it", of_front_speed(
         lambda run, time, speed: slopes(*run.front_speed)[1] - slopes(*run.front_speed)[0])),
     "front_speed": _at("front_speed", "1", "front speed over v_s at the snapshot"),
+    "head_count": _at(
+        "head_count", "1", "number of heads: connected sets (link 4 a) of at least 5 grains whose n' is above a quarter of the "
+        "largest in their part of the avalanche; n' is the sum of the neighbours' numbers of neighbours, within 4 a"),
     "head_aspect_ratio": Quantity(
         "1", "width over thickness of the largest head, of their means over the members; mean over the snapshots",
         of_aspect_ratio(np.mean)),
@@ -188,6 +191,9 @@ QUANTITIES = {
         "head_lower_relative_velocity", "1", "how much faster than the front the lower head runs, over v_s"),
     "tail_relative_velocity": _at(
         "tail_relative_velocity", "1", "how much faster than the front the tail runs, over v_s"),
+    "frontal_angle": _at(
+        "frontal_angle", "deg", "seen from the side: angle between the slope behind the front and the line through the surface "
+        "grains from the foremost up to the top; below 90 the front leans back", may_be_missing=True),
     "frontal_angle_first": Quantity(
         "deg", "frontal_angle at the first data", lambda run, _: avalanche(run).number("frontal_angle", 1)
         if len(avalanche(run).time) > 1 else math.nan, may_be_missing=True),

@@ -38,37 +38,31 @@ double radius_of(std::span<const Vector3> positions) {
   return radius;
 }
 
-struct Loaded {
-  Loaded(PointSet read, const CloudFrame& frame)
-      : points(std::move(read)), snapshot(frame.scales, frame.view(), points.view()) {}
-  PointSet points;
-  AvalancheSnapshot snapshot;
-};
-
 }  // namespace
 
-AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame,
-                            std::size_t snapshot_memory) {
+AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame) {
   const Series series = read_series(RunFolder(run_folder).series());
   const Curve front = front_of(series, frame);
   const auto overlap = series.column("overlap_max");
   if (overlap.empty()) throw FileError(RunFolder(run_folder).series().string(), "holds no row: the run has not begun");
   const double end = series.column("time").back();
 
+  AvalancheRun run = avalanche_run(frame.has_slope ? front : Curve{}, end, frame.scales);
+  run.motion = frame.cloud_motion();
+  run.overlap_max = *std::max_element(overlap.begin(), overlap.end()) / frame.scales.mean_radius;
+  if (run.motion != CloudMotion::falling) return run;
   const auto paths = snapshot_paths(run_folder);
   const double initial_radius = paths.empty() ? 0 : radius_of(read_points(paths.front()).view().positions());
-  AvalancheRun run = avalanche_run(frame.has_slope ? front : Curve{}, end, frame.scales);
-  run.view = frame.view();
-  run.overlap_max = *std::max_element(overlap.begin(), overlap.end()) / frame.scales.mean_radius;
   std::vector<double> time;
   for (const auto& path : paths) time.push_back(read_points_time(path) / frame.scales.time());
-  const auto read = [=](std::size_t n) -> std::shared_ptr<const AvalancheSnapshot> {
-    auto loaded = std::make_shared<Loaded>(read_points(paths[n]), frame);
-    loaded->snapshot.initial_radius = initial_radius;
-    loaded->snapshot.gravity = frame.gravity;
-    return {loaded, &loaded->snapshot};
+  const auto read = [=](std::size_t n) {
+    const PointSet points = read_points(paths[n]);
+    const Snapshot now = points.view();
+    return std::make_shared<const FallSnapshot>(
+        FallSnapshot{measure_falling_cloud(now.positions(), now.vectors("velocity"), frame.gravity, initial_radius),
+                     frame.scales.stokes_speed});
   };
-  run.snapshots = AvalancheRun::Numbers::of(std::move(time), read, snapshots_in_memory(paths, snapshot_memory));
+  run.snapshots = AvalancheRun::Numbers::of(std::move(time), read, paths.size());
   return run;
 }
 
@@ -76,20 +70,9 @@ std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, c
                                       const AvalancheRun& run) {
   const std::filesystem::path folder = run_folder / "analysis";
   make_folder(folder);
-  if (run.view != AvalancheView::unseen) write_snapshots(folder / "snapshots.csv", run, avalanche_measures(), "a/v_s");
+  if (run.motion == CloudMotion::falling) write_snapshots(folder / "snapshots.csv", run, avalanche_measures(), "a/v_s");
   if (frame.has_slope)
     write_table(folder / "front_speed.csv", {{"time", "a/v_s"}, {"front_speed", "v_s"}}, run.front_speed);
-  if (run.view == AvalancheView::from_above) {
-    std::vector<std::vector<double>> rows;
-    if (const auto paths = snapshot_paths(run_folder); !paths.empty()) {
-      const Loaded last(read_points(paths.back()), frame);
-      for (const GrainSet& head : last.snapshot.heads())
-        rows.push_back(
-            {head_size(last.snapshot.position(), last.snapshot.now.scalars("radius"), head, frame.scales.mean_radius)
-                 .width});
-    }
-    write_table(folder / "head_widths.csv", {{"width", "m"}}, rows);
-  }
   return summary_of(run, avalanche_measures());
 }
 

@@ -19,21 +19,19 @@ struct CloudFrame {
   bool has_slope = true;
   Vector3 gravity = {0, 0, -1};  ///< unit vector
 
-  /// Motion in space is looked at from the side, all grains projected onto the plane x, z.
-  AvalancheView view() const {
-    if (!has_slope) return motion == cloud::Motion::xyz ? AvalancheView::falling : AvalancheView::unseen;
-    return motion == cloud::Motion::xy ? AvalancheView::from_above : AvalancheView::from_the_side;
+  CloudMotion cloud_motion() const {
+    if (has_slope) return CloudMotion::on_slope;
+    return motion == cloud::Motion::xyz ? CloudMotion::falling : CloudMotion::other;
   }
 };
 
-/// Reads series.csv; a snapshot when a measure asks for it. Without a slope the run has no front. The run's end is the
-/// time of its last row: that of its last snapshot, at most a step after run.end, and no more than there is of a run
-/// cut short. \throws FileError
-AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame,
-                            std::size_t snapshot_memory);
+/// Reads series.csv, and of a fall the snapshots when a measure asks for them. Without a slope the run has no front.
+/// The run's end is the time of its last row: that of its last snapshot, at most a step after run.end, and no more than
+/// there is of a run cut short. \throws FileError
+AvalancheRun read_avalanche(const std::filesystem::path& run_folder, const CloudFrame& frame);
 
-/// Writes analysis/front_speed.csv, analysis/snapshots.csv (a column per measure) and, seen from above,
-/// analysis/head_widths.csv (every head of the last snapshot); returns the summary's quantities. \throws FileError
+/// Writes analysis/front_speed.csv, or analysis/snapshots.csv of a fall (a column per measure); returns the summary's
+/// quantities. \throws FileError
 std::vector<NamedValue> analyze_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame,
                                       const AvalancheRun& run);
 

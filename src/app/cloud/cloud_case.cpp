@@ -186,8 +186,7 @@ namespace {
 
 class CloudRun : public OpenedRun {
  public:
-  CloudRun(std::filesystem::path folder, CloudStudy study, std::size_t snapshot_memory)
-      : OpenedRun(std::move(folder)), study_(std::move(study)), snapshot_memory_(snapshot_memory) {}
+  CloudRun(std::filesystem::path folder, CloudStudy study) : OpenedRun(std::move(folder)), study_(std::move(study)) {}
 
   std::vector<NamedValue> analyse() override { return analyze_cloud(folder(), study_.frame, run()); }
   std::vector<std::filesystem::path> draw() override { return draw_cloud(folder(), study_.frame, study_.title); }
@@ -206,20 +205,19 @@ class CloudRun : public OpenedRun {
 
  private:
   const AvalancheRun& run() {
-    if (!run_) run_ = read_avalanche(folder(), study_.frame, snapshot_memory_);
+    if (!run_) run_ = read_avalanche(folder(), study_.frame);
     return *run_;
   }
 
   CloudStudy study_;
-  std::size_t snapshot_memory_;
   std::optional<AvalancheRun> run_;
 };
 
 }  // namespace
 
 std::unique_ptr<OpenedRun> open_cloud_run(const CaseFile& resolved, const std::filesystem::path& folder,
-                                          std::size_t snapshot_memory) {
-  return std::make_unique<CloudRun>(folder, study_of(resolved), snapshot_memory);
+                                          std::size_t /*snapshot_memory*/) {
+  return std::make_unique<CloudRun>(folder, study_of(resolved));
 }
 
 PreparedCase prepare_cloud(const CaseFile& file) {
@@ -253,7 +251,7 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.regime = cloud::regime_of_case(p);
   auto grains = [p, given] { return given ? *given : cloud::pack(p); };
   prepared.open = [study = CloudStudy{read.run.title, frame_of(p)}](const std::filesystem::path& folder) {
-    return std::make_unique<CloudRun>(folder, study, OpenedRun::one_by_one);
+    return std::make_unique<CloudRun>(folder, study);
   };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;

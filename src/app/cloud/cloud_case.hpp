@@ -28,8 +28,7 @@ struct CloudStudy {
 /// \param file a resolved case, as manifests hold it; \throws InputError
 CloudStudy study_of(const CaseFile& file);
 
-/// Draws snapshots into pictures/, of an avalanche with its heads marked; returns the paths.
-/// \throws FileError
+/// Draws snapshots into pictures/, grains of an avalanche coloured by their speed; returns the paths. \throws FileError
 std::vector<std::filesystem::path> draw_cloud(const std::filesystem::path& run_folder, const CloudFrame& frame,
                                               const std::string& title);
 

@@ -10,8 +10,6 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/fronts.hpp"
-#include "analysis/heads.hpp"
 #include "analysis/statistics.hpp"
 #include "app/case/run_tables.hpp"
 #include "io/figure/figure.hpp"
@@ -24,17 +22,11 @@ namespace {
 
 using namespace figure;
 
-/// The grains of heads (seen from above) or of the front's surface (from the side), the rest pale.
-std::vector<std::int64_t> marked(const Snapshot& snapshot, const CloudFrame& frame) {
-  std::vector<std::int64_t> category(snapshot.size(), -1);
-  if (!frame.has_slope) return category;
-  if (frame.motion == cloud::Motion::xy) {
-    for (const GrainSet& head : find_heads(snapshot.positions(), frame.scales.mean_radius))
-      for (const std::uint32_t i : head) category[i] = 0;
-  } else if (frame.motion == cloud::Motion::xz) {
-    for (const std::uint32_t i : surface_walk(snapshot.positions(), frame.scales.mean_radius)) category[i] = 0;
-  }
-  return category;
+/// Speeds of the grains, m/s.
+std::vector<double> speeds_of(const Snapshot& snapshot) {
+  std::vector<double> speeds;
+  for (const Vector3& velocity : snapshot.vectors("velocity")) speeds.push_back(norm(velocity));
+  return speeds;
 }
 
 View view_of(const CloudFrame& frame) {
@@ -77,7 +69,8 @@ figure::Window front_of(std::span<const Vector3> position, const CloudFrame& fra
 
 struct Frames {
   std::vector<PointSet> points;
-  std::vector<std::vector<std::int64_t>> categories;
+  std::vector<std::vector<double>> speeds;
+  double speed_max = 0;                             // of all but the fastest hundredth, over v_s
   std::vector<std::vector<double>> radii_of_cloud;  // of a cloud that falls: without the grains that it has left behind
 
   Frames(std::span<const std::filesystem::path> snapshots, const CloudFrame& frame) {
@@ -86,7 +79,8 @@ struct Frames {
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     for (const std::size_t n : chosen) {
       points.push_back(read_points(snapshots[n]));
-      categories.push_back(marked(points.back().view(), frame));
+      speeds.push_back(speeds_of(points.back().view()));
+      speed_max = std::max(speed_max, quantile(speeds.back(), 0.99) / frame.scales.stokes_speed);
     }
   }
 
@@ -101,10 +95,13 @@ struct Frames {
                               .length = {frame.scales.mean_radius, "*a*"}};
       picture.slope = frame.has_slope && frame.motion != cloud::Motion::xy;
       picture.depth = frame.motion == cloud::Motion::xyz;
-      if (frame.has_slope && frame.motion != cloud::Motion::xyz)
-        picture.colouring =
-            ByCategory{.of = categories[n],
-                       .categories = {{frame.motion == cloud::Motion::xy ? "head" : "surface of the front", blue}}};
+      if (frame.has_slope)
+        picture.colouring = ByValue{.values = speeds[n],
+                                    .label = "speed",
+                                    .unit = {frame.scales.stokes_speed, "*v*ₛ"},
+                                    .low = 0,
+                                    .high = std::max(speed_max, 1e-12),
+                                    .bar = n + 1 == points.size()};
       pictures.push_back(std::move(picture));
     }
     return pictures;

@@ -66,7 +66,6 @@ inline constexpr const char* symbols_of_hopper_measures =
 
 inline constexpr const char* symbols_of_avalanche_measures =
     "a is the mean radius of the case, v_s the speed of one grain alone (Stokes); times are in a/v_s. x\n"
-    "points down the slope, y to its left, z away from it. `head_aspect_ratio` is the mean over the\n"
-    "second half of a run.";
+    "points down the slope, y to its left, z away from it.";
 
 }  // namespace talus::app

@@ -178,29 +178,6 @@ Rectangle emptiest_place(const Rectangle& plot, double width, double height, con
   return best;
 }
 
-void draw_legend(cairo_t* context, const std::vector<LegendEntry>& entries, const Rectangle& plot,
-                 std::vector<Obstacle>& obstacles) {
-  if (entries.empty()) return;
-  double text_width = 0;
-  for (const LegendEntry& entry : entries) {
-    text_width = std::max(text_width, text_extent(context, entry.label, legend_style).width);
-  }
-  const double height = row * static_cast<double>(entries.size()) + 2 * inset - 2;
-  const Rectangle box = emptiest_place(plot, text_width + swatch_width + gap + 2 * inset, height, obstacles);
-  fill_rectangle(context, box, with_alpha(white, 0.85));
-  double y = box.y + inset;
-  for (const LegendEntry& entry : entries) {
-    {
-      const Saved saved(context);
-      entry.draw(context, {box.x + inset, y, swatch_width, row - 2});
-    }
-    draw_text(context, entry.label, box.x + inset + swatch_width + gap, y + 0.5 * (row - 2) + 0.36 * legend_style.size,
-              legend_style);
-    y += row;
-  }
-  block(box, obstacles);
-}
-
 void block(const Rectangle& rectangle, std::vector<Obstacle>& obstacles) {
   // Dense enough that a box put on any part of it counts more of these than of the data elsewhere.
   for (double x = rectangle.x; x <= rectangle.right(); x += 2) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The frame of a panel: from data to page, axis lines, ticks, numbers, names, the colour bar and the legend.
+/// The frame of a panel: from data to page, axis lines, ticks, numbers, names, the colour bar.
 #pragma once
 
 #include <functional>
@@ -86,11 +86,6 @@ Margins arrow_key_margins(cairo_t* context, const ArrowKey& key);
 /// \param below the plot's lower edge, at least `arrow_key_margins(key).bottom`, units
 void draw_arrow_key(cairo_t* context, const ArrowKey& key, const Rectangle& plot, double below);
 
-struct LegendEntry {
-  std::string label = {};
-  std::function<void(cairo_t*, const Rectangle& swatch)> draw;
-};
-
 /// A point on the page that is better not covered.
 struct Obstacle {
   double x = 0, y = 0;
@@ -99,10 +94,6 @@ struct Obstacle {
 /// Of the corners and the middles of the sides of `plot`, the box of that size that covers the fewest obstacles; the
 /// corners come first, from the upper right, when several are as good. It lies in `plot` if it fits.
 Rectangle emptiest_place(const Rectangle& plot, double width, double height, const std::vector<Obstacle>& obstacles);
-
-/// Draws the legend in the emptiest position and adds its box to the obstacles. Nothing is drawn without entries.
-void draw_legend(cairo_t* context, const std::vector<LegendEntry>& entries, const Rectangle& plot,
-                 std::vector<Obstacle>& obstacles);
 
 /// Adds points that fill the rectangle, so that nothing else is put there.
 void block(const Rectangle& rectangle, std::vector<Obstacle>& obstacles);

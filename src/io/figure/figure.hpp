@@ -42,17 +42,6 @@ struct ByValue {
   bool bar = true;
 };
 
-struct Category {
-  std::string name = {};  ///< empty: not in the legend
-  Colour colour;
-};
-
-/// Coloured by the number of a category; particles of no category (e.g. -1) are pale. Later categories lie on top.
-struct ByCategory {
-  std::span<const std::int64_t> of = {};
-  std::vector<Category> categories = {};
-};
-
 /// An arrow for each particle, e.g. its velocity relative to the front, or for each of other positions.
 struct Arrows {
   std::span<const Vector3> values = {};     ///< SI
@@ -80,7 +69,7 @@ struct ParticlePicture {
   std::span<const Vector3> positions = {};  ///< m
   std::span<const double> radii = {};       ///< m
   View view = view_xy;
-  std::variant<Plain, ByValue, ByCategory> colouring = Plain{};
+  std::variant<Plain, ByValue> colouring = Plain{};
   std::optional<Arrows> arrows = {};
   std::vector<Segment> segments = {};
   Unit length = {1, "m"};

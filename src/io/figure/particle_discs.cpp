@@ -25,11 +25,6 @@ std::vector<Colour> colours_of(const ParticlePicture& picture) {
       const double value = by_value->values[i] / by_value->unit.value;
       if (std::isfinite(value)) colours[i] = colour_at((value - bar.low) / (bar.high - bar.low));
     }
-  } else if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
-    for (std::size_t i = 0; i < colours.size(); ++i) {
-      const auto category = static_cast<std::size_t>(by_category->of[i]);  // those below zero become very large
-      if (category < by_category->categories.size()) colours[i] = by_category->categories[category].colour;
-    }
   }
   return colours;
 }
@@ -45,9 +40,6 @@ std::vector<std::size_t> order_of(const ParticlePicture& picture) {
       if (!std::isfinite(depth[i])) depth[i] = 0;  // not drawn; a NaN would leave no order
     }
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
-  } else if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return by_category->of[a] < by_category->of[b]; });
   }
   return order;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The layers of a particle picture, from the back to the front: slope, discs, arrows, segments, scale bar. What is
-/// drawn adds to the obstacles that legend and scale bar keep clear of.
+/// drawn adds to the obstacles that the scale bar keeps clear of.
 #pragma once
 
 #include <cairo/cairo.h>

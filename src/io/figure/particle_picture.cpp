@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
 #include "io/figure/particle_layers.hpp"
 
@@ -38,22 +37,6 @@ Frame frame_of(const ParticlePicture& picture, const Projection& p) {
   return frame;
 }
 
-std::vector<LegendEntry> entries_of(const ParticlePicture& picture) {
-  std::vector<LegendEntry> entries;
-  if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) {
-    for (const Category& category : by_category->categories) {
-      if (category.name.empty()) continue;
-      entries.push_back({category.name, [colour = category.colour](cairo_t* context, const Rectangle& swatch) {
-                           cairo_arc(context, swatch.x + 0.5 * swatch.width, swatch.y + 0.5 * swatch.height, 3.2, 0,
-                                     2 * std::numbers::pi);
-                           set_colour(context, colour);
-                           cairo_fill(context);
-                         }});
-    }
-  }
-  return entries;
-}
-
 }  // namespace
 
 Margins margins(cairo_t* context, const ParticlePicture& picture, const Rectangle& plot) {
@@ -81,7 +64,6 @@ void draw(cairo_t* context, const ParticlePicture& picture, const Rectangle& plo
     draw_segments(context, picture, projection, obstacles);
   }
   if (has_axes(picture)) draw_frame(context, frame_of(picture, projection));
-  draw_legend(context, entries_of(picture), plot, obstacles);
   if (picture.scale_bar && !has_axes(picture)) draw_scale_bar(context, picture, projection, obstacles);
   const auto* by_value = std::get_if<ByValue>(&picture.colouring);
   if (by_value && by_value->bar) draw_colour_bar(context, bar_of(*by_value), plot);

@@ -39,7 +39,6 @@ void check(const ParticlePicture& picture) {
       throw std::invalid_argument(fmt::format("colours from {} to {}", *by_value->low, *by_value->high));
     }
   }
-  if (const auto* by_category = std::get_if<ByCategory>(&picture.colouring)) same("categories", by_category->of.size());
   if (picture.arrows) {
     if (const std::size_t starts = picture.arrows->positions.size(); starts == 0)
       same("arrows", picture.arrows->values.size());

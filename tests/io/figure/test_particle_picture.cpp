@@ -112,16 +112,6 @@ TEST(ParticlePicture, ColoursByValueOverTheGivenRange) {
   EXPECT_LT(difference(picture.at(150, 50), pale), 0.005);
 }
 
-TEST(ParticlePicture, LaterCategoriesLieOnTop) {
-  Scene scene({{0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0.5, 0}}, {0.1, 0.2, 0.3});
-  const std::vector<std::int64_t> categories = {1, 0, -1};
-  scene.picture.colouring = ByCategory{categories, {{"", blue}, {"", green}}};
-  const Picture picture = scene.drawn();
-  EXPECT_LT(difference(picture.at(50, 50), green), 0.005);
-  EXPECT_LT(difference(picture.at(50, 35), blue), 0.005);
-  EXPECT_LT(difference(picture.at(50, 25), pale), 0.005);
-}
-
 TEST(ParticlePicture, NearerParticlesCoverFartherOnesWhichArePaler) {
   // Seen along +y: the smaller y, the nearer.
   Scene scene({{0.5, 0, 0.5}, {0.5, 1, 0.5}, {1.5, 1, 0.5}}, {0.1, 0.2, 0.3});

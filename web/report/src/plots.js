@@ -7,8 +7,8 @@ import { element, meaning, name, number, unit } from "./text.js";
 
 /** Shown first, as far as there are such. */
 const preferred = [
-  /^discharge\/discharge_rate$/, /^front_speed\/front_speed$/, /^forces\/force_floor_z$/, /^snapshots\/head_count$/,
-  /^snapshots\/surface_angle_hopper$/, /^snapshots\/repose_angle_bin$/, /^snapshots\/head_/, /^snapshots\/frontal_angle/,
+  /^discharge\/discharge_rate$/, /^front_speed\/front_speed$/, /^forces\/force_floor_z$/,
+  /^snapshots\/surface_angle_hopper$/, /^snapshots\/repose_angle_bin$/,
   /^series\/slit_velocity$/, /^series\/air_speed_max$/, /^series\/speed_max$/, /^series\/front_x$/, /^series\/overlap_max$/,
   /^snapshots\/descent/, /^snapshots\//, /^series\/energy/,
 ];
