@@ -15,7 +15,6 @@ namespace talus::app {
 namespace {
 
 using continuum::VesselPart;
-using continuum::VesselShape;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double usual_angle =
