@@ -19,7 +19,6 @@
 
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
-#include "app/picture/options.hpp"
 #include "app/runs/run_case.hpp"
 #include "base/system.hpp"
 #include "base/text.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands.hpp"
 
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -8,6 +10,7 @@
 
 #include "app/project/project.hpp"
 #include "app/usage/tree.hpp"
+#include "base/error.hpp"
 #include "base/text.hpp"
 
 namespace talus::app {
@@ -31,6 +34,21 @@ CaseFile CaseOptions::read() const {
 
 std::filesystem::path default_results(const std::string& case_path) {
   return std::filesystem::path("results") / std::filesystem::path(case_path).stem();
+}
+
+std::filesystem::path read_out(const std::string& text, const std::vector<std::string>& endings) {
+  const std::filesystem::path path(text);
+  const bool known = std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end();
+  if (known && !std::filesystem::is_directory(path)) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    if (!std::filesystem::is_directory(folder)) throw FileError(path.string(), "its folder is not there");
+    return path;
+  }
+  throw InputError({{.where = text.empty() ? "-o" : "-o " + text,
+                     .what = text.empty() ? "missing"
+                             : known      ? "is a folder"
+                                          : "has another ending",
+                     .allowed = fmt::format("a file that ends in {}", fmt::join(endings, ", "))}});
 }
 
 void add_out_option(CLI::App& command, std::string& out, const std::string& text) {

@@ -51,6 +51,10 @@ struct CaseOptions {
 /// Where the results of a case go without --out: results/NAME of the case.
 std::filesystem::path default_results(const std::string& case_path);
 
+/// The file to write. \throws InputError if none was given, it is a folder, or its ending is none of those allowed;
+/// FileError if its folder is not there
+std::filesystem::path read_out(const std::string& text, const std::vector<std::string>& endings);
+
 /// Adds --out DIR; none given leaves `out` empty, an empty one is an error.
 void add_out_option(CLI::App& command, std::string& out, const std::string& text);
 

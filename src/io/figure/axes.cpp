@@ -149,7 +149,7 @@ void draw_arrow_key(cairo_t* context, const ArrowKey& key, const Rectangle& plot
 }
 
 namespace {
-constexpr double swatch_width = 18, gap = 6, row = 12.5, inset = 5, clearance = 6;
+constexpr double clearance = 6;
 }
 
 Rectangle emptiest_place(const Rectangle& plot, double width, double height, const std::vector<Obstacle>& obstacles) {

@@ -2,7 +2,6 @@
 /// The frame of a panel: from data to page, axis lines, ticks, numbers, names, the colour bar.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
