@@ -181,8 +181,9 @@ class LoadsOfWall {
   std::vector<std::size_t> rows_;
 };
 
-/// One of the pressures on a wall, and what stands beside it.
+/// One of the pressures on a wall, and its estimates.
 struct Kind {
+  enum class When { at_rest, in_flow, at_peak } when;
   std::string title;
   const char *pressure, *by_hand, *of_code, *load_case;
 };
@@ -221,18 +222,19 @@ std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series
     for (const double pressure : table.column(column))
       if (pressure > most) most = pressure;  // some may be nan
   const std::string peak = fmt::format("Peak pressure ({} average)", time_text(setup.scales.peak_time()));
-  std::vector<Kind> kinds = {
-      {"Pressure at rest", "pressure_at_rest", "pressure_at_rest_by_hand", "en_pressure_filling", "filling"}};
+  std::vector<Kind> kinds = {{Kind::When::at_rest, "Pressure at rest", "pressure_at_rest", "pressure_at_rest_by_hand",
+                              "en_pressure_filling", "filling"}};
   if (flows || !unknown.empty())
-    kinds.push_back(
-        {"Pressure in flow", "pressure_in_flow", "pressure_in_flow_by_hand", "en_pressure_discharge", "discharge"});
-  kinds.push_back({peak, "pressure_largest", "pressure_in_flow_by_hand", "en_pressure_discharge", "discharge"});
+    kinds.push_back({Kind::When::in_flow, "Pressure in flow", "pressure_in_flow", "pressure_in_flow_by_hand",
+                     "en_pressure_discharge", "discharge"});
+  kinds.push_back({Kind::When::at_peak, peak, "pressure_largest", "pressure_in_flow_by_hand", "en_pressure_discharge",
+                   "discharge"});
   std::vector<Answer> answers;
   for (std::size_t w = 0; w < of.walls; ++w) {
     const LoadsOfWall loads(table, of.column, static_cast<double>(w + 1));
     const bool bears = loads.largest("pressure_largest", hardly * most).has_value();
     for (const Kind& kind : kinds) {
-      const bool is_mean = kind.title == "Pressure in flow", is_peak = kind.title == peak;
+      const bool is_mean = kind.when == Kind::When::in_flow;
       const std::string question = fmt::format("{}, {}", kind.title, of.name(w));
       if (is_mean && !flows) {
         if (bears) answers.push_back({question, unknown, {}});
@@ -244,7 +246,7 @@ std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series
       if (is_mean && bears && !row) answers.push_back({question, "not known: the run does not cover its window", {}});
       if (!row) continue;
       Answer answer{question, loads.text(kind.pressure, *row), estimates_of(loads, kind, *row, of.formula(w))};
-      if (is_peak)
+      if (kind.when == Kind::When::at_peak)
         answer.answer +=
             fmt::format(", after {}, {}", time_text(loads.at("time_of_largest", *row)), area_text(of, loads, *row));
       answers.push_back(std::move(answer));

@@ -54,6 +54,17 @@ bool has_hopper_at(const continuum::Parameters& p, double height) {
                      [&](const VesselPart& v) { return is_hopper(v) && std::abs(v.top - height) <= p.bed.spacing; });
 }
 
+/// Of the case's material, if the code lists it.
+std::optional<code::Solid> listed_solid(const continuum::Parameters& p) {
+  return p.grains.material ? solid_of_code(*p.grains.material) : std::nullopt;
+}
+
+/// That, or one by the friction that the law has in a shear tester.
+code::Solid solid_of(const continuum::Parameters& p) {
+  const auto listed = listed_solid(p);
+  return listed ? *listed : code::unknown_solid(internal_friction_by_hand(p, granular::FrictionTest::shear_plane));
+}
+
 double eccentricity_of_outlets(const continuum::Layout& layout, const VesselPart& wall) {
   const Vector3 axis = continuum::on_axis(layout.given, wall);
   double largest = 0;
@@ -81,11 +92,10 @@ std::optional<CodeSilo> silo_of_code(const continuum::Layout& layout, double top
   const continuum::Parameters& p = layout.given;
   const VesselPart* v = upright_at(p, height);
   if (!v || v->bottom > height + p.bed.spacing || !(top > height)) return std::nullopt;
-  const auto listed = p.grains.material ? solid_of_code(*p.grains.material) : std::nullopt;
   CodeSilo found{.part = static_cast<std::size_t>(v - p.vessel.data()),
                  .silo = section_of(*v),
-                 .solid = listed ? *listed : code::unknown_solid(internal_friction_by_hand(p)),
-                 .is_listed = listed.has_value(),
+                 .solid = solid_of(p),
+                 .is_listed = listed_solid(p).has_value(),
                  .friction = friction_of(layout, *v),
                  .weight = bulk_density(p) * p.gravity.acceleration,
                  .top = top,
@@ -138,9 +148,8 @@ CodeLoads loads_on_cone(const continuum::Layout& layout, const VesselPart& v, do
   const double angle = std::atan(tangent_of(v)), mean = friction_of(layout, v);
   const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
   const double weight = bulk_density(p) * p.gravity.acceleration;
-  const auto listed = p.grains.material ? solid_of_code(*p.grains.material) : std::nullopt;
-  const code::Solid solid = listed ? *listed : code::unknown_solid(internal_friction_by_hand(p));
-  // Whether the cone is steep does not depend on the load: by the lower K, as an upper one above 1 leaves none steep.
+  const code::Solid solid = solid_of(p);
+  // Whether the cone is steep does not depend on the load: by the lower K, as an upper one of 1 leaves none steep.
   const double ratio = solid.ratio / solid.ratio_factor;
   const auto stresses = [&](Load load, Limit limit) {
     Values values = code::values_for(solid, mean, load, limit);
@@ -301,7 +310,7 @@ std::vector<Answer> answers_of_code(const continuum::Layout& layout, const std::
   for (const CodeSilo& s : silos_of(layout, table.column("top").front())) {
     const std::string name = continuum::name_of(layout.given, s.part);
     const std::string solid = s.is_listed ? std::string(choice_name(*layout.given.grains.material)) + ", Table E.1"
-                                          : "not in Table E.1, φ_i of the law in plane strain";
+                                          : "not in Table E.1, φ_i of the law in a shear tester";
     answers.push_back({fmt::format("EN 1991-4 takes, {}", name),
                        fmt::format("{}: h_c/d_c {:.3g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
                                    s.silo.slenderness(), 1e-3 * s.weight),

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "app/continuum/silo_shape.hpp"
-#include "physics/granular/friction_angle.hpp"
 #include "physics/granular/silo.hpp"
 
 namespace talus::app {
@@ -17,8 +16,7 @@ namespace {
 using continuum::VesselPart;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double usual_angle =
-    30 * std::numbers::pi / 180;  // in plane strain, where the law has no friction of its own
+constexpr double usual_angle = 30 * std::numbers::pi / 180;  // where the law has no friction of its own
 
 /// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
 double janssen_at(const continuum::Layout& layout, double ratio, double top, double height) {
@@ -101,12 +99,12 @@ double discharge_by_hand(const continuum::Layout& layout) {
   return rate;
 }
 
-double internal_friction_by_hand(const continuum::Parameters& p) {
+double internal_friction_by_hand(const continuum::Parameters& p, granular::FrictionTest test) {
   double friction = 0;
   if (p.law.is<granular::CriticalState>()) friction = p.law.of<granular::CriticalState>().static_friction;
   if (p.law.is<granular::DruckerPrager>()) friction = p.law.of<granular::DruckerPrager>().friction;
-  return friction > 0 ? granular::angle_of_friction(granular::FrictionTest::plane_strain, std::min(friction, 1.0))
-                      : usual_angle;
+  if (test == granular::FrictionTest::plane_strain) friction = std::min(friction, 1.0);
+  return friction > 0 ? granular::angle_of_friction(test, friction) : usual_angle;
 }
 
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {

@@ -4,6 +4,7 @@
 
 #include "analysis/hopper.hpp"
 #include "models/continuum/setup/layout.hpp"
+#include "physics/granular/friction_angle.hpp"
 
 namespace talus::app {
 
@@ -14,9 +15,11 @@ double discharge_by_hand(const continuum::Layout& layout);
 /// Of one of the outlets of a vessel; discharge_by_hand() adds them up.
 double discharge_by_hand(const continuum::Layout& layout, const continuum::VesselOutlet& outlet);
 
-/// The angle of internal friction that Walker's and Jenike's formulas take, rad: that of Mohr's circle in plane strain
-/// (physics/granular/friction_angle.hpp), of the law's friction, which counts up to 1; 30 degrees where it has none.
-double internal_friction_by_hand(const continuum::Parameters& parameters);
+/// The angle of internal friction of the law, rad (physics/granular/friction_angle.hpp); 30 degrees where it has none.
+/// \param test Walker's and Jenike's formulas take Mohr's circle in plane strain, in which a friction counts up to 1;
+/// EN 1991-4 takes a shear tester's angle
+double internal_friction_by_hand(const continuum::Parameters& parameters,
+                                 granular::FrictionTest test = granular::FrictionTest::plane_strain);
 
 /// The largest half angle of mass flow in a cone (physics/granular/silo.hpp), rad; nan if the vessel empties
 /// through no cone.

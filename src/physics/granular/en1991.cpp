@@ -66,15 +66,15 @@ Values values_for(const Solid& solid, double friction, Load load, Limit limit) {
   const int side = limit == Limit::upper ? 1 : limit == Limit::lower ? -1 : 0;
   const Signs signs = signs_of(load);
   return {friction * std::pow(solid.friction_factor, side * signs.friction),
-          solid.ratio * std::pow(solid.ratio_factor, side * signs.ratio),
+          std::min(1.0, solid.ratio * std::pow(solid.ratio_factor, side * signs.ratio)),
           std::min(solid.internal * std::pow(solid.internal_factor, side * signs.internal), 0.5 * pi)};
 }
 
 Class class_of(const Silo& silo) {
-  const double slenderness = silo.slenderness();
+  const double slenderness = silo.slenderness() + 1e-9;  // a bed of two diameters is slender in spite of rounding
   if (slenderness >= 2) return Class::slender;
-  if (slenderness > 1) return Class::intermediate;
-  return slenderness <= 0.4 && silo.has_flat_bottom ? Class::retaining : Class::squat;
+  if (slenderness > 1 + 2e-9) return Class::intermediate;
+  return slenderness <= 0.4 + 2e-9 && silo.has_flat_bottom ? Class::retaining : Class::squat;
 }
 
 double characteristic_depth(const Silo& silo, const Values& values) {

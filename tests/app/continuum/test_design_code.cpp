@@ -99,7 +99,8 @@ TEST(CodeLoads, OfAConeBalanceItsSlices) {
   EXPECT_FALSE(silo->silo.has_flat_bottom);
   EXPECT_EQ(code::class_of(silo->silo), code::Class::squat) << "6 cm of both";
   EXPECT_NEAR(silo->silo.height, 0.06, 1e-12);
-  const double angle = std::numbers::pi / 6, internal = internal_friction_by_hand(p), ratio = 1.1 * 0.5 / 1.5;
+  const double angle = std::numbers::pi / 6,
+               internal = internal_friction_by_hand(p, granular::FrictionTest::shear_plane), ratio = 1.1 * 0.5 / 1.5;
   ASSERT_TRUE(code::is_steep(angle, 0.3 / 1.4, ratio));
   // At the transition the bed above is all that the cone bears.
   const double above = silo->filling(Load::bottom, Limit::upper, 0.09).vertical;

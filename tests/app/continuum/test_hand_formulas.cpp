@@ -99,6 +99,7 @@ TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
   EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 6) << "a law without a friction of its own";
   p.law = granular::CriticalState::Parameters{.static_friction = std::tan(std::numbers::pi / 6)};
   EXPECT_NEAR(internal_friction_by_hand(p) * 180 / std::numbers::pi, 35.26, 0.01);
+  EXPECT_NEAR(internal_friction_by_hand(p, granular::FrictionTest::shear_plane) * 180 / std::numbers::pi, 30, 0.02);
   EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(continuum::Layout(p)),
                    granular::mass_flow_half_angle(friction, internal_friction_by_hand(p)));
   const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));

@@ -20,7 +20,7 @@ const Solid wheat{34 * degree, 30 * degree, 1.12, 0.54, 1.11, 1.16, 0.5};
 const Values mean{0.38, 0.54, 30 * degree};
 
 TEST(En1991, GivesTheWorkedExampleOfWheat) {
-  // ../shared/data/B_en1991_4_worked_examples.csv: 8 m by 15 m, which its author computes as slender at h_c/d_c
+  // A design memo: 8 m by 15 m, which its author computes as slender at h_c/d_c
   // = 1.875.
   const Silo silo = round_silo(8, 15), deep = round_silo(8, 16);
   const double z_o = characteristic_depth(silo, mean);
