@@ -13,7 +13,36 @@ namespace {
 
 constexpr double reach = 1.5;  // in sizes: so near a field's middle is to any of its positions, but for rests
 
+constexpr double level = 0.03;  // sine of the angle with the horizontal
+
+constexpr double max_piece = 0.25;  // in sizes: longest edge of the pieces whose areas are given to fields
+
 constexpr double max_cells = 2e6;
+
+/// Calls visit(number of the triangle, piece) for pieces of the surface without an edge longer than a length, m.
+template <class Visit>
+void for_each_piece(const Surface& surface, double edge, Visit&& visit) {
+  std::vector<Triangle> left;
+  for (std::uint32_t t = 0; t < surface.triangles().size(); ++t) {
+    left.assign(1, surface.triangles()[t]);
+    while (!left.empty()) {
+      const Triangle whole = left.back();
+      left.pop_back();
+      std::size_t longest = 0;
+      double length = 0;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const double l = norm(whole.corner[(c + 1) % 3] - whole.corner[c]); l > length) length = l, longest = c;
+      if (length <= edge) {
+        visit(t, whole);
+        continue;
+      }
+      const Vector3 &a = whole.corner[longest], &b = whole.corner[(longest + 1) % 3],
+                    &c = whole.corner[(longest + 2) % 3], middle = 0.5 * (a + b);
+      left.push_back({{a, middle, c}, whole.patch});
+      left.push_back({{middle, b, c}, whole.patch});
+    }
+  }
+}
 
 }  // namespace
 
@@ -38,6 +67,17 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   of_cells_.resize(fields_.size());
   for (std::uint32_t n = 0; n < fields_.size(); ++n) of_cells_[next[cell[n]]++] = n;
+  find_areas(surface);
+}
+
+void SurfaceFields::find_areas(const Surface& surface) {
+  const std::size_t copies = sector_ ? static_cast<std::size_t>(sector_->copies()) : 1, own = fields_.size() / copies;
+  std::vector<double> area(own, 0.0);
+  for_each_piece(surface, max_piece * size_, [&](std::uint32_t t, const Triangle& piece) {
+    area[at(surface.part(t), piece.middle()) % own] += norm(piece.area()) / static_cast<double>(copies);
+  });
+  for (std::size_t n = 0; n < fields_.size(); ++n)
+    if (area[n % own] > 0) fields_[n].area = area[n % own];
 }
 
 std::array<int, 3> SurfaceFields::cell_of(const Vector3& x) const {
@@ -74,29 +114,30 @@ std::uint32_t SurfaceFields::at(std::uint32_t part, const Vector3& place) const 
   return best;
 }
 
+FieldShare SurfaceFields::under(std::uint32_t part, const Vector3& place) const {
+  constexpr double half_height = 0.25;  // in sizes
+  const std::uint32_t own = at(part, place);
+  const Vector3& normal = fields_[own].normal;
+  const Vector3 down = normal.z * normal - Vector3{0, 0, 1};
+  const double slope = norm(down);
+  if (!(slope > level)) return {own, own, 1};
+  const Vector3 half = (half_height * size_ / slope) * down;
+  const std::uint32_t above = at(part, place - half), below = at(part, place + half);
+  if (above == below) return {above, above, 1};
+  // Where along the footprint, -1 to 1, both middles are equally far.
+  const Vector3 a = place - fields_[above].place, b = place - fields_[below].place;
+  const double apart = 2 * dot(half, a - b);
+  const double border = apart > 0 ? std::clamp((dot(b, b) - dot(a, a)) / apart, -1.0, 1.0) : 0;
+  return {above, below, static_cast<float>(0.5 * (1 + border))};
+}
+
 FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double edge) {
   FieldMesh mesh;
   std::vector<Triangle> triangles;
-  for (std::uint32_t t = 0; t < surface.triangles().size(); ++t) {
-    std::vector<Triangle> left{surface.triangles()[t]};
-    while (!left.empty()) {
-      const Triangle whole = left.back();
-      left.pop_back();
-      std::size_t longest = 0;
-      double length = 0;
-      for (std::size_t c = 0; c < 3; ++c)
-        if (const double l = norm(whole.corner[(c + 1) % 3] - whole.corner[c]); l > length) length = l, longest = c;
-      if (length <= edge) {
-        mesh.field.push_back(fields.at(surface.part(t), whole.middle()));
-        triangles.push_back(whole);
-        continue;
-      }
-      const Vector3 &a = whole.corner[longest], &b = whole.corner[(longest + 1) % 3],
-                    &c = whole.corner[(longest + 2) % 3], middle = 0.5 * (a + b);
-      left.push_back({{a, middle, c}, whole.patch});
-      left.push_back({{middle, b, c}, whole.patch});
-    }
-  }
+  for_each_piece(surface, edge, [&](std::uint32_t t, const Triangle& piece) {
+    mesh.field.push_back(fields.at(surface.part(t), piece.middle()));
+    triangles.push_back(piece);
+  });
   const TriangleEdges edges(triangles);
   mesh.points.assign(edges.places().begin(), edges.places().end());
   for (const auto& [a, b, c] : edges.corners()) mesh.corners.push_back({a, b, c});

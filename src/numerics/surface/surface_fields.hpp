@@ -13,6 +13,12 @@
 
 namespace talus {
 
+/// What a footprint covers: a field and the one above or below it.
+struct FieldShare {
+  std::uint32_t field = 0, other = 0;
+  float share = 1;  ///< of the footprint that lies on the first
+};
+
 class SurfaceFields {
  public:
   SurfaceFields() = default;
@@ -20,11 +26,17 @@ class SurfaceFields {
   SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector = {});
 
   std::size_t count() const { return fields_.size(); }
-  /// The middle, normal and area of each, and the patch and the smooth part to which it belongs.
+  /// The middle and normal of each, the area of what is nearer to this middle than to others of its smooth part, and
+  /// the patch and part to which it belongs.
   std::span<const SurfacePoint> all() const { return fields_; }
 
   /// The field of a smooth part that is nearest to a position; of several as near the first. \pre the part has an area
   std::uint32_t at(std::uint32_t part, const Vector3& place) const;
+
+  /// The fields under a footprint half a field high around a position, along the line of steepest descent; on a level
+  /// part the field there alone. Particles stand in rows: noted at their middles, a row more or less would make a
+  /// quarter of a band's load. \pre the part has an area
+  FieldShare under(std::uint32_t part, const Vector3& place) const;
 
   /// What notes a load in a sector notes it in all its copies: the sector, and the field that a field is in the copy so
   /// many angles on.
@@ -35,6 +47,8 @@ class SurfaceFields {
   }
 
  private:
+  void find_areas(const Surface& surface);
+
   double size_ = 0;
   std::optional<Sector> sector_;
   std::vector<SurfacePoint> fields_;

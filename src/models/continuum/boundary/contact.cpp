@@ -36,8 +36,8 @@ class Loads {
   void receive(Impulses& received, std::size_t patch, const Vector3& impulse) const {
     received[patch].add(point_, impulse);
   }
-  void note(std::size_t particle, const LoadOfField& load) {
-    std::vector<LoadOfField>& of_chunk = noted_[particle / chunk_size];
+  void note(std::size_t particle, const LoadOfFields& load) {
+    std::vector<LoadOfFields>& of_chunk = noted_[particle / chunk_size];
     if (of_chunk.empty()) of_chunk.reserve(2 * chunk_size);
     of_chunk.push_back(load);
   }
@@ -52,14 +52,14 @@ class Loads {
                                     });
     for (std::size_t n = 0; n < all.size(); ++n) state_.patch_impulse[n] += all[n].value(point_);
     for (const auto& of_chunk : noted_)
-      for (const LoadOfField& load : of_chunk) add_load(load, fields_, state_.wall_loads);
+      for (const LoadOfFields& load : of_chunk) add_load(load, fields_, state_.wall_loads);
   }
 
  private:
   const SurfaceFields& fields_;
   FixedPoint point_;
   State& state_;
-  std::vector<std::vector<LoadOfField>> noted_;
+  std::vector<std::vector<LoadOfFields>> noted_;
 };
 
 /// The walls as they rub at present.
@@ -203,7 +203,7 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
       const std::size_t patch = setting.boundary.patch_of_part(wall.patch);
       const double pushed = state.mass * step.duration * dot(wall.acceleration, wall.normal);
       loads.receive(received, patch, (-state.mass * step.duration) * wall.acceleration);
-      LoadOfField load{wall.field, pushed, -pushed * wall.normal};
+      LoadOfFields load{wall.fields, pushed, -pushed * wall.normal};
       const sph::WallContact contact =
           walls.contact(patch, x, wall.normal, step.duration * dot(wall.acceleration, wall.normal));
       if (walls.rough) load.received += become(patch, sph::after_contact(velocity, contact, 0));
@@ -213,9 +213,9 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
         vessel, slot, x, velocity, step.step, setting.distance, [&](const VesselWalls::Touch& touched, double push) {
           const Surface& surface = vessel.surface();
           const std::size_t patch = setting.boundary.patch_of_part(surface.triangles()[touched.triangle].patch);
-          const std::uint32_t field = setting.fields.at(surface.part(touched.triangle), touched.place);
+          const FieldShare fields = setting.fields.under(surface.part(touched.triangle), touched.place);
           const sph::WallContact contact = walls.contact(patch, touched.place, touched.normal, 0);
-          loads.note(i, {field, state.mass * push, become(patch, sph::after_contact(velocity, contact, push))});
+          loads.note(i, {fields, state.mass * push, become(patch, sph::after_contact(velocity, contact, push))});
         });
   });
 }
@@ -296,7 +296,7 @@ void reflect(ThreadTeam& team, const ContactSetting& setting, const Material& ma
         const Vector3 after = sph::after_contact(velocity, walls.contact(patch, place, n, 0), push);
         const Vector3 impulse = state.mass * (velocity - after);
         loads.receive(received, patch, impulse);
-        loads.note(i, {setting.fields.at(vessel.part(met->triangle), place), state.mass * push, impulse});
+        loads.note(i, {setting.fields.under(vessel.part(met->triangle), place), state.mass * push, impulse});
         velocity = after;
       }
       x -= (2 * beyond) * normal;

@@ -16,8 +16,8 @@
 namespace talus::continuum {
 
 /// What contact needs to know besides the state. Loads go to state.patch_impulse; those of the vessel to
-/// state.wall_loads too, each to a field: that of stress to the one nearest to the particle when the neighbour lists
-/// were built, that of contact to the one that it touches.
+/// state.wall_loads too, each to the fields under the particle: that of stress to those that it faced when the
+/// neighbour lists were built, that of contact to those where it touches.
 struct ContactSetting {
   const Parameters& parameters;
   const Boundary& boundary;

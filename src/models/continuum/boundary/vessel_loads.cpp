@@ -59,17 +59,20 @@ WallLoads no_loads(std::size_t fields, double unit) {
           .window_start = 0};
 }
 
-void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads) {
-  const auto add = [&](std::uint32_t field, const Vector3& received) {
-    loads.window_push.add(field, loads.point.of(load.push));
-    for (int axis = 0; axis < 3; ++axis)
-      loads.window_received.add(3 * field + static_cast<std::size_t>(axis), loads.point.of(received[axis]));
-  };
-  add(load.field, load.received);
+void add_load(const LoadOfFields& load, const SurfaceFields& fields, WallLoads& loads) {
   const std::optional<Sector>& sector = fields.sector();
-  for (int k = 1; sector && k < sector->copies(); ++k) {
-    add(fields.in_copy(load.field, k), sector->turn(k) * load.received);
-  }
+  const auto add = [&](std::uint32_t field, double share) {
+    for (int k = 0; k < (sector ? sector->copies() : 1); ++k) {
+      const std::uint32_t n = k == 0 ? field : fields.in_copy(field, k);
+      const Vector3 received = share * (k == 0 ? load.received : sector->turn(k) * load.received);
+      loads.window_push.add(n, loads.point.of(share * load.push));
+      for (int axis = 0; axis < 3; ++axis)
+        loads.window_received.add(3 * n + static_cast<std::size_t>(axis), loads.point.of(received[axis]));
+    }
+  };
+  const double share = load.fields.share;
+  add(load.fields.field, share);
+  if (share < 1) add(load.fields.other, 1 - share);
 }
 
 namespace {

@@ -44,9 +44,9 @@ struct WallLoads {
   }
 };
 
-/// A force that a field received.
-struct LoadOfField {
-  std::uint32_t field;
+/// A force that the fields under a particle received.
+struct LoadOfFields {
+  FieldShare fields;
   double push;       ///< N s, >= 0
   Vector3 received;  ///< N s
 };
@@ -57,8 +57,8 @@ SurfaceFields load_fields(const Layout& layout);
 /// Without load. \param fields their number \param unit State::impulse_unit, N s
 WallLoads no_loads(std::size_t fields, double unit);
 
-/// To the field, and in a sector to what it is in all copies: the loads are those of the whole vessel.
-void add_load(const LoadOfField& load, const SurfaceFields& fields, WallLoads& loads);
+/// To the fields, and in a sector to what they are in all copies: the loads are those of the whole vessel.
+void add_load(const LoadOfFields& load, const SurfaceFields& fields, WallLoads& loads);
 
 /// Closes the window if it is over. \param time at the end of a step, s \param length of a window, s: peak_time()
 void close_window(const SurfaceFields& fields, double time, double length, WallLoads& loads);

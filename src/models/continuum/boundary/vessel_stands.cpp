@@ -146,7 +146,8 @@ bool VesselWalls::add_stands(const Vector3& position, std::span<std::uint32_t> n
     found.near.insert(found.near.end(), part.points.begin(), part.points.end());
     while ((found.near.size() - first) % WallPoints::padded_to != 0) found.near.push_back(padding);
     found.stands.push_back({first, static_cast<std::uint32_t>(found.near.size()) - first, patches_[part.part],
-                            part.part, fields_ ? fields_->at(part.part, part.foot) : 0, norm(part.foot - position)});
+                            part.part, fields_ ? fields_->under(part.part, part.foot) : FieldShare{},
+                            norm(part.foot - position)});
     ++stands;
   }
   if (stands > 0) found.stands_of.push_back(stands);

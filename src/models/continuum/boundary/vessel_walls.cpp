@@ -96,7 +96,7 @@ void VesselWalls::meet(std::size_t slot, const Vector3& position, double smoothi
     const Vector3 normal{wall.sums.normal[0], wall.sums.normal[1], wall.sums.normal[2]};
     const double size = norm(normal);
     if (!(size > 0)) continue;
-    wall.patch = stand.patch, wall.part = stand.part, wall.stand = s, wall.field = stand.field;
+    wall.patch = stand.patch, wall.part = stand.part, wall.stand = s, wall.fields = stand.fields;
     wall.normal = (1 / size) * normal;
     wall.distance = wall.sums.distance / wall.sums.weight;
     wall.share = share_of_plane(wall.sums.weight * smoothing_length, wall.distance / smoothing_length);

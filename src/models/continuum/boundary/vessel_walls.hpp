@@ -30,7 +30,7 @@ namespace talus::continuum {
 struct NearWall {
   std::uint32_t patch = 0, part = 0;
   std::uint32_t stand = 0;  ///< number of the particle's stand at this part
-  std::uint32_t field = 0;  ///< of the part that was nearest to the particle when lists were built: it notes the load
+  FieldShare fields;        ///< of the part that the particle faced when lists were built: they note the load
   Vector3 normal;           ///< unit, towards the particle; the mean of what the particle sees of it
   double distance = 0;      ///< from it, m
   double share = 0;         ///< that it covers of a plane without end at that distance, 0 to 1
@@ -111,7 +111,8 @@ class VesselWalls {
   /// A particle at a smooth part of a wall.
   struct Stand {
     std::uint32_t first, count;  ///< of its points in near_, with those that fill up registers
-    std::uint32_t patch, part, field;
+    std::uint32_t patch, part;
+    FieldShare fields;
     double distance;  ///< from the plane of the nearest of them at least, m
   };
   struct Found;

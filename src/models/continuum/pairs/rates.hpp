@@ -33,9 +33,9 @@ struct WallAccelerations {
 /// The force of a smooth part of a wall on a particle.
 struct WallForce {
   std::uint32_t patch = 0;
-  std::uint32_t field = 0;  ///< NearWall::field
-  Vector3 normal;           ///< unit, towards the particle
-  Vector3 acceleration;     ///< m/s^2
+  FieldShare fields;     ///< NearWall::fields
+  Vector3 normal;        ///< unit, towards the particle
+  Vector3 acceleration;  ///< m/s^2
 };
 struct WallForces {
   std::size_t count = 0;  // stands first: with the first force it is all that most particles need

@@ -6,6 +6,7 @@
 #include "base/random.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/setup/wall_fitting.hpp"
 #include "models/continuum/step.hpp"
 
 namespace talus::continuum {
@@ -58,6 +59,8 @@ State initial_state(const Setup& setup) {
                .lasting_rate = draws_by_lasting_rate(parameters),
                .deformation_rate = parameters.sph.hourglass_damping > 0};
   for (const std::size_t n : setup.beds) add_bed(setup.with_bed_alone(n), tag_of(parameters, n), state);
+  const std::size_t given = parameters.bed.given ? parameters.bed.given->position.size() : 0;
+  fit_to_walls(*setup.boundary, parameters.bed.spacing, given, state.position);
   displace(parameters, state.position);
   const std::size_t count = state.position.size();
   for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));

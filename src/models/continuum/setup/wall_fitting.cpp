@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/setup/wall_fitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "numerics/neighbourhood.hpp"
+#include "numerics/surface/triangle.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+// Lengths in spacings.
+constexpr double reach = 2;                      // of the repulsion
+constexpr double moves_within = 2.5, fades = 1;  // distance from a wall; from where on less and less
+constexpr double gain = 0.08, max_move = 0.1;    // of a sweep
+constexpr double max_way = 0.75;                 // from the lattice: beside a free side of a bed there is no balance
+constexpr double settled = 0.005;                // the largest move of the last sweep
+constexpr double skin = 0.5;                     // of the lists
+constexpr int max_sweeps = 60;
+constexpr double min_cosine = 0.95;  // of a foot's direction and its triangle's normal: else it is on a rim
+constexpr std::size_t max_triangles = 64;
+
+struct Plane {
+  Vector3 foot, normal;  ///< towards the particle
+};
+
+/// The planes of the smooth parts of the walls that a particle sees, each at the place nearest to it.
+std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double within) {
+  struct Near {
+    std::uint32_t triangle;
+    Vector3 foot;
+    double distance;
+  };
+  thread_local std::vector<std::uint32_t> triangles;
+  triangles.clear();
+  surface.near(x, within, max_triangles, triangles);
+  std::vector<Near> parts;
+  for (const std::uint32_t t : triangles) {
+    const Vector3 foot = nearest_place(surface.triangles()[t], x);
+    const double distance = norm(x - foot);
+    if (!(distance < within)) continue;
+    const auto same = std::find_if(parts.begin(), parts.end(),
+                                   [&](const Near& other) { return surface.part(other.triangle) == surface.part(t); });
+    if (same == parts.end())
+      parts.push_back({t, foot, distance});
+    else if (distance < same->distance)
+      *same = {t, foot, distance};
+  }
+  std::vector<Plane> planes;
+  for (const Near& near : parts) {
+    const Vector3 normal = (1 / near.distance) * (x - near.foot);
+    const bool is_within = std::abs(dot(normal, surface.normal(near.triangle))) > min_cosine;
+    if (is_within && !surface.blocks(x, near.foot + 0.01 * (x - near.foot))) planes.push_back({near.foot, normal});
+  }
+  return planes;
+}
+
+/// Of one on another that is d away; d in spacings. Its potential falls to zero at the reach.
+Vector3 repulsion(const Vector3& d) {
+  const double q = norm(d) / reach, steep = 20 / reach;
+  return q > 0 && q < 1 ? steep * (1 - q) * (1 - q) * (1 - q) * d : Vector3{};
+}
+
+}  // namespace
+
+void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, std::vector<Vector3>& positions) {
+  const Surface& surface = boundary.vessel();
+  const Domain& domain = boundary.domain();
+  if (surface.is_empty()) return;
+  ThreadTeam team;
+  Neighbourhood neighbourhood(domain, surface);
+  const std::size_t count = positions.size();
+  const std::vector<double> radius(count, 0.5 * reach * spacing);
+  const std::vector<Vector3> lattice = positions;
+  std::vector<Vector3> next = positions;
+  double moved = 0;  // since the lists were built, at most
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
+    if (sweep == 0 || moved > 0.5 * skin * spacing)
+      neighbourhood.build(team, positions, radius, skin * spacing), moved = 0;
+    double largest = 0;
+    for (std::size_t i = first; i < count; ++i) {
+      const Vector3 x = positions[i];
+      if (neighbourhood.distance_from_vessel(i) > (moves_within + 0.5 * skin) * spacing) continue;
+      const auto wall = surface.nearest(x, moves_within * spacing);
+      if (!wall) continue;
+      const std::vector<Plane> planes = planes_near(surface, x, reach * spacing);
+      Vector3 push;
+      for (const Plane& plane : planes) push += repulsion((2 / spacing) * (x - plane.foot));
+      for (const std::uint32_t n : neighbourhood.of(i)) {
+        const bool is_ghost = n >= count;
+        const Ghost ghost = is_ghost ? neighbourhood.ghosts()[n - count] : Ghost{};
+        const Vector3 y = is_ghost ? neighbourhood.image(ghost).position(positions[ghost.source]) : positions[n];
+        push += repulsion((1 / spacing) * (x - y));
+        for (const Plane& plane : planes) {
+          const double above = dot(y - plane.foot, plane.normal);
+          if (above > 0) push += repulsion((1 / spacing) * (x - y + (2 * above) * plane.normal));
+        }
+      }
+      push.z = 0;
+      const double share = std::clamp((moves_within - wall->distance / spacing) / fades, 0.0, 1.0);
+      Vector3 move = (gain * share) * push;
+      if (const double size = norm(move); size > max_move) move = (max_move / size) * move;
+      const Vector3 to = x + spacing * move;
+      const bool is_far = norm(to - lattice[i]) > max_way * spacing;
+      if (is_far || surface.blocks(x, to) || domain.bounce(x, to) || domain.back_into_sector(to)) continue;
+      next[i] = to;
+      largest = std::max(largest, norm(move));
+    }
+    positions = next;
+    moved += largest * spacing;
+    if (largest < settled) break;
+  }
+}
+
+}  // namespace talus::continuum
