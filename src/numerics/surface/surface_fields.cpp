@@ -46,7 +46,8 @@ void for_each_piece(const Surface& surface, double edge, Visit&& visit) {
 
 }  // namespace
 
-SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector)
+SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector,
+                             const Vector3& low, const Vector3& high)
     : size_(size), sector_(sector) {
   if (surface.is_empty()) return;
   fields_ = sector ? spread_points(surface, size, *sector) : spread_points(surface, size);
@@ -67,17 +68,19 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   of_cells_.resize(fields_.size());
   for (std::uint32_t n = 0; n < fields_.size(); ++n) of_cells_[next[cell[n]]++] = n;
-  find_areas(surface);
+  find_areas(surface, low, high);
 }
 
-void SurfaceFields::find_areas(const Surface& surface) {
+void SurfaceFields::find_areas(const Surface& surface, const Vector3& low, const Vector3& high) {
   const std::size_t copies = sector_ ? static_cast<std::size_t>(sector_->copies()) : 1, own = fields_.size() / copies;
   std::vector<double> area(own, 0.0);
   for_each_piece(surface, max_piece * size_, [&](std::uint32_t t, const Triangle& piece) {
-    area[at(surface.part(t), piece.middle()) % own] += norm(piece.area()) / static_cast<double>(copies);
+    const Vector3 x = piece.middle();
+    for (int axis = 0; axis < 3; ++axis)
+      if (x[axis] < low[axis] || x[axis] > high[axis]) return;
+    area[at(surface.part(t), x) % own] += norm(piece.area()) / static_cast<double>(copies);
   });
-  for (std::size_t n = 0; n < fields_.size(); ++n)
-    if (area[n % own] > 0) fields_[n].area = area[n % own];
+  for (std::size_t n = 0; n < fields_.size(); ++n) fields_[n].area = area[n % own];
 }
 
 std::array<int, 3> SurfaceFields::cell_of(const Vector3& x) const {

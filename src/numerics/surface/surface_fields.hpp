@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,14 +21,19 @@ struct FieldShare {
 };
 
 class SurfaceFields {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
  public:
   SurfaceFields() = default;
   /// \param size of a field, > 0, m: at most its side, spread_points() \param sector of which the surface has copies
-  SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector = {});
+  /// \param low, high corners of the box within which the surface counts, m
+  SurfaceFields(const Surface& surface, double size, const std::optional<Sector>& sector = {},
+                const Vector3& low = {-infinity, -infinity, -infinity},
+                const Vector3& high = {infinity, infinity, infinity});
 
   std::size_t count() const { return fields_.size(); }
-  /// The middle and normal of each, the area of what is nearer to this middle than to others of its smooth part, and
-  /// the patch and part to which it belongs.
+  /// The middle and normal of each, the area of what counts and is nearer to this middle than to others of its smooth
+  /// part, and the patch and part to which it belongs.
   std::span<const SurfacePoint> all() const { return fields_; }
 
   /// The field of a smooth part that is nearest to a position; of several as near the first. \pre the part has an area
@@ -47,7 +53,7 @@ class SurfaceFields {
   }
 
  private:
-  void find_areas(const Surface& surface);
+  void find_areas(const Surface& surface, const Vector3& low, const Vector3& high);
 
   double size_ = 0;
   std::optional<Sector> sector_;

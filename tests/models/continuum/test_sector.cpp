@@ -141,7 +141,7 @@ TEST(Sector, TheBedIsThatOfTheWholeVessel) {
     for (std::size_t i = 0; i < s.position.size(); ++i) {
       EXPECT_EQ(sector_of(p)->copy_at(s.position[i]), 0);
       for (std::size_t j = 0; j < all.position.size(); ++j)
-        if (i != j && sector_of(p)->radius(s.position[i]) > 3 * spacing)
+        if (i != j && sector_of(p)->radius(s.position[i]) > 3.5 * spacing)
           nearest = std::min(nearest, norm(all.position[j] - s.position[i]) / spacing);
     }
     EXPECT_GT(nearest, 0.6) << "also across the faces";

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -48,6 +49,55 @@ TEST(SurfaceFields, APlaceBelongsToTheNearestOfItsPart) {
   }
   const std::uint32_t far = fields.at(surface.part(0), {0, 9, 9});
   EXPECT_EQ(fields.all()[far].part, surface.part(0)) << "also of a place beyond the reach of its grid";
+}
+
+TEST(SurfaceFields, TheAreaOfAFieldIsWhereItsLoadsComeFrom) {
+  // Loads spread evenly over a wall are the same pressure on all of its fields, whatever their shapes.
+  const Surface surface(tube_with_floor(), 2);
+  const SurfaceFields fields(surface, 0.4);
+  std::vector<double> load(fields.count());
+  constexpr int around = 2400, along = 500;
+  const double own = area_of(tube(24)) / (around * along);
+  for (int m = 0; m < around; ++m)
+    for (int n = 0; n < along; ++n) {
+      const double facet = std::floor(m / 100.0), share = (m % 100 + 0.5) / 100;  // of 24
+      const auto corner = [](double at) {
+        const double angle = 2 * std::numbers::pi * at / 24;
+        return Vector3{std::cos(angle), std::sin(angle), 0};
+      };
+      Vector3 place = (1 - share) * corner(facet) + share * corner(facet + 1);
+      place.z = surface.low().z + (surface.high().z - surface.low().z) * (n + 0.5) / along;
+      load[fields.at(surface.part(0), place)] += own;
+    }
+  for (std::size_t n = 0; n < fields.count(); ++n)
+    if (fields.all()[n].part == surface.part(0)) {
+      EXPECT_NEAR(load[n] / fields.all()[n].area, 1, 0.2) << n;
+    }
+}
+
+TEST(SurfaceFields, AFootprintIsSharedWhereAnotherFieldBegins) {
+  const Surface surface(tube_with_floor(), 2);
+  const SurfaceFields fields(surface, 0.4);
+  const std::uint32_t wall = surface.part(0);
+  for (int n = 0; n < 200; ++n) {
+    const Vector3 place{std::cos(0.7 * n), std::sin(0.7 * n), surface.low().z + 0.2 + 0.005 * n};
+    const FieldShare found = fields.under(wall, place);
+    int first = 0;
+    constexpr int tries = 1000;  // along the footprint, 0.2 high
+    for (int k = 0; k < tries; ++k)
+      first += fields.at(wall, place + Vector3{0, 0, 0.2 * ((k + 0.5) / tries - 0.5)}) == found.field ? 1 : 0;
+    EXPECT_NEAR(static_cast<double>(first) / tries, found.share, 0.01) << n;
+  }
+  const std::uint32_t floor = surface.part(surface.triangles().size() - 1);
+  EXPECT_EQ(fields.under(floor, {0.21, 0.1, 0}).share, 1) << "a level part has no line of steepest descent";
+}
+
+TEST(SurfaceFields, OnlyAreaWithinTheBoxCounts) {
+  const Surface surface(tube_with_floor(), 2);
+  const SurfaceFields half(surface, 0.1, {}, {0, -9, -9}, {9, 9, 9});
+  double area = 0;
+  for (const SurfacePoint& field : half.all()) area += field.area;
+  EXPECT_NEAR(area, 0.5 * area_of(tube_with_floor()), 0.01 * area);
 }
 
 TEST(SurfaceFields, TheMeshIsTheSurfaceCutFine) {

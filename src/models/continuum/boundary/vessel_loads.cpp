@@ -30,14 +30,21 @@ Vector3 along(const Vector3& traction, const Vector3& normal) {
   return traction - dot(traction, normal) * normal;
 }
 
-bool is_inside(const Parameters& p, const Vector3& x) {
-  return x.x >= 0 && x.x <= p.box.width && x.y >= 0 && x.y <= p.box.depth;
+/// What turns an impulse into a mean pressure, 1/(m^2 s); 0 outside the box.
+double per_area(const SurfacePoint& field, double duration) {
+  return field.area > 0 ? 1 / (duration * field.area) : 0;
 }
 
 }  // namespace
 
 SurfaceFields load_fields(const Layout& layout) {
-  return {layout.boundary->vessel(), size_of_field * layout.given.bed.spacing, layout.sector()};
+  const Parameters& p = layout.given;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {layout.boundary->vessel(),
+          size_of_field * p.bed.spacing,
+          layout.sector(),
+          {0, 0, -infinity},
+          {p.box.width, p.box.depth, infinity}};
 }
 
 WallLoads no_loads(std::size_t fields, double unit) {
@@ -90,7 +97,7 @@ void close_window(const SurfaceFields& fields, double time, double length, WallL
   const double duration = time - w.window_start;
   if (duration < length) return;
   for (std::size_t n = 0; n < fields.count(); ++n) {
-    const double over = 1 / (duration * fields.all()[n].area);
+    const double over = per_area(fields.all()[n], duration);
     w.pressure[n] = over * w.point.value(w.window_push[n]);
     w.traction[n] = over * w.in_window(n);
     if (w.pressure[n] > w.max_pressure[n]) {
@@ -153,13 +160,11 @@ std::vector<LoadBand> load_bands(const Parameters& p, const SurfaceFields& field
     const auto k = std::min(count - 1, static_cast<std::size_t>(std::max(0.0, place * static_cast<double>(count))));
     LoadBand& band = bands[begin + k];
     band.fields.push_back(n);
-    if (is_inside(p, field.place)) band.area += field.area;
+    band.area += field.area;
     band.sine += field.area * std::abs(field.normal.z);
   }
   for (LoadBand& band : bands) {
-    double area = 0;
-    for (const std::uint32_t n : band.fields) area += fields.all()[n].area;
-    if (area > 0) band.sine /= area;
+    if (band.area > 0) band.sine /= band.area;
   }
   return bands;
 }
@@ -190,7 +195,7 @@ SurfaceSnapshot loads_on(const FieldMesh& mesh, const SurfaceFields& fields, con
   };
   const double flow = gate_time >= 0 ? time - gate_time : 0;
   const auto normal = [&](std::size_t n) { return fields.all()[n].normal; };
-  const auto since_gate = [&](std::size_t n) { return flow > 0 ? 1 / (flow * fields.all()[n].area) : 0.0; };
+  const auto since_gate = [&](std::size_t n) { return flow > 0 ? per_area(fields.all()[n], flow) : 0.0; };
   add("pressure", "Pa", [&](std::size_t n) { return w.pressure[n]; });
   add("shear", "Pa", [&](std::size_t n) { return along(w.traction[n], normal(n)); });
   add("pressure_at_rest", "Pa", [&](std::size_t n) { return w.rest_pressure[n]; });

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "numerics/neighbourhood.hpp"
 #include "numerics/surface/triangle.hpp"
+#include "physics/sph/wall_contact.hpp"
 
 namespace talus::continuum {
 
@@ -21,11 +23,16 @@ constexpr double settled = 0.005;                // the largest move of the last
 constexpr double skin = 0.5;                     // of the lists
 constexpr int max_sweeps = 60;
 constexpr double min_cosine = 0.95;  // of a foot's direction and its triangle's normal: else it is on a rim
-constexpr std::size_t max_triangles = 64;
+constexpr double min_slope = 0.25;   // of the walls that are fitted to, slope_of(): 30 degrees
 
 struct Plane {
   Vector3 foot, normal;  ///< towards the particle
 };
+
+/// The square of the sine of its angle with the horizontal.
+double slope_of(const Plane& plane) {
+  return plane.normal.x * plane.normal.x + plane.normal.y * plane.normal.y;
+}
 
 /// The planes of the smooth parts of the walls that a particle sees, each at the place nearest to it.
 std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double within) {
@@ -35,8 +42,7 @@ std::vector<Plane> planes_near(const Surface& surface, const Vector3& x, double 
     double distance;
   };
   thread_local std::vector<std::uint32_t> triangles;
-  triangles.clear();
-  surface.near(x, within, max_triangles, triangles);
+  for (std::size_t most = 64; triangles.clear(), !surface.near(x, within, most, triangles);) most *= 4;
   std::vector<Near> parts;
   for (const std::uint32_t t : triangles) {
     const Vector3 foot = nearest_place(surface.triangles()[t], x);
@@ -64,6 +70,21 @@ Vector3 repulsion(const Vector3& d) {
   return q > 0 && q < 1 ? steep * (1 - q) * (1 - q) * (1 - q) * d : Vector3{};
 }
 
+/// What brings a particle as far from the plane as walls hold it, within its level.
+Vector3 off_wall(const Plane& plane, const Vector3& x, double spacing) {
+  const double missing = sph::contact_distance * spacing - dot(x - plane.foot, plane.normal);
+  const double slope = slope_of(plane);
+  return missing > 0 && slope > min_slope ? (missing / slope) * Vector3{plane.normal.x, plane.normal.y, 0} : Vector3{};
+}
+
+/// A particle that has left through a periodic face or a side of a sector, and where it began with it.
+void bring_back(const Domain& domain, Vector3& x, Vector3& began) {
+  const Vector3 wrapped = domain.wrap(x);
+  began += wrapped - x, x = wrapped;
+  if (const std::optional<Image> image = domain.back_into_sector(x))
+    x = image->position(x), began = image->position(began);
+}
+
 }  // namespace
 
 void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, std::vector<Vector3>& positions) {
@@ -74,19 +95,25 @@ void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, s
   Neighbourhood neighbourhood(domain, surface);
   const std::size_t count = positions.size();
   const std::vector<double> radius(count, 0.5 * reach * spacing);
-  const std::vector<Vector3> lattice = positions;
+  std::vector<Vector3> lattice = positions;
   std::vector<Vector3> next = positions;
   double moved = 0;  // since the lists were built, at most
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-    if (sweep == 0 || moved > 0.5 * skin * spacing)
-      neighbourhood.build(team, positions, radius, skin * spacing), moved = 0;
+    if (sweep == 0 || moved > 0.5 * skin * spacing) {
+      for (std::size_t i = 0; i < count; ++i) bring_back(domain, positions[i], lattice[i]);
+      neighbourhood.build(team, positions, radius, skin * spacing);
+      next = positions, moved = 0;
+    }
     double largest = 0;
     for (std::size_t i = first; i < count; ++i) {
       const Vector3 x = positions[i];
       if (neighbourhood.distance_from_vessel(i) > (moves_within + 0.5 * skin) * spacing) continue;
-      const auto wall = surface.nearest(x, moves_within * spacing);
-      if (!wall) continue;
-      const std::vector<Plane> planes = planes_near(surface, x, reach * spacing);
+      const std::vector<Plane> planes = planes_near(surface, x, moves_within * spacing);
+      double distance = moves_within * spacing;
+      for (const Plane& plane : planes)
+        if (slope_of(plane) > min_slope) distance = std::min(distance, norm(x - plane.foot));
+      const double share = std::min((moves_within - distance / spacing) / fades, 1.0);
+      if (!(share > 0)) continue;
       Vector3 push;
       for (const Plane& plane : planes) push += repulsion((2 / spacing) * (x - plane.foot));
       for (const std::uint32_t n : neighbourhood.of(i)) {
@@ -100,19 +127,20 @@ void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, s
         }
       }
       push.z = 0;
-      const double share = std::clamp((moves_within - wall->distance / spacing) / fades, 0.0, 1.0);
       Vector3 move = (gain * share) * push;
       if (const double size = norm(move); size > max_move) move = (max_move / size) * move;
-      const Vector3 to = x + spacing * move;
+      Vector3 to = x + spacing * move;
+      for (const Plane& plane : planes) to += off_wall(plane, to, spacing);
       const bool is_far = norm(to - lattice[i]) > max_way * spacing;
-      if (is_far || surface.blocks(x, to) || domain.bounce(x, to) || domain.back_into_sector(to)) continue;
+      if (is_far || surface.blocks(x, to) || domain.bounce(x, to)) continue;
       next[i] = to;
       largest = std::max(largest, norm(move));
     }
-    positions = next;
     moved += largest * spacing;
+    positions = next;
     if (largest < settled) break;
   }
+  for (std::size_t i = 0; i < count; ++i) bring_back(domain, positions[i], lattice[i]);
 }
 
 }  // namespace talus::continuum

@@ -104,7 +104,7 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   double time = 0;
   const auto press = [&](double force, int windows) {
     for (int n = 0; n < 10 * windows; ++n) {
-      add_load({2, force * 1e-3, {0.25 * force * 1e-3, 0, -force * 1e-3}}, fields, loads);
+      add_load({{2, 2, 1}, force * 1e-3, {0.25 * force * 1e-3, 0, -force * 1e-3}}, fields, loads);
       close_window(fields, time += 1.0001e-3, 10e-3, loads);
     }
   };
@@ -125,6 +125,32 @@ TEST(Vessel, LoadsAtRestAndTheLargestAreMeansOverWindows) {
   for (std::size_t n = 0; n < mesh.field.size(); ++n)
     EXPECT_NEAR(in_flow[n], mesh.field[n] == 2 ? 1 / area : 0, 1e-3 / area);
   EXPECT_EQ(loads.push[0], 0);
+}
+
+TEST(Vessel, ALoadIsSharedByTwoFieldsAndKeptWhole) {
+  Parameters p = room(4, 4, 8);
+  p.vessel = {plate("bottom", {0, 0, 2}, {4, 0, 0}, {0, 4, 0})};
+  const SurfaceFields fields = load_fields(Layout(p));
+  WallLoads loads = no_loads(4, 1);
+  add_load({{2, 1, 0.25F}, 8, {0, 4, -8}}, fields, loads);
+  EXPECT_EQ(loads.push_of(2), 2);
+  EXPECT_EQ(loads.push_of(1), 6);
+  EXPECT_EQ(loads.received_of(2), Vector3(0, 1, -2));
+  EXPECT_EQ(loads.received_of(1), Vector3(0, 3, -6));
+}
+
+TEST(Vessel, OnlyWhatLiesInTheBoxCountsAsAreaOfABand) {
+  // A quarter of a cylinder between two planes of symmetry through its axis.
+  Parameters p = room(12, 12, 20);
+  VesselPart bin = named("bin", VesselShape::cylinder);
+  bin.centre = {0, 0};
+  bin.radius = 10 * spacing, bin.bottom = 2 * spacing, bin.top = 18 * spacing;
+  p.vessel = {bin};
+  const SurfaceFields fields = load_fields(Layout(p));
+  double area = 0;
+  for (const LoadBand& band : load_bands(p, fields)) area += band.area;
+  const double quarter = 0.5 * std::numbers::pi * 10 * 16 * spacing * spacing;
+  EXPECT_NEAR(area, quarter, 0.01 * quarter);
 }
 
 TEST(Vessel, FloorAndWallOfACylinderBearTheHydrostaticLoad) {
