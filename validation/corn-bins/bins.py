@@ -55,7 +55,8 @@ def measure_bin(folder, diameter, spacing):
         return (run.series[column][-1] - np.interp(time[-1] - MEAN, time, run.series[column])) / MEAN
 
     upward = -force("impulse_wall_z") - force("impulse_floor_of_it_z")
-    return {"z": 0.5 * (bands["low"][wall] + bands["high"][wall]) - FLOOR, "pressure": 1e-3 * bands["pressure_at_rest"][wall],
+    return {"z": 0.5 * (bands["low"][wall] + bands["high"][wall]) - FLOOR, "band": bands["high"][wall][0] - bands["low"][wall][0],
+            "pressure": 1e-3 * bands["pressure_at_rest"][wall],
             "shear": 1e-3 * bands["shear_at_rest"][wall], "hand": 1e-3 * bands["pressure_at_rest_by_hand"][wall],
             "edge": stress[lowest & beyond].mean() / stress[lowest & ~beyond].mean(),
             "balance": upward / -force("impulse_gravity_z") - 1, "particles": len(x)}
@@ -66,7 +67,13 @@ def measure(options):
              for diameter, _ in BINS]
     runs = sum(found, [])
     largest = [[run["pressure"].max() for run in runs_of_bin] for runs_of_bin in found]
-    return {"wide": np.mean(largest[0]), "narrow": np.mean(largest[1]), "edge": max(run["edge"] for run in runs),
+    scatter = [np.abs(np.array(of_bin) / np.mean(of_bin) - 1).max() for of_bin in largest]
+    beside_janssen = []
+    for (_, depth), of_bin in zip(BINS, found):
+        for spacing, run in zip(SPACINGS, of_bin):
+            counted = (run["z"] > run["band"] / 2 + 2e-3 * spacing) & (run["z"] + run["band"] / 2 < depth)
+            beside_janssen.append(np.abs(run["pressure"] - run["hand"])[counted].max() / run["hand"][counted].max())
+    return {"scatter": max(scatter), "janssen": max(beside_janssen), "wide": np.mean(largest[0]), "narrow": np.mean(largest[1]), "edge": max(run["edge"] for run in runs),
             "balance": max((run["balance"] for run in runs), key=abs)}, found
 
 

@@ -29,7 +29,7 @@ Shortening sector() {
   return s;
 }
 
-Shortening softer_grains(double modulus) {
+Shortening softer_grains(double modulus, double shear_over_bulk) {
   return {
       .alternatives = {{fmt::format("law.critical-state.bulk_modulus={:.4g} MPa", 1e-6 * modulus),
                         fmt::format("law.critical-state.shear_modulus={:.4g} MPa", 1e-6 * shear_over_bulk * modulus)}},
@@ -62,7 +62,7 @@ std::vector<Shortening> shorter_runs(const continuum::Layout& layout, double end
   if (p.law.is<granular::CriticalState>()) {
     const double modulus = bulk_modulus_for(layout, end);
     if (modulus > 0 && p.law.of<granular::CriticalState>().bulk_modulus > 1.05 * modulus)
-      all.push_back(softer_grains(modulus));
+      all.push_back(softer_grains(modulus, shear_over_bulk(p.grains.material)));
   }
   if (p.integration.pair_precision == continuum::PairPrecision::in_double)
     all.push_back({.alternatives = {{"integration.pair_precision=single"}}, .text = "sums over pairs to some 1e-6"});

@@ -26,7 +26,7 @@ LawCase read_law_case(const CaseFile& file) {
   reader.check(parameters, [](const LawCase& read) { return granular::check(read.law); });
   auto& critical = parameters.law.of<granular::CriticalState>();
   if (part.contains("law.critical-state.bulk_modulus") && !part.contains("law.critical-state.shear_modulus"))
-    critical.shear_modulus = shear_over_bulk * critical.bulk_modulus;
+    critical.shear_modulus = shear_over_bulk(material_of(file)) * critical.bulk_modulus;
   reader.finish();
   return parameters;
 }

@@ -221,11 +221,18 @@ double speed_of_fall(const continuum::Layout& layout) {
 
 }  // namespace
 
+double shear_over_bulk(std::optional<GrainMaterial> material) {
+  const auto solid = material ? solid_of_code(*material) : std::nullopt;
+  if (!solid) return 0.6;
+  return 1.5 * (1 - solid->ratio) / (1 + 2 * solid->ratio);
+}
+
 double bulk_modulus_for(const continuum::Layout& layout, double end) {
   const continuum::Parameters& p = layout.given;
   const double density = p.bed.packing * p.grains.density, speed = speed_of_fall(layout) / max_mach_number_of_fall;
+  const double shear = shear_over_bulk(p.grains.material);
   return std::max(moduli_over_weight * (density * p.gravity.acceleration * depth_that_may_be_reached(layout, end)),
-                  density * speed * speed / (1 + 4.0 / 3 * shear_over_bulk));
+                  density * speed * speed / (1 + 4.0 / 3 * shear));
 }
 
 void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double end, continuum::Parameters& p,
@@ -240,7 +247,7 @@ void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double 
   set("law.critical-state.bulk_modulus", law.bulk_modulus, bulk_modulus_for(layout, end));
   if (p.bed.packing >= law.random_loose_packing)
     set("law.critical-state.reference_packing", law.reference_packing, p.bed.packing);
-  set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk * law.bulk_modulus);
+  set("law.critical-state.shear_modulus", law.shear_modulus, shear_over_bulk(p.grains.material) * law.bulk_modulus);
 }
 
 }  // namespace talus::app

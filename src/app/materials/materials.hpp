@@ -68,8 +68,10 @@ std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& param
 /// run, s
 double bulk_modulus_for(const continuum::Layout& layout, double end);
 
-/// The shear modulus over the bulk modulus, as in the paper's law at zero strain.
-inline constexpr double shear_over_bulk = 0.6;
+/// The shear modulus over the bulk modulus. Of a material that EN 1991-4 lists so that a bed which its own weight loads
+/// has the code's lateral pressure ratio K: below yield (1 - 2 G/3K_b)/(1 + 4 G/3K_b) without strain to the sides. Of
+/// others 0.6, as in the paper's law at zero strain.
+double shear_over_bulk(std::optional<continuum::GrainMaterial> material);
 
 /// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The
 /// packing at which the grains just touch: the bed's, so that it bears no pressure before its weight, unless so loose

@@ -129,7 +129,8 @@ std::string grains_of_material(const Answers& a, bool rubs_from_start) {
 
 /// How the bed settles, by the time (D/g)^½ of a length D: the outlet's width, or the height of a bed without one.
 /// \param creeps whether a lattice of particles may go on creeping: along inclined walls, or beside one that goes
-std::string settling(double length, bool creeps) {
+/// \param layers whether the weight comes on in layers, for loads on walls as those of a silo that has been filled
+std::string settling(double length, bool creeps, bool layers = false) {
   const double time = std::sqrt(length / gravity), speed = std::sqrt(length * gravity);
   const auto two_digits = [](double value) {
     const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
@@ -139,18 +140,19 @@ std::string settling(double length, bool creeps) {
   if (creeps)
     text += fmt::format("speed = {}\nduration = {}\n", written(two_digits(3.2e-3 * speed), "mm/s"),
                         written(two_digits(0.15 * time), "ms"));
-  return text + "\n";
+  return text + (layers ? "filling = \"layers\"\n\n" : "\n");
 }
 
 /// The gate, and how the bed settles before it opens. \param inclined walls, along which particles go on creeping
-std::string opening(const Answers& a, bool inclined) {
+/// \param layers of settling()
+std::string opening(const Answers& a, bool inclined, bool layers = false) {
   if (a.has("gate"))
     return fmt::format("[gate]\nopens = \"at-time\"\ntime = {}\n\n", written(a["gate"], "s")) +
            settling(a["outlet"], false);
   const std::string& opens = a.word("gate");
   std::string text = fmt::format("[gate]\nopens = \"{}\"\n\n", opens);
   if (opens != "when-settled") return text;
-  return text + settling(a["outlet"], inclined);
+  return text + settling(a["outlet"], inclined, layers);
 }
 
 /// The outlet against the vessel above it, and the bed against the particles, a part of the outlet.
@@ -324,7 +326,7 @@ std::string write_silo(const Answers& a) {
       "# Shuts the outlet until the gate opens.\n[[vessel]]\nname = \"gate\"\nshape = \"disc\"\nradius = {}\nheight = "
       "{}\ngate = true\n\n",
       written(0.5 * outlet, "mm"), written(drop, "mm"));
-  text += opening(a, true);
+  text += opening(a, true, true);
   if (removal) text += fmt::format("[removal]\nbelow = {}\n\n", written(0.25 * drop, "mm"));
   text += grains_of_material(a, true);
   text += fmt::format(

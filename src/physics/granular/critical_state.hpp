@@ -66,9 +66,12 @@ class CriticalState {
                     "pressure over the logarithm of the packing over that at which the grains just touch; left out: a "
                     "thousand times the weight of the bed over its area (talus law and a bed without weight: 4.9 MPa)"},
           p.bulk_modulus);
-    visit(Parameter{"shear_modulus", dimension::pressure, above(0),
-                    "shear modulus below yield; left out: 0.6 times bulk_modulus"},
-          p.shear_modulus);
+    visit(
+        Parameter{
+            "shear_modulus", dimension::pressure, above(0),
+            "shear modulus below yield; left out: 0.6 times bulk_modulus, of a material of EN 1991-4 so that its bed "
+            "at rest has the lateral pressure ratio of the code"},
+        p.shear_modulus);
     visit(Parameter{"static_friction", dimension::none, friction_coefficient(),
                     "mu_s, friction coefficient of slow flow at the critical packing, in simple shear"},
           p.static_friction);

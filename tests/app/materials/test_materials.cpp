@@ -8,6 +8,9 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "physics/granular/material_path.hpp"
 
 namespace talus::app {
 namespace {
@@ -140,12 +143,30 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
   set_from_bed(file, continuum::Layout(p), 1, p, filled);
   const auto& law = p.law.of<granular::CriticalState>();
   EXPECT_NEAR(law.bulk_modulus, 1000 * 0.6 * 1350 * 10 * 2, 1e-3);
-  EXPECT_NEAR(law.shear_modulus, 0.6 * law.bulk_modulus, 1e-3);
+  const double ratio = 0.54, shear = 1.5 * (1 - ratio) / (1 + 2 * ratio);
+  EXPECT_NEAR(law.shear_modulus, shear * law.bulk_modulus, 1e-3);
   const CaseFile given = a_case("[grains]\nmaterial = \"wheat\"\n[law.critical-state]\nbulk_modulus = \"1 MPa\"\n");
   p.law.of<granular::CriticalState>().bulk_modulus = 1e6;
   set_from_bed(given, continuum::Layout(p), 1, p, filled);
   EXPECT_EQ(law.bulk_modulus, 1e6);
-  EXPECT_NEAR(law.shear_modulus, 0.6e6, 1e-6);
+  EXPECT_NEAR(law.shear_modulus, shear * 1e6, 1e-6);
+}
+
+TEST(Materials, ABedAtRestHasTheLateralPressureRatioOfTheCode) {
+  for (const GrainMaterial material : {GrainMaterial::wheat, GrainMaterial::maize, GrainMaterial::sand}) {
+    granular::CriticalState::Parameters law;
+    law.bulk_modulus = 1e7, law.shear_modulus = shear_over_bulk(material) * law.bulk_modulus;
+    law.static_friction = 0.57;
+    const std::vector<granular::PathStretch> path = {{1, {.zz = -1e-3}}};
+    const auto stress = granular::follow_path(granular::make_law(law, 1350), path,
+                                              {.density = 0.6 * 1350, .max_increment = 1e-5, .points = 1})
+                            .back()
+                            .stress;
+    EXPECT_NEAR(stress.xx / stress.zz, solid_of_code(material)->ratio, 1e-3)
+        << choices<GrainMaterial>[static_cast<std::size_t>(material)];
+  }
+  EXPECT_EQ(shear_over_bulk({}), 0.6);
+  EXPECT_EQ(shear_over_bulk(GrainMaterial::glass_beads), 0.6) << "the code does not list them";
 }
 
 TEST(Materials, TheStiffnessFollowsWithoutAMaterialToo) {
