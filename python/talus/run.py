@@ -9,7 +9,7 @@ import numpy as np
 
 from talus.case import with_units
 from talus.column import Value
-from talus.snapshots import AirSnapshot, ParticleSnapshot, Snapshots
+from talus.snapshots import AirSnapshot, ParticleSnapshot, Snapshots, WallSnapshot
 from talus.table import Table
 from talus.trouble import RunError, unknown
 
@@ -18,7 +18,7 @@ class Run:
     """What a run has left in its folder so far; files are read when they are asked for.
 
     `manifest` (as written), `case` (resolved: tables of values with units, by key), `status`, `summary` (quantities with
-    units, by name), `key_results`, `series` (a Table), `snapshots` and `air` (Snapshots), `table("front_speed")` (of analysis/).
+    units, by name), `key_results`, `series` (a Table), `snapshots`, `air` and `walls` (Snapshots), `table("front_speed")` (of analysis/).
     """
 
     def __init__(self, folder):
@@ -80,6 +80,11 @@ class Run:
     @cached_property
     def air(self):
         return Snapshots(self.folder / "snapshots", "air", AirSnapshot)
+
+    @property
+    def walls(self):
+        """Of a vessel, with the loads on them."""
+        return Snapshots(self.folder / "snapshots", "walls", WallSnapshot)
 
     @cached_property
     def gate_time(self):

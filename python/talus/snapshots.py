@@ -20,12 +20,13 @@ class _Frame(Mapping):
     """The columns of one file by name."""
 
     kind = None  # the VTKHDF type
+    data = "PointData"  # where its columns are
 
     def __init__(self, path, number):
         self.path, self.number = Path(path), number
         self._read = {}
         with self._open() as file:
-            self._columns = list(file["VTKHDF/PointData"])
+            self._columns = list(file["VTKHDF"][self.data])
 
     def _open(self):
         try:
@@ -43,7 +44,7 @@ class _Frame(Mapping):
             raise unknown(self.path, "column", name, self._columns)
         if name not in self._read:
             with self._open() as file:
-                data = file["VTKHDF/PointData"][name]
+                data = file["VTKHDF"][self.data][name]
                 self._read[name] = Column(self._shaped(data[()]), _text(data.attrs.get("units", "1")))
         return self._read[name]
 
@@ -223,6 +224,65 @@ class AirSnapshot(_Frame):
         """A column over x and z, (nx, nz[, 3]): in the cells at the depth `y`, or in the middle of the depth."""
         j = self.shape[1] // 2 if y is None else int(np.abs(self.y - y).argmin())
         return self[name][:, j]
+
+
+class WallSnapshot(_Frame):
+    """The walls of a vessel at one time, as triangles: a column has a row for each. `points` (n, 3), `corners` (m, 3) numbers
+    of points, `middles`, `normals` (m, 3) and `areas` of the triangles. The loads are those of the field to which a triangle
+    belongs, two spacings wide."""
+
+    kind = "UnstructuredGrid"
+    data = "CellData"
+
+    @cached_property
+    def points(self):
+        with self._open() as file:
+            return Column(file["VTKHDF/Points"][()], "m")
+
+    @cached_property
+    def corners(self):
+        with self._open() as file:
+            return file["VTKHDF/Connectivity"][()].reshape(-1, 3)
+
+    @cached_property
+    def _spanned(self):
+        a, b, c = (np.asarray(self.points)[self.corners[:, n]] for n in range(3))
+        return 0.5 * np.cross(b - a, c - a)
+
+    @property
+    def middles(self):
+        return Column(np.asarray(self.points)[self.corners].mean(axis=1), "m")
+
+    @property
+    def normals(self):
+        return Column(self._spanned / np.linalg.norm(self._spanned, axis=1)[:, None], "1")
+
+    @property
+    def areas(self):
+        return Column(np.linalg.norm(self._spanned, axis=1), "m2")
+
+    @cached_property
+    def time(self):
+        with self._open() as file:
+            return float(file["VTKHDF/FieldData/time"][0])
+
+    @cached_property
+    def step(self):
+        with self._open() as file:
+            return int(file["VTKHDF/FieldData/step"][0])
+
+    def write_csv(self, path):
+        """A row a triangle: middle, normal, area and all columns; for programs of structural analysis."""
+        columns = {f"{axis} [m]": self.middles[:, n] for n, axis in enumerate("xyz")}
+        columns |= {f"normal_{axis} [1]": self.normals[:, n] for n, axis in enumerate("xyz")}
+        columns["area [m2]"] = self.areas
+        for name, values in self.items():
+            if values.ndim == 1:
+                columns[f"{name} [{values.units}]"] = values
+            else:
+                columns |= {f"{name}_{axis} [{values.units}]": values[:, n] for n, axis in enumerate("xyz")}
+        np.savetxt(path, np.column_stack([np.asarray(values, dtype=float) for values in columns.values()]), fmt="%.9g",
+                   delimiter=",", header=",".join(columns), comments="")
 
 
 class Snapshots:

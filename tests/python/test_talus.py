@@ -162,6 +162,22 @@ class OfASector(unittest.TestCase):
         self.assertRegex(value, r"has not started|still flows")
 
 
+    def test_loads_of_walls_are_written_by_element(self):
+        walls = self.read.walls[-1]
+        self.assertAlmostEqual(walls.areas.sum() / (np.pi * 0.02**2 + 2 * np.pi * 0.02 * 0.045), 1, delta=0.02)
+        floor = walls["patch"] == 1
+        np.testing.assert_allclose(abs(np.asarray(walls.normals)[floor]), [[0, 0, 1]] * floor.sum(), atol=1e-12)
+        walls.write_csv(self.folder / "loads.csv")
+        header, *rows = (self.folder / "loads.csv").read_text().splitlines()
+        self.assertEqual(len(rows), len(walls.corners))
+        names = header.split(",")
+        self.assertIn("pressure_at_rest [Pa]", names)
+        self.assertIn("shear_in_flow_z [Pa]", names)
+        last = dict(zip(names, map(float, rows[-1].split(","))))
+        self.assertAlmostEqual(last["z [m]"], walls.middles[-1, 2], places=8)
+        self.assertAlmostEqual(last["pressure [Pa]"], walls["pressure"][-1], delta=1e-6 * abs(walls["pressure"]).max())
+
+
 class Reading(OnARun):
     def test_case_has_units(self):
         case = self.read.case
