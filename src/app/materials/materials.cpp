@@ -224,7 +224,8 @@ double speed_of_fall(const continuum::Layout& layout) {
 double shear_over_bulk(std::optional<GrainMaterial> material) {
   const auto solid = material ? solid_of_code(*material) : std::nullopt;
   if (!solid) return 0.6;
-  return 1.5 * (1 - solid->ratio) / (1 + 2 * solid->ratio);
+  const double ratio = 1 - std::sin(solid->internal);
+  return 1.5 * (1 - ratio) / (1 + 2 * ratio);
 }
 
 double bulk_modulus_for(const continuum::Layout& layout, double end) {

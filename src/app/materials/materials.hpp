@@ -68,9 +68,10 @@ std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& param
 /// run, s
 double bulk_modulus_for(const continuum::Layout& layout, double end);
 
-/// The shear modulus over the bulk modulus. Of a material that EN 1991-4 lists so that a bed which its own weight loads
-/// has the code's lateral pressure ratio K: below yield (1 - 2 G/3K_b)/(1 + 4 G/3K_b) without strain to the sides. Of
-/// others 0.6, as in the paper's law at zero strain.
+/// The shear modulus G over the bulk modulus B. Of a material that EN 1991-4 lists so that a bed which has settled
+/// without strain to the sides has K = 1 - sin phi_i: below yield K = (1 - 2G/3B)/(1 + 4G/3B). Of others 0.6, as in the
+/// paper's law at zero strain. Source: Jaky, J. Soc. Hung. Eng. Archit. 78, 355 (1944); in a model bin of soybeans
+/// Atewologun, Riskowski & Muehling; the code's own K is 1.1 times as much.
 double shear_over_bulk(std::optional<continuum::GrainMaterial> material);
 
 /// What the law critical-state takes from the bed, where the case gives none. The moduli: bulk_modulus_for(). The

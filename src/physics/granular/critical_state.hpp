@@ -70,7 +70,7 @@ class CriticalState {
         Parameter{
             "shear_modulus", dimension::pressure, above(0),
             "shear modulus below yield; left out: 0.6 times bulk_modulus, of a material of EN 1991-4 so that its bed "
-            "at rest has the lateral pressure ratio of the code"},
+            "at rest has K = 1 - sin phi_i"},
         p.shear_modulus);
     visit(Parameter{"static_friction", dimension::none, friction_coefficient(),
                     "mu_s, friction coefficient of slow flow at the critical packing, in simple shear"},
