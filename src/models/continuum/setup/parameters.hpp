@@ -174,7 +174,7 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "of the corrected velocity gradient"},
         p.sph.continuity);
   auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
-  auto loose_where_free = only_if({"law.name", "is " + value_text(p.law.name), "of a law without tensile strength",
+  auto loose_where_free = only_if({"law.name", "is " + value_text(p.law.name), "of grains without tensile strength",
                                    !granular::bears_tension(p.law)},
                                   as_sum);
   loose_where_free(
