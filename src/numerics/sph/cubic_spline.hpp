@@ -27,13 +27,18 @@ TALUS_INLINE Number cubic_spline_shape(Number outer, Number inner) {
   return outer * outer * outer - 4 * (inner * inner * inner);
 }
 
+/// The same from q = r/h.
+template <class Number>
+TALUS_INLINE Number cubic_spline_shape_of(Number q) {
+  const Number zero = 0.0;
+  return cubic_spline_shape(select(Number(2.0) > q, Number(2.0) - q, zero),
+                            select(Number(1.0) > q, Number(1.0) - q, zero));
+}
+
 /// W(r, h) from q = r/h and 1/h. \returns 1/m^3
 template <class Number>
 TALUS_INLINE Number cubic_spline_of(Number q, Number inverse_h) {
-  const Number zero = 0.0;
-  const Number outer = select(Number(2.0) > q, Number(2.0) - q, zero);
-  const Number inner = select(Number(1.0) > q, Number(1.0) - q, zero);
-  return 1.0 / (4 * std::numbers::pi) * (inverse_h * inverse_h * inverse_h) * cubic_spline_shape(outer, inner);
+  return 1.0 / (4 * std::numbers::pi) * (inverse_h * inverse_h * inverse_h) * cubic_spline_shape_of(q);
 }
 
 /// F(r, h) from q = r/h, 1/q and 1/h; 1/q may be anything where q = 0. \returns 1/m^5

@@ -15,16 +15,16 @@
 ///                 yield |s - 2^(1/2) mu_F p F| <= 2^(1/2) (M - mu_F) p
 ///     apart       p = 0 and s = 0 where phi < phi_s:  phi_s follows phi down to phi_min,  c = 0
 ///     cohesion    p + a in place of p in yield and I;  a >= a_0 + kappa p where p > 0;
-///                 da/dgamma = (a_0 + kappa max(p, 0) - a)/gamma_c where that falls;  apart where p < -a:  a = 0
+///                 da/dgamma = (a_0 + kappa p - a)/gamma_c,  -a/gamma_c where p <= 0;  apart where p < -a:  a = 0
 ///
 /// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
 /// F, deviatoric and of a norm up to 1, is the direction in which past shear has made contacts, N that of the present
 /// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker
 /// by 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
-/// Cohesion moves the cone's apex to -a: cohesion M a in simple shear. A load strengthens, shear forgets a load that is
-/// no longer borne, a crack takes all; only a load brings it back. Off unless a_0 or kappa is given: to the bit.
-/// Grains that are pulled at do not compact by shear, which would be work for nothing.
+/// Cohesion moves the cone's apex to -a: cohesion M a in simple shear. A load strengthens; shear breaks bonds, which
+/// form again under the load that there is, and under tension not at all; a crack takes all. Off unless a_0 or kappa is
+/// given: to the bit. Grains that are pulled at do not compact by shear, which would be work for nothing.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + r) p dgamma/dt with b = 1.
@@ -145,9 +145,12 @@ class CriticalState {
     consolidates(Parameter{"consolidation", dimension::pressure, at_least(0),
                            "p_c, largest mean pressure that the grains have borne before the start"},
                  p.consolidation);
-    consolidates(Parameter{"consolidation_strain", dimension::none, above(0),
-                           "gamma_c, shear strain in which they forget a load that they no longer bear"},
-                 p.consolidation_strain);
+    auto cohesive =
+        only_if({"tensile_strength", "and consolidation_strength are 0", "one above 0", p.has_cohesion()}, visit);
+    cohesive(Parameter{"cohesion_strain", dimension::none, above(0),
+                       "gamma_c, shear strain in which bonds break: what is left is the strength that the load of the "
+                       "moment gives, under tension none"},
+             p.cohesion_strain);
   }
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);

@@ -33,7 +33,7 @@ struct CriticalStateParameters {
   double tensile_strength = 0;         ///< a_0, Pa
   double consolidation_strength = 0;   ///< kappa
   double consolidation = 0;            ///< p_c of a new point, Pa
-  double consolidation_strain = 0.1;   ///< gamma_c
+  double cohesion_strain = 0.1;        ///< gamma_c
 
   constexpr bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
   constexpr bool has_cohesion() const { return tensile_strength > 0 || consolidation_strength > 0; }
@@ -89,8 +89,9 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const Number pressure = select(touch, p.bulk_modulus * log_near_one(touching / volume), Number(0.0));
 
   Number bearing = pressure;  // what presses the grains together, the load and their own attraction
+  Number borne = 0.0;         // the strength that the load gives
   if (has_cohesion) {
-    const Number borne = select(pressure > Number(0.0), p.consolidated(pressure), Number(0.0));
+    borne = select(pressure > Number(0.0), p.consolidated(pressure), Number(0.0));
     strength = select(touch, maximum(strength, borne), Number(0.0));
     bearing = pressure + strength;
   }
@@ -150,10 +151,8 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const double ageing = time_step / p.ageing_time;
   point.strengthening = 0.0;
   if (has_cohesion) {
-    const Number share = (1 / p.consolidation_strain) * slip;
-    const Number now = p.consolidated(maximum(pressure, Number(0.0)));
-    const Number left = select(strength > now, (strength + share * now) / (1.0 + share), strength);
-    point.strengthening = left - p.strength_at_start();
+    const Number share = (1 / p.cohesion_strain) * slip;
+    point.strengthening = (strength + share * borne) / (1.0 + share) - p.strength_at_start();
   }
   point.contacts = select(touch, (old.contacts + ageing) / (1.0 + ageing + (1 / p.ageing_strain) * slip), Number(0.0));
   return point;

@@ -317,6 +317,10 @@ double stress_regularisation(const Parameters& p) {
   return p.law.is<granular::CriticalState>() ? p.sph.stress_regularisation : 0;
 }
 
+double artificial_stress(const Parameters& p) {
+  return p.law.is<granular::CriticalState>() && granular::bears_tension(p.law) ? p.sph.artificial_stress : 0;
+}
+
 std::vector<Problem> check(const Parameters& given) {
   std::vector<Problem> problems;
   check_faces(given, problems);

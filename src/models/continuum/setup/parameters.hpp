@@ -65,6 +65,7 @@ struct Parameters {
     ViscositySpeed viscosity_speed = ViscositySpeed::largest;
     double density_relaxation = 1;
     double stress_regularisation = 0;
+    double artificial_stress = 1;
     double density_diffusion = 0;
     double hourglass_damping = 0;
   } sph;
@@ -207,6 +208,13 @@ void for_each_parameter(Visit&& visit, P& p) {
                               "how strongly shear draws the deviatoric stress to that of the neighbours; 1: by as much "
                               "as the shear of a step replaces of it; 0: not at all"},
                     p.sph.stress_regularisation);
+  auto of_cohesion = only_if({"law.name", "is " + value_text(p.law.name), "critical-state with cohesion",
+                              p.law.template is<granular::CriticalState>() && granular::bears_tension(p.law)},
+                             visit);
+  of_cohesion(Parameter{"sph.artificial_stress", dimension::none, between(0, 4),
+                        "epsilon of springs between particles under tension, which would pair up: the tensile "
+                        "instability; 0: none"},
+              p.sph.artificial_stress);
   visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
                   "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
                   "particle to particle; 0.1 in delta-SPH; 0: none"},
@@ -332,6 +340,9 @@ bool draws_by_lasting_rate(const Parameters& parameters);
 
 /// K, sph.stress_regularisation where the law has it, else 0.
 double stress_regularisation(const Parameters& parameters);
+
+/// epsilon, sph.artificial_stress where grains stick together, else 0.
+double artificial_stress(const Parameters& parameters);
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);
