@@ -306,7 +306,8 @@ bool is_loose_where_free(const Parameters& p) {
 }
 
 double density_relaxation(const Parameters& p) {
-  return is_loose_where_free(p) ? p.sph.density_relaxation : 0;
+  const bool flows = p.law.is<granular::CriticalState>() || !granular::bears_tension(p.law);
+  return p.sph.continuity == Continuity::printed && flows ? p.sph.density_relaxation : 0;
 }
 
 bool draws_by_lasting_rate(const Parameters& p) {

@@ -175,15 +175,14 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "of the corrected velocity gradient"},
         p.sph.continuity);
   auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
-  auto loose_where_free = only_if({"law.name", "is " + value_text(p.law.name), "of grains without tensile strength",
-                                   !granular::bears_tension(p.law)},
-                                  as_sum);
-  loose_where_free(
-      Parameter{
-          "sph.density_relaxation", dimension::none, at_least(0),
-          "share of the difference between the kernel's sum and the density that a shear strain of "
-          "1 takes back; not under a law with tensile strength; 0, as printed: both drift apart as the grains flow"},
-      p.sph.density_relaxation);
+  auto flowing = only_if({"law.name", "is " + value_text(p.law.name), "of grains that flow",
+                          p.law.template is<granular::CriticalState>() || !granular::bears_tension(p.law)},
+                         as_sum);
+  flowing(Parameter{"sph.density_relaxation", dimension::none, at_least(0),
+                    "share of the difference between the kernel's sum and the density that a shear strain of "
+                    "1 takes back, of grains that stick together only where the sum is more; 0, as printed: both drift "
+                    "apart as the grains flow"},
+          p.sph.density_relaxation);
   visit(Parameter{"sph.stress_form",
                   {},
                   {},
@@ -330,7 +329,8 @@ bool is_loose_where_free(const Parameters& parameters);
 
 /// sph.density_relaxation where it holds, else 0: what a shear strain of 1 takes back of the difference between the
 /// kernel's sum and the density. Eq. 16 is the rate of the kernel's sum for a constant smoothing length and between
-/// mirrors; what else there is adds up with the strain (docs/design/stabilisation.md).
+/// mirrors; what else there is adds up with the strain (docs/design/stabilisation.md). Where grains stick together a
+/// density is drawn upwards only: a lack of neighbours is a free surface, which no crack has opened.
 double density_relaxation(const Parameters& parameters);
 
 /// Whether they are drawn by the shear that lasts (State::lasting_rate) and not by each step's. Particles beside a
