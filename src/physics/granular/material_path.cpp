@@ -94,7 +94,7 @@ MaterialPoint<Law> controlled(const Law& law, const MaterialPoint<Law>& old, Ten
   double scale = 0;
   for (std::size_t k = 0; k < 4; ++k)
     if (target[k]) unknown.push_back(k), scale = std::max({scale, std::abs(*target[k]), norm(old.stress)});
-  const double tolerance = 1e-8 * scale + 1e-12 * modulus, probe = 1e-9 / step;
+  const double tolerance = 1e-8 * scale + 1e-12 * modulus, probe = -1e-9 / step;  // grains that just touch are pressed
   constexpr int max_iterations = 60, max_halvings = 12;
   using Misfit = std::array<double, 4>;
   const auto at = [&](const Tensor3<>& l, Misfit& misfit) {
