@@ -158,7 +158,10 @@ struct Gravity {
   bool by_height = setup.loading.is_by_height(time);
   Vector3 everywhere = at_height(0);
 
-  Vector3 at_height(double z) const { return {0, 0, -setup.loading.share(time, z) * setup.given.gravity.acceleration}; }
+  Vector3 at_height(double z) const {
+    const double g = setup.loading.share(time, z) * setup.given.gravity.acceleration, tilt = setup.given.gravity.tilt;
+    return {g * std::sin(tilt), 0, -g * std::cos(tilt)};
+  }
   Vector3 at(const Vector3& x) const { return by_height ? at_height(x.z) : everywhere; }
 
   /// Impulse of all particles within a duration, N s.

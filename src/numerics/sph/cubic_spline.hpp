@@ -3,6 +3,7 @@
 /// Source: Monaghan, Annu. Rev. Astron. Astrophys. 30, 543-574 (1992), section 2.2; Yuu & Umekage 2011, below Eq. 16.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -65,6 +66,16 @@ template <class Number>
 TALUS_INLINE Number cubic_spline_slope(Number distance, Number h) {
   const Number inverse_h = 1.0 / h;
   return cubic_spline_slope_of(distance * inverse_h, h / distance, inverse_h);
+}
+
+/// The kernel integrated over a plane: 2 pi times the integral of W r from the distance on; its integral along the
+/// normal is 1. \param distance from the plane, \param h smoothing length, m; \returns 1/m
+inline double cubic_spline_plane(double distance, double h) {
+  const auto part = [q = distance / h](double a) {
+    const double u = std::max(a - q, 0.0);
+    return u * u * u * u * (0.25 * a - 0.2 * u);
+  };
+  return (part(2) - 4 * part(1)) / (2 * h);
 }
 
 // The cubic spline kernel integrated along a straight line: the kernel of a particle in a section averaged along its

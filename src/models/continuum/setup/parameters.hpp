@@ -73,10 +73,12 @@ struct Parameters {
     Friction friction = Friction::coulomb;
     std::optional<WallMaterial> material;
     double coefficient = 0.3;
+    double adhesion = 0;
     FrictionFrom friction_from = FrictionFrom::gate;
   } walls;
   struct Gravity {
     double acceleration = 9.81;
+    double tilt = 0;
   } gravity;
   struct Air {
     bool enabled = false;
@@ -235,6 +237,11 @@ void for_each_parameter(Visit&& visit, P& p) {
   rough(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
                   "coefficient of wall friction, the tangent of the angle of wall friction"},
         p.walls.coefficient);
+  auto adhesive = only_if(where("walls.friction", p.walls.friction, Friction::coulomb), of_cohesion);
+  adhesive(Parameter{"walls.adhesion", dimension::pressure, at_least(0),
+                     "shear stress that walls bear besides, of grains that stick together, which they hold up to a "
+                     "tension of this over walls.coefficient"},
+           p.walls.adhesion);
   rough(
       Parameter{
           "walls.friction_from", {}, {}, "whether walls have friction from the start or from the opening of the gate"},
@@ -242,6 +249,9 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
+  visit(Parameter{"gravity.tilt", dimension::angle, between(0, 1.4),
+                  "angle by which it leans towards +x, as in a box that stands on a slope"},
+        p.gravity.tilt);
 
   visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it no other key of the air may be given"},
         p.air.enabled);
@@ -340,6 +350,12 @@ bool draws_by_lasting_rate(const Parameters& parameters);
 
 /// K, sph.stress_regularisation where the law has it, else 0.
 double stress_regularisation(const Parameters& parameters);
+
+/// Whether the grains stick together.
+bool has_cohesion(const Parameters& parameters);
+
+/// walls.adhesion where grains stick together and walls rub, else 0, Pa.
+double wall_adhesion(const Parameters& parameters);
 
 /// epsilon, sph.artificial_stress where grains stick together, else 0.
 double artificial_stress(const Parameters& parameters);
