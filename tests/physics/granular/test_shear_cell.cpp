@@ -46,7 +46,7 @@ TEST(ShearCell, FindsTheClosedFormsOfTheLaw) {
         if (sample.lateral + q / 3 < load)
           EXPECT_NEAR(sample.axial, sample.lateral + q, 0.01 * sample.axial);
         else
-          EXPECT_GT(sample.axial, sample.lateral + q);  // it is consolidated anew
+          EXPECT_GT(sample.axial, sample.lateral + q);  // it is consolidated by the test
       }
     }
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -249,7 +250,7 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
-  visit(Parameter{"gravity.tilt", dimension::angle, between(0, 1.4),
+  visit(Parameter{"gravity.tilt", dimension::angle, between(0, 4 * std::numbers::pi / 9),
                   "angle by which it leans towards +x, as in a box that stands on a slope"},
         p.gravity.tilt);
 
