@@ -171,7 +171,7 @@ class Page:
         words = [RESULTS.get(word, word) for word in words]
         self.prepare(words)
         words = self.cut_short(words)
-        again = words[0] in ("run", "law", "new") and "--resume" not in words and "--overwrite" not in words
+        again = words[0] in ("run", "law", "shear-cell", "new") and "--resume" not in words and "--overwrite" not in words
         done = self.run(words + (["--overwrite"] if again else []), self.small_project() if words[0] == "reproduce" else None)
         allowed = {0} | ({130} if "--walltime" in words else set()) | ({1} if words[0] in ("compare", "reproduce") else set())
         if done.returncode in allowed:

@@ -21,7 +21,6 @@ class CohesiveGrains {
  public:
   static constexpr std::string_view name = "cohesive-grains";
   static constexpr std::string_view text = "elastic up to cohesion and friction";
-  static constexpr bool bears_tension = false;
 
   struct Parameters {
     double bulk_modulus = 4.9e6;    ///< K, Pa
@@ -29,6 +28,7 @@ class CohesiveGrains {
     double friction = 0.5;          ///< mu
     double cohesion = 100;          ///< c, Pa
   };
+  static constexpr bool bears_tension(const Parameters&) { return false; }
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{"bulk_modulus", dimension::pressure, above(0), "bulk modulus"}, p.bulk_modulus);

@@ -26,6 +26,7 @@ void add_ensemble_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
 void add_analyze_command(CLI::App& app, Action& action);
 void add_law_command(CLI::App& app, Action& action);
+void add_shear_cell_command(CLI::App& app, Action& action);
 void add_reproduce_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_picture_command(CLI::App& app, Action& action);

@@ -117,6 +117,9 @@ void add_law_command(CLI::App& app, Action& action) {
       "  1,0,0.002\n"
       "  1,0,-0.0001\n"
       "  1,0,0.002\n\n"
+      "A column stress_zz [Pa] (or _xx, _yy, _xz) prescribes that stress, reached evenly by the end of each stretch,\n"
+      "and the law finds gradient_zz: sheared under a constant load by duration [s],stress_zz [kPa],gradient_xz "
+      "[1/s].\n\n"
       "Stress and strain are positive in compression, and the law's answer does not depend on the durations but for\n"
       "a law's smoothing_time, the law critical-state and the stress by collisions.");
   command->callback([options, &action] { action = [options] { return follow(*options); }; });

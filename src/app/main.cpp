@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   talus::app::add_compare_command(app, action);
   talus::app::add_analyze_command(app, action);
   talus::app::add_law_command(app, action);
+  talus::app::add_shear_cell_command(app, action);
   talus::app::add_reproduce_command(app, action);
   talus::app::add_report_command(app, action);
   talus::app::add_picture_command(app, action);

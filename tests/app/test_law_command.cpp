@@ -98,6 +98,21 @@ TEST_F(LawCommand, TableHoldsHookesAnswer) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "functions.csv"));
 }
 
+TEST_F(LawCommand, PrescribesStressesInPlaceOfRates) {
+  // Hooke, sides held: M = lambda + 2 G = 4 MPa.
+  const std::string law = file("case.toml", elastic);
+  const std::string path = file("path.csv", "duration [s],stress_zz [kPa],gradient_xz [1/s]\n1,0.4,0\n1,0.4,1e-4\n");
+  ASSERT_EQ(run({law, "--path", path, "--out", out(), "--set", "path.points=4"}), ExitStatus::done);
+  const Series table = read_series(folder_ / "out" / "path.csv");
+  EXPECT_NEAR(table.column("stress_zz")[2], 200, 1e-3);
+  EXPECT_NEAR(table.column("stress_zz")[4], 400, 1e-3);
+  EXPECT_NEAR(table.column("strain_zz")[4], 1e-4, 2e-8);
+  EXPECT_NEAR(table.column("stress_zz")[8], 400, 1e-3);
+  EXPECT_NEAR(std::abs(table.column("stress_zx")[8]), 1e6 * 1e-4, 0.1);
+  EXPECT_THAT(problems({law, "--path", file("both.csv", "duration,stress_xx,gradient_xx,stress_yy\n1,1,1,1\n")}),
+              ElementsAre("both.csv:1: gradient_xx: follows from stress_xx; allowed: one of the two columns"));
+}
+
 TEST_F(LawCommand, FollowsThePathsOfTheRepository) {
   const std::filesystem::path cases = std::filesystem::path(TALUS_SOURCE_DIR) / "cases" / "law";
   for (const char* path : {"shear.csv", "uniaxial.csv"})

@@ -33,10 +33,20 @@ LawCase read_law_case(const CaseFile& file) {
 
 std::vector<granular::PathStretch> read_path(const std::filesystem::path& path) {
   static constexpr Dimension rate{0, 0, -1, 0};
-  static constexpr KnownColumn known[] = {{"duration", dimension::time}, {"gradient_xx", rate}, {"gradient_xy", rate},
-                                          {"gradient_xz", rate},         {"gradient_yx", rate}, {"gradient_yy", rate},
-                                          {"gradient_yz", rate},         {"gradient_zx", rate}, {"gradient_zy", rate},
-                                          {"gradient_zz", rate}};
+  static constexpr KnownColumn known[] = {{"duration", dimension::time},
+                                          {"gradient_xx", rate},
+                                          {"gradient_xy", rate},
+                                          {"gradient_xz", rate},
+                                          {"gradient_yx", rate},
+                                          {"gradient_yy", rate},
+                                          {"gradient_yz", rate},
+                                          {"gradient_zx", rate},
+                                          {"gradient_zy", rate},
+                                          {"gradient_zz", rate},
+                                          {"stress_xx", dimension::pressure},
+                                          {"stress_yy", dimension::pressure},
+                                          {"stress_zz", dimension::pressure},
+                                          {"stress_xz", dimension::pressure}};
   static constexpr std::string_view required[] = {"duration"};
   const CsvTable table = read_csv_table(path, {.known = known,
                                                .required = required,
@@ -54,6 +64,8 @@ std::vector<granular::PathStretch> read_path(const std::filesystem::path& path) 
     Tensor3<>& l = stretches[row].velocity_gradient;
     double* const component[] = {&l.xx, &l.xy, &l.xz, &l.yx, &l.yy, &l.yz, &l.zx, &l.zy, &l.zz};
     for (std::size_t k = 0; k < 9; ++k) *component[k] = value(known[k + 1].name, row);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (table.find(known[k + 10].name)) stretches[row].stress[k] = value(known[k + 10].name, row);
     stretches[row].duration = value("duration", row);
     if (stretches[row].duration < 0)
       problems.push_back({.where = path.string(),
@@ -62,6 +74,16 @@ std::vector<granular::PathStretch> read_path(const std::filesystem::path& path) 
                           .what = fmt::format("{} s is negative", stretches[row].duration),
                           .allowed = "at least 0 s"});
   }
+  for (const auto& [stress, gradient] : {std::pair{"stress_xx", "gradient_xx"},
+                                         {"stress_yy", "gradient_yy"},
+                                         {"stress_zz", "gradient_zz"},
+                                         {"stress_xz", "gradient_xz"}})
+    if (table.find(stress) && table.find(gradient))
+      problems.push_back({.where = path.string(),
+                          .line = 1,
+                          .key = gradient,
+                          .what = fmt::format("follows from {}", stress),
+                          .allowed = "one of the two columns"});
   if (!problems.empty()) throw InputError(problems);
   return stretches;
 }

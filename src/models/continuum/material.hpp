@@ -19,7 +19,7 @@ class Material {
   explicit Material(const Parameters& parameters);
 
   /// What the law with its parameters remembers of each particle.
-  std::vector<granular::HistorySlot> slots() const;
+  const std::vector<granular::HistorySlot>& slots() const { return slots_; }
 
   /// Whether the law takes the strain from displacements (displacement.hpp) in place of its rate.
   bool by_displacements() const;
@@ -50,6 +50,8 @@ class Material {
 
  private:
   granular::AnyLaw law_;
+  std::vector<granular::HistorySlot> slots_;
+  std::vector<std::size_t> used_slots_;  // their places in the law's history
   std::optional<std::size_t> first_strain_slot_, resets_slot_;
   std::optional<granular::CollisionParameters> collisions_;
   double fall_time_ = 0;  // (D_p/g)^(1/2), s

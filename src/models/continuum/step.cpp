@@ -158,7 +158,10 @@ struct Gravity {
   bool by_height = setup.loading.is_by_height(time);
   Vector3 everywhere = at_height(0);
 
-  Vector3 at_height(double z) const { return {0, 0, -setup.loading.share(time, z) * setup.given.gravity.acceleration}; }
+  Vector3 at_height(double z) const {
+    const double g = setup.loading.share(time, z) * setup.given.gravity.acceleration, tilt = setup.given.gravity.tilt;
+    return {g * std::sin(tilt), 0, -g * std::cos(tilt)};
+  }
   Vector3 at(const Vector3& x) const { return by_height ? at_height(x.z) : everywhere; }
 
   /// Impulse of all particles within a duration, N s.
@@ -245,12 +248,13 @@ void Step::drift(std::span<const Vector3> velocity) const {
 /// reaches: it is held where the kernel is three times as wide as the bed's.
 void Step::density() const {
   const double thinnest = setup.density / 27, relaxation = density_relaxation(p);
-  const bool by_lasting_rate = !s.lasting_rate[0].empty();
+  const bool by_lasting_rate = !s.lasting_rate[0].empty(), upwards_only = !is_loose_where_free(p);
   for_each(team, s.density.size(), [&](std::size_t i) {
     double after = sph::density_after(s.density[i], dt * w.rates.density_rate[i]);
     if (relaxation > 0) {
       const double shear = by_lasting_rate ? shear_of(tensor_at(s.lasting_rate, i)) : s.shear_rate[i];
-      after += sph::density_towards(w.rates.kernel_density[i], s.density[i], relaxation * dt * shear);
+      const double sum = w.rates.kernel_density[i], towards = upwards_only ? std::max(sum, s.density[i]) : sum;
+      after += sph::density_towards(towards, s.density[i], relaxation * dt * shear);
     }
     // In this order a density that is no number stays one, and is found.
     s.density[i] = std::max(after, thinnest);

@@ -3,6 +3,7 @@
 /// Source: Monaghan, Annu. Rev. Astron. Astrophys. 30, 543-574 (1992), section 2.2; Yuu & Umekage 2011, below Eq. 16.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -27,13 +28,18 @@ TALUS_INLINE Number cubic_spline_shape(Number outer, Number inner) {
   return outer * outer * outer - 4 * (inner * inner * inner);
 }
 
+/// The same from q = r/h.
+template <class Number>
+TALUS_INLINE Number cubic_spline_shape_of(Number q) {
+  const Number zero = 0.0;
+  return cubic_spline_shape(select(Number(2.0) > q, Number(2.0) - q, zero),
+                            select(Number(1.0) > q, Number(1.0) - q, zero));
+}
+
 /// W(r, h) from q = r/h and 1/h. \returns 1/m^3
 template <class Number>
 TALUS_INLINE Number cubic_spline_of(Number q, Number inverse_h) {
-  const Number zero = 0.0;
-  const Number outer = select(Number(2.0) > q, Number(2.0) - q, zero);
-  const Number inner = select(Number(1.0) > q, Number(1.0) - q, zero);
-  return 1.0 / (4 * std::numbers::pi) * (inverse_h * inverse_h * inverse_h) * cubic_spline_shape(outer, inner);
+  return 1.0 / (4 * std::numbers::pi) * (inverse_h * inverse_h * inverse_h) * cubic_spline_shape_of(q);
 }
 
 /// F(r, h) from q = r/h, 1/q and 1/h; 1/q may be anything where q = 0. \returns 1/m^5
@@ -60,6 +66,16 @@ template <class Number>
 TALUS_INLINE Number cubic_spline_slope(Number distance, Number h) {
   const Number inverse_h = 1.0 / h;
   return cubic_spline_slope_of(distance * inverse_h, h / distance, inverse_h);
+}
+
+/// The kernel integrated over a plane: 2 pi times the integral of W r from the distance on; its integral along the
+/// normal is 1. \param distance from the plane, \param h smoothing length, m; \returns 1/m
+inline double cubic_spline_plane(double distance, double h) {
+  const auto part = [q = distance / h](double a) {
+    const double u = std::max(a - q, 0.0);
+    return u * u * u * u * (0.25 * a - 0.2 * u);
+  };
+  return (part(2) - 4 * part(1)) / (2 * h);
 }
 
 // The cubic spline kernel integrated along a straight line: the kernel of a particle in a section averaged along its

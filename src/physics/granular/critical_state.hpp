@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A critical state with hysteresis: grains that dilate or compact as they are sheared, until their packing no longer
-/// changes, and that are stronger at rest than in flow.
+/// changes, and that are stronger at rest than in flow; on request they stick together.
 ///
-///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to 1
+///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to
+///     1;
+///                 a, their tensile strength
 ///     elastic     p = 3 K e_v, e_v = ln(phi/phi_s)/3;   ds/dt = 2G (-D_dev + D^p) + W s - s W
 ///     yield       |s| <= 2^(1/2) M p,  M = max(0, beta, mu(I) + b beta + r),  returned along s at constant p
 ///     at rest     r = Delta_mu c,  or max(0, Delta_mu c - max(0, b beta)) if it does not add to b beta
@@ -12,12 +14,17 @@
 ///     fabric      dF/dgamma = (N - F)/gamma_F,  turned with the spin;  beta less chi (1 - N:F)/2;
 ///                 yield |s - 2^(1/2) mu_F p F| <= 2^(1/2) (M - mu_F) p
 ///     apart       p = 0 and s = 0 where phi < phi_s:  phi_s follows phi down to phi_min,  c = 0
+///     cohesion    p + a in place of p in yield and I;  a >= a_0 + kappa p where p > 0;
+///                 da/dgamma = (a_0 + kappa p - a)/gamma_c,  -a/gamma_c where p <= 0;  apart where p < -a:  a = 0
 ///
 /// with D the rate of deformation, d the grains' diameter, s the deviator of the stress, positive in compression, and
 /// dgamma = 2^(1/2) |D^p| dt the shear strain beyond yield. 2^(1/2) M p is the friction coefficient M in simple shear.
 /// F, deviatoric and of a norm up to 1, is the direction in which past shear has made contacts, N that of the present
 /// one, -D^p/|D^p|. Sheared on as before grains have N:F near 1; turned back, N:F = -1: they contract, and are weaker
 /// by 2 mu_F. Off unless mu_F or chi is given: then it is the law without, to the bit.
+/// Cohesion moves the cone's apex to -a: cohesion M a in simple shear. A load strengthens; shear breaks bonds, which
+/// form again under the load that there is, and under tension not at all; a crack takes all. Off unless a_0 or kappa is
+/// given: to the bit. Grains that are pulled at do not compact by shear, which would be work for nothing.
 ///
 /// Work: of the power of shearing, |s| |D^p| = M p dgamma/dt, the pressure takes back beta p dgamma/dt for the volume
 /// that opens; (M - beta) p dgamma/dt >= 0 is left and turns into heat, (mu(I) + r) p dgamma/dt with b = 1.
@@ -40,6 +47,8 @@
 /// that form along the compression and carry the stress, with an evolution in the strain, Sun & Sundaresan, J. Fluid
 /// Mech. 682, 590 (2011); chi, gamma_F, mu_F of discrete elements: validation/bead-shear. completed: Delta_mu, T,
 /// gamma_0 and phi_min are choices; so is that grains apart lose F by all their shear, within gamma_F.
+/// Cohesion: strength in proportion to consolidation, Jenike, Storage and Flow of Solids, Bulletin 123 (Utah, 1964);
+/// p + a in I, Berger, Azema, Douce & Radjai, EPL 112, 64004 (2015). completed: how shear and cracks take it away.
 #pragma once
 
 #include <string_view>
@@ -57,9 +66,9 @@ class CriticalState {
   static constexpr std::string_view name = "critical-state";
   static constexpr std::string_view text =
       "elastic up to a friction that depends on rate and packing, with a strength at rest that flow takes away";
-  static constexpr bool bears_tension = false;
 
   using Parameters = CriticalStateParameters;
+  static constexpr bool bears_tension(const Parameters& p) { return p.has_cohesion(); }
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{"bulk_modulus", dimension::pressure, above(0),
@@ -128,6 +137,23 @@ class CriticalState {
     fabric(Parameter{"fabric_strain", dimension::none, above(0),
                      "gamma_F, shear strain in which these contacts form again"},
            p.fabric_strain);
+    visit(Parameter{"tensile_strength", dimension::pressure, at_least(0),
+                    "a_0, mean tension that grains bear which touch, whatever load they have borne; their cohesion in "
+                    "simple shear is static_friction times it; 0: none"},
+          p.tensile_strength);
+    visit(Parameter{"consolidation_strength", dimension::none, between(0, 1),
+                    "kappa, tensile strength that a load adds over its mean pressure; 0: none"},
+          p.consolidation_strength);
+    auto consolidates = only_if({"consolidation_strength", "is 0", "above 0", p.consolidation_strength > 0}, visit);
+    consolidates(Parameter{"consolidation", dimension::pressure, at_least(0),
+                           "p_c, largest mean pressure that the grains have borne before the start"},
+                 p.consolidation);
+    auto cohesive =
+        only_if({"tensile_strength", "and consolidation_strength are 0", "one above 0", p.has_cohesion()}, visit);
+    cohesive(Parameter{"cohesion_strain", dimension::none, above(0),
+                       "gamma_c, shear strain in which bonds break: what is left is the strength that the load of the "
+                       "moment gives, under tension none"},
+             p.cohesion_strain);
   }
   /// Contradictions between keys that are each valid by themselves.
   static std::vector<Problem> check(const Parameters& parameters);
@@ -140,6 +166,7 @@ class CriticalState {
     Number expansion = 0.0;           ///< reference packing over phi_s, less 1
     Number contacts = 0.0;            ///< c
     SymmetricTensor3<Number> fabric;  ///< F
+    Number strengthening = 0.0;       ///< a less that at the start, Pa
   };
   template <class Visit, class H>
   static constexpr void for_each_slot(Visit&& visit, H& history) {
@@ -147,20 +174,24 @@ class CriticalState {
     visit(HistorySlot{"contacts", "1"}, history.contacts);
     for_each_tensor_slot(visit, {"fabric_xx", "fabric_yy", "fabric_zz", "fabric_xy", "fabric_yz", "fabric_zx"}, "1",
                          history.fabric);
+    visit(HistorySlot{"strengthening", "Pa"}, history.strengthening);
   }
 
   template <class Number>
   MaterialPoint<CriticalState, Number> update(const MaterialPoint<CriticalState, Number>& old,
                                               const Tensor3<Number>& velocity_gradient, const Number& density,
                                               double time_step) const {
-    const CriticalStatePoint<Number> point =
-        updated(coefficients_, {old.stress, old.history.expansion, old.history.contacts, old.history.fabric},
-                velocity_gradient, density, time_step);
-    return {point.stress, {point.expansion, point.contacts, point.fabric}};
+    const CriticalStatePoint<Number> point = updated(
+        coefficients_,
+        {old.stress, old.history.expansion, old.history.contacts, old.history.fabric, old.history.strengthening},
+        velocity_gradient, density, time_step);
+    return {point.stress, {point.expansion, point.contacts, point.fabric, point.strengthening}};
   }
   const CriticalStateCoefficients& coefficients() const { return coefficients_; }
-  /// How many slots of the history, from the first, the law with these parameters reads and writes.
-  std::size_t slots_in_use() const { return parameters_.has_fabric() ? 8 : 2; }
+  /// Whether the law with these parameters reads and writes a slot of the history.
+  bool uses_slot(std::size_t slot) const {
+    return slot < 2 || (slot < 8 ? parameters_.has_fabric() : parameters_.has_cohesion());
+  }
 
   /// c = ((K + 4G/3)/rho_b)^(1/2), m/s.
   double sound_speed(double density) const;

@@ -30,8 +30,19 @@ struct CriticalStateParameters {
   double fabric_friction = 0;          ///< mu_F
   double fabric_contraction = 0;       ///< chi
   double fabric_strain = 0.3;          ///< gamma_F
+  double tensile_strength = 0;         ///< a_0, Pa
+  double consolidation_strength = 0;   ///< kappa
+  double consolidation = 0;            ///< p_c of a new point, Pa
+  double cohesion_strain = 0.1;        ///< gamma_c
 
   constexpr bool has_fabric() const { return fabric_friction > 0 || fabric_contraction > 0; }
+  constexpr bool has_cohesion() const { return tensile_strength > 0 || consolidation_strength > 0; }
+  /// a_0 + kappa p_c, the tensile strength of grains that a pressure has consolidated, both Pa.
+  template <class Number>
+  constexpr Number consolidated(const Number& pressure) const {
+    return tensile_strength + consolidation_strength * pressure;
+  }
+  constexpr double strength_at_start() const { return consolidated(consolidation); }
 };
 
 /// The parameters, with what follows from them and the grains.
@@ -39,6 +50,7 @@ struct CriticalStateCoefficients {
   static constexpr double sqrt2 = 1.4142135623730951;
   static constexpr double tiny = 1e-30;
   static constexpr double max_inertial_number = 0.3;  // to which the packing is known to fall in proportion
+  static constexpr double max_strength = 0.1;         // over the bulk modulus: expansions of a series
 
   CriticalStateParameters parameters;
   double reference_density = 0;  ///< kg/m^3
@@ -52,6 +64,7 @@ struct CriticalStatePoint {
   SymmetricTensor3<Number> stress;  ///< Pa
   Number expansion, contacts;       ///< CriticalState::History
   SymmetricTensor3<Number> fabric;  ///< the same; zero and left so without fabric
+  Number strengthening;             ///< the same; zero and left so without cohesion
 };
 
 /// The point after a time step (ConstitutiveLaw).
@@ -63,12 +76,26 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   const SymmetricTensor3<Number> rate = deviator(symmetric_part(velocity_gradient));
   // Volumes of a grain's share of space, in units of that at the reference packing: now, and just touching.
   const Number volume = c.reference_density / density;
-  const auto touch = volume < 1.0 + old.expansion;
+  const bool has_cohesion = p.has_cohesion();
+  Number strength = 0.0, parting = 1.0 + old.expansion;  // a; the volume at which grains part
+  if (has_cohesion) {
+    strength = p.strength_at_start() + old.strengthening;
+    const Number x = (1 / p.bulk_modulus) * strength;
+    parting = parting * (1.0 + x * (1.0 + 0.5 * x));  // exp(x), from below: p >= -a
+  }
+  const auto touch = volume < parting;
   const Number apart = minimum(volume, Number(c.max_volume));
   const Number touching = select(touch, 1.0 + old.expansion, maximum(1.0 + old.expansion, apart));
   const Number pressure = select(touch, p.bulk_modulus * log_near_one(touching / volume), Number(0.0));
 
-  const Number inertial = c.grain_inertia * norm(rate) / sqrt(maximum(pressure, Number(c.tiny)));
+  Number bearing = pressure;  // what presses the grains together, the load and their own attraction
+  Number borne = 0.0;         // the strength that the load gives
+  if (has_cohesion) {
+    borne = select(pressure > Number(0.0), p.consolidated(pressure), Number(0.0));
+    strength = select(touch, maximum(strength, borne), Number(0.0));
+    bearing = pressure + strength;
+  }
+  const Number inertial = c.grain_inertia * norm(rate) / sqrt(maximum(bearing, Number(c.tiny)));
   const Number critical_volume =
       p.reference_packing / (p.critical_packing - p.packing_slope * minimum(inertial, Number(c.max_inertial_number)));
   const Number dilatancy = (p.dilatancy * p.reference_packing) * (1.0 / touching - 1.0 / critical_volume);
@@ -88,7 +115,7 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   SymmetricTensor3<Number> fabric, centre, from_centre = trial;
   if (has_fabric) {
     fabric = transformed(old.fabric, turn);
-    centre = ((c.sqrt2 * p.fabric_friction) * pressure) * fabric;
+    centre = ((c.sqrt2 * p.fabric_friction) * bearing) * fabric;
     from_centre = trial - centre;
   }
   const Number size = norm(from_centre);
@@ -97,17 +124,20 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   if (has_fabric) {
     const Number turned = 1.0 - double_dot(from_centre, fabric) / maximum(size, Number(c.tiny));
     contraction = (0.5 * p.fabric_contraction) * turned;
+    if (has_cohesion) contraction = select(pressure < Number(0.0), Number(0.0), contraction);
     least = dilatancy - contraction - p.fabric_friction * (1.0 - turned);
     radius = friction - p.fabric_friction;
   }
-  const Number most = (c.sqrt2 * maximum(maximum(radius, least), Number(0.0))) * pressure;
+  const Number most = (c.sqrt2 * maximum(maximum(radius, least), Number(0.0))) * bearing;
   const Number slip = (1 / (c.sqrt2 * p.shear_modulus)) * maximum(size - most, Number(0.0));
 
   CriticalStatePoint<Number> point;
   const SymmetricTensor3<Number> kept = (minimum(size, most) / maximum(size, Number(c.tiny))) * from_centre;
   point.stress = isotropic(pressure) + (has_fabric ? centre + kept : kept);
   // d(1/phi_s)/dgamma = k (1 - phi_c/phi_s), implicit: it cannot pass the critical packing.
-  const Number dilation = (p.dilatancy * p.reference_packing) * slip;
+  Number dilation = (p.dilatancy * p.reference_packing) * slip;
+  // Grains that are pulled at do not compact: the tension would do work.
+  if (has_cohesion) dilation = select(pressure < Number(0.0) && touching > critical_volume, Number(0.0), dilation);
   Number dilated = (touching + dilation) / (1.0 + dilation / critical_volume);
   if (has_fabric) {
     dilated = dilated / (1.0 + contraction * slip);
@@ -119,6 +149,11 @@ CriticalStatePoint<Number> updated(const CriticalStateCoefficients& c, const Cri
   }
   point.expansion = select(touch, dilated, touching) - 1.0;
   const double ageing = time_step / p.ageing_time;
+  point.strengthening = 0.0;
+  if (has_cohesion) {
+    const Number share = (1 / p.cohesion_strain) * slip;
+    point.strengthening = (strength + share * borne) / (1.0 + share) - p.strength_at_start();
+  }
   point.contacts = select(touch, (old.contacts + ageing) / (1.0 + ageing + (1 / p.ageing_strain) * slip), Number(0.0));
   return point;
 }

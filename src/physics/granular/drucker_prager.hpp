@@ -31,13 +31,13 @@ class DruckerPrager {
  public:
   static constexpr std::string_view name = "drucker-prager";
   static constexpr std::string_view text = "elastic up to a friction, constant or hardening as the fits do";
-  static constexpr bool bears_tension = false;
 
   struct Parameters {
     double friction = 0;  ///< mu, constant; 0: from A4
     Fits fits = {};
     Contact contact = {};
   };
+  static constexpr bool bears_tension(const Parameters&) { return false; }
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{"friction", dimension::none, friction_coefficient(),

@@ -57,6 +57,10 @@ std::vector<Problem> CriticalState::check(const Parameters& p) {
     problems.push_back({.key = "packing_slope",
                         .what = "fast flow would have next to no grains",
                         .allowed = "less than (critical_packing - 0.1)/0.3"});
+  if (p.strength_at_start() > CriticalStateCoefficients::max_strength * p.bulk_modulus)
+    problems.push_back({.key = p.consolidation_strength > 0 ? "consolidation" : "tensile_strength",
+                        .what = "grains would stretch by more than a tenth of their volume before they part",
+                        .allowed = "a tensile strength of at most 0.1 bulk_modulus"});
   return problems;
 }
 

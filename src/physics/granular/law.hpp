@@ -102,7 +102,7 @@ auto with_chosen_law(const LawParameters& parameters, Body&& body) {
 
 /// Whether the chosen law transmits tension: without, a free surface that is pulled at opens.
 inline bool bears_tension(const LawParameters& parameters) {
-  return with_chosen_law(parameters, []<class Law>(const auto&) { return Law::bears_tension; });
+  return with_chosen_law(parameters, []<class Law>(const auto& own) { return Law::bears_tension(own); });
 }
 
 /// The table of a law's keys: "law.drucker-prager".

@@ -16,12 +16,12 @@ class LinearElastic {
  public:
   static constexpr std::string_view name = "linear-elastic";
   static constexpr std::string_view text = "Hooke's law, with tensile strength (for verification)";
-  static constexpr bool bears_tension = true;
 
   struct Parameters {
     double lambda = 2.94e6;         ///< Pa
     double shear_modulus = 2.94e6;  ///< Pa
   };
+  static constexpr bool bears_tension(const Parameters&) { return true; }
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     visit(Parameter{"lambda", dimension::pressure, above(0), "Lame's first constant"}, p.lambda);

@@ -54,8 +54,8 @@ concept ConstitutiveLaw = requires(const Law law, const MaterialPoint<Law>& old,
   { Law::name } -> std::convertible_to<std::string_view>;
   { Law::text } -> std::convertible_to<std::string_view>;               // what it is, in a few words
   Law::for_each_parameter([](const Parameter&, auto&) {}, parameters);  // every key, once, without its table
-  Law(parameters, density);                             // density of the grains rho_p, kg/m^3; D_p may follow
-  { Law::bears_tension } -> std::convertible_to<bool>;  // a free surface is no loose place then (begin_densities)
+  Law(parameters, density);                                  // density of the grains rho_p, kg/m^3; D_p may follow
+  { Law::bears_tension(parameters) } -> std::same_as<bool>;  // a free surface is no loose place then (begin_densities)
   { law.range() } -> std::same_as<LawRange>;
   point = law.update(old, velocity_gradient, density, time_step);
   Law::for_each_slot([](HistorySlot, double&) {}, point.history);

@@ -43,7 +43,6 @@ class YuuUmekageIsotropic {
  public:
   static constexpr std::string_view name = "yuu-umekage";
   static constexpr std::string_view text = "Yuu and Umekage's in isotropic form, the same in any axes";
-  static constexpr bool bears_tension = false;
 
   struct Parameters {
     Fits fits = {};
@@ -52,6 +51,7 @@ class YuuUmekageIsotropic {
     Unloading unloading = Unloading::all;
     UnloadingRule rule = {};
   };
+  static constexpr bool bears_tension(const Parameters&) { return false; }
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     for_each_fit_parameter(visit, p.fits);

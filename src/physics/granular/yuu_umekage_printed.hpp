@@ -36,7 +36,6 @@ class YuuUmekagePrinted {
  public:
   static constexpr std::string_view name = "yuu-umekage-printed";
   static constexpr std::string_view text = "Yuu and Umekage's component formulas as printed";
-  static constexpr bool bears_tension = false;
 
   struct Parameters {
     Fits fits = {};
@@ -46,6 +45,7 @@ class YuuUmekagePrinted {
     PrintedUnloading unloading = PrintedUnloading::all;
     UnloadingRule rule = {};
   };
+  static constexpr bool bears_tension(const Parameters&) { return false; }
   template <class Visit, class P>
   static void for_each_parameter(Visit&& visit, P& p) {
     for_each_fit_parameter(visit, p.fits);

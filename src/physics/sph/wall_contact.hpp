@@ -12,10 +12,11 @@ namespace talus::sph {
 /// Coulomb: the wall takes at most mu times the normal impulse from the tangential momentum, and stops the particle if
 /// that is enough. A choice; Yuu & Umekage 2011 print mu = 0.3 for their rule below. \param tangential velocity along
 /// the wall, m/s; \param normal_push the wall's normal impulse over the particle's mass, m/s, counted where it pushes;
-/// \param coefficient mu
-inline Vector3 coulomb_friction(const Vector3& tangential, double normal_push, double coefficient) {
+/// \param coefficient mu \param adhesion the same impulse of a stress that needs no push, m/s
+inline Vector3 coulomb_friction(const Vector3& tangential, double normal_push, double coefficient,
+                                double adhesion = 0) {
   const double speed = norm(tangential);
-  const double loss = coefficient * normal_push;
+  const double loss = coefficient * normal_push + adhesion;
   if (!(loss > 0)) return tangential;
   return speed > loss ? (1 - loss / speed) * tangential : Vector3{};
 }
@@ -40,7 +41,15 @@ struct WallContact {
   Vector3 wall_velocity;  ///< along the wall, m/s
   double stress_push;     ///< normal impulse over mass that the stress of the step has given already, m/s
   double coefficient;     ///< mu
+  double adhesion = 0;    ///< impulse over mass of the wall's adhesion, along it, m/s
+  double parting = 0;     ///< of the step's pull what the wall cannot hold, m/s
 };
+
+/// Of a step's pull, the excess over what a wall holds: its yield locus, |tau| <= mu sigma + adhesion, ends at a
+/// tension of adhesion/mu. All in m/s, as impulses over mass.
+inline double parting(double stress_push, double adhesion, double coefficient) {
+  return std::max(0.0, -stress_push - (coefficient > 0 ? adhesion / coefficient : adhesion));
+}
 
 /// Signorini's condition on the velocity: what a wall adds to the velocity along its normal, m/s, so that the particle
 /// comes no nearer within the step than its contact distance. The approach in excess is lost (restitution 0). A
@@ -54,14 +63,15 @@ inline double contact_push(double along_normal, double gap, double step) {
   return std::max(0.0, std::min(0.0, -gap / step) - along_normal);
 }
 
-/// The velocity of a particle after contact, and Coulomb's friction with all that contact and stress push together,
-/// m/s.
-/// \param velocity of the particle, m/s; \param push contact_push() of it, m/s
+/// The velocity of a particle after contact, without a pull that the wall does not hold, and Coulomb's friction with
+/// all that contact and stress push together, m/s. \param velocity of the particle, m/s; \param push contact_push() of
+/// it, m/s
 inline Vector3 after_contact(const Vector3& velocity, const WallContact& wall, double push) {
   const double along_normal = dot(velocity, wall.normal);
   const Vector3 tangential = velocity - along_normal * wall.normal - wall.wall_velocity;
-  return (along_normal + push) * wall.normal + wall.wall_velocity +
-         coulomb_friction(tangential, wall.stress_push + push, wall.coefficient);
+  const double pushed = push + wall.parting;
+  return (along_normal + pushed) * wall.normal + wall.wall_velocity +
+         coulomb_friction(tangential, wall.stress_push + pushed, wall.coefficient, wall.adhesion);
 }
 
 }  // namespace talus::sph

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "base/instruction_set.hpp"
 #include "base/random.hpp"
 #include "models/continuum/law_update/kernel.hpp"
@@ -17,63 +19,84 @@ struct Points {
   GradientColumns gradient;
   std::vector<double> density;
 
-  explicit Points(bool with_fabric) {
+  explicit Points(bool with_fabric, bool sticky) {
     Random random(11);
     for (auto* columns : {&old.stress, &old.collisional})
       for (auto& column : *columns) column.resize(count);
-    old.history.assign(8, std::vector<double>(count));
+    old.history.assign(9, std::vector<double>(count));
     gradient.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const double pressure = random.uniform(0, 2000);
+      const double pressure = random.uniform(sticky ? -500 : 0, 2000);
       for (std::size_t c = 0; c < 6; ++c) old.stress[c][i] = (c < 3 ? pressure : 0) + random.uniform(-500, 500);
       for (auto& component : gradient.component) component[i] = random.uniform(-100, 100);
       density.push_back(2500 * random.uniform(0.5, 0.65));
       old.history[0][i] = random.uniform(-0.05, 0.05);
       old.history[1][i] = random.uniform(0, 1);
       for (std::size_t c = 0; c < 6; ++c) old.history[2 + c][i] = with_fabric ? random.uniform(-0.5, 0.5) : 0;
+      old.history[8][i] = sticky ? random.uniform(-200e3, 100e3) : 0;
     }
   }
 };
 
 /// Both ways in which the strength at rest counts.
-granular::CriticalState::Parameters grains(bool with_fabric) {
-  if (!with_fabric) return {};
-  return {.ageing_adds = false, .fabric_friction = 0.25, .fabric_contraction = 0.5};
+granular::CriticalState::Parameters grains(bool with_fabric, bool sticky) {
+  granular::CriticalState::Parameters p;
+  if (with_fabric) p.ageing_adds = false, p.fabric_friction = 0.25, p.fabric_contraction = 0.5;
+  if (sticky) p.tensile_strength = 100e3, p.consolidation_strength = 0.2, p.consolidation = 500e3;
+  return p;
+}
+
+/// All that the law can be.
+constexpr std::pair<bool, bool> kinds[] = {{false, false}, {true, false}, {false, true}, {true, true}};
+
+/// The columns that the law uses, of all that there could be.
+MaterialColumns in_use(const MaterialColumns& all, const granular::CriticalState& law) {
+  MaterialColumns used{all.stress, all.collisional, {}};
+  for (std::size_t slot = 0; slot < all.history.size(); ++slot)
+    if (law.uses_slot(slot)) used.history.push_back(all.history[slot]);
+  return used;
 }
 
 TEST(Material, TheLawInVectorsHasTheBitsOfTheLawByParticle) {
-  for (const bool with_fabric : {false, true}) {
+  for (const auto& [with_fabric, sticky] : kinds) {
     Parameters p;
-    p.law = grains(with_fabric);
+    p.law = grains(with_fabric, sticky);
     p.collisions.form = granular::Collisions::none;
-    const Points points(with_fabric);
-    const granular::CriticalState law(grains(with_fabric), p.grains.density, p.grains.diameter);
-    MaterialColumns next = points.old;
+    const Points points(with_fabric, sticky);
+    const granular::CriticalState law(grains(with_fabric, sticky), p.grains.density, p.grains.diameter);
+    const MaterialColumns used = in_use(points.old, law);
+    MaterialColumns next = used;
     ThreadTeam team(2);
-    Material(p).update(team, points.old, points.gradient, {}, points.density, 1e-5, next, true);
-    std::size_t loose = 0;
+    Material(p).update(team, used, points.gradient, {}, points.density, 1e-5, next, true);
+    std::size_t loose = 0, tension = 0;
     for (std::size_t i = 0; i < Points::count; ++i) {
       const auto h = [&](std::size_t k) { return points.old.history[k][i]; };
-      const granular::MaterialPoint<granular::CriticalState> old{tensor_at(points.old.stress, i),
-                                                                 {h(0), h(1), {h(2), h(3), h(4), h(5), h(6), h(7)}}};
+      const granular::MaterialPoint<granular::CriticalState> old{
+          tensor_at(points.old.stress, i), {h(0), h(1), {h(2), h(3), h(4), h(5), h(6), h(7)}, h(8)}};
       const auto expected = law.update(old, points.gradient[i], points.density[i], 1e-5);
       EXPECT_EQ(tensor_at(next.stress, i), expected.stress);
       EXPECT_EQ(next.history[0][i], expected.history.expansion);
       EXPECT_EQ(next.history[1][i], expected.history.contacts);
-      const SymmetricTensor3<> fabric{next.history[2][i], next.history[3][i], next.history[4][i],
-                                      next.history[5][i], next.history[6][i], next.history[7][i]};
-      EXPECT_EQ(fabric, expected.history.fabric);
+      if (with_fabric) {
+        const auto f = [&](std::size_t k) { return next.history[2 + k][i]; };
+        EXPECT_EQ((SymmetricTensor3<>{f(0), f(1), f(2), f(3), f(4), f(5)}), expected.history.fabric);
+      }
+      if (sticky) {
+        EXPECT_EQ(next.history.back()[i], expected.history.strengthening);
+      }
+      tension += trace(expected.stress) < 0;
       loose += expected.stress.xx == 0;
     }
     EXPECT_GT(loose, 10u);
     EXPECT_LT(loose, 70u);
+    EXPECT_EQ(tension > 0, sticky);
   }
 }
 
 TEST(Material, EveryInstructionSetHasTheSameBits) {
-  for (const bool with_fabric : {false, true}) {
-    const Points points(with_fabric);
-    const granular::CriticalState law(grains(with_fabric), 2500, 200e-6);
+  for (const auto& [with_fabric, sticky] : kinds) {
+    const Points points(with_fabric, sticky);
+    const granular::CriticalState law(grains(with_fabric, sticky), 2500, 200e-6);
     constexpr std::size_t end = Points::count / law_block * law_block;
     std::vector<MaterialColumns> found;
     for (const auto& [set, update] :
@@ -89,6 +112,7 @@ TEST(Material, EveryInstructionSetHasTheSameBits) {
       for (std::size_t c = 0; c < 9; ++c) columns.velocity_gradient[c] = points.gradient.component[c].data();
       columns.expansion = points.old.history[0].data(), columns.contacts = points.old.history[1].data();
       columns.next_expansion = next.history[0].data(), columns.next_contacts = next.history[1].data();
+      columns.strengthening = points.old.history[8].data(), columns.next_strengthening = next.history[8].data();
       columns.density = points.density.data();
       columns.time_step = 1e-5;
       update(law.coefficients(), columns, 0, end);

@@ -99,6 +99,21 @@ TEST(CubicSplineLine, HasUnitIntegralOverThePlane) {
 
 namespace {
 
+TEST(CubicSpline, OverAPlaneIsItsIntegral) {
+  const double h = 0.3;
+  double all = 0;
+  for (int n = 0; n < 2000; ++n) all += 2e-3 * h * cubic_spline_plane((n + 0.5) * 1e-3 * h, h);
+  EXPECT_NEAR(all, 1, 1e-5);
+  for (const double z : {0.0, 0.1, 0.29, 0.5}) {
+    double ring = 0;
+    const double step = 1e-4;
+    for (double r = 0.5 * step; r < 2 * h; r += step)
+      ring += 2 * M_PI * r * step * cubic_spline(std::sqrt(r * r + z * z), h);
+    EXPECT_NEAR(cubic_spline_plane(z, h), ring, 1e-5 * cubic_spline_plane(0, h)) << z;
+  }
+  EXPECT_EQ(cubic_spline_plane(0.61, h), 0);
+}
+
 TEST(SmoothingLengths, AreThoseOfEachToTheBit) {
   const double mass = 1.1e-5, ratio = 1.2;
   Random random(3);

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "base/error.hpp"
 #include "physics/granular/appendix_b.hpp"
 #include "physics/granular/kinematics.hpp"
 
@@ -44,6 +47,36 @@ TEST(MaterialPath, WorkIsTheElasticEnergyAndComesBack) {
   // Hooke: M e^2/2, less what the shrinking volume leaves of it.
   EXPECT_NEAR(work_of_path(std::span(path).first(1), std::span(points).first(201)), 4e6 * 1e-6 / 2, 1e-3 * 2);
   EXPECT_NEAR(work_of_path(path, points), 0, 1e-9);
+}
+
+using Stress = std::array<std::optional<double>, 4>;
+
+TEST(MaterialPath, FindsTheRatesOfPrescribedStresses) {
+  // Hooke: uniaxial stress strains by 1/E along, by nu/E across; E = G (3 lambda + 2 G)/(lambda + G), nu = 1/3.
+  const double young = 1e6 * 8e6 / 3e6, poisson = 1.0 / 3;
+  const std::vector<PathStretch> path = {{2, {}, Stress{0.0, 0.0, 300.0, {}}}};
+  const auto points = follow_path(elastic, path, {.points = 10});
+  EXPECT_NEAR(points[5].stress.zz, 150, 1e-4);
+  EXPECT_NEAR(points[10].stress.zz, 300, 1e-4);
+  EXPECT_NEAR(points[10].stress.xx, 0, 1e-4);
+  EXPECT_NEAR(points[10].strain.zz, 300 / young, 1e-3 * 300 / young);
+  EXPECT_NEAR(points[10].strain.yy, -poisson * 300 / young, 1e-3 * 300 / young);
+  EXPECT_NEAR(points[10].density, 1500 * (1 + (1 - 2 * poisson) * 300 / young), 1e-4);
+  EXPECT_NEAR(work_of_path(path, points), 0.5 * 300 * 300 / young, 1e-3 * 0.017);
+  // On from there: sheared under the same stresses, then back to no shear stress.
+  const std::vector<PathStretch> on = {{1, {.xz = 1e-4}, Stress{0.0, 0.0, 300.0, {}}},
+                                       {1, {}, Stress{0.0, 0.0, 300.0, 0.0}}};
+  const auto further = follow_path(elastic, points.back(), on, {.points = 1});
+  EXPECT_EQ(further[0].stress, points.back().stress);
+  EXPECT_NEAR(std::abs(further[1].stress.zx), 1e6 * 1e-4, 0.1);
+  EXPECT_NEAR(further[2].stress.zx, 0, 1e-4);
+  EXPECT_NEAR(further[2].stress.zz, 300, 1e-4);
+}
+
+TEST(MaterialPath, SaysWhichStressTheLawDoesNotBear) {
+  const AnyLaw law = make_law(CriticalState::Parameters{}, 2500);
+  EXPECT_THROW(follow_path(law, std::vector<PathStretch>{{1, {}, Stress{-100.0, -100.0, -100.0, {}}}}, {}),
+               NumericalError);
 }
 
 TEST(MaterialPath, RefusesWhatIsNoPath) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/balance.hpp"
 #include "physics/sph/pair_terms.hpp"
 #include "physics/sph/wall_contact.hpp"
@@ -67,11 +68,64 @@ TEST(Viscosity, HasMonaghansValueAndActsOnApproachOnly) {
   EXPECT_EQ(viscosity_of(law, 0, r2, h, c, rho), 0);
 }
 
+/// Force on a particle of a cubic lattice of unit spacing and mass under a uniform uniaxial tension of 1 along z, of
+/// which the layers at odd distances are shifted along z.
+double force_along_z(double strength, double shift) {
+  double sum = 0;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j)
+      for (int k = -2; k <= 2; ++k) {
+        const Vector3 d{double(i), double(j), k + (k % 2 != 0 ? shift : 0)};
+        const double q = norm(d);
+        if (q == 0 || q >= support) continue;
+        const double tension = artificial_stress(strength, 2.0, cubic_spline_shape_of(q));
+        sum += acceleration<double, Vector3>(1, cubic_spline_slope(q, 1.0), d, {0, 0, -2, 0, 0, 0}, tension).z;
+      }
+  return sum;
+}
+
+TEST(ArtificialStress, ALatticeUnderTensionStaysWithItAndPairsUpWithout) {
+  // Per shift of the layers beside it, the force that draws it after them.
+  const double shift = 1e-4, without = force_along_z(0, shift) / shift, with = force_along_z(1, shift) / shift;
+  EXPECT_LT(without, -4);  // unstable
+  EXPECT_GT(with, -0.1);
+  EXPECT_GT(force_along_z(4, shift) / shift, -0.3);
+}
+
+TEST(ArtificialStress, ALatticeBearsWhatItBore) {
+  double of_tension = 0, of_springs = 0;
+  for (int i = -2; i <= 2; ++i)
+    for (int j = -2; j <= 2; ++j)
+      for (int k = -2; k <= 2; ++k) {
+        const double q = std::sqrt(double(i * i + j * j + k * k));
+        if (q == 0 || q >= support) continue;
+        const double weight = cubic_spline_slope(q, 1.0) * k * k;
+        of_tension += 2 * weight, of_springs += weight * artificial_stress(1, 2.0, cubic_spline_shape_of(q));
+      }
+  EXPECT_NEAR(of_springs / of_tension, 0, 1e-3);
+  EXPECT_EQ(artificial_stress(1, 2.0, 1.0), 0);
+  EXPECT_GT(artificial_stress(1, 2.0, 1.2), 0);  // nearer: apart
+  EXPECT_LT(artificial_stress(1, 2.0, 0.9), 0);  // farther: together
+}
+
 TEST(CoulombFriction, TakesAtMostMuTimesTheNormalImpulse) {
   EXPECT_EQ(coulomb_friction({3, 4, 0}, 2, 0.5), (Vector3{3 * 0.8, 4 * 0.8, 0}));
   EXPECT_EQ(coulomb_friction({3, 4, 0}, 20, 0.5), (Vector3{}));
   EXPECT_EQ(coulomb_friction({3, 4, 0}, -2, 0.5), (Vector3{3, 4, 0}));  // a wall that pulls does not rub
   EXPECT_EQ(coulomb_friction({}, 2, 0.5), (Vector3{}));
+}
+
+TEST(WallContact, HoldsByItsAdhesionUpToTheTipOfItsYieldLocus) {
+  EXPECT_EQ(coulomb_friction({3, 4, 0}, 2, 0.5, 1), (Vector3{3 * 0.6, 4 * 0.6, 0}));
+  EXPECT_EQ(coulomb_friction({3, 4, 0}, -1, 0.5, 1.5), (Vector3{3 * 0.8, 4 * 0.8, 0}));  // 1.5 - 0.5
+  EXPECT_EQ(coulomb_friction({3, 4, 0}, -4, 0.5, 1.5), (Vector3{3, 4, 0}));
+  EXPECT_EQ(parting(1, 1.5, 0.5), 0);
+  EXPECT_EQ(parting(-2, 1.5, 0.5), 0);
+  EXPECT_EQ(parting(-4, 1.5, 0.5), 1);
+  EXPECT_EQ(parting(-4, 0, 0.5), 4);
+  // What is not held of a pull is taken back, and no more than the rest presses or pulls.
+  const WallContact wall{{0, 0, 1}, {}, -4, 0.5, 1.5, parting(-4, 1.5, 0.5)};
+  EXPECT_EQ(after_contact({3, 0, -4}, wall, 0), (Vector3{3, 0, -3}));
 }
 
 TEST(PrintedFriction, DecaysAtTheSameRateWithAnyStep) {

@@ -85,12 +85,14 @@ std::optional<WallMotion> motion_of(const Parameters& p, const VesselPart& v) {
 
 Boundary::Boundary(const Parameters& p) : domain_(domain_of(p)), vessel_(surface_of(p)) {
   const double friction = p.walls.friction == Friction::coulomb ? p.walls.coefficient : 0;
-  for (const char* const face : face_names) patches_.push_back({face, friction, {}, {}});
-  for (const Wall& wall : domain_.walls()) patches_.push_back({wall.name(), friction, {}, {}});
+  const double adhesion = wall_adhesion(p);
+  for (const char* const face : face_names) patches_.push_back({face, friction, adhesion, {}, {}});
+  for (const Wall& wall : domain_.walls()) patches_.push_back({wall.name(), friction, adhesion, {}, {}});
   for (std::size_t n = 0; n < p.vessel.size(); ++n) {
     const VesselPart& v = p.vessel[n];
     patches_.push_back({.name = name_of(p, n),
                         .friction = p.walls.friction == Friction::coulomb ? v.friction.value_or(friction) : 0,
+                        .adhesion = adhesion,
                         .opens_after = v.gate ? std::optional(v.opens_after) : std::nullopt,
                         .motion = motion_of(p, v)});
   }

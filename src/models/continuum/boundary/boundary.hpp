@@ -36,6 +36,7 @@ struct WallMotion {
 struct Patch {
   std::string name;
   double friction = 0;                ///< coefficient of Coulomb's friction
+  double adhesion = 0;                ///< shear stress that it bears besides, Pa
   std::optional<double> opens_after;  ///< a gate: so long after the gate of the case opens, s
   std::optional<WallMotion> motion;   ///< from the opening of the gate of the case on
 };

@@ -65,20 +65,32 @@ class Loads {
 /// The walls as they rub at present.
 struct Walls {
   const Boundary& boundary;
-  bool rough, moving;
+  bool rough, moving, pulled;  // pulled: whether grains may pull at them
 
   Walls(const ContactSetting& setting, const State& state)
-      : boundary(setting.boundary), rough(has_friction(setting.parameters, state)), moving(state.gate_time >= 0) {}
+      : boundary(setting.boundary),
+        rough(has_friction(setting.parameters, state)),
+        moving(state.gate_time >= 0),
+        pulled(has_cohesion(setting.parameters)) {}
 
-  /// \param normal towards the particle \param x of the wall
-  sph::WallContact contact(std::size_t patch, const Vector3& x, const Vector3& normal, double stress_push) const {
+  /// \param normal towards the particle \param x of the wall \param push_per_stress impulse over mass that a stress of
+  /// the wall gives the particle in the step, m/(s Pa)
+  sph::WallContact contact(std::size_t patch, const Vector3& x, const Vector3& normal, double stress_push,
+                           double push_per_stress = 0) const {
     const Patch& wall = boundary.patches()[patch];
     Vector3 along;
     if (moving && wall.motion) {
       along = wall.motion->at(x);
       along = along - dot(along, normal) * normal;
     }
-    return {normal, along, stress_push, rough ? wall.friction : 0};
+    if (!pulled) return {normal, along, stress_push, rough ? wall.friction : 0};
+    const double adhesion = wall.adhesion * push_per_stress;
+    return {normal,
+            along,
+            stress_push,
+            rough ? wall.friction : 0,
+            rough ? adhesion : 0,
+            sph::parting(stress_push, adhesion, wall.friction)};
   }
 };
 
@@ -167,14 +179,20 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
       velocity = after;
       return impulse;
     };
-    const auto touch = [&](int wall, double acceleration) {
+    const auto touch = [&](int wall, double acceleration, double duration) {
       if (!domain.is_solid(wall)) return false;
       const auto patch = static_cast<std::size_t>(wall);
       const double side = planes.side(wall, position[i]);
+      double per_stress = 0;
+      if (walls.pulled) {
+        const double h = pairs.smoothing_length(state.density[i]);
+        per_stress =
+            2 * duration / state.density[i] * sph::cubic_spline_plane(side * domain.above(wall, position[i]), h);
+      }
       const sph::WallContact contact =
-          walls.contact(patch, x, side * planes.normal(wall), side * acceleration * step.duration);
+          walls.contact(patch, x, side * planes.normal(wall), side * acceleration * duration, per_stress);
       const double push = planes.push(wall, side, x, velocity, step.step);
-      if (push > 0 || contact.stress_push * contact.coefficient > 0)
+      if (push > 0 || contact.stress_push * contact.coefficient > 0 || contact.adhesion > 0 || contact.parting > 0)
         become(patch, sph::after_contact(velocity, contact, push));
       return push > 0;
     };
@@ -183,13 +201,13 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
     rates.by_walls.of(i, [&](int wall, double acceleration) {
       loads.receive(received, static_cast<std::size_t>(wall),
                     (-state.mass * step.duration * acceleration) * planes.normal(wall));
-      held = touch(wall, acceleration) || held;
+      held = touch(wall, acceleration, step.duration) || held;
       ++count;
     });
     // What one wall gave may press on another: in corners.
     for (int pass = 0; held && count > 1 && pass < max_passes; ++pass) {
       held = false;
-      rates.by_walls.of(i, [&](int wall, double) { held = touch(wall, 0) || held; });
+      rates.by_walls.of(i, [&](int wall, double) { held = touch(wall, 0, 0) || held; });
     }
     if (printed)
       for (int wall = 0; wall < domain.wall_count(); ++wall)
@@ -204,9 +222,9 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
       const double pushed = state.mass * step.duration * dot(wall.acceleration, wall.normal);
       loads.receive(received, patch, (-state.mass * step.duration) * wall.acceleration);
       LoadOfFields load{wall.fields, pushed, -pushed * wall.normal};
-      const sph::WallContact contact =
-          walls.contact(patch, x, wall.normal, step.duration * dot(wall.acceleration, wall.normal));
-      if (walls.rough) load.received += become(patch, sph::after_contact(velocity, contact, 0));
+      const sph::WallContact contact = walls.contact(
+          patch, x, wall.normal, step.duration * dot(wall.acceleration, wall.normal), step.duration * wall.per_stress);
+      if (walls.rough || contact.parting > 0) load.received += become(patch, sph::after_contact(velocity, contact, 0));
       loads.note(i, load);
     }
     for_each_contact(

@@ -20,11 +20,17 @@ SingleMotionRecord single(const Vector3& x, const Vector3& u, float half_length,
           volume};
 }
 
-SingleStressRecord single(const SymmetricTensor3<>& s, float half_density) {
+SingleStressRecord single(const SymmetricTensor3<>& s, float half_density, float tension) {
   return {{static_cast<float>(s.xx), static_cast<float>(s.yy), static_cast<float>(s.zz), static_cast<float>(s.xy),
            static_cast<float>(s.yz), static_cast<float>(s.zx)},
           half_density,
-          0};
+          tension};
+}
+
+/// Of the artificial stress: the largest tension, or a little more where none of the others is its equal.
+double tension_of(const SymmetricTensor3<>& stress) {
+  constexpr double sqrt_2_3 = 0.81649658092772603;
+  return std::max(sqrt_2_3 * norm(deviator(stress)) - trace(stress) / 3, 0.0);
 }
 
 /// What an image does to the numbers of a record, where it only turns signs and shifts places, as most do: then a
@@ -137,7 +143,7 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
     motion_[i] = {{x.x, x.y, x.z}, 0.5 * particles.smoothing_length[i], {u.x, u.y, u.z}, options_.mass / density};
     if (!stresses) return;
     const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
-    stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, 0};
+    stress_[i] = {{s.xx, s.yy, s.zz, s.xy, s.yz, s.zx}, 0.5 * density, options_.tension ? tension_of(s) : 0};
   });
   const std::vector<Signs> signs = signs_of(neighbourhood.images());
   for_each(team, packed_ghosts.size(), [&](std::size_t n) {
@@ -156,7 +162,8 @@ void PairRecords::pack_double(ThreadTeam& team, const PairLists& lists, const Pa
     if (!stresses) return;
     const double* s = stress_[ghosts[g].source].specific_stress;
     const SymmetricTensor3<> t = image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]});
-    stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, stress_[ghosts[g].source].half_density, 0};
+    const StressRecord& of_source = stress_[ghosts[g].source];
+    stress_[count + g] = {{t.xx, t.yy, t.zz, t.xy, t.yz, t.zx}, of_source.half_density, of_source.tension};
   });
   constexpr double far_away = 1e3;  // m
   motion_.back() = {{far_away, far_away, far_away}, count > 0 ? motion_.front().half_length : 1, {}, 0};
@@ -179,7 +186,8 @@ void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const Pa
                static_cast<float>(options_.mass / density), per_quantum);
     if (!stresses) return;
     const SymmetricTensor3<> s = specific_stress(particles, i, options_.stress_form, options_.grain_density);
-    single_stress_[i] = single(s, static_cast<float>(0.5 * density));
+    single_stress_[i] =
+        single(s, static_cast<float>(0.5 * density), options_.tension ? static_cast<float>(tension_of(s)) : 0.0F);
   });
   const std::vector<Signs> signs = signs_of(neighbourhood.images());
   const auto mirror = [&](const Signs& of_image, std::span<const std::uint32_t> alike) {
@@ -207,8 +215,8 @@ void PairRecords::pack_single(ThreadTeam& team, const PairLists& lists, const Pa
                  single_motion_[source].half_length, single_motion_[source].volume, per_quantum);
       if (!stresses) continue;
       const float* s = single_stress_[source].specific_stress;
-      single_stress_[count + g] =
-          single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}), single_stress_[source].half_density);
+      single_stress_[count + g] = single(image.tensor({s[0], s[1], s[2], s[3], s[4], s[5]}),
+                                         single_stress_[source].half_density, single_stress_[source].tension);
     }
   };
   for_each_chunk(team, packed_ghosts.size(), [&](std::size_t first, std::size_t end) {

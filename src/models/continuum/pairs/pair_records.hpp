@@ -32,6 +32,7 @@ class PairRecords {
     double grain_density;  ///< kg/m^3
     sph::StressForm stress_form;
     PairPrecision precision;
+    bool tension;        ///< whether the artificial stress needs it
     bool always_double;  ///< with single precision of the pairs, too: the walls of a vessel read double precision
   };
   explicit PairRecords(const Options& options) : options_(options) {}

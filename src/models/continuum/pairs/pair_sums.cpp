@@ -35,7 +35,9 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
                  .viscosity_alpha = setup.given.sph.viscosity_alpha,
                  .viscosity_beta = setup.given.sph.viscosity_beta,
                  .density_diffusion = 2 * setup.given.sph.density_diffusion * setup.sound_speed,
-                 .hourglass_damping = setup.given.sph.hourglass_damping * setup.sound_speed},
+                 .hourglass_damping = setup.given.sph.hourglass_damping * setup.sound_speed,
+                 .artificial_stress = artificial_stress(setup.given),
+                 .nearness = 1 / sph::cubic_spline_shape_of(1 / setup.given.sph.smoothing_ratio)},
       diffuses_(setup.given.sph.density_diffusion > 0),
       damps_(setup.given.sph.hourglass_damping > 0 || setup.given.sph.viscosity_speed == ViscositySpeed::local),
       local_sound_speed_(setup.given.sph.viscosity_speed == ViscositySpeed::local),
@@ -43,7 +45,8 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
       vessel_(vessel, setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields,
               setup.sector()),
       walls_(vessel_, lists_, constants_, local_sound_speed_),
-      records_({mass_, grain_density_, stress_form_, precision_, !vessel.is_empty()}) {
+      records_(
+          {mass_, grain_density_, stress_form_, precision_, constants_.artificial_stress > 0, !vessel.is_empty()}) {
   const InstructionSet set = resolve(setup.given.integration.instruction_set);
   const auto choose = [&](PairTerms terms, StressGradient stress_gradient) {
     return TALUS_COMPILED_FOR(set, sum_neighbours)(

@@ -33,9 +33,10 @@ struct WallAccelerations {
 /// The force of a smooth part of a wall on a particle.
 struct WallForce {
   std::uint32_t patch = 0;
-  FieldShare fields;     ///< NearWall::fields
-  Vector3 normal;        ///< unit, towards the particle
-  Vector3 acceleration;  ///< m/s^2
+  FieldShare fields;      ///< NearWall::fields
+  Vector3 normal;         ///< unit, towards the particle
+  Vector3 acceleration;   ///< m/s^2
+  double per_stress = 0;  ///< its size by a normal stress of 1 Pa, m/(s^2 Pa)
 };
 struct WallForces {
   std::size_t count = 0;  // stands first: with the first force it is all that most particles need

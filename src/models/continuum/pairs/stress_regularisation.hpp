@@ -9,8 +9,9 @@
 /// Eq. 7, s_i and p_i deviator and mean of the law's own, and G its shear modulus. K = 1 takes as much from around as
 /// the strain makes; range: 0.1 to 1 were tried, and 0.2 is nearest to beads.
 /// A uniform ratio s/p stays as it is under any pressures; where nothing moves nothing changes; grains apart have and
-/// give nothing. Source: the stress regularisation of Nguyen, Nguyen, Bui, Nguyen & Fukagawa, Landslides 14, 69 (2017),
-/// who set the stress to the mean of the neighbours every few steps; completed: of the ratio, and by the strain.
+/// give nothing. Where grains stick together p + a, a their tensile strength, takes the place of p. Source: the stress
+/// regularisation of Nguyen, Nguyen, Bui, Nguyen & Fukagawa, Landslides 14, 69 (2017), who set the stress to the mean
+/// of the neighbours every few steps; completed: of the ratio, and by the strain.
 #pragma once
 
 #include "base/parallel.hpp"

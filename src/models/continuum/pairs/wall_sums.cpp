@@ -128,7 +128,7 @@ void find_forces_of_walls(const VesselWalls& walls, const Records& records, std:
       const double viscosity = (viscous.beta * mu - viscous.alpha * sound_speed) * mu / density;
       a += viscosity * upright;
     }
-    forces.of[forces.count++] = {wall.patch, wall.fields, n, (-density * a) * n};
+    forces.of[forces.count++] = {wall.patch, wall.fields, n, (-density * a) * n, 2 * std::abs(upright) / density};
   }
 }
 

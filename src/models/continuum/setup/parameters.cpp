@@ -306,7 +306,8 @@ bool is_loose_where_free(const Parameters& p) {
 }
 
 double density_relaxation(const Parameters& p) {
-  return is_loose_where_free(p) ? p.sph.density_relaxation : 0;
+  const bool flows = p.law.is<granular::CriticalState>() || !granular::bears_tension(p.law);
+  return p.sph.continuity == Continuity::printed && flows ? p.sph.density_relaxation : 0;
 }
 
 bool draws_by_lasting_rate(const Parameters& p) {
@@ -315,6 +316,18 @@ bool draws_by_lasting_rate(const Parameters& p) {
 
 double stress_regularisation(const Parameters& p) {
   return p.law.is<granular::CriticalState>() ? p.sph.stress_regularisation : 0;
+}
+
+bool has_cohesion(const Parameters& p) {
+  return p.law.is<granular::CriticalState>() && granular::bears_tension(p.law);
+}
+
+double artificial_stress(const Parameters& p) {
+  return has_cohesion(p) ? p.sph.artificial_stress : 0;
+}
+
+double wall_adhesion(const Parameters& p) {
+  return has_cohesion(p) && p.walls.friction == Friction::coulomb ? p.walls.adhesion : 0;
 }
 
 std::vector<Problem> check(const Parameters& given) {
@@ -360,6 +373,11 @@ std::vector<Problem> check(const Parameters& given) {
     problems.push_back({.key = "collisions.form",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
                         .allowed = "none without gravity"});
+  if (p.gravity.tilt > 0 && (p.air.enabled || p.box.sector))
+    problems.push_back(
+        {.key = "gravity.tilt",
+         .what = p.air.enabled ? "the air's gravity is along -z" : "a sector turns about an upright axis",
+         .allowed = p.air.enabled ? "0 with air" : "0 in a sector"});
   if (!problems.empty() || !layout) return problems;
   check_each([&](std::size_t n) { return check_mass(layout->with_bed_alone(n)); });
   for (const Problem& problem : check_inlets(*layout)) problems.push_back(problem);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -65,6 +66,7 @@ struct Parameters {
     ViscositySpeed viscosity_speed = ViscositySpeed::largest;
     double density_relaxation = 1;
     double stress_regularisation = 0;
+    double artificial_stress = 1;
     double density_diffusion = 0;
     double hourglass_damping = 0;
   } sph;
@@ -72,10 +74,12 @@ struct Parameters {
     Friction friction = Friction::coulomb;
     std::optional<WallMaterial> material;
     double coefficient = 0.3;
+    double adhesion = 0;
     FrictionFrom friction_from = FrictionFrom::gate;
   } walls;
   struct Gravity {
     double acceleration = 9.81;
+    double tilt = 0;
   } gravity;
   struct Air {
     bool enabled = false;
@@ -174,15 +178,14 @@ void for_each_parameter(Visit&& visit, P& p) {
                   "of the corrected velocity gradient"},
         p.sph.continuity);
   auto as_sum = only_if(where("sph.continuity", p.sph.continuity, Continuity::printed), visit);
-  auto loose_where_free = only_if({"law.name", "is " + value_text(p.law.name), "of a law without tensile strength",
-                                   !granular::bears_tension(p.law)},
-                                  as_sum);
-  loose_where_free(
-      Parameter{
-          "sph.density_relaxation", dimension::none, at_least(0),
-          "share of the difference between the kernel's sum and the density that a shear strain of "
-          "1 takes back; not under a law with tensile strength; 0, as printed: both drift apart as the grains flow"},
-      p.sph.density_relaxation);
+  auto flowing = only_if({"law.name", "is " + value_text(p.law.name), "of grains that flow",
+                          p.law.template is<granular::CriticalState>() || !granular::bears_tension(p.law)},
+                         as_sum);
+  flowing(Parameter{"sph.density_relaxation", dimension::none, at_least(0),
+                    "share of the difference between the kernel's sum and the density that a shear strain of "
+                    "1 takes back, of grains that stick together only where the sum is more; 0, as printed: both drift "
+                    "apart as the grains flow"},
+          p.sph.density_relaxation);
   visit(Parameter{"sph.stress_form",
                   {},
                   {},
@@ -207,6 +210,13 @@ void for_each_parameter(Visit&& visit, P& p) {
                               "how strongly shear draws the deviatoric stress to that of the neighbours; 1: by as much "
                               "as the shear of a step replaces of it; 0: not at all"},
                     p.sph.stress_regularisation);
+  auto of_cohesion = only_if({"law.name", "is " + value_text(p.law.name), "critical-state with cohesion",
+                              p.law.template is<granular::CriticalState>() && granular::bears_tension(p.law)},
+                             visit);
+  of_cohesion(Parameter{"sph.artificial_stress", dimension::none, between(0, 4),
+                        "epsilon of springs between particles under tension, which would pair up: the tensile "
+                        "instability; 0: none"},
+              p.sph.artificial_stress);
   visit(Parameter{"sph.density_diffusion", dimension::none, between(0, 1),
                   "delta of a diffusion of the density that leaves linear fields and damps what alternates from "
                   "particle to particle; 0.1 in delta-SPH; 0: none"},
@@ -228,6 +238,11 @@ void for_each_parameter(Visit&& visit, P& p) {
   rough(Parameter{"walls.coefficient", dimension::none, friction_coefficient(),
                   "coefficient of wall friction, the tangent of the angle of wall friction"},
         p.walls.coefficient);
+  auto adhesive = only_if(where("walls.friction", p.walls.friction, Friction::coulomb), of_cohesion);
+  adhesive(Parameter{"walls.adhesion", dimension::pressure, at_least(0),
+                     "shear stress that walls bear besides, of grains that stick together, which they hold up to a "
+                     "tension of this over walls.coefficient"},
+           p.walls.adhesion);
   rough(
       Parameter{
           "walls.friction_from", {}, {}, "whether walls have friction from the start or from the opening of the gate"},
@@ -235,6 +250,9 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
+  visit(Parameter{"gravity.tilt", dimension::angle, between(0, 4 * std::numbers::pi / 9),
+                  "angle by which it leans towards +x, as in a box that stands on a slope"},
+        p.gravity.tilt);
 
   visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it no other key of the air may be given"},
         p.air.enabled);
@@ -322,7 +340,8 @@ bool is_loose_where_free(const Parameters& parameters);
 
 /// sph.density_relaxation where it holds, else 0: what a shear strain of 1 takes back of the difference between the
 /// kernel's sum and the density. Eq. 16 is the rate of the kernel's sum for a constant smoothing length and between
-/// mirrors; what else there is adds up with the strain (docs/design/stabilisation.md).
+/// mirrors; what else there is adds up with the strain (docs/design/stabilisation.md). Where grains stick together a
+/// density is drawn upwards only: a lack of neighbours is a free surface, which no crack has opened.
 double density_relaxation(const Parameters& parameters);
 
 /// Whether they are drawn by the shear that lasts (State::lasting_rate) and not by each step's. Particles beside a
@@ -332,6 +351,15 @@ bool draws_by_lasting_rate(const Parameters& parameters);
 
 /// K, sph.stress_regularisation where the law has it, else 0.
 double stress_regularisation(const Parameters& parameters);
+
+/// Whether the grains stick together.
+bool has_cohesion(const Parameters& parameters);
+
+/// walls.adhesion where grains stick together and walls rub, else 0, Pa.
+double wall_adhesion(const Parameters& parameters);
+
+/// epsilon, sph.artificial_stress where grains stick together, else 0.
+double artificial_stress(const Parameters& parameters);
 
 /// Contradictions between keys that are each valid by themselves; empty if there are none.
 std::vector<Problem> check(const Parameters& parameters);

@@ -20,7 +20,7 @@ struct alignas(64) MotionRecord {
 struct alignas(64) StressRecord {
   double specific_stress[6];  ///< tau/rho^2: xx yy zz xy yz zx, m^5/(kg s^2)
   double half_density;        ///< half of the bulk density, kg/m^3
-  double unused;
+  double tension;             ///< T/rho^2 of the artificial stress, m^5/(kg s^2)
 };
 
 /// What the stabilisers (physics/sph/pair_terms.hpp) know of a particle besides: where forces are damped,
@@ -48,7 +48,7 @@ struct alignas(32) SingleMotionRecord {
 struct alignas(32) SingleStressRecord {
   float specific_stress[6];
   float half_density;
-  float unused;
+  float tension;
 };
 struct alignas(32) SingleDampingRecord {
   float deformation_rate[6];
@@ -79,6 +79,8 @@ struct PairConstants {
   double viscosity_alpha, viscosity_beta;  ///< Monaghan's
   double density_diffusion = 0;            ///< 2 delta c, m/s
   double hourglass_damping = 0;            ///< zeta c, m/s
+  double artificial_stress = 0;            ///< epsilon
+  double nearness = 0;                     ///< one over the kernel's shape at the spacing
 };
 
 struct SingleRecords {

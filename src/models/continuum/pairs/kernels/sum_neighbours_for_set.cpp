@@ -223,6 +223,9 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       } else {
         viscosity = sph::viscosity(viscous, approach, square, h, constants.sound_speed, mean_density);
       }
+      if (constants.artificial_stress > 0)
+        viscosity = viscosity + sph::artificial_stress(constants.artificial_stress, Number(loaded.tension) + stress[7],
+                                                       constants.nearness * sph::cubic_spline_shape_of(q));
       const Real* s = loaded.specific_stress;
       const SymmetricTensor3<Number> both{stress[0] + Number(s[0]), stress[1] + Number(s[1]), stress[2] + Number(s[2]),
                                           stress[3] + Number(s[3]), stress[4] + Number(s[4]), stress[5] + Number(s[5])};

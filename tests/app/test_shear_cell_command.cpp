@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "base/error.hpp"
+#include "io/scratch_folder.hpp"
+#include "io/series.hpp"
+
+namespace talus::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const char* const powder = R"([law]
+name = "critical-state"
+[law.critical-state]
+static_friction = 0.5
+dynamic_friction = 0.5
+packing_slope = 0
+ageing_strength = 0
+tensile_strength = "100 Pa"
+consolidation_strength = 0.2
+cohesion_strain = 2
+)";
+
+class ShearCellCommand : public testing::Test {
+ protected:
+  std::string powder_case() const {
+    std::ofstream(folder_ / "powder.toml") << powder;
+    return (folder_ / "powder.toml").string();
+  }
+  std::string out() const { return (folder_ / "out").string(); }
+
+  /// What it prints.
+  static std::string run(std::vector<std::string> arguments) {
+    CLI::App app;
+    Action action;
+    add_shear_cell_command(app, action);
+    arguments.insert(arguments.begin(), "shear-cell");
+    std::reverse(arguments.begin(), arguments.end());
+    app.parse(arguments);
+    testing::internal::CaptureStdout();
+    try {
+      EXPECT_EQ(action(), ExitStatus::done);
+    } catch (...) {
+      testing::internal::GetCapturedStdout();
+      throw;
+    }
+    return testing::internal::GetCapturedStdout();
+  }
+  static std::vector<std::string> problems(const std::vector<std::string>& arguments) {
+    std::vector<std::string> lines;
+    try {
+      run(arguments);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems()) lines.push_back(to_string(problem));
+    }
+    return lines;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(ShearCellCommand, WritesWhatItMeasuresAndDrawsIt) {
+  const std::string said = run({powder_case(), "--loads", "1 kPa,4 kPa", "--fractions", "0.2,0.5,0.8", "--out", out()});
+  const Series flow = read_series(folder_ / "out" / "flow-function.csv");
+  ASSERT_EQ(flow.rows(), 2u);
+  const double strength[] = {100 + 0.2 * 1000, 100 + 0.2 * 4000};
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_NEAR(flow.column("cohesion")[n], 0.5 * strength[n], 0.005 * strength[n]);
+    EXPECT_NEAR(std::tan(flow.column("friction_angle")[n]), 0.5, 0.005);
+    EXPECT_NEAR(flow.column("strength_in_plane_strain")[n], 2 * strength[n], 0.02 * strength[n]);
+  }
+  const Series loci = read_series(folder_ / "out" / "yield-loci.csv");
+  EXPECT_THAT(loci.column("normal_stress"), ElementsAre(200, 500, 800, 800, 2000, 3200));
+  EXPECT_EQ(read_series(folder_ / "out" / "triaxial.csv").rows(), 6u);
+  EXPECT_GT(std::filesystem::file_size(folder_ / "out" / "shear-cell.png"), 10000u);
+  EXPECT_THAT(said, HasSubstr("ff_c"));
+  EXPECT_THAT(said, HasSubstr("flow-function.csv"));
+  // A folder that is there is not replaced without being asked for.
+  EXPECT_FALSE(problems({powder_case(), "--out", out()}).empty());
+}
+
+TEST_F(ShearCellCommand, NamesEveryProblem) {
+  EXPECT_THAT(problems({powder_case(), "--loads", "1 kPa,3,-2 Pa", "--fractions", "0.5", "--rate", "1 m"}),
+              ElementsAre(HasSubstr("\"3\" is out of place; allowed: loads of pre-shear above 0"),
+                          HasSubstr("\"-2 Pa\" is out of place"), HasSubstr("--rate 1 m: \"1 m\" is out of place"),
+                          HasSubstr("--fractions 0.5: is one load; allowed: at least two")));
+  EXPECT_THAT(problems({powder_case(), "--set", "law.critical-state.tensile_strength=3"}),
+              ElementsAre(HasSubstr("tensile_strength")));
+  EXPECT_THAT(problems({powder_case(), "--set", "law.critical-state.tensile_strength=1 MPa"}),
+              ElementsAre(HasSubstr("at most 0.1 bulk_modulus")));
+}
+
+}  // namespace
+}  // namespace talus::app
