@@ -3,7 +3,6 @@
 /// Source: Monaghan, Annu. Rev. Astron. Astrophys. 30, 543-574 (1992), section 2.2; Yuu & Umekage 2011, below Eq. 16.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -72,7 +71,7 @@ TALUS_INLINE Number cubic_spline_slope(Number distance, Number h) {
 /// normal is 1. \param distance from the plane, \param h smoothing length, m; \returns 1/m
 inline double cubic_spline_plane(double distance, double h) {
   const auto part = [q = distance / h](double a) {
-    const double u = std::max(a - q, 0.0);
+    const double u = a > q ? a - q : 0;
     return u * u * u * u * (0.25 * a - 0.2 * u);
   };
   return (part(2) - 4 * part(1)) / (2 * h);
