@@ -68,7 +68,8 @@ LawCase read_law_case(const CaseFile& file);
 
 /// Reads a path: a line per stretch, with its duration and the components gradient_xx, gradient_xy, ... of the velocity
 /// gradient, of which those left out are zero; a column stress_xx, stress_yy, stress_zz or stress_xz prescribes that
-/// component of the stress, at the end of each stretch, in place of the gradient. \throws FileError, InputError with every bad line
+/// component of the stress, at the end of each stretch, in place of the gradient. \throws FileError, InputError with
+/// every bad line
 std::vector<granular::PathStretch> read_path(const std::filesystem::path& path);
 
 /// Options of the case for a path of so many stretches.
