@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -31,8 +32,7 @@ struct Step {
 
   // Stages of both integrators.
   void air() const;
-  void gradients(std::span<const Vector3> velocity, std::span<const double> density,
-                 std::span<const double> smoothing_length, const MaterialColumns& material, PairTerms terms) const;
+  void gradients(const SummedColumns& columns, PairTerms terms) const;
   void drift(std::span<const Vector3> velocity) const;
   void density() const;
   void stress() const;
@@ -45,7 +45,7 @@ struct Step {
   // Of the midpoint rule.
   void half() const;
   void momentum() const;
-  ContactSetting walls() const { return {p, w.boundary, w.load_fields, w.contact_distance}; }
+  ContactSetting walls() const { return {p, w.boundary, w.load_fields, w.contact_distance, w.share}; }
   // Parts of `end`.
   void damping() const;
   void clock() const;
@@ -59,7 +59,8 @@ void advance_leapfrog(const Step& step) {
   step.kick();
   step.contact(0.5 * (s.last_step + step.dt), s.position);
   step.midpoint_positions();
-  step.gradients(s.velocity, s.density, w.smoothing_length, s.material, PairTerms::gradients);
+  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
+                 PairTerms::gradients);
   step.drift(s.velocity);
   step.density();
   step.stress();
@@ -76,7 +77,8 @@ void advance_midpoint(const Step& step) {
   State& s = step.s;
   Workspace& w = step.w;
   step.half();
-  step.gradients(w.velocity, w.density, w.midpoint_smoothing_length, w.columns, PairTerms::all);
+  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate},
+                 PairTerms::all);
   step.drift(w.velocity);
   step.momentum();
   step.density();
@@ -113,10 +115,12 @@ struct GrainLimits {
   double max_square_speed = 0;                                            ///< of the particles within the box, m^2/s^2
 };
 
+/// Of the particles of all processes.
 GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& w) {
-  return accumulate(
+  const GrainLimits here = accumulate(
       team, w.smoothing_length.size(), GrainLimits{},
       [&](std::size_t i, GrainLimits& limits) {
+        if (!w.share.owns(i)) return;
         limits.min_smoothing_length = std::min(limits.min_smoothing_length, w.smoothing_length[i]);
         const double square = dot(s.velocity[i], s.velocity[i]);
         if (square > limits.max_square_speed && w.boundary.domain().box().contains(s.position[i]))
@@ -126,6 +130,9 @@ GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& 
         return GrainLimits{std::min(a.min_smoothing_length, b.min_smoothing_length),
                            std::max(a.max_square_speed, b.max_square_speed)};
       });
+  Votes votes{.least = {here.min_smoothing_length}, .largest = {here.max_square_speed}, .sum = {}};
+  w.share.ranks().join(votes);
+  return {votes.least[0], votes.largest[0]};
 }
 
 /// The longest step in which nothing moves farther than max_advance, s.
@@ -135,11 +142,10 @@ double step_of_speed(const Parameters& p, const GrainLimits& limits) {
 
 /// The step that pressure waves and the speed of the grains allow, s, or the fixed one; without particles that of the
 /// bed's.
-double step_of_grains(const Setup& setup, const GrainLimits& limits, const Workspace& w) {
+double step_of_grains(const Setup& setup, const GrainLimits& limits, const Workspace& w, std::size_t particles) {
   const Parameters& p = setup.given;
   if (p.integration.step) return *p.integration.step;
-  if (w.smoothing_length.empty())
-    return p.integration.courant * w.pairs.smoothing_length(setup.density) / setup.sound_speed;
+  if (particles == 0) return p.integration.courant * w.pairs.smoothing_length(setup.density) / setup.sound_speed;
   return std::min(p.integration.courant * limits.min_smoothing_length / setup.sound_speed, step_of_speed(p, limits));
 }
 
@@ -147,7 +153,7 @@ double step_of_grains(const Setup& setup, const GrainLimits& limits, const Works
 /// the air; until the end of that step unchanged.
 double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w) {
   if (w.air && !w.air->is_due(s)) return s.last_step;
-  const double of_grains = step_of_grains(setup, limits_of_grains(team, s, w), w);
+  const double of_grains = step_of_grains(setup, limits_of_grains(team, s, w), w, w.share.of_all(s.position.size()));
   return w.air ? std::min(of_grains, w.air->max_step()) : of_grains;
 }
 
@@ -162,14 +168,17 @@ struct Gravity {
   Vector3 at(const Vector3& x) const { return by_height ? at_height(x.z) : everywhere; }
 
   /// Impulse of all particles within a duration, N s.
-  Vector3 impulse(ThreadTeam& team, const State& s, double duration) const {
-    if (!by_height) return (duration * s.mass * static_cast<double>(s.velocity.size())) * everywhere;
+  Vector3 impulse(ThreadTeam& team, const State& s, const Share& share, double duration) const {
+    if (!by_height) return (duration * s.mass * static_cast<double>(share.of_all(s.velocity.size()))) * everywhere;
     const FixedPoint point(s.impulse_unit);
-    return accumulate(
-               team, s.position.size(), FixedVector{},
-               [&](std::size_t i, FixedVector& sum) { sum.add(point, (duration * s.mass) * at(s.position[i])); },
-               [](FixedVector a, const FixedVector& b) { return a += b; })
-        .value(point);
+    FixedVector given = accumulate(
+        team, s.position.size(), FixedVector{},
+        [&](std::size_t i, FixedVector& sum) {
+          if (share.owns(i)) sum.add(point, (duration * s.mass) * at(s.position[i]));
+        },
+        [](FixedVector a, const FixedVector& b) { return a += b; });
+    sum_up(share.ranks(), std::span(&given, 1));
+    return given.value(point);
   }
 };
 
@@ -178,9 +187,10 @@ Vector3 by_air(const State& s, std::size_t i) {
   return s.air.acceleration.empty() ? Vector3{} : s.air.acceleration[i];
 }
 
-void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span<const Vector3> position) {
-  if (w.material.by_displacements())
-    measure_strain(team, w.pairs.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
+void measure_strain_at(ThreadTeam& team, State& s, Workspace& w, std::vector<Vector3>& position) {
+  if (!w.material.by_displacements()) return;
+  w.share.refresh(std::array{Halo::column(std::span(position)), Halo::column(std::span(s.reset_position))});
+  measure_strain(team, w.pairs.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
 }
 
 /// At the end of a step of the air: takes its next step, which fixes the acceleration of the particles until its end.
@@ -204,9 +214,9 @@ void Step::half() const {
 }
 
 /// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
-void Step::gradients(std::span<const Vector3> velocity, std::span<const double> density,
-                     std::span<const double> smoothing_length, const MaterialColumns& material, PairTerms terms) const {
-  w.pairs(team, {w.position, velocity, density, smoothing_length, material, s.deformation_rate}, terms, w.rates);
+void Step::gradients(const SummedColumns& columns, PairTerms terms) const {
+  refresh_halo(w, columns);
+  w.pairs(team, columns.view(), terms, w.rates);
 }
 
 /// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.
@@ -216,7 +226,7 @@ void Step::kick() const {
   for_each(team, s.velocity.size(), [&](std::size_t i) {
     s.velocity[i] += duration * (w.rates.acceleration[i] + g.at(s.position[i])) + dt * by_air(s, i);
   });
-  s.gravity_impulse += g.impulse(team, s, duration);
+  s.gravity_impulse += g.impulse(team, s, w.share, duration);
 }
 
 /// Eq. 17 with the forces at the midpoint of the step.
@@ -225,7 +235,7 @@ void Step::momentum() const {
   for_each(team, s.velocity.size(), [&](std::size_t i) {
     s.velocity[i] += dt * (w.rates.acceleration[i] + g.at(s.position[i]) + by_air(s, i));
   });
-  s.gravity_impulse += g.impulse(team, s, dt);
+  s.gravity_impulse += g.impulse(team, s, w.share, dt);
 }
 
 void Step::midpoint_positions() const {
@@ -281,7 +291,7 @@ void Step::end() const {
   reflect(team, walls(), w.material, w.pairs.neighbourhood(), w.position, s);
   damping();
   clock();
-  check_state(team, p, w.boundary.domain(), s, dt);
+  check_state(team, p, w.boundary.domain(), w.share, s, dt);
   update_phase(team, setup, s, w);
 }
 
@@ -289,7 +299,8 @@ void Step::end() const {
 void Step::lists() const {
   const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
-  if (!fed && w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length)) return;
+  if (!fed && all_of(w.share.ranks(), w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length))) return;
+  drop_halo(team, p, s, w);
   if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
 }
@@ -298,19 +309,22 @@ void Step::damping() const {
   if (!p.settle.damping_time || s.gate_time >= 0) return;
   const double left = std::exp(-dt / *p.settle.damping_time);
   const FixedPoint point(s.impulse_unit);
-  const FixedVector taken = accumulate(
+  FixedVector taken = accumulate(
       team, s.velocity.size(), FixedVector{},
       [&](std::size_t i, FixedVector& sum) {
+        if (!w.share.owns(i)) return;
         const Vector3 before = s.velocity[i];
         s.velocity[i] = left * before;
         sum.add(point, s.mass * (before - s.velocity[i]));
       },
       [](FixedVector a, const FixedVector& b) { return a += b; });
+  sum_up(w.share.ranks(), std::span(&taken, 1));
   s.damping_impulse += taken.value(point);
 }
 
 void Step::clock() const {
   s.time += dt;
+  if (is_window_over(s.time, setup.scales.peak_time(), s.wall_loads)) w.share.join_window(s.wall_loads);
   close_window(w.load_fields, s.time, setup.scales.peak_time(), s.wall_loads);
   s.last_step = dt;
   ++s.step;
@@ -320,6 +334,8 @@ void Step::clock() const {
 
 void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
   const Parameters& p = setup.given;
+  w.share.begin(s);
+  fit(p, s, w);
   if (p.gate.opens == GateOpens::from_the_start) {
     s.gate_time = 0;
     w.boundary.open_gates(0);
@@ -333,13 +349,16 @@ void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
 }
 
 void derive(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+  w.share.begin(s);
+  fit(setup.given, s, w);
   if (s.gate_time >= 0) w.boundary.open_gates(s.time - s.gate_time);
   update_smoothing_lengths(team, s, w);
-  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+  build_lists(team, setup.given, s, w);
   evaluate(team, setup.given, s, w);
 }
 
-NumericalError::Report step_limit(const Setup& setup, const State& s, const Workspace& w) {
+NumericalError::Report step_limit(const Setup& setup, const State& s, std::span<const double> smoothing_length,
+                                  const Workspace& w) {
   const Parameters& p = setup.given;
   NumericalError::Report report{};
   if (s.position.empty()) {
@@ -351,12 +370,11 @@ NumericalError::Report step_limit(const Setup& setup, const State& s, const Work
   GrainLimits limits;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     const double square = dot(s.velocity[i], s.velocity[i]);
-    if (w.smoothing_length[i] < limits.min_smoothing_length)
-      limits.min_smoothing_length = w.smoothing_length[densest = i];
+    if (smoothing_length[i] < limits.min_smoothing_length) limits.min_smoothing_length = smoothing_length[densest = i];
     if (square > limits.max_square_speed && w.boundary.domain().box().contains(s.position[i]))
       limits.max_square_speed = square, fastest = i;
   }
-  const double of_grains = step_of_grains(setup, limits, w);
+  const double of_grains = step_of_grains(setup, limits, w, s.position.size());
   if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
   const bool by_speed = !(of_grains < step_of_speed(p, limits));
   const std::size_t i = by_speed ? fastest : densest;

@@ -14,15 +14,19 @@ void begin(ThreadTeam& team, const Setup& setup, State& state, Workspace& worksp
 void derive(ThreadTeam& team, const Setup& setup, State& state, Workspace& workspace);
 
 /// The condition that limits the last step, and where: the Courant number of the grains, or the air.
-NumericalError::Report step_limit(const Setup& setup, const State& state, const Workspace& workspace);
+/// \param state of all particles \param smoothing_length of these, m
+NumericalError::Report step_limit(const Setup& setup, const State& state, std::span<const double> smoothing_length,
+                                  const Workspace& workspace);
 
 /// Advances by one step.
 /// \throws NumericalError for a velocity or density that is not finite, or a bed that does not settle in time
 void advance(ThreadTeam& team, const Setup& setup, State& state, Workspace& workspace);
 
 /// \param dt length of the step that led here, s
-/// \throws NumericalError for a density or velocity that is not finite, or that no step of this length can have made
-void check_state(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const State& state, double dt);
+/// \throws NumericalError for a density or velocity that is not finite, or that no step of this length can have made;
+/// of several processes each throws the same
+void check_state(ThreadTeam& team, const Parameters& parameters, const Domain& domain, const Share& share,
+                 const State& state, double dt);
 
 /// The densities begin as the kernel's sums with the bed's smoothing length, though nowhere above the bed's: beside a
 /// wall at an angle the images are not a lattice, and the sum is some per cent off.

@@ -12,6 +12,7 @@
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/setup.hpp"
+#include "models/continuum/share.hpp"
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
@@ -19,6 +20,7 @@ namespace talus::continuum {
 /// Recomputed from the state when a run is resumed. It owns the only boundary of the model whose gates open: the pair
 /// sums, the air and observers refer to it, so that a gate is opened for all of them at once.
 struct Workspace {
+  Share share;
   Boundary boundary;
   const Material& material;
   double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
@@ -42,8 +44,8 @@ struct Workspace {
   std::vector<SymmetricTensor3<>> measured_strain;
   std::vector<double> resets;  ///< of each particle at the start of the step
 
-  /// \param setup outlives it
-  Workspace(const Setup& setup, const State& state);
+  /// \param setup, ranks outlive it
+  Workspace(const Setup& setup, const State& state, const Ranks& ranks = one_process());
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 };
@@ -55,8 +57,29 @@ void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& w
 /// farther than those at rest, so that lists of a bed are short and those of a stream hold for some steps.
 void set_list_reference(const Parameters& parameters, State& state, const Workspace& workspace);
 
+/// Removes the halo where there is one, with what the workspace has of it.
+void drop_halo(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+
+/// Builds the neighbour lists from where they are to be built, each particle with its owner.
+/// \param carried one more column of the particles; null: none \pre no halo
+void build_lists(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace,
+                 std::vector<double>* carried = nullptr);
+
 /// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+
+/// Columns of the particles as pair sums read them.
+struct SummedColumns {
+  std::vector<Vector3>&position, &velocity;
+  std::vector<double>&density, &smoothing_length;
+  MaterialColumns& material;
+  std::array<std::vector<double>, 6>& deformation_rate;
+
+  ParticleView view() const { return {position, velocity, density, smoothing_length, material, deformation_rate}; }
+};
+
+/// Gives these columns the halo's values, in one message.
+void refresh_halo(Workspace& workspace, const SummedColumns& columns);
 
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
