@@ -27,8 +27,8 @@ CASES = {name: case for name, case in hash_cases.SHORT.items() if "air" not in n
     "stabilisers, single precision": (
         "yuu2011-hopper-vacuum-fast", {**COARSE_HOPPER, **SOON, "sph.density_diffusion": "0.1",
                                        "sph.hourglass_damping": "0.1", "run.end": "4 ms"}),
-    "periodic box": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "box.left_right": "periodic",
-                                               "box.front_rear": "periodic", "run.end": "4 ms"}),
+    "periodic box": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "box.left": "periodic", "box.right": "periodic",
+                                               "box.front": "periodic", "box.rear": "periodic", "run.end": "4 ms"}),
 }
 
 # As many processes as are asked for, on whatever cores there are.

@@ -12,6 +12,7 @@ namespace talus::continuum {
 namespace {
 
 /// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
+/// The step's velocity gradients are still to be used, and go with the particles.
 void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double time = s.time - s.gate_time;
   if (!w.boundary.has_gates_due(time)) return;
@@ -20,10 +21,12 @@ void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   std::vector<double> before = w.rates.kernel_density;
   w.boundary.open_gates(time);
   if (in_vessel) {  // who was hidden by the gate is a neighbour now
-    w.share.keep_owned(before);
-    drop_halo(team, p, s, w);
+    std::vector<std::vector<double>*> carried{&before};
+    for (std::vector<double>& component : w.rates.velocity_gradient.component) carried.push_back(&component);
+    for (std::vector<double>* const column : carried) w.share.keep_owned(*column);
+    drop_halo(p, s, w);
     set_list_reference(p, s, w);
-    build_lists(team, p, s, w, &before);
+    build_lists(team, p, s, w, carried);
   }
   if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);

@@ -159,7 +159,7 @@ std::vector<int> Share::owners(const State& s) {
   return owner;
 }
 
-void Share::distribute(State& s, const Domain& domain, std::vector<double>* carried) {
+void Share::distribute(State& s, const Domain& domain, std::span<std::vector<double>* const> carried) {
   if (is_all()) return;
   resize_columns(s, place_.size());
   Votes votes{.least = {}, .largest = {0, 0}, .sum = {}};
@@ -176,13 +176,13 @@ void Share::distribute(State& s, const Domain& domain, std::vector<double>* carr
   const auto rows_of_state = [&] {
     Rows rows(s, Rows::Of::kept);
     rows.add(place_);
-    if (carried) rows.add(*carried);
+    for (std::vector<double>* const column : carried) rows.add(*column);
     return rows;
   };
   const auto make_room = [&](std::size_t count) {
     resize_columns(s, count);
     place_.resize(count);
-    if (carried) carried->resize(count);
+    for (std::vector<double>* const column : carried) column->resize(count);
   };
   const std::unique_ptr<Plan> migration = ranks_.plan(to_owner.counts());
   Rows rows = rows_of_state();
@@ -232,6 +232,7 @@ void Share::distribute(State& s, const Domain& domain, std::vector<double>* carr
 }
 
 void Share::keep_owned(std::vector<double>& column) const {
+  if (is_halo_.empty()) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < column.size(); ++i)
     if (owns(i)) column[kept++] = column[i];

@@ -45,8 +45,8 @@ class Share {
 
   /// Moves particles to their owners and finds the halo, for neighbour lists that are built from list_position,
   /// list_smoothing_length and list_margin. Cuts space anew where the work has become uneven.
-  /// \pre no halo \param carried one more column of the particles; null: none
-  void distribute(State& state, const Domain& domain, std::vector<double>* carried = nullptr);
+  /// \pre no halo \param carried more columns of the particles
+  void distribute(State& state, const Domain& domain, std::span<std::vector<double>* const> carried);
 
   /// What the neighbour lists need to know besides. \pre distribute
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }

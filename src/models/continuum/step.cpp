@@ -300,7 +300,7 @@ void Step::lists() const {
   const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
   if (!fed && all_of(w.share.ranks(), w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length))) return;
-  drop_halo(team, p, s, w);
+  drop_halo(p, s, w);
   if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
 }

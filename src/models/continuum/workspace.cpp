@@ -55,24 +55,24 @@ void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
     s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), p.integration.skin_at_rest * most, most);
 }
 
-void drop_halo(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  if (!w.share.drop_halo(s)) return;
-  fit(p, s, w);
-  update_smoothing_lengths(team, s, w);
+void drop_halo(const Parameters& p, State& s, Workspace& w) {
+  w.share.keep_owned(w.smoothing_length);
+  if (w.share.drop_halo(s)) fit(p, s, w);
 }
 
-void build_lists(ThreadTeam& team, const Parameters& p, State& s, Workspace& w, std::vector<double>* carried) {
+void build_lists(ThreadTeam& team, const Parameters& p, State& s, Workspace& w,
+                 std::vector<std::vector<double>*> carried) {
   if (!w.share.is_all()) {
+    carried.push_back(&w.smoothing_length);
     w.share.distribute(s, w.boundary.domain(), carried);
     fit(p, s, w);
-    update_smoothing_lengths(team, s, w);
   }
   w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, w.share.part(),
                           w.share.is_all() ? nullptr : &w.share.halo_messages());
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  drop_halo(team, p, s, w);
+  drop_halo(p, s, w);
   return_to_sector(w.boundary.domain(), w.material, s);
   if (s.list_builds % builds_between_sorts == 0) {
     sort_for_locality(s, w.share, sph::support * p.bed.spacing);

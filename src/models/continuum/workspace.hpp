@@ -58,12 +58,12 @@ void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& w
 void set_list_reference(const Parameters& parameters, State& state, const Workspace& workspace);
 
 /// Removes the halo where there is one, with what the workspace has of it.
-void drop_halo(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+void drop_halo(const Parameters& parameters, State& state, Workspace& workspace);
 
 /// Builds the neighbour lists from where they are to be built, each particle with its owner.
-/// \param carried one more column of the particles; null: none \pre no halo
+/// \param carried more columns of the particles, which go with them \pre no halo
 void build_lists(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace,
-                 std::vector<double>* carried = nullptr);
+                 std::vector<std::vector<double>*> carried = {});
 
 /// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
