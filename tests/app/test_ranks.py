@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cases on several processes, as users start them. Skipped where the program was built without MPI."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import program
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import hash_ranks  # noqa: E402
+
+BUILD = pathlib.Path(program.PROGRAM).parent
+
+
+class Ranks(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        self.addCleanup(self.scratch.cleanup)
+
+    def check_same(self, name, layouts):
+        case, settings = hash_ranks.CASES[name]
+        expected = hash_ranks.hash_of_run(None, BUILD, self.folder / "alone", case, settings)
+        for ranks, threads in layouts:
+            found = hash_ranks.hash_of_run(ranks, BUILD, self.folder / f"{ranks}-{threads}", case, settings, threads)
+            self.assertEqual(found, expected, f"{name} on {ranks} processes of {threads} threads")
+
+    def test_plate(self):
+        self.check_same("hopper, vacuum", [(2, 2), (3, 1), (8, 1)])
+
+    def test_single_precision(self):
+        self.check_same("hopper, vacuum, single precision", [(2, 1), (3, 1), (8, 1)])
+
+    def test_vessel(self):
+        self.check_same("silo of round walls", [(2, 1), (3, 1), (8, 1)])
+
+    def test_inlet_and_removal(self):
+        self.check_same("chute with inlet and removal", [(2, 1), (3, 1), (8, 1)])
+
+    def run_hopper(self, ranks, program_name, out, *options):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        words = hash_ranks.words_of_run(BUILD / program_name, self.folder / out, case, settings, 1)
+        return hash_ranks.start(ranks, words + list(options))
+
+    def test_resumed_on_another_number_of_processes(self):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        expected = hash_ranks.hash_of_run(None, BUILD, self.folder / "alone", case, settings)
+        begun = self.run_hopper(2, "talus-mpi", "parts", "--set", "run.end=3 ms")
+        self.assertEqual(begun.returncode, 0, begun.stderr)
+        for ranks, program_name, end in (3, "talus-mpi", "5 ms"), (None, "talus", "8 ms"):
+            done = self.run_hopper(ranks, program_name, "parts", "--resume", "--set", f"run.end={end}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "parts"))
+        self.assertEqual(found, expected.split()[0])
+
+    def test_hands_over(self):
+        done = self.run_hopper(2, "talus", "handed")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("Done:"), 1)
+
+    def test_refuses_what_runs_on_one_process(self):
+        for case, key in ("yuu2011-hopper-air", "air.enabled"), ("niiya2020-circle", "model"):
+            words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", case, {}, 1)
+            done = hash_ranks.start(2, words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"{key}: ", done.stderr)
+            self.assertIn("on one process only", done.stderr)
+            self.assertFalse((self.folder / "refused").exists())
+
+    def test_faults_are_said_once_with_their_status(self):
+        self.assertEqual(self.run_hopper(2, "talus-mpi", "fault", "--set", "bed.spacing=-1 mm").returncode, 2)
+        done = self.run_hopper(2, "talus-mpi", "fault", "--set", "settle.speed=1 nm/s", "--set", "settle.max_time=2 ms")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.stderr.count("talus: "), 1, done.stderr)
+        self.assertEqual(self.run_hopper(2, "talus-mpi", "fault").returncode, 2, "the folder is there")
+
+
+if __name__ == "__main__":
+    if not (BUILD / "talus-mpi").exists():
+        sys.exit(77)
+    unittest.main()
