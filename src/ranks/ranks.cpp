@@ -9,18 +9,16 @@ namespace {
 constexpr int digit_bits = 32;
 constexpr std::size_t digits = 4;
 
-void sum_integers(const Ranks& ranks, std::vector<FixedPoint::Integer>& sums) {
-  if (ranks.is_alone() || sums.empty()) return;
-  Votes votes;
-  for (const FixedPoint::Integer sum : sums)
-    for (std::size_t d = 0; d < digits; ++d)
-      votes.sum.push_back(static_cast<std::uint32_t>(sum >> (digit_bits * static_cast<int>(d))));
-  ranks.join(votes);
-  for (std::size_t n = 0; n < sums.size(); ++n) {
-    sums[n] = 0;
-    for (std::size_t d = 0; d < digits; ++d)
-      sums[n] += static_cast<FixedPoint::Integer>(votes.sum[digits * n + d]) << (digit_bits * static_cast<int>(d));
-  }
+void add_digits(FixedPoint::Integer sum, std::vector<std::uint64_t>& told) {
+  for (std::size_t d = 0; d < digits; ++d)
+    told.push_back(static_cast<std::uint32_t>(sum >> (digit_bits * static_cast<int>(d))));
+}
+
+FixedPoint::Integer sum_of_digits(const std::uint64_t* told) {
+  FixedPoint::Integer sum = 0;
+  for (std::size_t d = 0; d < digits; ++d)
+    sum += static_cast<FixedPoint::Integer>(told[d]) << (digit_bits * static_cast<int>(d));
+  return sum;
 }
 
 }  // namespace
@@ -46,23 +44,31 @@ std::uint64_t sum_of(const Ranks& ranks, std::uint64_t vote) {
   return votes.sum[0];
 }
 
-void sum_up(const Ranks& ranks, std::span<FixedVector> sums) {
+void join(const Ranks& ranks, Votes& votes, std::span<FixedVector> sums) {
   if (ranks.is_alone()) return;
-  std::vector<FixedPoint::Integer> all;
-  for (const FixedVector& sum : sums) all.insert(all.end(), sum.component.begin(), sum.component.end());
-  sum_integers(ranks, all);
-  std::size_t n = 0;
+  const std::size_t before = votes.sum.size();
+  for (const FixedVector& sum : sums)
+    for (const FixedPoint::Integer component : sum.component) add_digits(component, votes.sum);
+  ranks.join(votes);
+  const std::uint64_t* told = votes.sum.data() + before;
   for (FixedVector& sum : sums)
-    for (FixedPoint::Integer& component : sum.component) component = all[n++];
+    for (FixedPoint::Integer& component : sum.component) component = sum_of_digits(told), told += digits;
+  votes.sum.resize(before);
+}
+
+void sum_up(const Ranks& ranks, std::span<FixedVector> sums) {
+  Votes none;
+  if (!sums.empty()) join(ranks, none, sums);
 }
 
 void sum_up(const Ranks& ranks, FixedSums& sums) {
-  if (ranks.is_alone()) return;
-  std::vector<FixedPoint::Integer> all;
-  for (std::size_t n = 0; n < sums.halves().size() / 2; ++n) all.push_back(sums[n]);
-  sum_integers(ranks, all);
+  if (ranks.is_alone() || sums.halves().empty()) return;
+  Votes votes;
+  const std::size_t count = sums.halves().size() / 2;
+  for (std::size_t n = 0; n < count; ++n) add_digits(sums[n], votes.sum);
+  ranks.join(votes);
   sums.clear();
-  for (std::size_t n = 0; n < all.size(); ++n) sums.add(n, all[n]);
+  for (std::size_t n = 0; n < count; ++n) sums.add(n, sum_of_digits(votes.sum.data() + digits * n));
 }
 
 }  // namespace talus

@@ -124,7 +124,9 @@ bool all_of(const Ranks& ranks, bool vote);
 double largest_of(const Ranks& ranks, double vote);
 std::uint64_t sum_of(const Ranks& ranks, std::uint64_t vote);
 /// Exact, as sums in fixed point are.
-void sum_up(const Ranks& ranks, std::span<FixedVector> sums);
 void sum_up(const Ranks& ranks, FixedSums& sums);
+void sum_up(const Ranks& ranks, std::span<FixedVector> sums);
+/// The same in one message with other votes.
+void join(const Ranks& ranks, Votes& votes, std::span<FixedVector> sums);
 
 }  // namespace talus

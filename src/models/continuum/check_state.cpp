@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "base/error.hpp"
 
@@ -59,19 +58,22 @@ NumericalError::Report report_of(const Parameters& p, const State& s, const Limi
 
 }  // namespace
 
-void check_state(ThreadTeam& team, const Parameters& p, const Domain& domain, const Share& share, const State& s,
-                 double dt) {
+std::optional<std::size_t> find_fault(ThreadTeam& team, const Parameters& p, const Domain& domain, const Share& share,
+                                      const State& s, double dt) {
   const Limits limits(p, domain, s, dt);
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  const std::size_t worst = reduce(
+  const std::size_t first = reduce(
       team, s.position.size(), none,
       [&](std::size_t i) {
         const bool allowed = limits.allow_velocity(s.velocity[i], s.position[i]) && limits.allow_density(s.density[i]);
         return allowed || !share.owns(i) ? none : i;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  share.throw_first(s, worst == none ? std::nullopt : std::optional(worst),
-                    [&](std::size_t i) { return report_of(p, s, limits, i); });
+  return first == none ? std::nullopt : std::optional(first);
+}
+
+NumericalError::Report report_of(const Parameters& p, const Domain& domain, const State& s, double dt, std::size_t i) {
+  return report_of(p, s, Limits(p, domain, s, dt), i);
 }
 
 }  // namespace talus::continuum

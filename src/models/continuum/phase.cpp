@@ -81,16 +81,18 @@ void begin_densities(ThreadTeam& team, const Setup& setup, State& s, Workspace& 
   find_neighbours(team, p, s, w);
 }
 
-void update_phase(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+std::uint64_t count_moving(ThreadTeam& team, const Setup& setup, const Share& share, const State& s) {
+  const double limit = setup.scales.settled_speed * setup.scales.settled_speed;
+  return reduce(
+      team, s.velocity.size(), std::uint64_t{0},
+      [&](std::size_t i) { return std::uint64_t{dot(s.velocity[i], s.velocity[i]) >= limit && share.owns(i)}; },
+      [](std::uint64_t a, std::uint64_t b) { return a + b; });
+}
+
+void update_phase(ThreadTeam& team, const Setup& setup, std::uint64_t moving, State& s, Workspace& w) {
   const Parameters& p = setup.given;
   const TimeScales& scales = setup.scales;
-  const double limit = scales.settled_speed * scales.settled_speed;
   const std::size_t count = w.share.of_all(s.velocity.size());
-  const std::size_t moving_here = reduce(
-      team, s.velocity.size(), std::size_t{0},
-      [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit && w.share.owns(i)}; },
-      [](std::size_t a, std::size_t b) { return a + b; });
-  const std::size_t moving = sum_of(w.share.ranks(), moving_here);
   const bool quiet = s.time >= setup.loading.time() && 100 * moving <= count;
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;

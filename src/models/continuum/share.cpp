@@ -337,18 +337,36 @@ void Share::gather(const State& s, State& whole) const {
   for (std::size_t n = 0; n < place_of.size(); ++n) to.put(got, n, static_cast<std::size_t>(place_of[n]));
 }
 
-void Share::throw_first(const State& s, std::optional<std::size_t> met,
-                        const std::function<NumericalError::Report(std::size_t)>& report) const {
+void Share::add_later(std::vector<FixedVector> sums, std::function<void(std::span<const FixedVector>)> add) {
+  if (is_all())
+    add(sums);
+  else
+    waiting_.push_back({std::move(sums), std::move(add)});
+}
+
+void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
+                 const std::function<NumericalError::Report(std::size_t)>& report) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  const double own = !met ? none : is_all() ? 0 : static_cast<double>(place_[*met]);
-  Votes votes{.least = {own}, .largest = {}, .sum = {}};
-  ranks_.join(votes);
-  if (votes.least[0] == none) return;
-  NumericalError::Report first = votes.least[0] == own ? report(*met) : NumericalError::Report{};
-  for (std::string* const text : {&first.what, &first.term, &first.place, &first.advice}) *text = ranks_.gather(*text);
-  first.step = s.step;
-  first.time = s.time;
-  throw NumericalError(first);
+  const double own = !here ? none : is_all() ? 0 : static_cast<double>(place_[*here]);
+  votes.least.push_back(own);
+  std::vector<FixedVector> sums;
+  for (const Waiting& some : waiting_) sums.insert(sums.end(), some.sums.begin(), some.sums.end());
+  talus::join(ranks_, votes, sums);
+  std::span<const FixedVector> rest = sums;
+  for (const Waiting& some : waiting_) {
+    some.add(rest.first(some.sums.size()));
+    rest = rest.subspan(some.sums.size());
+  }
+  waiting_.clear();
+  const double first = votes.least.back();
+  votes.least.pop_back();
+  if (first == none) return;
+  NumericalError::Report of_first = first == own ? report(*here) : NumericalError::Report{};
+  for (std::string* const text : {&of_first.what, &of_first.term, &of_first.place, &of_first.advice})
+    *text = ranks_.gather(*text);
+  of_first.step = s.step;
+  of_first.time = s.time;
+  throw NumericalError(of_first);
 }
 
 void Share::join_window(WallLoads& loads) const {

@@ -74,10 +74,13 @@ class Share {
   /// it is.
   void gather(const State& state, State& whole) const;
 
-  /// Throws what is reported of the particle that comes first in the order of all, if any process has met one.
-  /// \param met the first one here \throws NumericalError the same at every process
-  void throw_first(const State& state, std::optional<std::size_t> met,
-                   const std::function<NumericalError::Report(std::size_t)>& report) const;
+  /// Has a sum of all processes added with the next votes, to what no step reads before: sums travel with what has to
+  /// be known at once. For one process at once. \param add receives the sums over all processes
+  void add_later(std::vector<FixedVector> sums, std::function<void(std::span<const FixedVector>)> add);
+  /// The votes of all, and the sums that wait. \param here where the first particle is that has a fault, if any has
+  /// \param report of it \throws NumericalError of the first one in the order of all, the same at every process
+  void join(const State& state, Votes& votes, std::optional<std::size_t> here,
+            const std::function<NumericalError::Report(std::size_t)>& report);
 
   /// Joins what the walls received since the window began, so that each process has all of it.
   void join_window(WallLoads& loads) const;
@@ -92,6 +95,11 @@ class Share {
   std::vector<char> is_halo_;        // of the particles here; empty: none is
   Halo halo_;
   double reach_ = 0, margin_ = 0;
+  struct Waiting {
+    std::vector<FixedVector> sums;
+    std::function<void(std::span<const FixedVector>)> add;
+  };
+  std::vector<Waiting> waiting_;
 };
 
 }  // namespace talus::continuum

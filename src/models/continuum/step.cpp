@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "base/exact_sum.hpp"
 #include "models/continuum/boundary/contact.hpp"
@@ -46,7 +48,8 @@ struct Step {
   void half() const;
   void momentum() const;
   ContactSetting walls() const { return {p, w.boundary, w.load_fields, w.contact_distance, w.share}; }
-  // Parts of `end`.
+  // Parts of `end` and `lists`.
+  bool lists_hold() const;
   void damping() const;
   void clock() const;
 };
@@ -91,7 +94,7 @@ void advance_midpoint(const Step& step) {
   measure_shear_rate(step.team, s, w);
 }
 
-double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w);
+double step_length(ThreadTeam& team, const Setup& setup, const State& s, Workspace& w);
 
 }  // namespace
 
@@ -109,15 +112,9 @@ namespace {
 /// of neighbours do not hold, and pass through each other.
 constexpr double max_advance = 0.25;
 
-/// What limits the step of the grains.
-struct GrainLimits {
-  double min_smoothing_length = std::numeric_limits<double>::infinity();  ///< m
-  double max_square_speed = 0;                                            ///< of the particles within the box, m^2/s^2
-};
-
-/// Of the particles of all processes.
+/// Of the particles of this process.
 GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& w) {
-  const GrainLimits here = accumulate(
+  return accumulate(
       team, w.smoothing_length.size(), GrainLimits{},
       [&](std::size_t i, GrainLimits& limits) {
         if (!w.share.owns(i)) return;
@@ -130,8 +127,14 @@ GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& 
         return GrainLimits{std::min(a.min_smoothing_length, b.min_smoothing_length),
                            std::max(a.max_square_speed, b.max_square_speed)};
       });
-  Votes votes{.least = {here.min_smoothing_length}, .largest = {here.max_square_speed}, .sum = {}};
+}
+
+/// Of all particles. \param vote of this process besides, which is false if that of any is
+GrainLimits joined_limits(ThreadTeam& team, const State& s, const Workspace& w, bool& vote) {
+  const GrainLimits here = limits_of_grains(team, s, w);
+  Votes votes{.least = {here.min_smoothing_length, vote ? 1.0 : 0.0}, .largest = {here.max_square_speed}, .sum = {}};
   w.share.ranks().join(votes);
+  vote = votes.least[1] > 0;
   return {votes.least[0], votes.largest[0]};
 }
 
@@ -151,9 +154,12 @@ double step_of_grains(const Setup& setup, const GrainLimits& limits, const Works
 
 /// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
 /// the air; until the end of that step unchanged.
-double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w) {
+double step_length(ThreadTeam& team, const Setup& setup, const State& s, Workspace& w) {
   if (w.air && !w.air->is_due(s)) return s.last_step;
-  const double of_grains = step_of_grains(setup, limits_of_grains(team, s, w), w, w.share.of_all(s.position.size()));
+  bool no_vote = true;
+  const std::optional<GrainLimits> known = std::exchange(w.limits, std::nullopt);
+  const GrainLimits limits = known ? *known : joined_limits(team, s, w, no_vote);
+  const double of_grains = step_of_grains(setup, limits, w, w.share.of_all(s.position.size()));
   return w.air ? std::min(of_grains, w.air->max_step()) : of_grains;
 }
 
@@ -167,18 +173,21 @@ struct Gravity {
   Vector3 at_height(double z) const { return {0, 0, -setup.loading.share(time, z) * setup.given.gravity.acceleration}; }
   Vector3 at(const Vector3& x) const { return by_height ? at_height(x.z) : everywhere; }
 
-  /// Impulse of all particles within a duration, N s.
-  Vector3 impulse(ThreadTeam& team, const State& s, const Share& share, double duration) const {
-    if (!by_height) return (duration * s.mass * static_cast<double>(share.of_all(s.velocity.size()))) * everywhere;
+  /// Adds the impulse of all particles within a duration to that of the state.
+  void add_impulse(ThreadTeam& team, double duration, State& s, Share& share) const {
+    if (!by_height) {
+      s.gravity_impulse += (duration * s.mass * static_cast<double>(share.of_all(s.velocity.size()))) * everywhere;
+      return;
+    }
     const FixedPoint point(s.impulse_unit);
-    FixedVector given = accumulate(
+    const FixedVector given = accumulate(
         team, s.position.size(), FixedVector{},
         [&](std::size_t i, FixedVector& sum) {
           if (share.owns(i)) sum.add(point, (duration * s.mass) * at(s.position[i]));
         },
         [](FixedVector a, const FixedVector& b) { return a += b; });
-    sum_up(share.ranks(), std::span(&given, 1));
-    return given.value(point);
+    share.add_later({given},
+                    [point, &s](std::span<const FixedVector> all) { s.gravity_impulse += all[0].value(point); });
   }
 };
 
@@ -226,7 +235,7 @@ void Step::kick() const {
   for_each(team, s.velocity.size(), [&](std::size_t i) {
     s.velocity[i] += duration * (w.rates.acceleration[i] + g.at(s.position[i])) + dt * by_air(s, i);
   });
-  s.gravity_impulse += g.impulse(team, s, w.share, duration);
+  g.add_impulse(team, duration, s, w.share);
 }
 
 /// Eq. 17 with the forces at the midpoint of the step.
@@ -235,7 +244,7 @@ void Step::momentum() const {
   for_each(team, s.velocity.size(), [&](std::size_t i) {
     s.velocity[i] += dt * (w.rates.acceleration[i] + g.at(s.position[i]) + by_air(s, i));
   });
-  s.gravity_impulse += g.impulse(team, s, w.share, dt);
+  g.add_impulse(team, dt, s, w.share);
 }
 
 void Step::midpoint_positions() const {
@@ -291,25 +300,37 @@ void Step::end() const {
   reflect(team, walls(), w.material, w.pairs.neighbourhood(), w.position, s);
   damping();
   clock();
-  check_state(team, p, w.boundary.domain(), w.share, s, dt);
-  update_phase(team, setup, s, w);
+  const Domain& domain = w.boundary.domain();
+  Votes votes{.least = {}, .largest = {}, .sum = {count_moving(team, setup, w.share, s)}};
+  w.share.join(s, votes, find_fault(team, p, domain, w.share, s, dt),
+               [&](std::size_t i) { return report_of(p, domain, s, dt, i); });
+  update_phase(team, setup, votes.sum[0], s, w);
 }
 
 /// Feeds inlets; builds the neighbour lists where they no longer hold, and removes what has left.
 void Step::lists() const {
   const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
-  if (!fed && all_of(w.share.ranks(), w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length))) return;
+  if (!fed && lists_hold()) return;
   drop_halo(p, s, w);
   if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
+}
+
+/// Several processes vote on it, and on what limits the next step with the same message.
+bool Step::lists_hold() const {
+  bool hold = w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length);
+  if (w.share.is_all()) return hold;
+  const GrainLimits limits = joined_limits(team, s, w, hold);
+  if (hold) w.limits = limits;
+  return hold;
 }
 
 void Step::damping() const {
   if (!p.settle.damping_time || s.gate_time >= 0) return;
   const double left = std::exp(-dt / *p.settle.damping_time);
   const FixedPoint point(s.impulse_unit);
-  FixedVector taken = accumulate(
+  const FixedVector taken = accumulate(
       team, s.velocity.size(), FixedVector{},
       [&](std::size_t i, FixedVector& sum) {
         if (!w.share.owns(i)) return;
@@ -318,8 +339,8 @@ void Step::damping() const {
         sum.add(point, s.mass * (before - s.velocity[i]));
       },
       [](FixedVector a, const FixedVector& b) { return a += b; });
-  sum_up(w.share.ranks(), std::span(&taken, 1));
-  s.damping_impulse += taken.value(point);
+  w.share.add_later({taken},
+                    [point, &s = s](std::span<const FixedVector> all) { s.damping_impulse += all[0].value(point); });
 }
 
 void Step::clock() const {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -16,6 +18,12 @@
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
+
+/// What limits the step of the grains.
+struct GrainLimits {
+  double min_smoothing_length = std::numeric_limits<double>::infinity();  ///< m
+  double max_square_speed = 0;                                            ///< of the particles within the box, m^2/s^2
+};
 
 /// Recomputed from the state when a run is resumed. It owns the only boundary of the model whose gates open: the pair
 /// sums, the air and observers refer to it, so that a gate is opened for all of them at once.
@@ -30,8 +38,9 @@ struct Workspace {
   std::vector<LoadBand> load_bands;
   FieldMesh load_mesh;
   PairSums pairs;
-  Rates rates;                      ///< of the state, between steps
-  std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
+  Rates rates;                        ///< of the state, between steps
+  std::optional<GrainLimits> limits;  ///< of all particles as they are; none: not known yet
+  std::unique_ptr<Atmosphere> air;    ///< none in a vacuum
 
   /// The state at the midpoint of a step; all but positions of the midpoint rule only.
   std::vector<Vector3> position, velocity;

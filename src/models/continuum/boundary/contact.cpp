@@ -47,7 +47,7 @@ class Loads {
   /// patches did from those of all processes, what fields did from its own.
   template <class Meet>
   void collect(ThreadTeam& team, Meet&& meet) {
-    Impulses all = accumulate(
+    const Impulses here = accumulate(
         team, state_.position.size(), Impulses(state_.patch_impulse.size()),
         [&](std::size_t i, Impulses& received) {
           if (share_.owns(i)) meet(i, received);
@@ -56,15 +56,16 @@ class Loads {
           for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
           return a;
         });
-    sum_up(share_.ranks(), all);
-    for (std::size_t n = 0; n < all.size(); ++n) state_.patch_impulse[n] += all[n].value(point_);
+    share_.add_later(here, [point = point_, &impulse = state_.patch_impulse](std::span<const FixedVector> all) {
+      for (std::size_t n = 0; n < all.size(); ++n) impulse[n] += all[n].value(point);
+    });
     for (const auto& of_chunk : noted_)
       for (const LoadOfField& load : of_chunk) add_load(load, fields_, state_.wall_loads);
   }
 
  private:
   const SurfaceFields& fields_;
-  const Share& share_;
+  Share& share_;
   FixedPoint point_;
   State& state_;
   std::vector<std::vector<LoadOfField>> noted_;

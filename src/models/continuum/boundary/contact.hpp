@@ -24,7 +24,7 @@ struct ContactSetting {
   const Boundary& boundary;
   const SurfaceFields& fields;  ///< of the vessel, which note its loads
   double distance;              ///< Workspace::contact_distance, m
-  const Share& share;           ///< walls receive what its particles give, and those of other processes
+  Share& share;                 ///< walls receive what its particles give, and those of other processes
 };
 
 struct ContactStep {
