@@ -224,7 +224,11 @@ void Step::half() const {
 
 /// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
 void Step::gradients(const SummedColumns& columns, PairTerms terms) const {
-  refresh_halo(w, columns);
+  // What else gradients alone read is as the forces met it.
+  if (terms == PairTerms::gradients)
+    w.share.refresh(std::array{Halo::column(std::span(columns.position)), Halo::column(std::span(columns.velocity))});
+  else
+    refresh_halo(w, columns);
   w.pairs(team, columns.view(), terms, w.rates);
 }
 
