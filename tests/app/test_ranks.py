@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cases on several processes, as users start them. Skipped where the program was built without MPI."""
 import pathlib
+import signal
+import subprocess
 import sys
-import tempfile
 import unittest
 
 import program
@@ -13,12 +14,7 @@ import hash_ranks  # noqa: E402
 BUILD = pathlib.Path(program.PROGRAM).parent
 
 
-class Ranks(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.scratch.name)
-        self.addCleanup(self.scratch.cleanup)
-
+class Ranks(program.ProgramTest):
     def check_same(self, name, layouts):
         case, settings = hash_ranks.CASES[name]
         expected = hash_ranks.hash_of_run(None, BUILD, self.folder / "alone", case, settings)
@@ -53,6 +49,18 @@ class Ranks(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
         found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "parts"))
         self.assertEqual(found, expected.split()[0])
+
+    def test_stops_by_a_signal_with_a_checkpoint(self):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "stopped", case,
+                                        {**settings, "run.end": "100 s"}, 1)
+        with subprocess.Popen([*hash_ranks.MPIRUN, "-n", "2", *map(str, words)], env=hash_ranks.ENVIRONMENT,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
+            self.wait_until((self.folder / "stopped/checkpoint_a.h5").exists, running)
+            running.send_signal(signal.SIGUSR1)
+            said = running.communicate(timeout=60)[0]
+        self.assertEqual(running.returncode, 130, said)
+        self.assertIn("Interrupted by SIGUSR1", said)
 
     def test_hands_over(self):
         done = self.run_hopper(2, "talus", "handed")

@@ -14,7 +14,7 @@ namespace talus::continuum {
 
 namespace {
 
-constexpr double uneven = 1.08;              // most particles of a process over the mean, at which space is cut anew
+constexpr double uneven = 1.08;              // most particles of a process over the mean, at which space is cut again
 constexpr std::size_t samples_of_rank = 32;  // from which the borders of a common sort are chosen
 
 /// The columns of particles as rows of words of 8 bytes.

@@ -44,7 +44,7 @@ class Share {
   void begin(State& state);
 
   /// Moves particles to their owners and finds the halo, for neighbour lists that are built from list_position,
-  /// list_smoothing_length and list_margin. Cuts space anew where the work has become uneven.
+  /// list_smoothing_length and list_margin. Cuts space again where the work has become uneven.
   /// \pre no halo \param carried more columns of the particles
   void distribute(State& state, const Domain& domain, std::span<std::vector<double>* const> carried);
 

@@ -15,6 +15,13 @@ void begin(ThreadTeam& team, const Setup& setup, State& state, Workspace& worksp
 /// Recomputes derived fields after a checkpoint was read.
 void derive(ThreadTeam& team, const Setup& setup, State& state, Workspace& workspace);
 
+/// What limits the step, of all particles. \param vote of this process besides, which is false if that of any is
+GrainLimits joined_limits(ThreadTeam& team, const State& state, const Workspace& workspace, bool& vote);
+
+/// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
+/// the air; until the end of that step unchanged.
+double step_length(ThreadTeam& team, const Setup& setup, const State& state, Workspace& workspace);
+
 /// The condition that limits the last step, and where: the Courant number of the grains, or the air.
 /// \param state of all particles \param smoothing_length of these, m
 NumericalError::Report step_limit(const Setup& setup, const State& state, std::span<const double> smoothing_length,
