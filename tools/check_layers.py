@@ -25,6 +25,7 @@ ALLOWED = {
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 # What a file of one instruction set may include of the system: headers without templates that leak to other files.
 PLAIN_SYSTEM_HEADERS = {"cmath", "cstddef", "cstdint", "type_traits", "immintrin.h", "concepts", "numbers"}
+MESSAGES = re.compile(r"(mpi|petsc\w*|zoltan\w*)\.h$")
 GENERATED = {"revision.hpp", "material_files.inc"}  # made by the build
 MOST_LINES = 400
 REASON = "longer than 400 lines because"
@@ -50,6 +51,18 @@ def check_layers(root):
                 problems.append(f'{where}: "{name}" is not below src/; write includes from src/ on')
             elif target not in ALLOWED.get(layer, set()):
                 problems.append(f"{where}: {layer} must not include {target}; see ARCHITECTURE.md, layers")
+    return problems
+
+
+def check_messages(root):
+    """Only src/ranks/petsc knows the libraries of messages between processes."""
+    problems = []
+    for path in sorted((root / "src").rglob("*.?pp")):
+        if path.is_relative_to(root / "src" / "ranks" / "petsc"):
+            continue
+        for number, system, name in includes(path):
+            if system and MESSAGES.match(name):
+                problems.append(f"{path.relative_to(root)}:{number}: <{name}> belongs into src/ranks/petsc alone")
     return problems
 
 
@@ -157,6 +170,7 @@ def check_lengths(root):
 
 CHECKS = (
     check_layers,
+    check_messages,
     check_run_names_no_model,
     check_instruction_set_files,
     check_cycles,
