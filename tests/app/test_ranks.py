@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cases on several processes, as users start them. Skipped where the program was built without MPI."""
+import os
 import pathlib
 import signal
 import subprocess
@@ -50,17 +51,39 @@ class Ranks(program.ProgramTest):
         found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "parts"))
         self.assertEqual(found, expected.split()[0])
 
+    def start_run(self, ranks, folder, settings):
+        """A run that goes on until it is stopped, past its first checkpoint."""
+        case, short = hash_ranks.CASES["hopper, vacuum"]
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", folder, case, {**short, **settings}, 1)
+        running = subprocess.Popen([*hash_ranks.MPIRUN, "-n", str(ranks), *map(str, words)], env=hash_ranks.ENVIRONMENT,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(self._end, running)
+        self.wait_until((folder / "checkpoint_b.h5").exists, running)
+        return running
+
     def test_stops_by_a_signal_with_a_checkpoint(self):
-        case, settings = hash_ranks.CASES["hopper, vacuum"]
-        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "stopped", case,
-                                        {**settings, "run.end": "100 s"}, 1)
-        with subprocess.Popen([*hash_ranks.MPIRUN, "-n", "2", *map(str, words)], env=hash_ranks.ENVIRONMENT,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
-            self.wait_until((self.folder / "stopped/checkpoint_a.h5").exists, running)
-            running.send_signal(signal.SIGUSR1)
-            said = running.communicate(timeout=60)[0]
+        running = self.start_run(2, self.folder / "stopped", {"run.end": "100 s", "output.checkpoint_interval": "0.2 s"})
+        running.send_signal(signal.SIGUSR1)
+        said = running.communicate(timeout=60)[0]
         self.assertEqual(running.returncode, 130, said)
         self.assertIn("Interrupted by SIGUSR1", said)
+
+    def test_a_process_that_is_killed_ends_all_and_the_run_goes_on(self):
+        end = {"run.end": "60 ms", "output.checkpoint_interval": "0.05 s"}
+        running = self.start_run(3, self.folder / "killed", end)
+        children = subprocess.run(["pgrep", "-P", str(running.pid), "talus-mpi"], capture_output=True, text=True,
+                                  check=True).stdout.split()
+        os.kill(int(children[1]), signal.SIGKILL)
+        said = running.communicate(timeout=60)[0]
+        self.assertEqual(running.returncode, 137, said)
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        settings = {**settings, **end}
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "killed", case, settings, 1)
+        resumed = hash_ranks.start(2, words + ["--resume"])
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        whole = hash_ranks.hash_of_run(None, BUILD, self.folder / "whole", case, settings)
+        found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "killed"))
+        self.assertEqual(found, whole.split()[0])
 
     def test_hands_over(self):
         done = self.run_hopper(2, "talus", "handed")
