@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -21,21 +22,19 @@ int number_in(const char* variable) {
   return text ? std::atoi(text) : 0;
 }
 
-/// Whether more than one process was started with this one: what Open MPI, and the PMI of Slurm and MPICH, say.
-/// A batch script of Slurm knows how many tasks its steps will have; it is not one of them.
-bool is_one_of_many() {
-  return number_in("OMPI_COMM_WORLD_SIZE") > 1 || number_in("PMI_SIZE") > 1 ||
-         (std::getenv("PMIX_RANK") && number_in("SLURM_STEP_NUM_TASKS") > 1);
-}
-
 bool is_first_of_many() {
-  return number_in("OMPI_COMM_WORLD_RANK") == 0 && number_in("PMI_RANK") == 0 && number_in("PMIX_RANK") == 0;
+  return number_in("OMPI_COMM_WORLD_RANK") == 0 && number_in("PMI_RANK") == 0 && number_in("PMIX_RANK") == 0 &&
+         number_in("SLURM_PROCID") == 0;
 }
 
 }  // namespace
 
+int started_processes() {
+  return std::max({1, number_in("OMPI_COMM_WORLD_SIZE"), number_in("PMI_SIZE"), number_in("SLURM_STEP_NUM_TASKS")});
+}
+
 std::optional<int> hand_over(int argc, char** argv) {
-  if (argc < 2 || std::string_view(argv[1]) != "run" || !is_one_of_many()) return std::nullopt;
+  if (argc < 2 || std::string_view(argv[1]) != "run" || started_processes() == 1) return std::nullopt;
   const std::filesystem::path program = std::filesystem::path(run::own_program()).parent_path() / "talus-mpi";
   execv(program.c_str(), argv);
   if (is_first_of_many())

@@ -316,12 +316,11 @@ std::size_t Share::remove(std::span<const std::uint32_t> kept) {
   return gone.size();
 }
 
-void Share::gather(const State& s, State& whole) const {
+void Share::gather(State& s, State& whole) const {
   if (is_all()) return;
   WallLoads loads = s.wall_loads;
   join_window(loads);
-  State own = s;
-  Rows rows(own, Rows::Of::all);
+  const Rows rows(s, Rows::Of::all);
   ByRank to_first(ranks_);
   std::vector<std::int64_t> place;
   for (std::size_t i = 0; i < place_.size(); ++i)
@@ -330,7 +329,7 @@ void Share::gather(const State& s, State& whole) const {
   const std::vector<std::uint64_t> got = exchanged(*plan, rows.of(to_first.all()), rows.width());
   const std::vector<std::int64_t> place_of = plan->exchange(place);
   if (!ranks_.is_first()) return;
-  whole = std::move(own);
+  whole = s;
   whole.wall_loads = std::move(loads);
   resize_columns(whole, count_);
   const Rows to(whole, Rows::Of::all);

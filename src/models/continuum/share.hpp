@@ -72,7 +72,7 @@ class Share {
 
   /// Makes the whole state at the first process, as one process by itself would have it. `whole` of others is left as
   /// it is.
-  void gather(const State& state, State& whole) const;
+  void gather(State& state, State& whole) const;
 
   /// Has a sum of all processes added with the next votes, to what no step reads before: sums travel with what has to
   /// be known at once. For one process at once. \param add receives the sums over all processes

@@ -88,7 +88,7 @@ std::map<std::int64_t, std::size_t> numbers_of(const State& s) {
 }
 
 /// Every kept field of the first process's whole state.
-void expect_same_state(const Started& alone, const Started& part) {
+void expect_same_state(const Started& alone, Started& part) {
   State whole = part.state;
   part.workspace.share.gather(part.state, whole);
   if (!processes().is_first()) return;
