@@ -118,6 +118,26 @@ class Ranks {
 /// This process by itself.
 const Ranks& one_process();
 
+/// Elements by the process that they go to.
+struct ByRank {
+  std::vector<std::vector<std::uint32_t>> of;
+
+  explicit ByRank(const Ranks& ranks) : of(static_cast<std::size_t>(ranks.size())) {}
+  void add(int rank, std::size_t element) {
+    of[static_cast<std::size_t>(rank)].push_back(static_cast<std::uint32_t>(element));
+  }
+  std::vector<std::size_t> counts() const {
+    std::vector<std::size_t> counts;
+    for (const auto& elements : of) counts.push_back(elements.size());
+    return counts;
+  }
+  std::vector<std::uint32_t> all() const {
+    std::vector<std::uint32_t> elements;
+    for (const auto& some : of) elements.insert(elements.end(), some.begin(), some.end());
+    return elements;
+  }
+};
+
 // Single votes. All are calls together.
 
 bool all_of(const Ranks& ranks, bool vote);

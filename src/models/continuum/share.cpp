@@ -15,6 +15,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double uneven = 1.08;              // most particles of a process over the mean, at which space is cut again
+constexpr std::size_t asked_together = 32;   // particles
 constexpr std::size_t samples_of_rank = 32;  // from which the borders of a common sort are chosen
 
 /// The columns of particles as rows of words of 8 bytes.
@@ -58,35 +59,20 @@ class Rows {
     }
   }
 
+  /// Gives every column the entries of these particles, as many as there are at most, in their order.
+  void take(const std::vector<std::uint32_t>& order) const {
+    std::vector<std::uint64_t> taken;
+    for (const Halo::Column& column : columns_) {
+      taken.resize(column.words * order.size());
+      for (std::size_t n = 0; n < order.size(); ++n)
+        std::memcpy(taken.data() + column.words * n, column.data + 8 * column.words * order[n], 8 * column.words);
+      std::memcpy(column.data, taken.data(), 8 * taken.size());
+    }
+  }
+
  private:
   std::vector<Halo::Column> columns_;
   std::size_t width_ = 0;
-};
-
-std::vector<std::uint64_t> exchanged(Plan& plan, const std::vector<std::uint64_t>& rows, std::size_t width) {
-  std::vector<std::uint64_t> got(width * plan.received());
-  plan.exchange(rows.data(), width, got.data());
-  return got;
-}
-
-/// Elements by the process that they go to.
-struct ByRank {
-  std::vector<std::vector<std::uint32_t>> of;
-
-  explicit ByRank(const Ranks& ranks) : of(static_cast<std::size_t>(ranks.size())) {}
-  void add(int rank, std::size_t element) {
-    of[static_cast<std::size_t>(rank)].push_back(static_cast<std::uint32_t>(element));
-  }
-  std::vector<std::size_t> counts() const {
-    std::vector<std::size_t> counts;
-    for (const auto& elements : of) counts.push_back(elements.size());
-    return counts;
-  }
-  std::vector<std::uint32_t> all() const {
-    std::vector<std::uint32_t> elements;
-    for (const auto& some : of) elements.insert(elements.end(), some.begin(), some.end());
-    return elements;
-  }
 };
 
 std::vector<std::uint32_t> numbers(std::size_t count) {
@@ -169,66 +155,103 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
   }
   ranks_.join(votes);
   reach_ = votes.largest[0], margin_ = votes.largest[1];
-
-  ByRank to_owner(ranks_);
-  const std::vector<int> owner = owners(s);
-  for (std::size_t i = 0; i < owner.size(); ++i) to_owner.add(owner[i], i);
-  const auto rows_of_state = [&] {
+  const auto rows_for = [&](std::size_t count) {
+    resize_columns(s, count);
+    place_.resize(count);
+    for (std::vector<double>* const column : carried) column->resize(count);
     Rows rows(s, Rows::Of::kept);
     rows.add(place_);
     for (std::vector<double>* const column : carried) rows.add(*column);
     return rows;
   };
-  const auto make_room = [&](std::size_t count) {
-    resize_columns(s, count);
-    place_.resize(count);
-    for (std::vector<double>* const column : carried) column->resize(count);
+  /// Sends rows of particles, and puts what comes behind those that are here. \returns the plan
+  const auto append = [&](const ByRank& to) {
+    Rows rows = rows_for(place_.size());
+    std::unique_ptr<Plan> plan = ranks_.plan(to.counts());
+    std::vector<std::uint64_t> got(rows.width() * plan->received());
+    plan->exchange(rows.of(to.all()).data(), rows.width(), got.data());
+    const std::size_t before = place_.size();
+    rows = rows_for(before + plan->received());
+    for (std::size_t n = 0; n < plan->received(); ++n) rows.put(got, n, before + n);
+    return plan;
   };
-  const std::unique_ptr<Plan> migration = ranks_.plan(to_owner.counts());
-  Rows rows = rows_of_state();
-  const std::vector<std::uint64_t> owned = exchanged(*migration, rows.of(to_owner.all()), rows.width());
-  make_room(migration->received());
-  rows = rows_of_state();
-  for (std::size_t n = 0; n < migration->received(); ++n) rows.put(owned, n, n);
 
-  // Who may list a particle: those whose parts of space meet the box that it reaches, or the box of one of its images.
-  ByRank to_halo(ranks_);
+  ByRank leaving(ranks_);
+  std::vector<std::uint32_t> order;  // those that stay, then those that come
+  const std::vector<int> owner = owners(s);
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    owner[i] == ranks_.rank() ? order.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
+  append(leaving);
+  for (std::size_t i = owner.size(); i < place_.size(); ++i) order.push_back(static_cast<std::uint32_t>(i));
+  if (order.size() < place_.size()) rows_for(place_.size()).take(order);
+  const std::size_t own = order.size();
+  rows_for(own);
+
+  const ByRank copied = halo_of_others(s, domain);
+  std::unique_ptr<Plan> plan = append(copied);
+  order = by_place(own);
+  rows_for(place_.size()).take(order);
+  std::vector<std::uint32_t> number(order.size()), sent = copied.all(), received;
+  for (std::size_t n = 0; n < order.size(); ++n) number[order[n]] = static_cast<std::uint32_t>(n);
+  for (std::uint32_t& n : sent) n = number[n];
+  received.assign(number.begin() + static_cast<std::ptrdiff_t>(own), number.end());
+  is_halo_.assign(number.size(), 0);
+  for (const std::uint32_t n : received) is_halo_[n] = 1;
+  halo_ = Halo(std::move(plan), std::move(sent), std::move(received));
+}
+
+/// The order of the particles by their places. \param own how many come first, which mostly are in it
+std::vector<std::uint32_t> Share::by_place(std::size_t own) const {
+  std::vector<std::uint32_t> order = numbers(place_.size());
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return place_[a] < place_[b]; };
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(own);
+  if (!std::is_sorted(order.begin(), middle, before)) std::sort(order.begin(), middle, before);
+  std::sort(middle, order.end(), before);
+  std::inplace_merge(order.begin(), middle, order.end(), before);
+  return order;
+}
+
+/// Which of the particles others may list: those whose parts of space meet the box that a particle reaches, or the box
+/// of one of its images. Particles whose numbers follow each other are mostly near each other too: where the box around
+/// all that some of them reach meets no other part, none of them is asked for.
+ByRank Share::halo_of_others(const State& s, const Domain& domain) const {
+  ByRank copied(ranks_);
   const std::vector<Image> images = domain.images(reach_);
   std::vector<int> near;
-  std::vector<std::int64_t> last_of(static_cast<std::size_t>(ranks_.size()), -1);  // particle that goes there
-  for (std::size_t i = 0; i < place_.size(); ++i) {
-    const double radius = s.list_smoothing_length[i] + s.list_margin[i];
-    const double half = (1 + 1e-9) * (radius + 0.5 * reach_);
-    const auto ask = [&](const Vector3& x) {
-      partition_->ranks_of(x - Vector3{half, half, half}, x + Vector3{half, half, half}, near);
-      for (const int rank : near) {
-        std::int64_t& last = last_of[static_cast<std::size_t>(rank)];
-        if (rank != ranks_.rank() && last != static_cast<std::int64_t>(i)) to_halo.add(rank, i);
-        last = static_cast<std::int64_t>(i);
+  constexpr double rounding = 1 + 1e-9;
+  const auto ranks_around = [&](const Vector3& low, const Vector3& high, double reach) -> const std::vector<int>& {
+    const Vector3 half{rounding * reach, rounding * reach, rounding * reach};
+    partition_->ranks_of(low - half, high + half, near);
+    return near;
+  };
+  const auto ask = [&](std::size_t i, const Vector3& x) {
+    for (const int rank : ranks_around(x, x, s.list_smoothing_length[i] + s.list_margin[i] + 0.5 * reach_))
+      if (rank != ranks_.rank()) copied.add(rank, i);
+  };
+  for (std::size_t begin = 0, end = 0; begin < place_.size(); begin = end) {
+    end = std::min(place_.size(), begin + asked_together);
+    Vector3 low = s.list_position[begin], high = low;
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], s.list_position[i][axis]),
+        high[axis] = std::max(high[axis], s.list_position[i][axis]);
+    const Vector3 centre = 0.5 * (low + high);
+    const double radius = 0.5 * norm(high - low);
+    if (ranks_around(low, high, reach_).size() > 1)
+      for (std::size_t i = begin; i < end; ++i) ask(i, s.list_position[i]);
+    for (const Image& image : images) {
+      if (!domain.is_near(image, image.position(centre), rounding * (reach_ + radius))) continue;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Vector3 x = image.position(s.list_position[i]);
+        if (domain.is_near(image, x, 0.5 * reach_ + s.list_smoothing_length[i] + s.list_margin[i])) ask(i, x);
       }
-    };
-    ask(s.list_position[i]);
-    for (const Image& image : images)
-      if (const Vector3 x = image.position(s.list_position[i]); domain.is_near(image, x, 0.5 * reach_ + radius)) ask(x);
+    }
   }
-  std::unique_ptr<Plan> plan = ranks_.plan(to_halo.counts());
-  std::vector<std::uint32_t> sent = to_halo.all(), received(plan->received());
-  const std::vector<std::uint64_t> copies = exchanged(*plan, rows.of(sent), rows.width());
-
-  // Owned and halo in one order.
-  const std::size_t own = migration->received(), count = own + plan->received();
-  make_room(count);
-  rows = rows_of_state();
-  for (std::size_t n = 0; n < plan->received(); ++n) rows.put(copies, n, own + n);
-  std::vector<std::uint32_t> order = numbers(count), number(count);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return place_[a] < place_[b]; });
-  for (std::size_t n = 0; n < count; ++n) number[order[n]] = static_cast<std::uint32_t>(n);
-  for (std::size_t n = 0; n < own; ++n) rows.put(owned, n, number[n]);
-  for (std::size_t n = 0; n < plan->received(); ++n) rows.put(copies, n, received[n] = number[own + n]);
-  is_halo_.assign(count, 0);
-  for (const std::uint32_t n : received) is_halo_[n] = 1;
-  for (std::uint32_t& n : sent) n = number[n];
-  halo_ = Halo(std::move(plan), std::move(sent), std::move(received));
+  for (auto& particles : copied.of) {  // once each, whichever of its images asked too
+    std::sort(particles.begin(), particles.end());
+    particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+  }
+  return copied;
 }
 
 void Share::keep_owned(std::vector<double>& column) const {
@@ -326,7 +349,8 @@ void Share::gather(State& s, State& whole) const {
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (owns(i)) to_first.add(0, i), place.push_back(place_[i]);
   const std::unique_ptr<Plan> plan = ranks_.plan(to_first.counts());
-  const std::vector<std::uint64_t> got = exchanged(*plan, rows.of(to_first.all()), rows.width());
+  std::vector<std::uint64_t> got(rows.width() * plan->received());
+  plan->exchange(rows.of(to_first.all()).data(), rows.width(), got.data());
   const std::vector<std::int64_t> place_of = plan->exchange(place);
   if (!ranks_.is_first()) return;
   whole = s;

@@ -87,6 +87,8 @@ class Share {
 
  private:
   std::vector<int> owners(const State& state);
+  ByRank halo_of_others(const State& state, const Domain& domain) const;
+  std::vector<std::uint32_t> by_place(std::size_t own) const;
 
   const Ranks& ranks_;
   std::unique_ptr<Partition> partition_;
