@@ -164,7 +164,7 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
     for (std::vector<double>* const column : carried) rows.add(*column);
     return rows;
   };
-  /// Sends rows of particles, and puts what comes behind those that are here. \returns the plan
+  // Sends rows of particles, and puts what comes behind those that are here.
   const auto append = [&](const ByRank& to) {
     Rows rows = rows_for(place_.size());
     std::unique_ptr<Plan> plan = ranks_.plan(to.counts());

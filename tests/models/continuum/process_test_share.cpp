@@ -18,7 +18,8 @@
 namespace talus::continuum {
 namespace {
 
-/// The same processes, among which the particles are dealt out without regard to where they are, in another way at each cut.
+/// The same processes, among which the particles are dealt out without regard to where they are, at each cut in another
+/// way.
 class Shuffled final : public Ranks {
  public:
   explicit Shuffled(const Ranks& ranks) : Ranks(ranks.rank(), ranks.size()), ranks_(ranks) {}
