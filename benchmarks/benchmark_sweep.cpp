@@ -78,7 +78,8 @@ struct Bed {
     for (double& density : state.density) density *= random.uniform(0.999, 1.001);
     for (auto& stress : state.material.stress)
       for (double& component : stress) component = random.uniform(0, 1000);
-    sort_for_locality(state, sph::support * parameters.bed.spacing);
+    Share all(one_process());
+    sort_for_locality(state, all, sph::support * parameters.bed.spacing);
     for (const double density : state.density) h.push_back(pairs.smoothing_length(density));
     pairs.find_neighbours(team, state.position, h);
     evaluate(PairTerms::all);

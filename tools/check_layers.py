@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that src/ keeps to its layers: who may include whom, files of one instruction set, lengths of files.
 
-base < numerics < physics < models; io and analysis stand on numerics; run on io and analysis; only app sees all.
+base < numerics < physics < models; io and analysis stand on numerics; run on io and analysis; only app sees all. ranks
+stands on base; models, run and app know processes by it, and MPI is included in its folder petsc/ alone.
 """
 
 import argparse
@@ -12,17 +13,19 @@ import sys
 
 ALLOWED = {
     "base": {"base"},
+    "ranks": {"base", "ranks"},
     "numerics": {"base", "numerics"},
     "physics": {"base", "numerics", "physics"},
-    "models": {"base", "numerics", "physics", "models"},
+    "models": {"base", "ranks", "numerics", "physics", "models"},
     "analysis": {"base", "numerics", "analysis"},
     "io": {"base", "numerics", "io"},
-    "run": {"base", "numerics", "io", "analysis", "run"},
-    "app": {"base", "numerics", "physics", "models", "analysis", "io", "run", "app"},
+    "run": {"base", "ranks", "numerics", "io", "analysis", "run"},
+    "app": {"base", "ranks", "numerics", "physics", "models", "analysis", "io", "run", "app"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^>"]+)[>"]')
 # What a file of one instruction set may include of the system: headers without templates that leak to other files.
 PLAIN_SYSTEM_HEADERS = {"cmath", "cstddef", "cstdint", "type_traits", "immintrin.h", "concepts", "numbers"}
+MESSAGES = re.compile(r"(mpi|petsc\w*|zoltan\w*)\.h$")
 GENERATED = {"revision.hpp", "material_files.inc"}  # made by the build
 MOST_LINES = 400
 REASON = "longer than 400 lines because"
@@ -48,6 +51,18 @@ def check_layers(root):
                 problems.append(f'{where}: "{name}" is not below src/; write includes from src/ on')
             elif target not in ALLOWED.get(layer, set()):
                 problems.append(f"{where}: {layer} must not include {target}; see ARCHITECTURE.md, layers")
+    return problems
+
+
+def check_messages(root):
+    """Only src/ranks/petsc knows the libraries of messages between processes."""
+    problems = []
+    for path in sorted((root / "src").rglob("*.?pp")):
+        if path.is_relative_to(root / "src" / "ranks" / "petsc"):
+            continue
+        for number, system, name in includes(path):
+            if system and MESSAGES.match(name):
+                problems.append(f"{path.relative_to(root)}:{number}: <{name}> belongs into src/ranks/petsc alone")
     return problems
 
 
@@ -155,6 +170,7 @@ def check_lengths(root):
 
 CHECKS = (
     check_layers,
+    check_messages,
     check_run_names_no_model,
     check_instruction_set_files,
     check_cycles,

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "io/case_file.hpp"
+#include "ranks/ranks.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
@@ -20,7 +21,8 @@ namespace talus::app {
 /// Set by the command that was chosen.
 using Action = std::function<ExitStatus()>;
 
-void add_run_command(CLI::App& app, Action& action);
+/// \param ranks the processes that run a case together; they outlive the action
+void add_run_command(CLI::App& app, Action& action, const Ranks& ranks);
 void add_check_command(CLI::App& app, Action& action);
 void add_ensemble_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

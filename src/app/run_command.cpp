@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,8 +15,11 @@
 #include "app/runs/refinement.hpp"
 #include "app/runs/run_case.hpp"
 #include "base/text.hpp"
+#include "io/parameter_reader.hpp"
 #include "io/run_folder.hpp"
 #include "numerics/run_record.hpp"
+#include "ranks/ranks.hpp"
+#include "run/led_model.hpp"
 #include "run/progress.hpp"
 
 namespace talus::app {
@@ -25,8 +30,13 @@ struct RunOptions {
   CaseOptions case_options;
   RunRequest request;
   std::string out;
-  bool resume = false, overwrite = false, refine = false;
+  bool resume = false, overwrite = false, refine = false, threads_given = false;
 };
+
+void print_warnings(const PreparedCase& prepared) {
+  for (const Warning& warning : warnings_of(prepared.regime))
+    print("! {}\n", wrapped(warning.text, terminal_width(), 2, 2));
+}
 
 /// The same case with a finer spacing in the folder beside, and what both say of none.
 ExitStatus run_finer(const PreparedCase& prepared, const RunRequest& coarse) {
@@ -44,20 +54,82 @@ ExitStatus run_finer(const PreparedCase& prepared, const RunRequest& coarse) {
   return ExitStatus::done;
 }
 
-ExitStatus run(const RunOptions& options) {
-  CaseFile file = options.case_options.read();
+/// The case, which every process reads. \throws what reading it throws; if only others cannot, FileError
+PreparedCase prepare_together(const RunOptions& options, const RunRequest& request, const Ranks& ranks) {
+  std::optional<PreparedCase> prepared;
+  std::exception_ptr error;
+  std::string told;
+  try {
+    CaseFile file = options.case_options.read();
+    if (options.resume) keep_snapshot_interval(file, request.folder);
+    prepared = prepare_case(file);
+    if (!prepared->make_part) {
+      ParameterReader reader(file);
+      reader.check({prepared->only_alone});
+      reader.throw_problems();
+    }
+  } catch (const std::exception& fault) {
+    error = std::current_exception();
+    told = fmt::format("process {}: {}\n", ranks.rank(), fault.what());
+  }
+  told = ranks.gather(told);
+  if (error) std::rethrow_exception(error);
+  if (!told.empty()) throw FileError(options.case_options.path, "not every process could read the case: " + told);
+  const std::string sets = ranks.gather(prepared->instruction_set + ' ');
+  std::string same;
+  for (int r = 0; r < ranks.size(); ++r) same += prepared->instruction_set + ' ';
+  if (sets != same)
+    throw InputError({{.where = options.case_options.path,
+                       .key = "integration.instruction_set",
+                       .what = "the processors of the processes differ: " + sets,
+                       .allowed = "one that all of them have"}});
+  return std::move(*prepared);
+}
+
+/// On several processes: the first one runs the case, the others follow.
+ExitStatus run_together(const RunOptions& options, RunRequest request, const Ranks& ranks) {
+  if (options.refine)
+    throw InputError(
+        {{.where = "--refine", .what = "on one process only", .allowed = "two runs, one after the other"}});
+  PreparedCase prepared = prepare_together(options, request, ranks);
+  if (!options.threads_given) request.threads = std::max(1, request.threads / ranks.on_this_machine());
+  if (ranks.is_first()) {
+    print_warnings(prepared);
+    if (request.dry_run) return run_case(prepared, request);
+    run::Followers followers(ranks);
+    prepared.make_model = [part = prepared.make_part, &ranks, &followers] {
+      return run::led_model(part(ranks), followers);
+    };
+    return run_case(prepared, request);
+  }
+  if (request.dry_run) return ExitStatus::done;
+  try {
+    ThreadTeam team(request.threads);
+    const auto model = prepared.make_part(ranks);
+    run::follow(*model, team, ranks);
+  } catch (const NumericalError&) {  // of all processes
+    throw;
+  } catch (const std::exception& error) {
+    print_error("talus: process {}: {}\n", ranks.rank(), error.what());
+    ranks.abort(static_cast<int>(ExitStatus::numerical));
+  }
+  return ExitStatus::done;
+}
+
+ExitStatus run(const RunOptions& options, const Ranks& ranks) {
   RunRequest request = options.request;
   request.folder =
       options.out.empty() ? default_results(options.case_options.path) : std::filesystem::path(options.out);
   request.existing = options.resume ? Existing::resume : options.overwrite ? Existing::overwrite : Existing::refuse;
+  if (!ranks.is_alone()) return run_together(options, request, ranks);
+  CaseFile file = options.case_options.read();
   if (options.resume) keep_snapshot_interval(file, request.folder);
   const PreparedCase prepared = [&] {
     const run::Waiting waiting("reading and checking the case");
     return prepare_case(file);
   }();
   check_memory(prepared, file);
-  for (const Warning& warning : warnings_of(prepared.regime))
-    print("! {}\n", wrapped(warning.text, terminal_width(), 2, 2));
+  print_warnings(prepared);
   if (!options.refine) return run_case(prepared, request);
   const CaseFile finer = refined_case(file);
   const PreparedCase prepared_finer = prepare_case(finer);
@@ -68,7 +140,7 @@ ExitStatus run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, Action& action) {
+void add_run_command(CLI::App& app, Action& action, const Ranks& ranks) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "run a case");
   options->case_options.add_to(*command);
@@ -87,7 +159,10 @@ void add_run_command(CLI::App& app, Action& action) {
       "The folder holds manifest.json, series.csv, snapshots/*.vtkhdf (ParaView), checkpoints, analysis/, pictures/,\n"
       "summary.json and log.txt. Ctrl-C, SIGTERM, a file `stop` in the folder and --walltime end the run with a\n"
       "checkpoint (exit status 130); --resume goes on bitwise identically.");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  command->callback([options, command, &action, &ranks] {
+    options->threads_given = command->count("--threads") > 0;
+    action = [options, &ranks] { return run(*options, ranks); };
+  });
 }
 
 }  // namespace talus::app

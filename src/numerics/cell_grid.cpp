@@ -147,18 +147,24 @@ std::span<const std::uint32_t> CellGrid::points_in_row(std::int64_t first, std::
   return order().subspan(cells.front().begin, (&cells.back() + 1)->begin - cells.front().begin);
 }
 
-std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell_size) {
+std::vector<std::uint64_t> spatial_keys(std::span<const Vector3> points, const Vector3& origin, double cell_size) {
   if (!(cell_size > 0)) throw std::invalid_argument("the edge of a cell must be positive");
-  const Vector3 origin = lowest(points);
   check_fits(points, origin, cell_size);
-  std::vector<Keyed> keyed(points.size());
-  for (std::uint32_t n = 0; n < points.size(); ++n) {
-    const Vector3 d = points[n] - origin;
-    keyed[n] = {every_third_bit(static_cast<std::uint64_t>(d.x / cell_size)) |
-                    every_third_bit(static_cast<std::uint64_t>(d.y / cell_size)) << 1 |
-                    every_third_bit(static_cast<std::uint64_t>(d.z / cell_size)) << 2,
-                n};
+  std::vector<std::uint64_t> keys;
+  keys.reserve(points.size());
+  for (const Vector3& point : points) {
+    const Vector3 d = point - origin;
+    keys.push_back(every_third_bit(static_cast<std::uint64_t>(d.x / cell_size)) |
+                   every_third_bit(static_cast<std::uint64_t>(d.y / cell_size)) << 1 |
+                   every_third_bit(static_cast<std::uint64_t>(d.z / cell_size)) << 2);
   }
+  return keys;
+}
+
+std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell_size) {
+  const std::vector<std::uint64_t> keys = spatial_keys(points, lowest(points), cell_size);
+  std::vector<Keyed> keyed(points.size());
+  for (std::uint32_t n = 0; n < points.size(); ++n) keyed[n] = {keys[n], n};
   sort(keyed);
   std::vector<std::uint32_t> order(keyed.size());
   std::transform(keyed.begin(), keyed.end(), order.begin(), [](const Keyed& k) { return k.point; });

@@ -99,6 +99,10 @@ class CellGrid {
   std::vector<std::uint32_t> first_cell_;  // in cells_, from a position in the box on; one more; empty: sorted by key
 };
 
+/// For each point a number along a space-filling curve (Morton order of cells of edge `cell_size`).
+/// \param origin not above any point, m \throws std::invalid_argument as CellGrid
+std::vector<std::uint64_t> spatial_keys(std::span<const Vector3> points, const Vector3& origin, double cell_size);
+
 /// A permutation that keeps points near in space near in memory (Morton order of cells of edge `cell_size`).
 /// \throws std::invalid_argument as CellGrid
 std::vector<std::uint32_t> spatial_order(std::span<const Vector3> points, double cell_size);

@@ -175,7 +175,7 @@ class Surroundings {
 }  // namespace
 
 void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                          double skin, std::size_t count, const Keep& keep) {
+                          double skin, std::size_t count, const Keep& keep, std::span<const char> without_list) {
   skin_ = -1;
   first_.assign(count + 1, 0);
   length_.assign(count, 0);
@@ -210,6 +210,7 @@ void NeighbourList::build(ThreadTeam& team, std::span<const Vector3> position, s
         if (list == nullptr) list = &found_[slot[chunk] = slots++];
         around.gather(cells, blocks.boxes, skin, cell);
         for (const std::uint32_t i : listed) {
+          if (!without_list.empty() && without_list[i]) continue;
           if (list->size() < filled + around.most()) list->resize((filled + around.most()) * 5 / 4);
           std::uint32_t* const near = list->data() + filled;
           std::size_t length = around.find_near(pick_near, blocks.points.data(), i, skin, near);

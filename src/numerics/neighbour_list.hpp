@@ -29,8 +29,9 @@ class NeighbourList {
   /// \param keep moves those of the particles near i that i may ever interact with to the front, in their order, and
   /// returns how many they are; none: all stay
   using Keep = std::function<std::size_t(std::size_t i, std::span<std::uint32_t> near)>;
+  /// \param without_list of each of the first, whether it is left with an empty list; empty: none is
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin,
-             std::size_t listed, const Keep& keep);
+             std::size_t listed, const Keep& keep, std::span<const char> without_list = {});
 
   /// True if every particle, less the mean displacement of all, is within half the skin of where the list was built,
   /// so that no touching pair is missing.

@@ -24,12 +24,16 @@ std::pair<Vector3, Vector3> box_around(std::span<const Vector3> points) {
 }  // namespace
 
 void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-                          std::span<const double> margin) {
+                          std::span<const double> margin, const PartOfPoints& part) {
   const std::size_t count = position.size();
   max_radius_.resize(count);
   for (std::size_t i = 0; i < count; ++i) max_radius_[i] = radius[i] + margin[i];
-  max_margin_ = count == 0 ? 0.0 : *std::max_element(margin.begin(), margin.end());
-  reach_ = count == 0 ? 0.0 : 2 * *std::max_element(max_radius_.begin(), max_radius_.end());
+  is_copy_.assign(part.is_copy.begin(), part.is_copy.end());
+  max_margin_ = part.margin, reach_ = part.reach;
+  if (count > 0) {
+    max_margin_ = std::max(max_margin_, *std::max_element(margin.begin(), margin.end()));
+    reach_ = std::max(reach_, 2 * *std::max_element(max_radius_.begin(), max_radius_.end()));
+  }
   built_ = true;
   if (!(reach_ <= domain_.max_reach()))
     throw std::invalid_argument("a particle reaches farther than walls and faces are apart");
@@ -72,7 +76,7 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
     return static_cast<std::size_t>(end - near.begin());
   };
   const bool all_seen = domain_.walls().empty() && vessel_.is_empty();
-  list_.build(team, points, max_radius_, 0, count, all_seen ? nullptr : keep_visible);
+  list_.build(team, points, max_radius_, 0, count, all_seen ? nullptr : keep_visible, is_copy_);
 
   first_doubt_.assign(1, 0);
   for (std::size_t i = 0; i < count; ++i)
@@ -93,7 +97,8 @@ void Neighbourhood::build(ThreadTeam& team, std::span<const Vector3> position, s
 }
 
 /// Particles whose numbers follow each other are mostly near each other too: they share the slabs of the vessel that
-/// reach into the box around all that they reach.
+/// reach into the box around all that they reach. Of too many, each looks for its own: a distance does not depend on
+/// who shares with whom.
 void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> points) {
   distance_.clear();
   if (vessel_.is_empty()) return;
@@ -104,13 +109,17 @@ void Neighbourhood::find_distances(ThreadTeam& team, std::span<const Vector3> po
     const auto [low, high] = box_around(points.subspan(begin, end - begin));
     const double reach = (1 + 1e-9) * reach_;
     const Vector3 around{reach, reach, reach};
+    const auto find = [&](const Vector3& from, const Vector3& to, std::vector<Slab>& slabs) {
+      return vessel_.slabs_within(from - around, to + around, thin * reach_, wide * reach_, max_slabs, slabs);
+    };
     Slabs& slabs = slabs_[group];
-    slabs.all = vessel_.slabs_within(low - around, high + around, thin * reach_, wide * reach_, max_slabs, slabs.of);
+    slabs.all = find(low, high, slabs.of);
     std::size_t last = Surface::no_triangle;
+    std::vector<Slab> own;
     for (std::size_t n = begin; n < end; ++n) {
       double least = infinity;
-      if (slabs.all) {
-        for (const Slab& slab : slabs.of) least = std::min(least, slab.distance(points[n]));
+      if (slabs.all || find(points[n], points[n], own)) {
+        for (const Slab& slab : slabs.all ? slabs.of : own) least = std::min(least, slab.distance(points[n]));
       } else if (const auto foot = vessel_.nearest(points[n], reach_, last)) {
         least = foot->distance, last = foot->triangle;
       }
@@ -180,7 +189,7 @@ bool Neighbourhood::holds(ThreadTeam& team, std::span<const Vector3> position, s
   if (!built_ || particles() != position.size()) return false;
   return reduce(
       team, position.size(), true,
-      [&](std::size_t i) { return norm(position[i] - reference_[i]) + radius[i] <= max_radius_[i]; },
+      [&](std::size_t i) { return is_copy(i) || norm(position[i] - reference_[i]) + radius[i] <= max_radius_[i]; },
       [](bool a, bool b) { return a && b; });
 }
 

@@ -22,6 +22,12 @@ struct Ghost {
   std::uint32_t image;  ///< number in Neighbourhood::images()
 };
 
+/// Points of which others hold the rest: those of one process among several.
+struct PartOfPoints {
+  std::span<const char> is_copy;  ///< of each point: a neighbour of others only, without a list; empty: none is
+  double reach = 0, margin = 0;   ///< the largest of all parts, m; 0: that of these points
+};
+
 class Neighbourhood {
  public:
   /// \param domain, vessel outlive it; \param vessel particles hidden behind it when the lists are built are not listed
@@ -37,18 +43,19 @@ class Neighbourhood {
   /// grow while the lists hold, m; one entry per particle
   /// \throws std::invalid_argument if the largest reach, 2 (a + m), passes the domain's, or a position is not finite
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius,
-             std::span<const double> margin);
+             std::span<const double> margin, const PartOfPoints& part = {});
   /// The same with half of a skin for all, m.
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius, double skin) {
     build(team, position, radius, std::vector<double>(position.size(), 0.5 * skin));
   }
 
   /// True if no particle has moved and grown by more than its margin since the list was built, so that no pair closer
-  /// than a_i + a_j is missing. False for a position that is not finite.
+  /// than a_i + a_j is missing. False for a position that is not finite. Copies do not count.
   bool holds(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> radius) const;
 
   double reach() const { return reach_; }  ///< of the lists: no pair in them was farther apart, m
   std::size_t particles() const { return first_ghost_.size(); }
+  bool is_copy(std::size_t i) const { return !is_copy_.empty() && is_copy_[i]; }
   std::span<const Ghost> ghosts() const { return ghosts_; }
   std::span<const Image> images() const { return images_; }
   const Image& image(const Ghost& ghost) const { return images_[ghost.image]; }
@@ -64,7 +71,7 @@ class Neighbourhood {
   }
 
   /// How far a particle was from the vessel at least when the lists were built, m; infinite beyond the reach of its
-  /// neighbours.
+  /// neighbours. It follows from the particle alone, whoever its neighbours in memory are.
   double distance_from_vessel(std::size_t i) const { return distance_.empty() ? infinity : distance_[i]; }
   /// Whether a line between two positions of the particle can meet the vessel, as far as that distance tells.
   bool may_meet_vessel(std::size_t i, const Vector3& a, const Vector3& b) const {
@@ -83,6 +90,7 @@ class Neighbourhood {
   const Domain& domain_;
   const Surface& vessel_;
   bool built_ = false;
+  std::vector<char> is_copy_;
   double max_margin_ = 0;
   double reach_ = 0;
   std::vector<Vector3> reference_;  // of particles and ghosts

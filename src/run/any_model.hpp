@@ -37,7 +37,14 @@ class AnyModel {
   virtual std::vector<NamedValue> totals() const = 0;
   virtual std::vector<RegimeLine> regime(const RunRecord& record) const = 0;
   virtual void save(CheckpointWriter& checkpoint) const = 0;
-  virtual void resume(ThreadTeam& team, const CheckpointReader& checkpoint) = 0;
+  virtual void read(const CheckpointReader& checkpoint) = 0;  ///< the kept fields
+  virtual void resume(ThreadTeam& team) = 0;                  ///< completes what was read
+  /// With several processes: makes the whole state at the first one, for what is asked until the next step.
+  virtual void gather() {}
+  void resume(ThreadTeam& team, const CheckpointReader& checkpoint) {
+    read(checkpoint);
+    resume(team);
+  }
 };
 
 /// Joins a model (see models/model.hpp for what that is) to AnyModel.
@@ -79,10 +86,17 @@ class ModelAdapter final : public AnyModel {
   }
   std::vector<NamedValue> totals() const override { return model_.totals(); }
   std::vector<RegimeLine> regime(const RunRecord& record) const override { return model_.regime(record); }
-  void save(CheckpointWriter& checkpoint) const override { for_each_field(checkpoint, model_.state()); }
-  void resume(ThreadTeam& team, const CheckpointReader& checkpoint) override {
-    for_each_field(checkpoint, model_.mutable_state());
-    model_.resume(team);
+  void save(CheckpointWriter& checkpoint) const override {
+    if constexpr (requires { model_.whole_state(); })
+      for_each_field(checkpoint, model_.whole_state());
+    else
+      for_each_field(checkpoint, model_.state());
+  }
+  void read(const CheckpointReader& checkpoint) override { for_each_field(checkpoint, model_.mutable_state()); }
+  using AnyModel::resume;
+  void resume(ThreadTeam& team) override { model_.resume(team); }
+  void gather() override {
+    if constexpr (requires { model_.gather(); }) model_.gather();
   }
 
  private:

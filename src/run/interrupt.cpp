@@ -21,6 +21,7 @@ void remember(int signal) {
 void catch_signals() {
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
+  std::signal(SIGUSR1, remember);
 }
 
 bool signal_has_come() {
@@ -34,6 +35,7 @@ Interrupt::Interrupt(std::filesystem::path stop_file, std::optional<std::chrono:
 
 std::optional<std::string> Interrupt::reason() {
   if (caught == SIGINT) return "SIGINT";
+  if (caught == SIGUSR1) return "SIGUSR1";
   if (caught != 0) return "SIGTERM";
   const Clock::time_point now = Clock::now();
   if (deadline_ && now >= *deadline_) return "the wall-time limit";

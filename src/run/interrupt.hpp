@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The ways in which a run can be interrupted: SIGINT, SIGTERM, a file `stop` in its folder, the wall-time limit. All
-/// end alike: a checkpoint is written and the exit status is 130.
+/// The ways in which a run can be interrupted: SIGINT, SIGTERM, SIGUSR1, a file `stop` in its folder, the wall-time
+/// limit. All end alike: a checkpoint is written and the exit status is 130.
 #pragma once
 
 #include <chrono>
@@ -10,10 +10,10 @@
 
 namespace talus::run {
 
-/// Makes SIGINT and SIGTERM request a stop; a second one kills the process. Call once.
+/// Makes SIGINT, SIGTERM and SIGUSR1, which mpirun hands on, request a stop; a second one kills the process. Call once.
 void catch_signals();
 
-/// True after SIGINT or SIGTERM.
+/// True after one of them.
 bool signal_has_come();
 
 class Interrupt {

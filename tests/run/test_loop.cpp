@@ -50,11 +50,13 @@ class Falling final : public AnyModel {
     checkpoint.put("state/step", step_);
     checkpoint.put("state/position", position_);
   }
-  void resume(ThreadTeam&, const CheckpointReader& checkpoint) override {
+  void read(const CheckpointReader& checkpoint) override {
     checkpoint.get("state/time", time_);
     checkpoint.get("state/step", step_);
     checkpoint.get("state/position", position_);
   }
+  using AnyModel::resume;
+  void resume(ThreadTeam&) override {}
 
  private:
   Steps steps_;

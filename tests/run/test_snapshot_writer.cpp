@@ -38,11 +38,13 @@ class Moving final : public AnyModel {
     checkpoint.put("state/time", time_);
     checkpoint.put("state/step", step_);
   }
-  void resume(ThreadTeam&, const CheckpointReader& checkpoint) override {
+  void read(const CheckpointReader& checkpoint) override {
     checkpoint.get("state/time", time_);
     checkpoint.get("state/step", step_);
     position_[0].x = 1e-2 * static_cast<double>(step_);
   }
+  using AnyModel::resume;
+  void resume(ThreadTeam&) override {}
 
  private:
   double time_ = 0;

@@ -84,6 +84,12 @@ class Layers(Tree):
         self.write("src/base/b.cpp", '#include "a.hpp"\n')
         self.assertIn("not below src/", check_layers.check_layers(self.root)[0])
 
+    def test_messages_outside_their_folder_are_found(self):
+        self.write("src/ranks/petsc/p.cpp", "#include <petscsf.h>\n")
+        self.assertEqual(check_layers.check_messages(self.root), [])
+        self.write("src/ranks/r.hpp", "#include <mpi.h>\n")
+        self.assertRegex(check_layers.check_messages(self.root)[0], r"src/ranks/r.hpp:1: <mpi.h>")
+
     def test_run_that_names_a_model_is_found(self):
         self.write("src/run/r.cpp", "\ncloud::Parameters p;\n")
         self.assertRegex(check_layers.check_run_names_no_model(self.root)[0], r"src/run/r.cpp:2: .*cloud")

@@ -37,38 +37,43 @@ struct Limits {
   }
 };
 
-[[noreturn]] void give_up(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
+NumericalError::Report report_of(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
   const Vector3& x = s.position[i];
   const bool density = !limits.allow_density(s.density[i]);
   const double speed = norm(s.velocity[i]);
   const bool left = !limits.box.contains(x);
   const bool can_be_removed = left && !p.removal.outside && !p.air.enabled;
-  throw NumericalError(
-      {.what = density                ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
-               : std::isfinite(speed) ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
-                                      : "the velocity is not finite",
-       .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
-       .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m{}", s.identity[i], x.x, x.y, x.z,
-                            left ? ", outside the box" : ""),
-       .step = s.step,
-       .time = s.time,
-       .advice = fmt::format("{}a smaller {}, a larger sph.viscosity_alpha",
-                             can_be_removed ? "removal.outside = true, which takes away what has left; " : "",
-                             p.integration.step ? "integration.step" : "integration.courant")});
+  return {.what = density                ? fmt::format("the bulk density is {:.4g} kg/m3", s.density[i])
+                  : std::isfinite(speed) ? fmt::format("the speed is {:.4g} m/s, more than a spacing a step", speed)
+                                         : "the velocity is not finite",
+          .term = density ? "continuity, Eq. 16" : "momentum, Eq. 17",
+          .place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m{}", s.identity[i], x.x, x.y, x.z,
+                               left ? ", outside the box" : ""),
+          .step = s.step,
+          .time = s.time,
+          .advice = fmt::format("{}a smaller {}, a larger sph.viscosity_alpha",
+                                can_be_removed ? "removal.outside = true, which takes away what has left; " : "",
+                                p.integration.step ? "integration.step" : "integration.courant")};
 }
 
 }  // namespace
 
-void check_state(ThreadTeam& team, const Parameters& p, const Domain& domain, const State& s, double dt) {
+std::optional<std::size_t> find_fault(ThreadTeam& team, const Parameters& p, const Domain& domain, const Share& share,
+                                      const State& s, double dt) {
   const Limits limits(p, domain, s, dt);
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  const std::size_t worst = reduce(
+  const std::size_t first = reduce(
       team, s.position.size(), none,
       [&](std::size_t i) {
-        return limits.allow_velocity(s.velocity[i], s.position[i]) && limits.allow_density(s.density[i]) ? none : i;
+        const bool allowed = limits.allow_velocity(s.velocity[i], s.position[i]) && limits.allow_density(s.density[i]);
+        return allowed || !share.owns(i) ? none : i;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });
-  if (worst != none) give_up(p, s, limits, worst);
+  return first == none ? std::nullopt : std::optional(first);
+}
+
+NumericalError::Report report_of(const Parameters& p, const Domain& domain, const State& s, double dt, std::size_t i) {
+  return report_of(p, s, Limits(p, domain, s, dt), i);
 }
 
 }  // namespace talus::continuum

@@ -118,7 +118,8 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
 
 }  // namespace
 
-Continuum::Continuum(std::shared_ptr<const Setup> setup) : setup_(std::move(setup)), state_(initial_state(*setup_)) {}
+Continuum::Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks)
+    : ranks_(ranks), setup_(std::move(setup)), state_(initial_state(*setup_)) {}
 
 void Continuum::begin(ThreadTeam& team) {
   make_workspace();
@@ -131,7 +132,7 @@ void Continuum::resume(ThreadTeam& team) {
 }
 
 void Continuum::make_workspace() {
-  workspace_ = std::make_unique<Workspace>(*setup_, state_);
+  workspace_ = std::make_unique<Workspace>(*setup_, state_, ranks_);
   if (domain().sector()) around_whole_.emplace(domain().whole());
   whole_.reset();
   part_.reset();
@@ -141,6 +142,19 @@ void Continuum::advance(ThreadTeam& team) {
   whole_.reset();
   part_.reset();
   continuum::advance(team, *setup_, state_, *workspace_);
+}
+
+void Continuum::gather() {
+  workspace_->share.gather(state_, gathered_);
+  whole_.reset();
+  part_.reset();
+}
+
+std::vector<double> Continuum::smoothing_lengths() const {
+  if (ranks_.is_alone()) return workspace_->smoothing_length;
+  std::vector<double> lengths;
+  for (const double density : gathered_.density) lengths.push_back(workspace_->pairs.smoothing_length(density));
+  return lengths;
 }
 
 double Continuum::time_origin() const {
@@ -160,17 +174,18 @@ double Continuum::has_moved_from() const {
 }
 
 std::optional<std::string> Continuum::ended() const {
-  if (!has_emptied(setup_->given, state_)) return std::nullopt;
+  const std::size_t particles = workspace_->share.of_all(state_.position.size());
+  if (!has_emptied(setup_->given, state_, particles)) return std::nullopt;
   return "all grains have left: the vessel has emptied";
 }
 
 NumericalError::Report Continuum::step_limit() const {
-  return continuum::step_limit(*setup_, state_, *workspace_);
+  return continuum::step_limit(*setup_, whole_state(), smoothing_lengths(), *workspace_);
 }
 
 Snapshot Continuum::snapshot() const {
   if (!domain().sector()) {
-    Snapshot snapshot = snapshot_of(state_);
+    Snapshot snapshot = snapshot_of(whole_state());
     snapshot.domain = &domain();
     return snapshot;
   }
@@ -182,12 +197,12 @@ Snapshot Continuum::snapshot() const {
 
 Snapshot Continuum::stored() const {
   if (!domain().sector()) return snapshot();
-  if (!part_) part_ = part_of(state_, *domain().sector());
+  if (!part_) part_ = part_of(whole_state(), *domain().sector());
   return part_->view();
 }
 
 std::vector<NamedValue> Continuum::totals() const {
-  const State& s = state_;
+  const State& s = whole_state();
   const std::optional<Sector>& sector = domain().sector();
   const double copies = sector ? sector->copies() : 1;
   const ParticleTotals particles = totals_of_particles(domain().box(), s);
@@ -267,15 +282,15 @@ std::optional<GridSnapshot> Continuum::grid() const {
 std::optional<SurfaceSnapshot> Continuum::walls() const {
   if (setup_->given.vessel.empty()) return std::nullopt;
   SurfaceSnapshot snapshot =
-      loads_on(workspace_->load_mesh, workspace_->load_fields, state_.wall_loads, state_.time, state_.gate_time);
+      loads_on(workspace_->load_mesh, workspace_->load_fields, whole_state().wall_loads, state_.time, state_.gate_time);
   snapshot.step = state_.step;
   return snapshot;
 }
 
 std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
-  const State& s = state_;
+  const State& s = whole_state();
   const double c = setup_->sound_speed;
-  const auto& lengths = workspace_->smoothing_length;
+  const std::vector<double> lengths = smoothing_lengths();
   // Of an empty vessel that of the bed's particles.
   const double h = lengths.empty() ? workspace_->pairs.smoothing_length(setup_->density)
                                    : *std::min_element(lengths.begin(), lengths.end());

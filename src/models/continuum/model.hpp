@@ -13,6 +13,7 @@
 #include "models/continuum/step.hpp"
 #include "models/model.hpp"
 #include "numerics/snapshot.hpp"
+#include "ranks/ranks.hpp"
 
 namespace talus::continuum {
 
@@ -21,11 +22,14 @@ class Continuum {
   using Parameters = continuum::Parameters;
   using State = continuum::State;
 
-  /// Fills the bed.
-  explicit Continuum(std::shared_ptr<const Setup> setup);
+  /// Fills the bed. \param ranks outlive the model
+  explicit Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks = one_process());
   explicit Continuum(const Parameters& parameters) : Continuum(std::make_shared<const Setup>(parameters)) {}
 
+  /// With several processes: the part of this one.
   const State& state() const { return state_; }
+  /// Of all particles.
+  const State& whole_state() const { return ranks_.is_alone() ? state_ : gathered_; }
   State& mutable_state() { return state_; }
   /// Where the particles are, its gates as they are now. \pre begun or resumed
   const Domain& domain() const { return workspace_->boundary.domain(); }
@@ -38,6 +42,10 @@ class Continuum {
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
+
+  /// With several processes: makes the whole state at the first one. What is asked of the model from here on, until the
+  /// next step, is of this state. Of all processes together.
+  void gather();
 
   /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start:
   /// gate_time (-1: shut), mass_outside (beyond open faces: what has left), the impulses of gravity and damping, and by
@@ -65,12 +73,15 @@ class Continuum {
 
  private:
   void make_workspace();
+  /// Of all particles, m.
+  std::vector<double> smoothing_lengths() const;
   /// From when on the packing is that of a bed that has settled, or fallen by a spacing: beside walls and about a
   /// sector's axis the lattice of the start may lie closer than grains can. s
   double has_moved_from() const;
 
+  const Ranks& ranks_;
   std::shared_ptr<const Setup> setup_;
-  State state_;
+  State state_, gathered_;
   std::unique_ptr<Workspace> workspace_;          // made by begin or resume
   std::optional<Domain> around_whole_;            // of a sector, with its workspace
   mutable std::optional<PointSet> part_, whole_;  // of the present state, if they were asked for

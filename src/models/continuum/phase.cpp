@@ -12,16 +12,21 @@ namespace talus::continuum {
 namespace {
 
 /// What lay on a gate that has gone faces nothing: its kernel's sum loses the gate's images, and its density with it.
+/// The step's velocity gradients are still to be used, and go with the particles.
 void open_gates(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const double time = s.time - s.gate_time;
   if (!w.boundary.has_gates_due(time)) return;
   const bool in_vessel = w.boundary.vessel_has_gates_due(time);
   evaluate(team, p, s, w);
-  const std::vector<double> before = w.rates.kernel_density;
+  std::vector<double> before = w.rates.kernel_density;
   w.boundary.open_gates(time);
   if (in_vessel) {  // who was hidden by the gate is a neighbour now
+    std::vector<std::vector<double>*> carried{&before};
+    for (std::vector<double>& component : w.rates.velocity_gradient.component) carried.push_back(&component);
+    for (std::vector<double>* const column : carried) w.share.keep_owned(*column);
+    drop_halo(p, s, w);
     set_list_reference(p, s, w);
-    w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+    build_lists(team, p, s, w, carried);
   }
   if (!is_loose_where_free(p)) return;
   evaluate(team, p, s, w);
@@ -36,7 +41,7 @@ bool is_being_filled(const Parameters& p, double time) {
 }
 
 /// How many are beside or below the box around the vessel.
-std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& position) {
+std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& position, const Share& share) {
   VesselBounds room{{0, 0, 0}, {p.box.width, p.box.depth, p.box.height}};
   if (!p.vessel.empty()) {
     const VesselBounds vessel = bounds_of_vessel(p);
@@ -44,15 +49,19 @@ std::size_t outside_vessel(const Parameters& p, const std::vector<Vector3>& posi
       room.low[axis] = std::max(room.low[axis], vessel.low[axis]),
       room.high[axis] = std::min(room.high[axis], vessel.high[axis]);
   }
-  return static_cast<std::size_t>(std::count_if(position.begin(), position.end(), [&](const Vector3& x) {
-    return x.x < room.low.x || x.x > room.high.x || x.y < room.low.y || x.y > room.high.y || x.z < room.low.z;
-  }));
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vector3& x = position[i];
+    outside += share.owns(i) &&
+               (x.x < room.low.x || x.x > room.high.x || x.y < room.low.y || x.y > room.high.y || x.z < room.low.z);
+  }
+  return outside;
 }
 
 /// How many have left it since the start, those that were taken away among them.
-std::size_t left_vessel(const Layout& layout, const State& s) {
-  const std::size_t before = outside_vessel(layout.given, bed_positions(layout)),
-                    now = outside_vessel(layout.given, s.position);
+std::size_t left_vessel(const Layout& layout, const State& s, const Share& share) {
+  const std::size_t before = outside_vessel(layout.given, bed_positions(layout), Share(one_process())),
+                    now = sum_of(share.ranks(), outside_vessel(layout.given, s.position, share));
   return (now > before ? now - before : 0) + s.population.removed;
 }
 
@@ -72,37 +81,42 @@ void begin_densities(ThreadTeam& team, const Setup& setup, State& s, Workspace& 
   find_neighbours(team, p, s, w);
 }
 
-void update_phase(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+std::uint64_t count_moving(ThreadTeam& team, const Setup& setup, const Share& share, const State& s) {
+  const double limit = setup.scales.settled_speed * setup.scales.settled_speed;
+  return reduce(
+      team, s.velocity.size(), std::uint64_t{0},
+      [&](std::size_t i) { return std::uint64_t{dot(s.velocity[i], s.velocity[i]) >= limit && share.owns(i)}; },
+      [](std::uint64_t a, std::uint64_t b) { return a + b; });
+}
+
+void update_phase(ThreadTeam& team, const Setup& setup, std::uint64_t moving, State& s, Workspace& w) {
   const Parameters& p = setup.given;
   const TimeScales& scales = setup.scales;
-  const double limit = scales.settled_speed * scales.settled_speed;
-  const auto moving = reduce(
-      team, s.velocity.size(), std::size_t{0},
-      [&](std::size_t i) { return std::size_t{dot(s.velocity[i], s.velocity[i]) >= limit}; },
-      [](std::size_t a, std::size_t b) { return a + b; });
-  const bool quiet = s.time >= setup.loading.time() && 100 * moving <= s.velocity.size();
+  const std::size_t count = w.share.of_all(s.velocity.size());
+  const bool quiet = s.time >= setup.loading.time() && 100 * moving <= count;
   if (!quiet) s.quiet_time = -1;
   if (quiet && s.quiet_time < 0) s.quiet_time = s.time;
   if (s.gate_time >= 0) return open_gates(team, p, s, w);
   const bool settled = quiet && !is_being_filled(p, s.time) && s.time - s.quiet_time >= scales.settled_duration;
   if (p.gate.opens == GateOpens::at_time ? s.time >= p.gate.time : settled) {
     s.gate_time = s.time;
+    w.share.join_window(s.wall_loads);
     begin_flow(s.time, s.wall_loads);
     open_gates(team, p, s, w);
   } else if (p.gate.opens == GateOpens::when_settled && s.time > scales.settling_limit) {
-    const std::size_t left = left_vessel(setup, s);
+    const std::size_t left = left_vessel(setup, s, w.share);
     const std::string gone = left > 0 ? fmt::format(", {} have left the vessel", left) : "";
     const std::string leak = left > 0 ? "first a wall, lid or gate where the vessel is open (talus check names rims of "
                                         "STL files below the top of the bed); then "
                                       : "";
-    throw NumericalError(
-        {.what = fmt::format("the bed is still moving after {:.3g} s", s.time),
-         .term = fmt::format("{} of {} particles are faster than settle.speed{}", moving, s.velocity.size(), gone),
-         .place = "the bed",
-         .step = s.step,
-         .time = s.time,
-         .advice = leak + "a shorter settle.damping_time, a larger settle.speed or settle.max_time; along "
-                          "inclined walls, walls.friction_from = \"start\""});
+    throw NumericalError({.what = fmt::format("the bed is still moving after {:.3g} s", s.time),
+                          .term = fmt::format("{} of {} particles are faster than settle.speed{}", moving, count, gone),
+                          .place = "the bed",
+                          .step = s.step,
+                          .time = s.time,
+                          .advice = leak +
+                                    "a shorter settle.damping_time, a larger settle.speed or settle.max_time; along "
+                                    "inclined walls, walls.friction_from = \"start\""});
   }
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "base/exact_sum.hpp"
+#include "models/continuum/columns.hpp"
 #include "numerics/cell_grid.hpp"
 
 namespace talus::continuum {
@@ -17,71 +17,41 @@ constexpr double room_between = 0.8;  // particles that come in and those that a
 constexpr double beyond_faces = 2;    // in spacings
 constexpr std::int64_t tag_of_inlets = -1;
 
-/// Gives every column of particles one entry for each of `order`, those of these particles.
-void select(State& state, const std::vector<std::uint32_t>& order) {
-  const auto take = [&]<class Member>(const FieldInfo& field, Member& column) {
-    if constexpr (!std::is_arithmetic_v<Member>) {
-      if (!field.of_particles || column.empty()) return;
-      Member kept(order.size());
-      for (std::size_t n = 0; n < order.size(); ++n) kept[n] = column[order[n]];
-      column = std::move(kept);
-    }
-  };
-  for_each_field(take, state);
-}
-
-/// Makes every column of particles so long; new entries are zero.
-void lengthen(State& state, std::size_t count) {
-  const auto resize = [&]<class Member>(const FieldInfo& field, Member& column) {
-    if constexpr (!std::is_arithmetic_v<Member>)
-      if (field.of_particles) column.resize(count);
-  };
-  for_each_field(resize, state);
-}
-
-/// The workspace for as many particles as the state has.
-void fit(const Parameters& p, const State& s, Workspace& w) {
-  const std::size_t count = s.position.size();
-  w.position.resize(count);
-  w.smoothing_length.resize(count);
-  if (p.integration.method != Method::runge_kutta) return;
-  w.velocity.resize(count);
-  w.density.resize(count);
-  w.midpoint_smoothing_length.resize(count);
-  w.columns = s.material;
-}
-
-bool has_room(const Parameters& p, const State& s, const InletLayer& layer, const Vector3& moved) {
+bool has_room(const Parameters& p, const State& s, const Share& share, const InletLayer& layer, const Vector3& moved) {
   const double room = room_between * p.bed.spacing;
   Vector3 low = layer.places.front(), high = low;
   for (const Vector3& x : layer.places)
     for (int axis = 0; axis < 3; ++axis)
       low[axis] = std::min(low[axis], x[axis]), high[axis] = std::max(high[axis], x[axis]);
-  for (const Vector3& at : s.position) {
-    const Vector3 x = at - moved;
+  bool has_room = true;
+  for (std::size_t i = 0; i < s.position.size() && has_room; ++i) {
+    if (!share.owns(i)) continue;
+    const Vector3 x = s.position[i] - moved;
     bool near = true;
     for (int axis = 0; axis < 3; ++axis) near = near && x[axis] > low[axis] - room && x[axis] < high[axis] + room;
     if (!near) continue;
-    for (const Vector3& place : layer.places)
-      if (dot(x - place, x - place) < room * room) return false;
+    for (const Vector3& place : layer.places) has_room = has_room && !(dot(x - place, x - place) < room * room);
   }
-  return true;
+  return all_of(share.ranks(), has_room);
 }
 
-void add(State& s, const InletLayer& layer, const Vector3& velocity, const Vector3& moved) {
-  const std::size_t before = s.position.size(), count = before + layer.places.size();
-  lengthen(s, count);
-  for (std::size_t n = 0; n < layer.places.size(); ++n) {
-    const std::size_t i = before + n;
+/// The first process adds the layer; the particles go to their owners when lists are built.
+void add(State& s, Share& share, const InletLayer& layer, const Vector3& velocity, const Vector3& moved) {
+  const std::size_t before = s.position.size(), count = layer.places.size();
+  if (share.ranks().is_first()) resize_columns(s, before + count);
+  for (std::size_t i = before; i < s.position.size(); ++i) {
+    const std::size_t n = i - before;
     s.position[i] = layer.places[n] + moved;
     s.velocity[i] = velocity;
     s.density[i] = layer.density[n];
-    s.identity[i] = static_cast<std::int64_t>(s.population.next_identity++);
+    s.identity[i] = static_cast<std::int64_t>(s.population.next_identity + n);
     if (s.has.tag) s.tag[i] = tag_of_inlets;
     if (s.has.reset_position) s.reset_position[i] = s.position[i];
   }
-  s.population.fed += layer.places.size();
-  s.population.fed_momentum += (s.mass * static_cast<double>(layer.places.size())) * velocity;
+  share.add(count);
+  s.population.next_identity += count;
+  s.population.fed += count;
+  s.population.fed_momentum += (s.mass * static_cast<double>(count)) * velocity;
 }
 
 bool is_outside(const Parameters& p, const Box& box, const Vector3& x) {
@@ -95,6 +65,17 @@ bool is_outside(const Parameters& p, const Box& box, const Vector3& x) {
 }
 
 }  // namespace
+
+void fit(const Parameters& p, const State& s, Workspace& w) {
+  const std::size_t count = s.position.size();
+  w.position.resize(count);
+  w.smoothing_length.resize(count);
+  if (p.integration.method != Method::runge_kutta) return;
+  w.velocity.resize(count);
+  w.density.resize(count);
+  w.midpoint_smoothing_length.resize(count);
+  w.columns = s.material;
+}
 
 Population initial_population(const Layout& layout, std::size_t particles) {
   const Parameters& p = layout.given;
@@ -117,11 +98,11 @@ bool feed(const Parameters& p, State& s, Workspace& w) {
     while (now >= next && next <= inlet.end()) {
       const InletLayer& layer = w.inlets[n];
       const Vector3 moved = (now - next) * velocity;
-      if (!has_room(p, s, layer, moved)) {
+      if (!has_room(p, s, w.share, layer, moved)) {
         next = now;
         break;
       }
-      add(s, layer, velocity, moved);
+      add(s, w.share, layer, velocity, moved);
       next += layer.interval;
       fed = true;
     }
@@ -141,7 +122,8 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
     else
       left.push_back(static_cast<std::uint32_t>(i));
   }
-  const std::size_t gone = s.position.size() - left.size();
+  sum_up(w.share.ranks(), std::span(&taken, 1));
+  const std::size_t gone = w.share.is_all() ? s.position.size() - left.size() : w.share.remove(left);
   s.population.removed_momentum += taken.value(point);
   if (gone == 0) return false;
   s.population.removed += gone;
@@ -150,8 +132,8 @@ bool remove_particles(const Parameters& p, State& s, Workspace& w) {
   return true;
 }
 
-bool has_emptied(const Parameters& p, const State& s) {
-  if (!s.position.empty() || s.population.removed == 0) return false;
+bool has_emptied(const Parameters& p, const State& s, std::size_t particles) {
+  if (particles > 0 || s.population.removed == 0) return false;
   for (std::size_t n = 0; n < p.inlets.size(); ++n) {
     const bool waits = p.inlets[n].clock == InletClock::gate && s.gate_time < 0;
     if (waits || s.population.next_layer[n] <= p.inlets[n].end()) return false;
@@ -168,8 +150,11 @@ double mass_to_come(const Parameters& p, double end, double gate) {
   return mass;
 }
 
-void sort_for_locality(State& state, double cell_size) {
-  select(state, spatial_order(state.position, cell_size));
+void sort_for_locality(State& state, Share& share, double cell_size) {
+  if (share.is_all())
+    select(state, spatial_order(state.position, cell_size));
+  else
+    share.sort(state, cell_size);
 }
 
 }  // namespace talus::continuum

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/step.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/exact_sum.hpp"
 #include "models/continuum/boundary/contact.hpp"
@@ -31,8 +29,7 @@ struct Step {
 
   // Stages of both integrators.
   void air() const;
-  void gradients(std::span<const Vector3> velocity, std::span<const double> density,
-                 std::span<const double> smoothing_length, const MaterialColumns& material, PairTerms terms) const;
+  void gradients(const SummedColumns& columns, PairTerms terms) const;
   void drift(std::span<const Vector3> velocity) const;
   void density() const;
   void stress() const;
@@ -45,8 +42,9 @@ struct Step {
   // Of the midpoint rule.
   void half() const;
   void momentum() const;
-  ContactSetting walls() const { return {p, w.boundary, w.load_fields, w.contact_distance}; }
-  // Parts of `end`.
+  ContactSetting walls() const { return {p, w.boundary, w.load_fields, w.contact_distance, w.share}; }
+  // Parts of `end` and `lists`.
+  bool lists_hold() const;
   void damping() const;
   void clock() const;
 };
@@ -59,7 +57,8 @@ void advance_leapfrog(const Step& step) {
   step.kick();
   step.contact(0.5 * (s.last_step + step.dt), s.position);
   step.midpoint_positions();
-  step.gradients(s.velocity, s.density, w.smoothing_length, s.material, PairTerms::gradients);
+  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
+                 PairTerms::gradients);
   step.drift(s.velocity);
   step.density();
   step.stress();
@@ -76,7 +75,8 @@ void advance_midpoint(const Step& step) {
   State& s = step.s;
   Workspace& w = step.w;
   step.half();
-  step.gradients(w.velocity, w.density, w.midpoint_smoothing_length, w.columns, PairTerms::all);
+  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate},
+                 PairTerms::all);
   step.drift(w.velocity);
   step.momentum();
   step.density();
@@ -89,8 +89,6 @@ void advance_midpoint(const Step& step) {
   measure_shear_rate(step.team, s, w);
 }
 
-double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w);
-
 }  // namespace
 
 /// On entry and exit the rates, packing and neighbour lists belong to the state.
@@ -102,54 +100,6 @@ void advance(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
 }
 
 namespace {
-
-/// In a step no particle within the box moves farther than this, in spacings: faster ones would reach what the lists
-/// of neighbours do not hold, and pass through each other.
-constexpr double max_advance = 0.25;
-
-/// What limits the step of the grains.
-struct GrainLimits {
-  double min_smoothing_length = std::numeric_limits<double>::infinity();  ///< m
-  double max_square_speed = 0;                                            ///< of the particles within the box, m^2/s^2
-};
-
-GrainLimits limits_of_grains(ThreadTeam& team, const State& s, const Workspace& w) {
-  return accumulate(
-      team, w.smoothing_length.size(), GrainLimits{},
-      [&](std::size_t i, GrainLimits& limits) {
-        limits.min_smoothing_length = std::min(limits.min_smoothing_length, w.smoothing_length[i]);
-        const double square = dot(s.velocity[i], s.velocity[i]);
-        if (square > limits.max_square_speed && w.boundary.domain().box().contains(s.position[i]))
-          limits.max_square_speed = square;
-      },
-      [](const GrainLimits& a, const GrainLimits& b) {
-        return GrainLimits{std::min(a.min_smoothing_length, b.min_smoothing_length),
-                           std::max(a.max_square_speed, b.max_square_speed)};
-      });
-}
-
-/// The longest step in which nothing moves farther than max_advance, s.
-double step_of_speed(const Parameters& p, const GrainLimits& limits) {
-  return max_advance * p.bed.spacing / std::sqrt(limits.max_square_speed);
-}
-
-/// The step that pressure waves and the speed of the grains allow, s, or the fixed one; without particles that of the
-/// bed's.
-double step_of_grains(const Setup& setup, const GrainLimits& limits, const Workspace& w) {
-  const Parameters& p = setup.given;
-  if (p.integration.step) return *p.integration.step;
-  if (w.smoothing_length.empty())
-    return p.integration.courant * w.pairs.smoothing_length(setup.density) / setup.sound_speed;
-  return std::min(p.integration.courant * limits.min_smoothing_length / setup.sound_speed, step_of_speed(p, limits));
-}
-
-/// The time step, decided only here, s: the limit of the grains; at the start of a step of the air also the limit of
-/// the air; until the end of that step unchanged.
-double step_length(ThreadTeam& team, const Setup& setup, const State& s, const Workspace& w) {
-  if (w.air && !w.air->is_due(s)) return s.last_step;
-  const double of_grains = step_of_grains(setup, limits_of_grains(team, s, w), w);
-  return w.air ? std::min(of_grains, w.air->max_step()) : of_grains;
-}
 
 /// Gravity at a time; while a bed is filled in layers it depends on the height.
 struct Gravity {
@@ -164,15 +114,21 @@ struct Gravity {
   }
   Vector3 at(const Vector3& x) const { return by_height ? at_height(x.z) : everywhere; }
 
-  /// Impulse of all particles within a duration, N s.
-  Vector3 impulse(ThreadTeam& team, const State& s, double duration) const {
-    if (!by_height) return (duration * s.mass * static_cast<double>(s.velocity.size())) * everywhere;
+  /// Adds the impulse of all particles within a duration to that of the state.
+  void add_impulse(ThreadTeam& team, double duration, State& s, Share& share) const {
+    if (!by_height) {
+      s.gravity_impulse += (duration * s.mass * static_cast<double>(share.of_all(s.velocity.size()))) * everywhere;
+      return;
+    }
     const FixedPoint point(s.impulse_unit);
-    return accumulate(
-               team, s.position.size(), FixedVector{},
-               [&](std::size_t i, FixedVector& sum) { sum.add(point, (duration * s.mass) * at(s.position[i])); },
-               [](FixedVector a, const FixedVector& b) { return a += b; })
-        .value(point);
+    const FixedVector given = accumulate(
+        team, s.position.size(), FixedVector{},
+        [&](std::size_t i, FixedVector& sum) {
+          if (share.owns(i)) sum.add(point, (duration * s.mass) * at(s.position[i]));
+        },
+        [](FixedVector a, const FixedVector& b) { return a += b; });
+    share.add_later({given},
+                    [point, &s](std::span<const FixedVector> all) { s.gravity_impulse += all[0].value(point); });
   }
 };
 
@@ -181,9 +137,10 @@ Vector3 by_air(const State& s, std::size_t i) {
   return s.air.acceleration.empty() ? Vector3{} : s.air.acceleration[i];
 }
 
-void measure_strain_at(ThreadTeam& team, const State& s, Workspace& w, std::span<const Vector3> position) {
-  if (w.material.by_displacements())
-    measure_strain(team, w.pairs.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
+void measure_strain_at(ThreadTeam& team, State& s, Workspace& w, std::vector<Vector3>& position) {
+  if (!w.material.by_displacements()) return;
+  w.share.refresh(std::array{Halo::column(std::span(position)), Halo::column(std::span(s.reset_position))});
+  measure_strain(team, w.pairs.neighbourhood(), position, s.reset_position, w.smoothing_length, w.measured_strain);
 }
 
 /// At the end of a step of the air: takes its next step, which fixes the acceleration of the particles until its end.
@@ -207,9 +164,13 @@ void Step::half() const {
 }
 
 /// Velocity gradient and rate of the density at the midpoint of the step, and the acceleration there if requested.
-void Step::gradients(std::span<const Vector3> velocity, std::span<const double> density,
-                     std::span<const double> smoothing_length, const MaterialColumns& material, PairTerms terms) const {
-  w.pairs(team, {w.position, velocity, density, smoothing_length, material, s.deformation_rate}, terms, w.rates);
+void Step::gradients(const SummedColumns& columns, PairTerms terms) const {
+  // What else gradients alone read is as the forces met it.
+  if (terms == PairTerms::gradients)
+    w.share.refresh(std::array{Halo::column(std::span(columns.position)), Halo::column(std::span(columns.velocity))});
+  else
+    refresh_halo(w, columns);
+  w.pairs(team, columns.view(), terms, w.rates);
 }
 
 /// Eq. 17 over the second half of the last step and the first of this one; the air's force acts over this step.
@@ -219,7 +180,7 @@ void Step::kick() const {
   for_each(team, s.velocity.size(), [&](std::size_t i) {
     s.velocity[i] += duration * (w.rates.acceleration[i] + g.at(s.position[i])) + dt * by_air(s, i);
   });
-  s.gravity_impulse += g.impulse(team, s, duration);
+  g.add_impulse(team, duration, s, w.share);
 }
 
 /// Eq. 17 with the forces at the midpoint of the step.
@@ -228,7 +189,7 @@ void Step::momentum() const {
   for_each(team, s.velocity.size(), [&](std::size_t i) {
     s.velocity[i] += dt * (w.rates.acceleration[i] + g.at(s.position[i]) + by_air(s, i));
   });
-  s.gravity_impulse += g.impulse(team, s, dt);
+  g.add_impulse(team, dt, s, w.share);
 }
 
 void Step::midpoint_positions() const {
@@ -285,17 +246,30 @@ void Step::end() const {
   reflect(team, walls(), w.material, w.pairs.neighbourhood(), w.position, s);
   damping();
   clock();
-  check_state(team, p, w.boundary.domain(), s, dt);
-  update_phase(team, setup, s, w);
+  const Domain& domain = w.boundary.domain();
+  Votes votes{.least = {}, .largest = {}, .sum = {count_moving(team, setup, w.share, s)}};
+  w.share.join(s, votes, find_fault(team, p, domain, w.share, s, dt),
+               [&](std::size_t i) { return report_of(p, domain, s, dt, i); });
+  update_phase(team, setup, votes.sum[0], s, w);
 }
 
 /// Feeds inlets; builds the neighbour lists where they no longer hold, and removes what has left.
 void Step::lists() const {
   const bool fed = feed(p, s, w);
   update_smoothing_lengths(team, s, w);
-  if (!fed && w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length)) return;
+  if (!fed && lists_hold()) return;
+  drop_halo(p, s, w);
   if (remove_particles(p, s, w)) update_smoothing_lengths(team, s, w);
   find_neighbours(team, p, s, w);
+}
+
+/// Several processes vote on it, and on what limits the next step with the same message.
+bool Step::lists_hold() const {
+  bool hold = w.pairs.neighbourhood().holds(team, s.position, w.smoothing_length);
+  if (w.share.is_all()) return hold;
+  const GrainLimits limits = joined_limits(team, s, w, hold);
+  if (hold) w.limits = limits;
+  return hold;
 }
 
 void Step::damping() const {
@@ -305,16 +279,19 @@ void Step::damping() const {
   const FixedVector taken = accumulate(
       team, s.velocity.size(), FixedVector{},
       [&](std::size_t i, FixedVector& sum) {
+        if (!w.share.owns(i)) return;
         const Vector3 before = s.velocity[i];
         s.velocity[i] = left * before;
         sum.add(point, s.mass * (before - s.velocity[i]));
       },
       [](FixedVector a, const FixedVector& b) { return a += b; });
-  s.damping_impulse += taken.value(point);
+  w.share.add_later({taken},
+                    [point, &s = s](std::span<const FixedVector> all) { s.damping_impulse += all[0].value(point); });
 }
 
 void Step::clock() const {
   s.time += dt;
+  if (is_window_over(s.time, setup.scales.peak_time(), s.wall_loads)) w.share.join_window(s.wall_loads);
   close_window(w.load_fields, s.time, setup.scales.peak_time(), s.wall_loads);
   s.last_step = dt;
   ++s.step;
@@ -324,6 +301,8 @@ void Step::clock() const {
 
 void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
   const Parameters& p = setup.given;
+  w.share.begin(s);
+  fit(p, s, w);
   if (p.gate.opens == GateOpens::from_the_start) {
     s.gate_time = 0;
     w.boundary.open_gates(0);
@@ -337,45 +316,12 @@ void begin(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
 }
 
 void derive(ThreadTeam& team, const Setup& setup, State& s, Workspace& w) {
+  w.share.begin(s);
+  fit(setup.given, s, w);
   if (s.gate_time >= 0) w.boundary.open_gates(s.time - s.gate_time);
   update_smoothing_lengths(team, s, w);
-  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+  build_lists(team, setup.given, s, w);
   evaluate(team, setup.given, s, w);
-}
-
-NumericalError::Report step_limit(const Setup& setup, const State& s, const Workspace& w) {
-  const Parameters& p = setup.given;
-  NumericalError::Report report{};
-  if (s.position.empty()) {
-    report.term = "step without particles", report.place = "an empty vessel", report.advice = "integration.courant";
-    return report;
-  }
-  // That of the densest particle, or of the fastest within the box.
-  std::size_t densest = 0, fastest = 0;
-  GrainLimits limits;
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const double square = dot(s.velocity[i], s.velocity[i]);
-    if (w.smoothing_length[i] < limits.min_smoothing_length)
-      limits.min_smoothing_length = w.smoothing_length[densest = i];
-    if (square > limits.max_square_speed && w.boundary.domain().box().contains(s.position[i]))
-      limits.max_square_speed = square, fastest = i;
-  }
-  const double of_grains = step_of_grains(setup, limits, w);
-  if (w.air && s.last_step < 0.5 * of_grains) return w.air->step_limit(s);
-  const bool by_speed = !(of_grains < step_of_speed(p, limits));
-  const std::size_t i = by_speed ? fastest : densest;
-  const Vector3& x = s.position[i];
-  if (p.integration.step) {
-    report.term = "integration.step";
-  } else if (by_speed) {
-    report.term = fmt::format("a particle moves {:g} of bed.spacing in a step at most: the fastest has {:.4g} m/s",
-                              max_advance, std::sqrt(limits.max_square_speed));
-  } else {
-    report.term = fmt::format("Courant number of the grains, where they are densest, at {:.4g} kg/m3", s.density[i]);
-  }
-  report.place = fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g}) m", s.identity[i], x.x, x.y, x.z);
-  report.advice = "a stiffer law of the grains, a larger sph.viscosity_alpha";
-  return report;
 }
 
 }  // namespace talus::continuum

@@ -19,8 +19,9 @@ constexpr double edge_of_drawn_field = 3;  // in spacings
 
 }  // namespace
 
-Workspace::Workspace(const Setup& setup, const State& state)
-    : boundary(*setup.boundary),
+Workspace::Workspace(const Setup& setup, const State& state, const Ranks& ranks)
+    : share(ranks),
+      boundary(*setup.boundary),
       material(setup.material),
       contact_distance(sph::contact_distance * sph::smoothing_length(state.mass, setup.density)),
       lasting_time(passages_that_last * setup.given.bed.spacing / setup.sound_speed),
@@ -54,10 +55,27 @@ void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
     s.list_margin[i] = std::clamp(steps * s.last_step * norm(s.velocity[i]), p.integration.skin_at_rest * most, most);
 }
 
+void drop_halo(const Parameters& p, State& s, Workspace& w) {
+  w.share.keep_owned(w.smoothing_length);
+  if (w.share.drop_halo(s)) fit(p, s, w);
+}
+
+void build_lists(ThreadTeam& team, const Parameters& p, State& s, Workspace& w,
+                 std::vector<std::vector<double>*> carried) {
+  if (!w.share.is_all()) {
+    carried.push_back(&w.smoothing_length);
+    w.share.distribute(s, w.boundary.domain(), carried);
+    fit(p, s, w);
+  }
+  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, w.share.part(),
+                          w.share.is_all() ? nullptr : &w.share.halo_messages());
+}
+
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
+  drop_halo(p, s, w);
   return_to_sector(w.boundary.domain(), w.material, s);
   if (s.list_builds % builds_between_sorts == 0) {
-    sort_for_locality(s, sph::support * p.bed.spacing);
+    sort_for_locality(s, w.share, sph::support * p.bed.spacing);
     update_smoothing_lengths(team, s, w);
   }
   for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -67,12 +85,24 @@ void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace&
   }
   set_list_reference(p, s, w);
   ++s.list_builds;
-  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin);
+  build_lists(team, p, s, w);
+}
+
+void refresh_halo(Workspace& w, const SummedColumns& c) {
+  if (w.share.is_all()) return;
+  std::vector<Halo::Column> columns{Halo::column(std::span(c.position)), Halo::column(std::span(c.velocity)),
+                                    Halo::column(std::span(c.density)), Halo::column(std::span(c.smoothing_length))};
+  for (auto* const tensor : {&c.material.stress, &c.material.collisional, &c.deformation_rate})
+    for (std::vector<double>& component : *tensor)
+      if (!component.empty()) columns.push_back(Halo::column(std::span(component)));
+  w.share.refresh(columns);
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  w.pairs(team, {s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
-          p.integration.method == Method::runge_kutta ? PairTerms::all : PairTerms::forces, w.rates);
+  const SummedColumns columns{s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate};
+  refresh_halo(w, columns);
+  w.pairs(team, columns.view(), p.integration.method == Method::runge_kutta ? PairTerms::all : PairTerms::forces,
+          w.rates);
   s.packing.resize(s.position.size());
   s.strain.resize(s.position.size());
   for_each(team, s.position.size(), [&](std::size_t i) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -12,13 +14,21 @@
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/setup.hpp"
+#include "models/continuum/share.hpp"
 #include "models/continuum/state.hpp"
 
 namespace talus::continuum {
 
+/// What limits the step of the grains.
+struct GrainLimits {
+  double min_smoothing_length = std::numeric_limits<double>::infinity();  ///< m
+  double max_square_speed = 0;                                            ///< of the particles within the box, m^2/s^2
+};
+
 /// Recomputed from the state when a run is resumed. It owns the only boundary of the model whose gates open: the pair
 /// sums, the air and observers refer to it, so that a gate is opened for all of them at once.
 struct Workspace {
+  Share share;
   Boundary boundary;
   const Material& material;
   double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
@@ -28,8 +38,9 @@ struct Workspace {
   std::vector<LoadBand> load_bands;
   FieldMesh load_mesh;
   PairSums pairs;
-  Rates rates;                      ///< of the state, between steps
-  std::unique_ptr<Atmosphere> air;  ///< none in a vacuum
+  Rates rates;                        ///< of the state, between steps
+  std::optional<GrainLimits> limits;  ///< of all particles as they are; none: not known yet
+  std::unique_ptr<Atmosphere> air;    ///< none in a vacuum
 
   /// The state at the midpoint of a step; all but positions of the midpoint rule only.
   std::vector<Vector3> position, velocity;
@@ -42,8 +53,8 @@ struct Workspace {
   std::vector<SymmetricTensor3<>> measured_strain;
   std::vector<double> resets;  ///< of each particle at the start of the step
 
-  /// \param setup outlives it
-  Workspace(const Setup& setup, const State& state);
+  /// \param setup, ranks outlive it
+  Workspace(const Setup& setup, const State& state, const Ranks& ranks = one_process());
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 };
@@ -55,8 +66,29 @@ void update_smoothing_lengths(ThreadTeam& team, const State& state, Workspace& w
 /// farther than those at rest, so that lists of a bed are short and those of a stream hold for some steps.
 void set_list_reference(const Parameters& parameters, State& state, const Workspace& workspace);
 
+/// Removes the halo where there is one, with what the workspace has of it.
+void drop_halo(const Parameters& parameters, State& state, Workspace& workspace);
+
+/// Builds the neighbour lists from where they are to be built, each particle with its owner.
+/// \param carried more columns of the particles, which go with them \pre no halo
+void build_lists(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace,
+                 std::vector<std::vector<double>*> carried = {});
+
 /// Builds the neighbour lists; sorts the particles at intervals.
 void find_neighbours(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);
+
+/// Columns of the particles as pair sums read them.
+struct SummedColumns {
+  std::vector<Vector3>&position, &velocity;
+  std::vector<double>&density, &smoothing_length;
+  MaterialColumns& material;
+  std::array<std::vector<double>, 6>& deformation_rate;
+
+  ParticleView view() const { return {position, velocity, density, smoothing_length, material, deformation_rate}; }
+};
+
+/// Gives these columns the halo's values, in one message.
+void refresh_halo(Workspace& workspace, const SummedColumns& columns);
 
 /// The rates of the state, with what derives from them.
 void evaluate(ThreadTeam& team, const Parameters& parameters, State& state, Workspace& workspace);

@@ -28,6 +28,7 @@ class Loads {
 
   Loads(const ContactSetting& setting, State& state)
       : fields_(setting.fields),
+        share_(setting.share),
         point_(state.impulse_unit),
         state_(state),
         noted_(setting.boundary.vessel().is_empty() ? 0 : (state.position.size() + chunk_size - 1) / chunk_size) {}
@@ -42,21 +43,29 @@ class Loads {
     of_chunk.push_back(load);
   }
 
-  /// Calls meet(i, received) for all particles and adds what walls received to the state.
+  /// Calls meet(i, received) for the particles that this process owns and adds what walls received to the state: what
+  /// patches did from those of all processes, what fields did from its own.
   template <class Meet>
   void collect(ThreadTeam& team, Meet&& meet) {
-    const Impulses all = accumulate(team, state_.position.size(), Impulses(state_.patch_impulse.size()), meet,
-                                    [](Impulses a, const Impulses& b) {
-                                      for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
-                                      return a;
-                                    });
-    for (std::size_t n = 0; n < all.size(); ++n) state_.patch_impulse[n] += all[n].value(point_);
+    const Impulses here = accumulate(
+        team, state_.position.size(), Impulses(state_.patch_impulse.size()),
+        [&](std::size_t i, Impulses& received) {
+          if (share_.owns(i)) meet(i, received);
+        },
+        [](Impulses a, const Impulses& b) {
+          for (std::size_t n = 0; n < a.size(); ++n) a[n] += b[n];
+          return a;
+        });
+    share_.add_later(here, [point = point_, &impulse = state_.patch_impulse](std::span<const FixedVector> all) {
+      for (std::size_t n = 0; n < all.size(); ++n) impulse[n] += all[n].value(point);
+    });
     for (const auto& of_chunk : noted_)
       for (const LoadOfFields& load : of_chunk) add_load(load, fields_, state_.wall_loads);
   }
 
  private:
   const SurfaceFields& fields_;
+  Share& share_;
   FixedPoint point_;
   State& state_;
   std::vector<std::vector<LoadOfFields>> noted_;

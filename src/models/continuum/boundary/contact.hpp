@@ -10,6 +10,7 @@
 #include "models/continuum/material.hpp"
 #include "models/continuum/pairs/pair_sums.hpp"
 #include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/share.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/surface/surface_fields.hpp"
 
@@ -23,6 +24,7 @@ struct ContactSetting {
   const Boundary& boundary;
   const SurfaceFields& fields;  ///< of the vessel, which note its loads
   double distance;              ///< Workspace::contact_distance, m
+  Share& share;                 ///< walls receive what its particles give, and those of other processes
 };
 
 struct ContactStep {

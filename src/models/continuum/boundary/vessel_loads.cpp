@@ -94,8 +94,8 @@ void begin_window(double time, WallLoads& w) {
 }  // namespace
 
 void close_window(const SurfaceFields& fields, double time, double length, WallLoads& w) {
+  if (!is_window_over(time, length, w)) return;
   const double duration = time - w.window_start;
-  if (duration < length) return;
   for (std::size_t n = 0; n < fields.count(); ++n) {
     const double over = per_area(fields.all()[n], duration);
     w.pressure[n] = over * w.point.value(w.window_push[n]);

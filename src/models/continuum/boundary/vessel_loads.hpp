@@ -60,6 +60,11 @@ WallLoads no_loads(std::size_t fields, double unit);
 /// To the fields, and in a sector to what they are in all copies: the loads are those of the whole vessel.
 void add_load(const LoadOfFields& load, const SurfaceFields& fields, WallLoads& loads);
 
+/// Whether close_window() would close the window.
+inline bool is_window_over(double time, double length, const WallLoads& loads) {
+  return !(time - loads.window_start < length);
+}
+
 /// Closes the window if it is over. \param time at the end of a step, s \param length of a window, s: peak_time()
 void close_window(const SurfaceFields& fields, double time, double length, WallLoads& loads);
 

@@ -7,9 +7,9 @@
 namespace talus::continuum {
 
 void PairLists::build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-                      std::span<const double> margin) {
+                      std::span<const double> margin, const PartOfPoints& part) {
   // Two particles interact within the sum of their smoothing lengths: twice their mean.
-  neighbourhood_.build(team, position, smoothing_length, margin);
+  neighbourhood_.build(team, position, smoothing_length, margin, part);
   loads_of_images_.clear();
   for (const Image& image : neighbourhood_.images()) loads_of_images_.push_back(neighbourhood_.domain().loads(image));
   find_groups();

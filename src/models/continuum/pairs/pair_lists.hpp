@@ -24,7 +24,7 @@ class PairLists {
 
   /// \param margin by which a particle may move and grow while the lists hold, m
   void build(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-             std::span<const double> margin);
+             std::span<const double> margin, const PartOfPoints& part = {});
 
   const Neighbourhood& neighbourhood() const { return neighbourhood_; }
 

@@ -85,8 +85,10 @@ void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> 
 }
 
 void PairSums::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
-                               std::span<const double> smoothing_length, std::span<const double> margin) {
-  lists_.build(team, position, smoothing_length, margin);
+                               std::span<const double> smoothing_length, std::span<const double> margin,
+                               const PartOfPoints& part, Halo* halo) {
+  halo_ = halo;
+  lists_.build(team, position, smoothing_length, margin, part);
   vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin);
 }
 
@@ -109,6 +111,7 @@ void PairSums::find_density_gradients(ThreadTeam& team, const ParticleView& part
                             particles.density[i] > min_diffusing_packing * grain_density_ ? 1.0 : 0.0,
                             {}};
   });
+  if (halo_) halo_->refresh(std::array{Halo::column(std::span(density_gradient_))});
 }
 
 /// Records of particles and images, of stabilisers where they act, and the walls of the vessel as they are met.
@@ -156,7 +159,7 @@ void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairT
     ParticleSums sums[together];
     const std::size_t size = std::min(together, count - first);
     for (std::size_t n = 0; n < together; ++n) {
-      if (n >= size) {
+      if (n >= size || lists_.neighbourhood().is_copy(first + n)) {
         sums[n] = {};
         continue;
       }

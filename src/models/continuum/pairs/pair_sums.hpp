@@ -16,6 +16,7 @@
 #include "models/continuum/pairs/rates.hpp"
 #include "models/continuum/pairs/wall_sums.hpp"
 #include "models/continuum/setup/setup.hpp"
+#include "ranks/halo.hpp"
 
 namespace talus::continuum {
 
@@ -33,9 +34,9 @@ class PairSums {
   void find_smoothing_lengths(ThreadTeam& team, std::span<const double> density, std::span<double> length) const;
 
   /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
-  /// of the skin
+  /// of the skin \param part, halo of the particles that other processes own; the halo outlives the lists
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-                       std::span<const double> margin);
+                       std::span<const double> margin, const PartOfPoints& part = {}, Halo* halo = nullptr);
   /// The same with half of the skin for all.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
     find_neighbours(team, position, smoothing_length, std::vector<double>(position.size(), 0.5 * skin_));
@@ -47,7 +48,7 @@ class PairSums {
   PairSums(const PairSums&) = delete;
   PairSums& operator=(const PairSums&) = delete;
 
-  /// Packs the records, then computes the requested rates.
+  /// Packs the records, then computes the requested rates. \pre columns hold the halo's values too
   void operator()(ThreadTeam& team, const ParticleView& particles, PairTerms terms, Rates& rates);
 
  private:
@@ -72,6 +73,7 @@ class PairSums {
   VelocityGradients* velocity_gradients_;
   SumNeighbours density_gradients_ = nullptr;  // null: densities do not diffuse
   bool diffuses_, damps_, local_sound_speed_;
+  Halo* halo_ = nullptr;  // null: this process owns all particles
   PairLists lists_;
   VesselWalls vessel_;
   WallSums walls_;

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/share.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "models/continuum/columns.hpp"
+#include "numerics/cell_grid.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr double uneven = 1.08;              // most particles of a process over the mean, at which space is cut again
+constexpr std::size_t asked_together = 32;   // particles
+constexpr std::size_t samples_of_rank = 32;  // from which the borders of a common sort are chosen
+
+/// The columns of particles as rows of words of 8 bytes.
+class Rows {
+ public:
+  enum class Of { kept, all };
+  /// \pre every column has an entry for each particle
+  Rows(State& state, Of of) {
+    for_each_field(
+        [&]<class Member>(const FieldInfo& field, Member& column) {
+          if constexpr (!std::is_arithmetic_v<Member>)
+            if (field.of_particles && (of == Of::all || field.role == FieldRole::kept)) add(column);
+        },
+        state);
+  }
+  template <class T>
+  void add(std::vector<T>& column) {
+    columns_.push_back(Halo::column(std::span(column)));
+    width_ += columns_.back().words;
+  }
+  std::size_t width() const { return width_; }
+
+  /// The rows of particles, one after the other.
+  std::vector<std::uint64_t> of(const std::vector<std::uint32_t>& particles) const {
+    std::vector<std::uint64_t> rows(width_ * particles.size());
+    for (std::size_t n = 0; n < particles.size(); ++n) {
+      std::uint64_t* to = rows.data() + width_ * n;
+      for (const Halo::Column& column : columns_) {
+        std::memcpy(to, column.data + 8 * column.words * particles[n], 8 * column.words);
+        to += column.words;
+      }
+    }
+    return rows;
+  }
+  /// Writes row n of these to a particle.
+  void put(const std::vector<std::uint64_t>& rows, std::size_t n, std::size_t particle) const {
+    const std::uint64_t* from = rows.data() + width_ * n;
+    for (const Halo::Column& column : columns_) {
+      std::memcpy(column.data + 8 * column.words * particle, from, 8 * column.words);
+      from += column.words;
+    }
+  }
+
+  /// Gives every column the entries of these particles, as many as there are at most, in their order.
+  void take(const std::vector<std::uint32_t>& order) const {
+    std::vector<std::uint64_t> taken;
+    for (const Halo::Column& column : columns_) {
+      taken.resize(column.words * order.size());
+      for (std::size_t n = 0; n < order.size(); ++n)
+        std::memcpy(taken.data() + column.words * n, column.data + 8 * column.words * order[n], 8 * column.words);
+      std::memcpy(column.data, taken.data(), 8 * taken.size());
+    }
+  }
+
+ private:
+  std::vector<Halo::Column> columns_;
+  std::size_t width_ = 0;
+};
+
+std::vector<std::uint32_t> numbers(std::size_t count) {
+  std::vector<std::uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
+}
+
+/// A particle in the common sort.
+struct Sorted {
+  std::uint64_t key;
+  std::int64_t place;
+  std::int64_t rank, number;  // where it is
+  bool operator<(const Sorted& other) const { return std::tie(key, place) < std::tie(other.key, other.place); }
+};
+
+/// The borders between what each process sorts, chosen from samples of all. \param own sorted
+std::vector<Sorted> borders(const Ranks& ranks, const std::vector<Sorted>& own) {
+  std::vector<Sorted> samples;
+  for (std::size_t n = 0; n < std::min(samples_of_rank, own.size()); ++n)
+    samples.push_back(own[n * own.size() / std::min(samples_of_rank, own.size())]);
+  samples = ranks.gather_values(samples);
+  std::sort(samples.begin(), samples.end());
+  std::vector<Sorted> borders;
+  const auto size = static_cast<std::size_t>(ranks.size());
+  for (std::size_t r = 1; r < size && !samples.empty(); ++r) borders.push_back(samples[r * samples.size() / size]);
+  return borders;
+}
+
+}  // namespace
+
+void Share::begin(State& s) {
+  if (is_all()) return;
+  const auto tell = [&]<class Member>(const FieldInfo& field, Member& member) {
+    if constexpr (std::is_arithmetic_v<Member>)
+      member = ranks_.value_from_first(member);
+    else if (!field.of_particles)
+      ranks_.from_first(std::as_writable_bytes(std::span(member)));
+  };
+  for_each_field(tell, s);
+  count_ = ranks_.value_from_first(s.position.size());
+  if (!ranks_.is_first()) {
+    resize_columns(s, 0);
+    s.wall_loads.window_push.clear();
+    s.wall_loads.window_received.clear();
+  }
+  place_.resize(s.position.size());
+  std::iota(place_.begin(), place_.end(), std::int64_t{0});
+}
+
+/// Whose the particles will be.
+std::vector<int> Share::owners(const State& s) {
+  const auto size = static_cast<std::size_t>(ranks_.size());
+  const std::size_t here = s.list_position.size();
+  std::vector<int> owner(here, ranks_.rank());
+  if (count_ == 0) return owner;
+  const auto assign = [&] {
+    Votes votes{.least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(size, 0)};
+    for (std::size_t i = 0; i < here; ++i)
+      ++votes.sum[static_cast<std::size_t>(owner[i] = partition_->rank_of(s.list_position[i]))];
+    ranks_.join(votes);
+    return static_cast<double>(*std::max_element(votes.sum.begin(), votes.sum.end()));
+  };
+  const double even = static_cast<double>(count_) / static_cast<double>(size);
+  if (partition_ && assign() <= uneven * even) return owner;
+  if (!partition_) partition_ = ranks_.partition();
+  // Work follows the number of particles to one or two per cent: their lists are about as long everywhere.
+  partition_->cut(s.list_position, std::vector<double>(here, 1.0));
+  assign();
+  return owner;
+}
+
+void Share::distribute(State& s, const Domain& domain, std::span<std::vector<double>* const> carried) {
+  if (is_all()) return;
+  resize_columns(s, place_.size());
+  Votes votes{.least = {}, .largest = {0, 0}, .sum = {}};
+  for (std::size_t i = 0; i < place_.size(); ++i) {
+    votes.largest[0] = std::max(votes.largest[0], 2 * (s.list_smoothing_length[i] + s.list_margin[i]));
+    votes.largest[1] = std::max(votes.largest[1], s.list_margin[i]);
+  }
+  ranks_.join(votes);
+  reach_ = votes.largest[0], margin_ = votes.largest[1];
+  const auto rows_for = [&](std::size_t count) {
+    resize_columns(s, count);
+    place_.resize(count);
+    for (std::vector<double>* const column : carried) column->resize(count);
+    Rows rows(s, Rows::Of::kept);
+    rows.add(place_);
+    for (std::vector<double>* const column : carried) rows.add(*column);
+    return rows;
+  };
+  // Sends rows of particles, and puts what comes behind those that are here.
+  const auto append = [&](const ByRank& to) {
+    Rows rows = rows_for(place_.size());
+    std::unique_ptr<Plan> plan = ranks_.plan(to.counts());
+    std::vector<std::uint64_t> got(rows.width() * plan->received());
+    plan->exchange(rows.of(to.all()).data(), rows.width(), got.data());
+    const std::size_t before = place_.size();
+    rows = rows_for(before + plan->received());
+    for (std::size_t n = 0; n < plan->received(); ++n) rows.put(got, n, before + n);
+    return plan;
+  };
+
+  ByRank leaving(ranks_);
+  std::vector<std::uint32_t> order;  // those that stay, then those that come
+  const std::vector<int> owner = owners(s);
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    owner[i] == ranks_.rank() ? order.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
+  append(leaving);
+  for (std::size_t i = owner.size(); i < place_.size(); ++i) order.push_back(static_cast<std::uint32_t>(i));
+  if (order.size() < place_.size()) rows_for(place_.size()).take(order);
+  const std::size_t own = order.size();
+  rows_for(own);
+
+  const ByRank copied = halo_of_others(s, domain);
+  std::unique_ptr<Plan> plan = append(copied);
+  order = by_place(own);
+  rows_for(place_.size()).take(order);
+  std::vector<std::uint32_t> number(order.size()), sent = copied.all(), received;
+  for (std::size_t n = 0; n < order.size(); ++n) number[order[n]] = static_cast<std::uint32_t>(n);
+  for (std::uint32_t& n : sent) n = number[n];
+  received.assign(number.begin() + static_cast<std::ptrdiff_t>(own), number.end());
+  is_halo_.assign(number.size(), 0);
+  for (const std::uint32_t n : received) is_halo_[n] = 1;
+  halo_ = Halo(std::move(plan), std::move(sent), std::move(received));
+}
+
+/// The order of the particles by their places. \param own how many come first, which mostly are in it
+std::vector<std::uint32_t> Share::by_place(std::size_t own) const {
+  std::vector<std::uint32_t> order = numbers(place_.size());
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return place_[a] < place_[b]; };
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(own);
+  if (!std::is_sorted(order.begin(), middle, before)) std::sort(order.begin(), middle, before);
+  std::sort(middle, order.end(), before);
+  std::inplace_merge(order.begin(), middle, order.end(), before);
+  return order;
+}
+
+/// Which of the particles others may list: those whose parts of space meet the box that a particle reaches, or the box
+/// of one of its images. Particles whose numbers follow each other are mostly near each other too: where the box around
+/// all that some of them reach meets no other part, none of them is asked for.
+ByRank Share::halo_of_others(const State& s, const Domain& domain) const {
+  ByRank copied(ranks_);
+  const std::vector<Image> images = domain.images(reach_);
+  std::vector<int> near;
+  constexpr double rounding = 1 + 1e-9;
+  const auto ranks_around = [&](const Vector3& low, const Vector3& high, double reach) -> const std::vector<int>& {
+    const Vector3 half{rounding * reach, rounding * reach, rounding * reach};
+    partition_->ranks_of(low - half, high + half, near);
+    return near;
+  };
+  const auto ask = [&](std::size_t i, const Vector3& x) {
+    for (const int rank : ranks_around(x, x, s.list_smoothing_length[i] + s.list_margin[i] + 0.5 * reach_))
+      if (rank != ranks_.rank()) copied.add(rank, i);
+  };
+  for (std::size_t begin = 0, end = 0; begin < place_.size(); begin = end) {
+    end = std::min(place_.size(), begin + asked_together);
+    Vector3 low = s.list_position[begin], high = low;
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], s.list_position[i][axis]),
+        high[axis] = std::max(high[axis], s.list_position[i][axis]);
+    const Vector3 centre = 0.5 * (low + high);
+    const double radius = 0.5 * norm(high - low);
+    if (ranks_around(low, high, reach_).size() > 1)
+      for (std::size_t i = begin; i < end; ++i) ask(i, s.list_position[i]);
+    for (const Image& image : images) {
+      if (!domain.is_near(image, image.position(centre), rounding * (reach_ + radius))) continue;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Vector3 x = image.position(s.list_position[i]);
+        if (domain.is_near(image, x, 0.5 * reach_ + s.list_smoothing_length[i] + s.list_margin[i])) ask(i, x);
+      }
+    }
+  }
+  for (auto& particles : copied.of) {  // once each, whichever of its images asked too
+    std::sort(particles.begin(), particles.end());
+    particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+  }
+  return copied;
+}
+
+void Share::keep_owned(std::vector<double>& column) const {
+  if (is_halo_.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < column.size(); ++i)
+    if (owns(i)) column[kept++] = column[i];
+  column.resize(kept);
+}
+
+bool Share::drop_halo(State& s) {
+  if (is_halo_.empty()) return false;
+  std::vector<std::uint32_t> owned;
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (owns(i)) owned.push_back(static_cast<std::uint32_t>(i));
+  select(s, owned);
+  for (std::size_t n = 0; n < owned.size(); ++n) place_[n] = place_[owned[n]];
+  place_.resize(owned.size());
+  is_halo_.clear();
+  halo_ = {};
+  return true;
+}
+
+void Share::sort(const State& s, double cell_size) {
+  if (is_all()) return;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Votes votes{.least = {infinity, infinity, infinity}, .largest = {}, .sum = {}};
+  for (const Vector3& x : s.position)
+    for (int axis = 0; axis < 3; ++axis) {
+      double& least = votes.least[static_cast<std::size_t>(axis)];
+      least = std::min(least, x[axis]);
+    }
+  ranks_.join(votes);
+  const std::vector<std::uint64_t> keys =
+      spatial_keys(s.position, {votes.least[0], votes.least[1], votes.least[2]}, cell_size);
+  std::vector<Sorted> own;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    own.push_back({keys[i], place_[i], ranks_.rank(), static_cast<std::int64_t>(i)});
+  std::sort(own.begin(), own.end());
+
+  // Each process sorts what is between two borders.
+  const std::vector<Sorted> border = borders(ranks_, own);
+  ByRank to_sort(ranks_);
+  for (std::size_t n = 0; n < own.size(); ++n)
+    to_sort.add(static_cast<int>(std::upper_bound(border.begin(), border.end(), own[n]) - border.begin()), n);
+  std::vector<Sorted> part = ranks_.plan(to_sort.counts())->exchange(own);
+  std::sort(part.begin(), part.end());
+  std::int64_t first = 0;
+  const std::vector<std::int64_t> counts = ranks_.gather_values(std::vector{static_cast<std::int64_t>(part.size())});
+  for (int r = 0; r < ranks_.rank(); ++r) first += counts[static_cast<std::size_t>(r)];
+
+  // And tells the others the places.
+  struct Told {
+    std::int64_t number, place;
+  };
+  ByRank to_tell(ranks_);
+  for (std::size_t n = 0; n < part.size(); ++n) to_tell.add(static_cast<int>(part[n].rank), n);
+  std::vector<Told> told;
+  for (const std::uint32_t n : to_tell.all()) told.push_back({part[n].number, first + static_cast<std::int64_t>(n)});
+  for (const Told& one : ranks_.plan(to_tell.counts())->exchange(told))
+    place_[static_cast<std::size_t>(one.number)] = one.place;
+}
+
+void Share::add(std::size_t count) {
+  if (is_all()) return;
+  for (std::size_t n = 0; n < count && ranks_.is_first(); ++n) {
+    place_.push_back(static_cast<std::int64_t>(count_ + n));
+    if (!is_halo_.empty()) is_halo_.push_back(0);
+  }
+  count_ += count;
+}
+
+std::size_t Share::remove(std::span<const std::uint32_t> kept) {
+  std::vector<std::int64_t> gone, left;
+  for (std::size_t i = 0, n = 0; i < place_.size(); ++i) {
+    const bool stays = n < kept.size() && kept[n] == i;
+    (stays ? left : gone).push_back(place_[i]);
+    n += stays;
+  }
+  gone = ranks_.gather_values(gone);
+  std::sort(gone.begin(), gone.end());
+  for (std::int64_t& place : left) place -= std::lower_bound(gone.begin(), gone.end(), place) - gone.begin();
+  place_ = std::move(left);
+  count_ -= gone.size();
+  return gone.size();
+}
+
+void Share::gather(State& s, State& whole) const {
+  if (is_all()) return;
+  WallLoads loads = s.wall_loads;
+  join_window(loads);
+  const Rows rows(s, Rows::Of::all);
+  ByRank to_first(ranks_);
+  std::vector<std::int64_t> place;
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (owns(i)) to_first.add(0, i), place.push_back(place_[i]);
+  const std::unique_ptr<Plan> plan = ranks_.plan(to_first.counts());
+  std::vector<std::uint64_t> got(rows.width() * plan->received());
+  plan->exchange(rows.of(to_first.all()).data(), rows.width(), got.data());
+  const std::vector<std::int64_t> place_of = plan->exchange(place);
+  if (!ranks_.is_first()) return;
+  whole = s;
+  whole.wall_loads = std::move(loads);
+  resize_columns(whole, count_);
+  const Rows to(whole, Rows::Of::all);
+  for (std::size_t n = 0; n < place_of.size(); ++n) to.put(got, n, static_cast<std::size_t>(place_of[n]));
+}
+
+void Share::add_later(std::vector<FixedVector> sums, std::function<void(std::span<const FixedVector>)> add) {
+  if (is_all())
+    add(sums);
+  else
+    waiting_.push_back({std::move(sums), std::move(add)});
+}
+
+void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
+                 const std::function<NumericalError::Report(std::size_t)>& report) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double own = !here ? none : is_all() ? 0 : static_cast<double>(place_[*here]);
+  votes.least.push_back(own);
+  std::vector<FixedVector> sums;
+  for (const Waiting& some : waiting_) sums.insert(sums.end(), some.sums.begin(), some.sums.end());
+  talus::join(ranks_, votes, sums);
+  std::span<const FixedVector> rest = sums;
+  for (const Waiting& some : waiting_) {
+    some.add(rest.first(some.sums.size()));
+    rest = rest.subspan(some.sums.size());
+  }
+  waiting_.clear();
+  const double first = votes.least.back();
+  votes.least.pop_back();
+  if (first == none) return;
+  NumericalError::Report of_first = first == own ? report(*here) : NumericalError::Report{};
+  for (std::string* const text : {&of_first.what, &of_first.term, &of_first.place, &of_first.advice})
+    *text = ranks_.gather(*text);
+  of_first.step = s.step;
+  of_first.time = s.time;
+  throw NumericalError(of_first);
+}
+
+void Share::join_window(WallLoads& loads) const {
+  sum_up(ranks_, loads.window_push);
+  sum_up(ranks_, loads.window_received);
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/led_model.hpp"
+
+#include <utility>
+
+#include "base/text.hpp"
+
+namespace talus::run {
+
+Followers::~Followers() {
+  if (!have_left_) ranks_.value_from_first(Order::leave);
+}
+
+class LedModel final : public AnyModel {
+ public:
+  LedModel(std::unique_ptr<AnyModel> model, Followers& followers) : model_(std::move(model)), followers_(followers) {}
+
+  double time() const override { return model_->time(); }
+  std::uint64_t step() const override { return model_->step(); }
+  double time_origin() const override { return model_->time_origin(); }
+  double latest_origin() const override { return model_->latest_origin(); }
+  std::optional<std::string> ended() const override { return model_->ended(); }
+  NumericalError::Report step_limit() const override { return whole().step_limit(); }
+  void begin(ThreadTeam& team) override {
+    together(Order::begin, [&] { model_->begin(team); });
+  }
+  void advance(ThreadTeam& team) override {
+    together(Order::advance, [&] { model_->advance(team); });
+  }
+  Snapshot snapshot() const override { return whole().snapshot(); }
+  Snapshot stored() const override { return whole().stored(); }
+  std::optional<GridSnapshot> grid() const override { return whole().grid(); }
+  std::optional<SurfaceSnapshot> walls() const override { return whole().walls(); }
+  std::vector<NamedValue> totals() const override { return whole().totals(); }
+  std::vector<RegimeLine> regime(const RunRecord& record) const override { return whole().regime(record); }
+  void save(CheckpointWriter& checkpoint) const override { whole().save(checkpoint); }
+  void read(const CheckpointReader& checkpoint) override { model_->read(checkpoint); }
+  void resume(ThreadTeam& team) override {
+    together(Order::resume, [&] { model_->resume(team); });
+  }
+  void gather() override { whole(); }
+
+ private:
+  template <class Do>
+  void together(Order order, Do&& act) const {
+    followers_.ranks_.value_from_first(order);
+    try {
+      act();
+    } catch (const NumericalError&) {  // of all processes
+      followers_.have_left_ = true;
+      throw;
+    } catch (const std::exception& error) {
+      print_error("talus: {}\n", error.what());
+      followers_.ranks_.abort(static_cast<int>(ExitStatus::numerical));
+    }
+    is_whole_ = order == Order::gather;
+  }
+
+  /// The model with the whole state, which is gathered once in a step.
+  const AnyModel& whole() const {
+    if (!is_whole_ && !followers_.have_left_) together(Order::gather, [&] { model_->gather(); });
+    return *model_;
+  }
+
+  std::unique_ptr<AnyModel> model_;
+  Followers& followers_;
+  mutable bool is_whole_ = false;
+};
+
+std::unique_ptr<AnyModel> led_model(std::unique_ptr<AnyModel> model, Followers& followers) {
+  return std::make_unique<LedModel>(std::move(model), followers);
+}
+
+void follow(AnyModel& model, ThreadTeam& team, const Ranks& ranks) {
+  for (;;) {
+    switch (ranks.value_from_first(Order::leave)) {
+      case Order::begin:
+        model.begin(team);
+        break;
+      case Order::resume:
+        model.resume(team);
+        break;
+      case Order::advance:
+        model.advance(team);
+        break;
+      case Order::gather:
+        model.gather();
+        break;
+      case Order::leave:
+        return;
+    }
+  }
+}
+
+}  // namespace talus::run

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Cases on several processes, as users start them. Skipped where the program was built without MPI."""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import unittest
+
+import program
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+import hash_ranks  # noqa: E402
+
+BUILD = pathlib.Path(program.PROGRAM).parent
+
+
+class Ranks(program.ProgramTest):
+    def check_same(self, name, layouts):
+        case, settings = hash_ranks.CASES[name]
+        expected = hash_ranks.hash_of_run(None, BUILD, self.folder / "alone", case, settings)
+        for ranks, threads in layouts:
+            found = hash_ranks.hash_of_run(ranks, BUILD, self.folder / f"{ranks}-{threads}", case, settings, threads)
+            self.assertEqual(found, expected, f"{name} on {ranks} processes of {threads} threads")
+
+    def test_plate(self):
+        self.check_same("hopper, vacuum", [(2, 2), (3, 1), (8, 1)])
+
+    def test_single_precision(self):
+        self.check_same("hopper, vacuum, single precision", [(2, 1), (3, 1), (8, 1)])
+
+    def test_vessel(self):
+        self.check_same("silo of round walls", [(2, 1), (3, 1), (8, 1)])
+
+    def test_inlet_and_removal(self):
+        self.check_same("chute with inlet and removal", [(2, 1), (3, 1), (8, 1)])
+
+    def run_hopper(self, ranks, program_name, out, *options):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        words = hash_ranks.words_of_run(BUILD / program_name, self.folder / out, case, settings, 1)
+        return hash_ranks.start(ranks, words + list(options))
+
+    def test_resumed_on_another_number_of_processes(self):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        expected = hash_ranks.hash_of_run(None, BUILD, self.folder / "alone", case, settings)
+        begun = self.run_hopper(2, "talus-mpi", "parts", "--set", "run.end=3 ms")
+        self.assertEqual(begun.returncode, 0, begun.stderr)
+        for ranks, program_name, end in (3, "talus-mpi", "5 ms"), (None, "talus", "8 ms"):
+            done = self.run_hopper(ranks, program_name, "parts", "--resume", "--set", f"run.end={end}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "parts"))
+        self.assertEqual(found, expected.split()[0])
+
+    def start_run(self, ranks, folder, settings):
+        """A run that goes on until it is stopped, past its first checkpoint."""
+        case, short = hash_ranks.CASES["hopper, vacuum"]
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", folder, case, {**short, **settings}, 1)
+        running = subprocess.Popen([*hash_ranks.MPIRUN, "-n", str(ranks), *map(str, words)], env=hash_ranks.ENVIRONMENT,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(self._end, running)
+        self.wait_until((folder / "checkpoint_b.h5").exists, running)
+        return running
+
+    def test_stops_by_a_signal_with_a_checkpoint(self):
+        running = self.start_run(2, self.folder / "stopped", {"run.end": "100 s", "output.checkpoint_interval": "0.2 s"})
+        running.send_signal(signal.SIGUSR1)
+        said = running.communicate(timeout=60)[0]
+        self.assertEqual(running.returncode, 130, said)
+        self.assertIn("Interrupted by SIGUSR1", said)
+
+    def test_a_process_that_is_killed_ends_all_and_the_run_goes_on(self):
+        end = {"run.end": "60 ms", "output.checkpoint_interval": "0.05 s"}
+        running = self.start_run(3, self.folder / "killed", end)
+        children = subprocess.run(["pgrep", "-P", str(running.pid), "talus-mpi"], capture_output=True, text=True,
+                                  check=True).stdout.split()
+        os.kill(int(children[1]), signal.SIGKILL)
+        said = running.communicate(timeout=60)[0]
+        self.assertEqual(running.returncode, 137, said)
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        settings = {**settings, **end}
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "killed", case, settings, 1)
+        resumed = hash_ranks.start(2, words + ["--resume"])
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        whole = hash_ranks.hash_of_run(None, BUILD, self.folder / "whole", case, settings)
+        found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "killed"))
+        self.assertEqual(found, whole.split()[0])
+
+    def test_hands_over(self):
+        done = self.run_hopper(2, "talus", "handed")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count("Done:"), 1)
+
+    def test_refuses_what_runs_on_one_process(self):
+        for case, key in ("yuu2011-hopper-air", "air.enabled"), ("niiya2020-circle", "model"):
+            words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", case, {}, 1)
+            done = hash_ranks.start(2, words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"{key}: ", done.stderr)
+            self.assertIn("on one process only", done.stderr)
+            self.assertFalse((self.folder / "refused").exists())
+
+    def test_faults_are_said_once_with_their_status(self):
+        self.assertEqual(self.run_hopper(2, "talus-mpi", "fault", "--set", "bed.spacing=-1 mm").returncode, 2)
+        done = self.run_hopper(2, "talus-mpi", "fault", "--set", "settle.speed=1 nm/s", "--set", "settle.max_time=2 ms")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(done.stderr.count("talus: "), 1, done.stderr)
+        self.assertEqual(self.run_hopper(2, "talus-mpi", "fault").returncode, 2, "the folder is there")
+
+
+if __name__ == "__main__":
+    if not (BUILD / "talus-mpi").exists():
+        sys.exit(77)
+    unittest.main()

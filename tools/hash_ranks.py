@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Short cases on several processes: their checkpoints, series and snapshots hash as those of one process.
+
+    tools/hash_ranks.py build [--ranks 1,2,3,5,8] [--threads 1,2] [--cases wedge,drum]
+
+`build` holds talus and talus-mpi. The exit status is 1 if a run differs from that of talus."""
+import argparse
+import hashlib
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+import hash_cases
+
+SOON, COARSE_HOPPER = hash_cases.SOON, hash_cases.COARSE_HOPPER
+
+# Of the twelve cases of hash_cases those that run on several processes, and what they leave out.
+CASES = {name: case for name, case in hash_cases.SHORT.items() if "air" not in name and "cloud" not in name} | {
+    "stabilisers": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "sph.density_diffusion": "0.1",
+                                              "sph.hourglass_damping": "0.1", "run.end": "4 ms"}),
+    "stabilisers, single precision": (
+        "yuu2011-hopper-vacuum-fast", {**COARSE_HOPPER, **SOON, "sph.density_diffusion": "0.1",
+                                       "sph.hourglass_damping": "0.1", "run.end": "4 ms"}),
+    "periodic box": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "box.left": "periodic", "box.right": "periodic",
+                                               "box.front": "periodic", "box.rear": "periodic", "run.end": "4 ms"}),
+}
+
+# As many processes as are asked for, on whatever cores there are.
+MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "--mca", "btl", "self,vader",
+          "--mca", "btl_vader_single_copy_mechanism", "none"]
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+NOT_OF_THE_RUN = {"run/wall_seconds", "run/cpu_seconds"}
+
+
+def start(ranks, words, **options):
+    """Runs a program on so many processes; by itself for None."""
+    words = [str(word) for word in words]
+    if ranks is not None:
+        words = MPIRUN + ["-n", str(ranks)] + words
+    return subprocess.run(words, capture_output=True, text=True, check=False, env=ENVIRONMENT, **options)
+
+
+def newest_checkpoint(folder):
+    """The path of the one with the larger sequence number."""
+    def sequence(path):
+        with open(path, "rb") as file:
+            return int(file.read(512).split(b"sequence ")[1].split(b"\n")[0])
+
+    return max(folder.glob("checkpoint_?.h5"), key=sequence)
+
+
+def hash_of_checkpoint(path):
+    """Of every entry but clocks, in the order of their names."""
+    digest = hashlib.sha256()
+    with h5py.File(path, "r") as file:
+        names = []
+        file.visit(names.append)
+        for name in sorted(names):
+            if not isinstance(file[name], h5py.Dataset) or name in NOT_OF_THE_RUN or name.startswith("run/sum"):
+                continue
+            values = np.ascontiguousarray(file[name][()])
+            digest.update(f"{name} {values.shape} {values.dtype}".encode() + values.tobytes())
+    return digest.hexdigest()[:16]
+
+
+def words_of_run(program, folder, case, settings, threads):
+    """The command line of a run."""
+    words = [program, "run", hash_cases.CASES / f"{case}.toml", "--out", folder, "--threads", threads, "--set",
+             "output.pictures=false", "--set", "output.report=false"]
+    for key, value in settings.items():
+        words += ["--set", f"{key}={value}"]
+    return words
+
+
+def hash_of_run(ranks, build, folder, case, settings, threads=1):
+    """Of its last checkpoint, its series and its snapshots; of talus for None processes."""
+    program = build / ("talus" if ranks is None else "talus-mpi")
+    done = start(ranks, words_of_run(program, folder, case, settings, threads))
+    if done.returncode != 0:
+        return f"exit status {done.returncode}: {done.stderr[-2000:]}"
+    digest = hashlib.sha256((folder / "series.csv").read_bytes())
+    for path in sorted((folder / "snapshots").glob("*.vtkhdf")):
+        digest.update(path.read_bytes())
+    return f"{hash_of_checkpoint(newest_checkpoint(folder))} {digest.hexdigest()[:16]}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--ranks", default="1,2,3,5,8")
+    parser.add_argument("--threads", default="1")
+    parser.add_argument("--cases", help="names, or beginnings of them")
+    given = parser.parse_args()
+    wanted = tuple(given.cases.split(",")) if given.cases else ("",)
+    differs = False
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, (case, settings) in CASES.items():
+            if not name.startswith(wanted):
+                continue
+            folder = pathlib.Path(scratch) / "run"
+            runs = [(None, 1)] + [(int(n), int(t)) for n in given.ranks.split(",") for t in given.threads.split(",")]
+            expected = None
+            line = f"{name:<50}"
+            for number, (ranks, threads) in enumerate(runs):
+                found = hash_of_run(ranks, given.build.resolve(), folder.with_name(f"{case}-{len(name)}-{number}"), case,
+                                    settings, threads)
+                expected = expected or found
+                line += f" {found}" if ranks is None else f"  {ranks}x{threads} {'same' if found == expected else found}"
+                differs = differs or found != expected
+            print(line, flush=True)
+    return 1 if differs else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
