@@ -43,7 +43,7 @@ class Choices(InputTest):
                 ("walls.coefficient=0.5", 'walls.friction is "none"', "walls.friction=none"),
                 ("collisions.normal=1", 'collisions.form is "none"', "collisions.form=none"),
                 ("law.yuu-umekage.compaction=1", 'law.yuu-umekage.volume is "density"', "law.name=yuu-umekage"),
-                ("sph.density_relaxation=0.5", 'law.name is "linear-elastic"; allowed: law.name of a law without tensile strength',
+                ("sph.density_relaxation=0.5", 'law.name is "linear-elastic"; allowed: law.name of grains that flow',
                  "law.name=linear-elastic"),
                 ("collisions.range=printed", 'collisions.form is "none"', "collisions.form=none"),
                 ("law.critical-state.ageing_time=1 ms", "law.critical-state.ageing_strength is 0",
