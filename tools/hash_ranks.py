@@ -29,6 +29,10 @@ CASES = {name: case for name, case in hash_cases.SHORT.items() if "air" not in n
                                        "sph.hourglass_damping": "0.1", "run.end": "4 ms"}),
     "periodic box": ("yuu2011-hopper-vacuum", {**COARSE_HOPPER, **SOON, "box.left": "periodic", "box.right": "periodic",
                                                "box.front": "periodic", "box.rear": "periodic", "run.end": "4 ms"}),
+    "cohesive grains": ("silo-cone", {"bed.spacing": "5 mm", "run.end": "8 ms", "output.snapshots": "2 ms", **SOON,
+                                      "law.critical-state.tensile_strength": "20 Pa",
+                                      "law.critical-state.consolidation_strength": "0.1",
+                                      "sph.stress_regularisation": "0.5", "walls.adhesion": "10 Pa"}),
 }
 
 # As many processes as are asked for, on whatever cores there are.
