@@ -104,14 +104,28 @@ class _Sector:
         return (repeated + of_copy) % (self.identities * self.copies)
 
 
-class ParticleSnapshot(_Frame):
+class _Unstructured(_Frame):
+    """A frame of points or cells, with its time and step among the file's fields."""
+
+    kind = "UnstructuredGrid"
+
+    @cached_property
+    def time(self):
+        with self._open() as file:
+            return float(file["VTKHDF/FieldData/time"][0])
+
+    @cached_property
+    def step(self):
+        with self._open() as file:
+            return int(file["VTKHDF/FieldData/step"][0])
+
+
+class ParticleSnapshot(_Unstructured):
     """Particles at one time: `positions` (n, 3), `time`, `step`, and the columns by name, a row a particle.
 
     Of a run with box.sector the file holds the sector once, and this the whole: all `copies` of it, one after the other,
     places, vectors and tensors turned about the axis. `positions[: len(positions) // copies]` is the sector.
     """
-
-    kind = "UnstructuredGrid"
 
     @cached_property
     def positions(self):
@@ -145,16 +159,6 @@ class ParticleSnapshot(_Frame):
                 values = self._sector.column(name, data[name][()])
         self._read[name] = Column(values, units)
         return self._read[name]
-
-    @cached_property
-    def time(self):
-        with self._open() as file:
-            return float(file["VTKHDF/FieldData/time"][0])
-
-    @cached_property
-    def step(self):
-        with self._open() as file:
-            return int(file["VTKHDF/FieldData/step"][0])
 
 
     def to_xarray(self, names=None):
@@ -226,12 +230,11 @@ class AirSnapshot(_Frame):
         return self[name][:, j]
 
 
-class WallSnapshot(_Frame):
+class WallSnapshot(_Unstructured):
     """The walls of a vessel at one time, as triangles: a column has a row for each. `points` (n, 3), `corners` (m, 3) numbers
     of points, `middles`, `normals` (m, 3) and `areas` of the triangles. The loads are those of the field to which a triangle
     belongs, two spacings wide."""
 
-    kind = "UnstructuredGrid"
     data = "CellData"
 
     @cached_property
@@ -260,16 +263,6 @@ class WallSnapshot(_Frame):
     @property
     def areas(self):
         return Column(np.linalg.norm(self._spanned, axis=1), "m2")
-
-    @cached_property
-    def time(self):
-        with self._open() as file:
-            return float(file["VTKHDF/FieldData/time"][0])
-
-    @cached_property
-    def step(self):
-        with self._open() as file:
-            return int(file["VTKHDF/FieldData/step"][0])
 
     def write_csv(self, path):
         """A row a triangle: middle, normal, area and all columns; for programs of structural analysis."""
