@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/continuum/continuum_analysis.hpp"
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -138,7 +139,7 @@ HopperSetting hopper_setting(const continuum::Setup& setup) {
                         .particles = static_cast<double>(continuum::bed_positions(setup).size()) * setup.copies,
                         .grain_density = p.grains.density,
                         .grain_diameter = p.grains.diameter,
-                        .gravity = p.gravity.acceleration,
+                        .gravity = p.gravity.acceleration * std::cos(p.gravity.tilt),
                         .smoothing_length = {},
                         .air = p.air.enabled,
                         .has_floor = is_mirror(p.box.floor),

@@ -7,6 +7,7 @@
 
 #include "models/continuum/cases.hpp"
 #include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/vessel_parts.hpp"
 
 namespace talus::continuum {
 namespace {
@@ -115,6 +116,40 @@ TEST(CohesiveBed, LeavesAWallThatDoesNotHoldIt) {
   }
 }
 
+TEST(CohesiveBed, PullsAtAVesselAsFarAsItsWallHolds) {
+  // A block that rises from a plate of a vessel: what its fields note is what the patch received, and ends at the pull
+  // that the wall holds, adhesion over friction on each square of a particle.
+  constexpr double adhesion = 50;
+  Parameters p = room(6, 6, 12);
+  p.box.left = p.box.right = p.box.front = p.box.rear = FaceKind::symmetry;
+  make_cohesive(p, 10e3);
+  p.vessel = {plate("floor", {-3, -3, 2}, {12, 0, 0}, {0, 12, 0})};
+  p.bed.bottom = 2 * spacing, p.bed.height = 4 * spacing;
+  p.gate.opens = GateOpens::from_the_start;
+  p.walls.friction = Friction::coulomb;
+  p.walls.friction_from = FrictionFrom::start;
+  p.walls.adhesion = adhesion, p.walls.coefficient = 1;
+  p.bed.velocity = {{0, 0, 0.05}};
+  p.gravity.acceleration = 1e-3;
+  ThreadTeam team(1);
+  Continuum model = started(p, team);
+  const State& s = model.state();
+  const double area = 36 * spacing * spacing;
+  double most = 0, before = 0, last = 0;
+  while (s.time < 0.02) {
+    model.advance(team);
+    double push = 0, received = 0;
+    for (std::size_t n = 0; n < s.wall_loads.push.size(); ++n)
+      push += s.wall_loads.push_of(n), received += s.wall_loads.received_of(n).z;
+    EXPECT_NEAR(push, -received, 1e-6 * std::abs(received) + 1e-15);
+    EXPECT_NEAR(received, vessel_impulse(s)[0].z, 1e-6 * std::abs(received) + 1e-15);
+    if (s.time > last) most = std::max(most, (before - push) / (s.time - last) / area);
+    before = push, last = s.time;
+  }
+  EXPECT_GT(most, 0.5 * adhesion);
+  EXPECT_LT(most, 1.5 * adhesion);
+}
+
 TEST(CohesiveBed, ItsFreeSurfaceIsNoCrack) {
   Parameters p = column(4, 2, 8, 4);
   make_cohesive(p, 1000);
@@ -136,9 +171,15 @@ TEST(CohesiveBed, TellsWhereKeysHaveNoMeaning) {
   Parameters p = column(4, 2, 8, 4);
   p.gravity.tilt = 0.1;
   EXPECT_TRUE(check(p).empty());
-  p.air.enabled = true;
-  const auto problems = check(p);
-  EXPECT_TRUE(std::any_of(problems.begin(), problems.end(), [](const Problem& q) { return q.key == "gravity.tilt"; }));
+  const auto is_refused = [](const Parameters& with) {
+    const auto problems = check(with);
+    return std::any_of(problems.begin(), problems.end(), [](const Problem& q) { return q.key == "gravity.tilt"; });
+  };
+  Parameters with_air = p, with_plate = p;
+  with_air.air.enabled = true;
+  EXPECT_TRUE(is_refused(with_air));
+  with_plate.plate.height = 2 * spacing;
+  EXPECT_TRUE(is_refused(with_plate));
   EXPECT_FALSE(has_cohesion(p)) << "an elastic body has none";
   EXPECT_EQ(artificial_stress(p), 0);
 }

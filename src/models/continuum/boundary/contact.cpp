@@ -234,6 +234,7 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
       const sph::WallContact contact = walls.contact(
           patch, x, wall.normal, step.duration * dot(wall.acceleration, wall.normal), step.duration * wall.per_stress);
       if (walls.rough || contact.parting > 0) load.received += become(patch, sph::after_contact(velocity, contact, 0));
+      load.push += state.mass * contact.parting;  // what the wall does not hold does not pull at it
       loads.note(i, load);
     }
     for_each_contact(

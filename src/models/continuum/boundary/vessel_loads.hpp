@@ -47,7 +47,7 @@ struct WallLoads {
 /// A force that the fields under a particle received.
 struct LoadOfFields {
   FieldShare fields;
-  double push;       ///< N s, >= 0
+  double push;       ///< N s; below 0 where grains that stick pull
   Vector3 received;  ///< N s
 };
 

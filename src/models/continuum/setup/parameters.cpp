@@ -373,11 +373,13 @@ std::vector<Problem> check(const Parameters& given) {
     problems.push_back({.key = "collisions.form",
                         .what = "Eqs 13 and 14 measure rates by (g/D)^(1/2), and there is no gravity",
                         .allowed = "none without gravity"});
-  if (p.gravity.tilt > 0 && (p.air.enabled || p.box.sector))
-    problems.push_back(
-        {.key = "gravity.tilt",
-         .what = p.air.enabled ? "the air's gravity is along -z" : "a sector turns about an upright axis",
-         .allowed = p.air.enabled ? "0 with air" : "0 in a sector"});
+  const bool is_plain = p.vessel.empty() && p.plates.empty() && !p.plate.height && !p.wedge.half_angle;
+  if (p.gravity.tilt > 0 && (p.air.enabled || !is_plain))
+    problems.push_back({.key = "gravity.tilt",
+                        .what = p.air.enabled
+                                    ? "the air's gravity is along -z"
+                                    : "loads and discharge of vessels, plates and wedges are reckoned along -z",
+                        .allowed = p.air.enabled ? "0 with air" : "0 but in a plain box"});
   if (!problems.empty() || !layout) return problems;
   check_each([&](std::size_t n) { return check_mass(layout->with_bed_alone(n)); });
   for (const Problem& problem : check_inlets(*layout)) problems.push_back(problem);

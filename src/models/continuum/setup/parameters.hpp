@@ -251,7 +251,7 @@ void for_each_parameter(Visit&& visit, P& p) {
   visit(Parameter{"gravity.acceleration", dimension::acceleration, at_least(0), "acceleration of gravity, along -z"},
         p.gravity.acceleration);
   visit(Parameter{"gravity.tilt", dimension::angle, between(0, 4 * std::numbers::pi / 9),
-                  "angle by which it leans towards +x, as in a box that stands on a slope"},
+                  "angle by which it leans towards +x, as in a box that stands on a slope; in a plain box alone"},
         p.gravity.tilt);
 
   visit(Parameter{"air.enabled", {}, {}, "whether there is air; without it no other key of the air may be given"},
