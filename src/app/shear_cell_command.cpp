@@ -45,15 +45,14 @@ std::vector<double> numbers_of(const std::string& option, const std::string& tex
 }
 
 void print_table(std::span<const granular::ShearTest> tests) {
-  print("{:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6} {:>11} {:>9}\n", "load", "density", "cohesion",
-        "angle", "eff. ang.", "sigma_1", "f_c", "ff_c", "", "plane f_c", "cyl. f_c");
-  print("{:>10} {:>10} {:>9} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6} {:>11} {:>9}\n", "Pa", "kg/m3", "Pa", "deg", "deg",
-        "Pa", "Pa", "", "", "Pa", "Pa");
+  constexpr const char* words = "{:>10} {:>10} {:>9} {:>8} {:>9} {:>9} {:>9} {:>8} {:>12} {:>10}\n";
+  print(words, "load", "density", "cohesion", "angle", "eff. ang.", "sigma_1", "f_c", "ff_c", "plane f_c", "cyl. f_c");
+  print(words, "Pa", "kg/m3", "Pa", "deg", "deg", "Pa", "Pa", "", "Pa", "Pa");
   for (const granular::ShearTest& test : tests) {
     const granular::YieldLocus& locus = test.locus;
-    print("{:10.4g} {:10.5g} {:9.4g} {:8.2f} {:8.2f} {:8.4g} {:9.4g} {:8.3g} {:>6} {:11.4g} {:9.4g}\n",
+    print("{:10.4g} {:10.5g} {:9.4g} {:8.2f} {:9.2f} {:9.4g} {:9.4g} {:8.3g} {:12.4g} {:10.4g}\n",
           test.pre_shear.normal, test.density, locus.cohesion, locus.angle * 180 / std::numbers::pi,
-          locus.effective_angle * 180 / std::numbers::pi, locus.major, locus.strength, locus.flow_factor(), "",
+          locus.effective_angle * 180 / std::numbers::pi, locus.major, locus.strength, locus.flow_factor(),
           test.strength_in_plane_strain, test.strength_of_cylinder);
   }
 }

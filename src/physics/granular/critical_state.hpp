@@ -2,9 +2,8 @@
 /// A critical state with hysteresis: grains that dilate or compact as they are sheared, until their packing no longer
 /// changes, and that are stronger at rest than in flow; on request they stick together.
 ///
-///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to
-///     1;
-///                 a, their tensile strength
+///     state       phi_s, the packing at which the grains, arranged as they are, just touch; c, static contacts, 0 to 1
+///                 a, the tensile strength of the grains together
 ///     elastic     p = 3 K e_v, e_v = ln(phi/phi_s)/3;   ds/dt = 2G (-D_dev + D^p) + W s - s W
 ///     yield       |s| <= 2^(1/2) M p,  M = max(0, beta, mu(I) + b beta + r),  returned along s at constant p
 ///     at rest     r = Delta_mu c,  or max(0, Delta_mu c - max(0, b beta)) if it does not add to b beta

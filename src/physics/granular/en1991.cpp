@@ -71,10 +71,11 @@ Values values_for(const Solid& solid, double friction, Load load, Limit limit) {
 }
 
 Class class_of(const Silo& silo) {
-  const double slenderness = silo.slenderness() + 1e-9;  // a bed of two diameters is slender in spite of rounding
-  if (slenderness >= 2) return Class::slender;
-  if (slenderness > 1 + 2e-9) return Class::intermediate;
-  return slenderness <= 0.4 + 2e-9 && silo.has_flat_bottom ? Class::retaining : Class::squat;
+  const double slenderness = silo.slenderness();
+  constexpr double rounding = 1e-9;  // a bed of two diameters is slender
+  if (slenderness >= 2 - rounding) return Class::slender;
+  if (slenderness > 1 + rounding) return Class::intermediate;
+  return slenderness <= 0.4 + rounding && silo.has_flat_bottom ? Class::retaining : Class::squat;
 }
 
 double characteristic_depth(const Silo& silo, const Values& values) {

@@ -77,6 +77,35 @@ Vector3 off_wall(const Plane& plane, const Vector3& x, double spacing) {
   return missing > 0 && slope > min_slope ? (missing / slope) * Vector3{plane.normal.x, plane.normal.y, 0} : Vector3{};
 }
 
+/// What the neighbours and their mirror images in the planes give particle i, and its own image, within its level; of
+/// repulsion().
+Vector3 push_on(std::size_t i, const std::vector<Vector3>& positions, const Neighbourhood& neighbourhood,
+                const std::vector<Plane>& planes, double spacing) {
+  const Vector3& x = positions[i];
+  Vector3 push;
+  for (const Plane& plane : planes) push += repulsion((2 / spacing) * (x - plane.foot));
+  for (const std::uint32_t n : neighbourhood.of(i)) {
+    const bool is_ghost = n >= positions.size();
+    const Ghost ghost = is_ghost ? neighbourhood.ghosts()[n - positions.size()] : Ghost{};
+    const Vector3 y = is_ghost ? neighbourhood.image(ghost).position(positions[ghost.source]) : positions[n];
+    push += repulsion((1 / spacing) * (x - y));
+    for (const Plane& plane : planes) {
+      const double above = dot(y - plane.foot, plane.normal);
+      if (above > 0) push += repulsion((1 / spacing) * (x - y + (2 * above) * plane.normal));
+    }
+  }
+  push.z = 0;
+  return push;
+}
+
+/// How much of its push a particle follows: all beside a steep wall, nothing far from them.
+double share_of(const Vector3& x, const std::vector<Plane>& planes, double spacing) {
+  double distance = moves_within * spacing;
+  for (const Plane& plane : planes)
+    if (slope_of(plane) > min_slope) distance = std::min(distance, norm(x - plane.foot));
+  return std::min((moves_within - distance / spacing) / fades, 1.0);
+}
+
 /// A particle that has left through a periodic face or a side of a sector, and where it began with it.
 void bring_back(const Domain& domain, Vector3& x, Vector3& began) {
   const Vector3 wrapped = domain.wrap(x);
@@ -109,25 +138,9 @@ void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, s
       const Vector3 x = positions[i];
       if (neighbourhood.distance_from_vessel(i) > (moves_within + 0.5 * skin) * spacing) continue;
       const std::vector<Plane> planes = planes_near(surface, x, moves_within * spacing);
-      double distance = moves_within * spacing;
-      for (const Plane& plane : planes)
-        if (slope_of(plane) > min_slope) distance = std::min(distance, norm(x - plane.foot));
-      const double share = std::min((moves_within - distance / spacing) / fades, 1.0);
+      const double share = share_of(x, planes, spacing);
       if (!(share > 0)) continue;
-      Vector3 push;
-      for (const Plane& plane : planes) push += repulsion((2 / spacing) * (x - plane.foot));
-      for (const std::uint32_t n : neighbourhood.of(i)) {
-        const bool is_ghost = n >= count;
-        const Ghost ghost = is_ghost ? neighbourhood.ghosts()[n - count] : Ghost{};
-        const Vector3 y = is_ghost ? neighbourhood.image(ghost).position(positions[ghost.source]) : positions[n];
-        push += repulsion((1 / spacing) * (x - y));
-        for (const Plane& plane : planes) {
-          const double above = dot(y - plane.foot, plane.normal);
-          if (above > 0) push += repulsion((1 / spacing) * (x - y + (2 * above) * plane.normal));
-        }
-      }
-      push.z = 0;
-      Vector3 move = (gain * share) * push;
+      Vector3 move = (gain * share) * push_on(i, positions, neighbourhood, planes, spacing);
       if (const double size = norm(move); size > max_move) move = (max_move / size) * move;
       Vector3 to = x + spacing * move;
       for (const Plane& plane : planes) to += off_wall(plane, to, spacing);

@@ -17,8 +17,10 @@ namespace talus::continuum {
 ///
 /// Particles repel each other, and their mirror images in the walls' planes, as the gradient of a kernel has it.
 /// Particles farther than 2.5 spacings from a wall that slopes by more than 30 degrees stay. The packing of particles
-/// by a kernel's gradient: Colagrossi, Bouscasse, Antuono & Marrone, Comput. Phys. Commun. 183, 1641 (2012). \param
-/// spacing of the particles, m \param first of those that may move, the rest stay \param positions m
+/// by a kernel's gradient: Colagrossi, Bouscasse, Antuono & Marrone, Comput. Phys. Commun. 183, 1641 (2012).
+///
+/// \param spacing of the particles, m \param first number of those that may move; the rest stay
+/// \param positions m
 void fit_to_walls(const Boundary& boundary, double spacing, std::size_t first, std::vector<Vector3>& positions);
 
 }  // namespace talus::continuum
