@@ -185,17 +185,7 @@ TEST(Share, OwnersThatLieAnywhere) {
 }
 
 TEST(Share, VesselWithAGate) {
-  Parameters p = room(16, 16, 30);
-  make_granular(p);
-  VesselPart cylinder = named("", VesselShape::cylinder), cone = named("", VesselShape::cone);
-  cylinder.radius = 6 * spacing, cylinder.bottom = 12 * spacing, cylinder.top = 26 * spacing;
-  cone.lower_radius = 3 * spacing, cone.upper_radius = 6 * spacing;
-  cone.bottom = 6 * spacing, cone.top = 12 * spacing;
-  p.vessel = {cylinder, cone, disc("gate", 3, 6)};
-  p.vessel[2].gate = true;
-  p.bed.height = 8 * spacing;
-  p.integration.method = Method::leapfrog;
-  p.integration.courant = 0.6;
+  Parameters p = shut_silo();
   p.gate.opens = GateOpens::at_time;
   p.gate.time = 1e-3;
   p.removal.outside = true;

@@ -16,19 +16,8 @@
 namespace talus::continuum {
 namespace {
 
-/// A cone under a cylinder, its outlet shut.
-Parameters small_silo() {
-  Parameters p = room(16, 16, 30);
-  make_granular(p);
-  VesselPart cylinder = named("", VesselShape::cylinder), cone = named("", VesselShape::cone);
-  cylinder.radius = 6 * spacing, cylinder.bottom = 12 * spacing, cylinder.top = 26 * spacing;
-  cone.lower_radius = 3 * spacing, cone.upper_radius = 6 * spacing;
-  cone.bottom = 6 * spacing, cone.top = 12 * spacing;
-  p.vessel = {cylinder, cone, disc("gate", 3, 6)};
-  p.vessel[2].gate = true;
-  p.bed.height = 8 * spacing;
-  p.integration.method = Method::leapfrog;
-  p.integration.courant = 0.6;
+Parameters silo_that_rubs() {
+  Parameters p = shut_silo();
   p.walls.friction_from = FrictionFrom::start;
   return p;
 }
@@ -43,7 +32,7 @@ Vector3 unexplained(const State& s) {
 }
 
 TEST(Filling, AMassFillsTheVesselFromBelow) {
-  Parameters p = small_silo();
+  Parameters p = silo_that_rubs();
   const double whole = mass_of(Continuum(p).state());
   for (const double share : {1.0, 0.37}) {
     Parameters by_mass = p;
@@ -78,7 +67,7 @@ TEST(Filling, AQuarterIsFilledInsideWhereverTheBoxEnds) {
 }
 
 TEST(Filling, AMassThatDoesNotFitIsRefusedWithTheLargestThatDoes) {
-  Parameters p = small_silo();
+  Parameters p = silo_that_rubs();
   p.bed.height = 0;
   p.bed.mass = 100;
   const auto problems = check(p);
@@ -89,7 +78,7 @@ TEST(Filling, AMassThatDoesNotFitIsRefusedWithTheLargestThatDoes) {
 }
 
 TEST(Removal, WhatFallsOutIsTakenAwayAndCounted) {
-  Parameters p = small_silo();
+  Parameters p = silo_that_rubs();
   p.removal.below = 2 * spacing;
   p.bed.height = 6 * spacing;
   ThreadTeam team(2);

@@ -28,18 +28,9 @@ constexpr double radius = 6;  // spacings
 
 /// A cone under a cylinder, and a gate.
 Parameters silo(double degrees) {
-  Parameters p = room(16, 16, 30);
+  Parameters p = shut_silo();
   p.box.sector = degrees * pi / 180;
-  make_granular(p);
-  VesselPart cylinder = named("cylinder", VesselShape::cylinder), cone = named("cone", VesselShape::cone);
-  cylinder.radius = radius * spacing, cylinder.bottom = 12 * spacing, cylinder.top = 26 * spacing;
-  cone.lower_radius = 3 * spacing, cone.upper_radius = radius * spacing;
-  cone.bottom = 6 * spacing, cone.top = 12 * spacing;
-  p.vessel = {cylinder, cone, disc("gate", 3, 6)};
-  p.vessel[2].gate = true;
   p.bed.height = 10 * spacing;
-  p.integration.method = Method::leapfrog;
-  p.integration.courant = 0.6;
   p.walls.friction_from = FrictionFrom::start;
   return p;
 }

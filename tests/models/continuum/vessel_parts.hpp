@@ -41,4 +41,20 @@ inline VesselPart disc(std::string name, double radius, double height) {
   return part;
 }
 
+/// Dry grains in a cone under a cylinder, its outlet shut by the third part, a gate.
+inline Parameters shut_silo() {
+  Parameters p = room(16, 16, 30);
+  make_granular(p);
+  VesselPart cylinder = named("cylinder", VesselShape::cylinder), cone = named("cone", VesselShape::cone);
+  cylinder.radius = 6 * spacing, cylinder.bottom = 12 * spacing, cylinder.top = 26 * spacing;
+  cone.lower_radius = 3 * spacing, cone.upper_radius = 6 * spacing;
+  cone.bottom = 6 * spacing, cone.top = 12 * spacing;
+  p.vessel = {cylinder, cone, disc("gate", 3, 6)};
+  p.vessel[2].gate = true;
+  p.bed.height = 8 * spacing;
+  p.integration.method = Method::leapfrog;
+  p.integration.courant = 0.6;
+  return p;
+}
+
 }  // namespace talus::continuum

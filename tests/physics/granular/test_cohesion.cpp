@@ -9,21 +9,12 @@
 #include "physics/granular/appendix_b.hpp"
 #include "physics/granular/critical_state.hpp"
 #include "physics/granular/material_path.hpp"
+#include "physics/granular/stress_of_point.hpp"
 
 namespace talus::granular {
 namespace {
 
 using Parameters = CriticalState::Parameters;
-using Point = MaterialPoint<CriticalState>;
-
-constexpr double grain_density = 2500, diameter = 1e-3;
-
-double mean(const SymmetricTensor3<>& stress) {
-  return trace(stress) / 3;
-}
-double shear_of(const SymmetricTensor3<>& stress) {
-  return norm(deviator(stress)) / std::sqrt(2.0);
-}
 
 /// Grains at their critical packing whose friction does not depend on the rate.
 Parameters plain(double friction) {

@@ -11,20 +11,15 @@
 #include "base/random.hpp"
 #include "physics/granular/appendix_b.hpp"
 #include "physics/granular/material_path.hpp"
+#include "physics/granular/stress_of_point.hpp"
 
 namespace talus::granular {
 namespace {
 
 using Parameters = CriticalState::Parameters;
-using Point = MaterialPoint<CriticalState>;
 
-constexpr double grain_density = 2500, diameter = 1e-3;
-
-double mean(const SymmetricTensor3<>& stress) {
-  return trace(stress) / 3;
-}
 double friction_of(const SymmetricTensor3<>& stress) {
-  return norm(deviator(stress)) / std::sqrt(2.0) / mean(stress);
+  return shear_of(stress) / mean(stress);
 }
 double state_packing(const Parameters& p, const Point& point) {
   return p.reference_packing / (1 + point.history.expansion);
