@@ -161,10 +161,7 @@ TEST(Cohesion, TurnsWorkIntoHeatAndNeverBack) {
     for (int trial = 0; trial < 20; ++trial) {
       std::vector<PathStretch> path = {{1, squeeze(1e-4)}};
       for (int k = 0; k < 12; ++k) {
-        Tensor3<> gradient;
-        for (double* component : {&gradient.xx, &gradient.xy, &gradient.xz, &gradient.yx, &gradient.yy, &gradient.yz,
-                                  &gradient.zx, &gradient.zy, &gradient.zz})
-          *component = 2e-4 * (random.uniform() - 0.5);
+        const Tensor3<> gradient = random_gradient(random, 2e-4);
         path.push_back({1, (k % 3 == 0 ? 5.0 : 1.0) * gradient - squeeze(0.8 * trace(gradient))});
       }
       const auto points = follow_path(
@@ -173,10 +170,7 @@ TEST(Cohesion, TurnsWorkIntoHeatAndNeverBack) {
         pulled += mean(point.stress) < -20;
         cracked += point.history[8] == -p.strength_at_start();
       }
-      const PathPoint& last = points.back();
-      const double pressure = mean(last.stress), shear_stress = norm(deviator(last.stress));
-      const double stored =
-          pressure * pressure / (2 * p.bulk_modulus) + shear_stress * shear_stress / (4 * p.shear_modulus);
+      const double stored = stored_in(points.back().stress, p);
       min_heat = std::min(min_heat, work_of_path(path, points) - stored);
       max_stored = std::max(max_stored, stored);
     }

@@ -293,18 +293,12 @@ TEST(CriticalState, TurnsWorkIntoHeatAndNeverBack) {
     for (int trial = 0; trial < 20; ++trial) {
       std::vector<PathStretch> path = {{1, squeeze(2e-4)}};
       for (int k = 0; k < 12; ++k) {
-        Tensor3<> gradient;
-        for (double* component : {&gradient.xx, &gradient.xy, &gradient.xz, &gradient.yx, &gradient.yy, &gradient.yz,
-                                  &gradient.zx, &gradient.zy, &gradient.zz})
-          *component = amplitude * (random.uniform() - 0.5);
+        const Tensor3<> gradient = random_gradient(random, amplitude);
         path.push_back({1, (k % 3 == 0 ? 20.0 : 1.0) * gradient - squeeze(trace(gradient))});
       }
       const auto points =
           follow_path(law, path, {.density = start * grain_density, .max_increment = 2e-6, .points = 100});
-      const PathPoint& last = points.back();
-      const double pressure = mean(last.stress), shear_stress = norm(deviator(last.stress));
-      const double stored =
-          pressure * pressure / (2 * p.bulk_modulus) + shear_stress * shear_stress / (4 * p.shear_modulus);
+      const double stored = stored_in(points.back().stress, p);
       min_heat = std::min(min_heat, work_of_path(path, points) - stored);
       max_stored = std::max(max_stored, stored);
     }
