@@ -89,10 +89,8 @@ class Hopper(ProgramTest):
         self.talus("run", self.case, "--out", "2", "--threads", 2, *self.settings)
         self.assertEqual(bits(self.folder / "2"), bits(self.folder / "1"))
         self.assertEqual(state(self.folder / "2"), state(self.folder / "1"))
-        resume = ()
         for _ in range(3):
-            self.talus("run", self.case, "--out", "r", "--walltime", eighth, *resume, *self.settings, status=130)
-            resume = ("--resume",)
+            eighth = self.interrupt(eighth)
         self.talus("run", self.case, "--out", "r", "--threads", 2, "--resume", *self.settings)
         self.assertEqual(bits(self.folder / "r"), bits(self.folder / "1"))
         self.assertEqual(state(self.folder / "r"), state(self.folder / "1"))
@@ -107,6 +105,22 @@ class Hopper(ProgramTest):
         self.assertEqual(bits(self.folder / "r"), bits(self.folder / "1"))
         self.assertEqual(tree(self.folder / "r/analysis"), tables)
         self.assertEqual(self.slow_flow("r"), self.slow_flow("1"))
+
+    def interrupt(self, seconds):
+        """Begins or resumes the run and lets the wall time stop it; returns the time that it got. A machine that has
+        become faster reaches the end within that time: the same session then has a half of it."""
+        run, before = self.folder / "r", self.folder / "before"
+        if run.exists():
+            shutil.copytree(run, before)
+        command = ("run", self.case, "--out", "r", *(("--resume",) if before.exists() else ()), *self.settings)
+        while (done := self.run_talus(*command, "--walltime", seconds)).returncode == 0:
+            seconds /= 2
+            shutil.rmtree(run)
+            if before.exists():
+                shutil.copytree(before, run)
+        self.assertEqual(done.returncode, 130, done.stderr)
+        shutil.rmtree(before, ignore_errors=True)
+        return seconds
 
     def slow_flow(self, folder):
         """What the card said at each end of the run."""
