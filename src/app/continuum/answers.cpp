@@ -168,11 +168,13 @@ class LoadsOfWall {
     return table_.has(column) ? table_.column(column)[row] : HopperRun::none;
   }
 
+  /// Of the row's band, m.
+  double middle(std::size_t row) const { return 0.5 * (at("low", row) + at("high", row)); }
+
   /// "1.2 kPa at z = 75 mm"; the height where it is given and the wall is not level.
   std::string text(std::string_view column, std::size_t row) const {
     std::string text = pressure_text(at(column, row));
-    if (at("high", row) > at("low", row))
-      text += fmt::format(" at z = {}", length_text(0.5 * (at("low", row) + at("high", row))));
+    if (at("high", row) > at("low", row)) text += fmt::format(" at z = {}", length_text(middle(row)));
     return text;
   }
 
@@ -202,15 +204,17 @@ std::string estimates_of(const LoadsOfWall& loads, const Kind& kind, std::size_t
 struct LoadTable {
   const char *file, *column;
   std::size_t walls;
-  std::function<std::string(std::size_t)> name, formula;
-  bool has_bands;
+  std::function<std::string(std::size_t)> name;
+  std::function<std::string(std::size_t, double)> formula;  ///< at a height, m
+  /// Of a band; empty: walls have none.
+  std::function<std::string(std::size_t)> extent;
 };
 
 /// The area over which a pressure is a mean.
-std::string area_text(const LoadTable& of, const LoadsOfWall& loads, std::size_t row) {
-  if (!of.has_bands) return "all that the bed covers";
+std::string area_text(const LoadTable& of, const LoadsOfWall& loads, std::size_t wall, std::size_t row) {
+  if (!of.extent) return "all that the bed covers";
   const double height = loads.at("high", row) - loads.at("low", row);
-  return height > 0 ? fmt::format("band {} high, whole circumference", length_text(height)) : "its whole area";
+  return height > 0 ? fmt::format("band {} high, {}", length_text(height), of.extent(wall)) : "its whole area";
 }
 
 /// Of each wall the largest pressure at rest, in flow and at its peak; walls that carry almost no load are left out.
@@ -245,10 +249,11 @@ std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series
       const auto row = loads.largest(kind.pressure, is_mean && bears ? -1 : hardly * most);
       if (is_mean && bears && !row) answers.push_back({question, "not known: the run does not cover its window", {}});
       if (!row) continue;
-      Answer answer{question, loads.text(kind.pressure, *row), estimates_of(loads, kind, *row, of.formula(w))};
+      Answer answer{question, loads.text(kind.pressure, *row),
+                    estimates_of(loads, kind, *row, of.formula(w, loads.middle(*row)))};
       if (kind.when == Kind::When::at_peak)
         answer.answer +=
-            fmt::format(", after {}, {}", time_text(loads.at("time_of_largest", *row)), area_text(of, loads, *row));
+            fmt::format(", after {}, {}", time_text(loads.at("time_of_largest", *row)), area_text(of, loads, w, *row));
       answers.push_back(std::move(answer));
     }
   }
@@ -267,26 +272,30 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
   if (const double error = value_of(quantities, "weight_balance_error_at_rest"); std::isfinite(error))
     answers.push_back({"Walls carry at rest", fmt::format("{:.1f} % of the weight", 100 * (1 + error)), "100 %"});
   const std::string unknown = flows || !std::isfinite(left) ? std::string() : too_little_left(1 - left);
+  const SiloShape shape(setup);
   const LoadTable of_vessel{
       "wall_loads.csv",
       "patch",
       p.vessel.size(),
       [&](std::size_t w) { return continuum::name_of(p, w); },
-      [&](std::size_t w) { return p.vessel[w].shape == VesselShape::cone ? "Walker" : "Janssen"; },
-      true};
+      [&](std::size_t w, double height) {
+        const SiloPiece* const piece = shape.of_part(w, height);
+        return piece && piece->is_hopper() ? "Walker" : "Janssen";
+      },
+      [&](std::size_t w) { return p.vessel[w].shape == VesselShape::plate ? "whole width" : "whole circumference"; }};
   const LoadTable of_box{"box_walls.csv",
                          "wall",
                          setup.boundary->patches().size(),
                          [&](std::size_t w) { return setup.boundary->patches()[w].name; },
-                         [](std::size_t) { return "Janssen"; },
-                         false};
+                         [](std::size_t, double) { return "Janssen"; },
+                         nullptr};
   for (const LoadTable* of : {&of_vessel, &of_box}) {
     const std::filesystem::path path = run_folder / "analysis" / of->file;
     if (!std::filesystem::exists(path)) continue;
     for (Answer& answer : answers_of_walls(setup, read_series(path), *of, flows, unknown))
       answers.push_back(std::move(answer));
   }
-  for (Answer& answer : answers_of_code(setup, run_folder)) answers.push_back(std::move(answer));
+  for (Answer& answer : answers_of_code(shape, run_folder)) answers.push_back(std::move(answer));
   return answers;
 }
 

@@ -10,7 +10,6 @@
 
 #include "app/continuum/engineering_units.hpp"
 #include "app/continuum/hand_formulas.hpp"
-#include "app/continuum/silo_shape.hpp"
 #include "app/materials/materials.hpp"
 #include "io/series.hpp"
 
@@ -27,31 +26,26 @@ namespace code = granular::en1991;
 
 constexpr double degree = std::numbers::pi / 180;
 
-code::Silo section_of(const VesselPart& v) {
-  if (v.shape == VesselShape::cylinder)
-    return {.area = std::numbers::pi * v.radius * v.radius,
-            .circumference = 2 * std::numbers::pi * v.radius,
-            .width = 2 * v.radius};
-  return {.area = v.width * v.depth,
-          .circumference = 2 * (v.width + v.depth),
-          .width = std::min(v.width, v.depth),
-          .is_round = false};
-}
-
-/// Where the upright walls end: those that stand under these too count, and a disc within is a floor.
-double lower_end(const continuum::Parameters& p, const VesselPart& wall, double top) {
+/// Where the upright walls end: those that stand under these too count, and a level floor within.
+double lower_end(const SiloShape& shape, const SiloPiece& wall, double top) {
+  const continuum::Parameters& p = shape.layout.given;
   double end = wall.bottom;
-  for (std::size_t n = 0; n < p.vessel.size(); ++n)
-    for (const VesselPart& v : p.vessel)
-      if (hydraulic_radius(v) > 0 && std::abs(v.top - end) <= p.bed.spacing && v.bottom < end) end = v.bottom;
-  for (const VesselPart& v : p.vessel)
-    if (v.shape == VesselShape::disc && v.along == continuum::Along::z && v.height < top) end = std::max(end, v.height);
+  for (std::size_t n = 0; n < shape.pieces.size(); ++n)
+    for (const SiloPiece& piece : shape.pieces)
+      if (!piece.is_hopper() && std::abs(piece.top - end) <= p.bed.spacing && piece.bottom < end) end = piece.bottom;
+  for (const VesselPart& v : p.vessel) {
+    const bool disc = v.shape == VesselShape::disc && v.along == continuum::Along::z,
+               plate = v.shape == VesselShape::plate && v.first_edge[2] == 0 && v.second_edge[2] == 0;
+    const double height = disc ? v.height : v.corner[2];
+    if ((disc || plate) && height < top) end = std::max(end, height);
+  }
   return end;
 }
 
-bool has_hopper_at(const continuum::Parameters& p, double height) {
-  return std::any_of(p.vessel.begin(), p.vessel.end(),
-                     [&](const VesselPart& v) { return is_hopper(v) && std::abs(v.top - height) <= p.bed.spacing; });
+bool has_hopper_at(const SiloShape& shape, double height) {
+  return std::any_of(shape.pieces.begin(), shape.pieces.end(), [&](const SiloPiece& piece) {
+    return piece.is_hopper() && std::abs(piece.top - height) <= shape.layout.given.bed.spacing;
+  });
 }
 
 /// Of the case's material, if the code lists it.
@@ -65,8 +59,7 @@ code::Solid solid_of(const continuum::Parameters& p) {
   return listed ? *listed : code::unknown_solid(internal_friction_by_hand(p, granular::FrictionTest::shear_plane));
 }
 
-double eccentricity_of_outlets(const continuum::Layout& layout, const VesselPart& wall) {
-  const Vector3 axis = continuum::on_axis(layout.given, wall);
+double eccentricity_of_outlets(const continuum::Layout& layout, const Vector3& axis) {
   double largest = 0;
   for (const continuum::VesselOutlet& outlet : layout.vessel_outlets)
     largest = std::max(largest, std::hypot(outlet.endless_along_x ? 0 : outlet.middle.x - axis.x,
@@ -88,21 +81,26 @@ code::Stresses CodeSilo::filling(Load load, Limit limit, double height) const {
   return code::filling(silo, solid.repose, values(load, limit), weight, top - height);
 }
 
-std::optional<CodeSilo> silo_of_code(const continuum::Layout& layout, double top, double height) {
+std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, double height) {
+  const continuum::Layout& layout = shape.layout;
   const continuum::Parameters& p = layout.given;
-  const VesselPart* v = upright_at(p, height);
-  if (!v || v->bottom > height + p.bed.spacing || !(top > height)) return std::nullopt;
-  CodeSilo found{.part = static_cast<std::size_t>(v - p.vessel.data()),
-                 .silo = section_of(*v),
+  const SiloPiece* wall = shape.upright_at(height);
+  if (!wall || wall->bottom > height + p.bed.spacing || !(top > height)) return std::nullopt;
+  CodeSilo found{.name = shape.name_of(*wall),
+                 .part = wall->parts.front(),
+                 .silo = {.area = wall->area,
+                          .circumference = wall->circumference,
+                          .width = wall->width,
+                          .is_round = wall->is_round},
                  .solid = solid_of(p),
                  .is_listed = listed_solid(p).has_value(),
-                 .friction = friction_of(layout, *v),
+                 .friction = wall->friction,
                  .weight = bulk_density(p) * p.gravity.acceleration,
                  .top = top,
-                 .bottom = lower_end(p, *v, top),
-                 .eccentricity = eccentricity_of_outlets(layout, *v)};
+                 .bottom = lower_end(shape, *wall, top),
+                 .eccentricity = eccentricity_of_outlets(layout, wall->axis)};
   found.silo.height = top - found.bottom;
-  found.silo.has_flat_bottom = !has_hopper_at(p, found.bottom);
+  found.silo.has_flat_bottom = !has_hopper_at(shape, found.bottom);
   return found;
 }
 
@@ -141,23 +139,23 @@ CodeLoads loads_on_floor(CodeSilo s, double height) {
   return loads;
 }
 
-CodeLoads loads_on_cone(const continuum::Layout& layout, const VesselPart& v, double top, double height) {
-  const auto above = silo_of_code(layout, top, v.top);
-  if (top > v.top && !above) return {};
-  const continuum::Parameters& p = layout.given;
-  const double angle = std::atan(tangent_of(v)), mean = friction_of(layout, v);
-  const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
+CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, double top, double height) {
+  const auto above = silo_of_code(shape, top, hopper.top);
+  if (top > hopper.top && !above) return {};
+  const continuum::Parameters& p = shape.layout.given;
+  const double angle = std::atan(hopper.tangent), mean = hopper.friction, apex = hopper.apex(),
+               end = std::min(top, hopper.top) - apex;
   const double weight = bulk_density(p) * p.gravity.acceleration;
   const code::Solid solid = solid_of(p);
-  // Whether the cone is steep does not depend on the load: by the lower K, as an upper one of 1 leaves none steep.
+  // Whether the hopper is steep does not depend on the load: by the lower K, as an upper one of 1 leaves none steep.
   const double ratio = solid.ratio / solid.ratio_factor;
   const auto stresses = [&](Load load, Limit limit) {
     Values values = code::values_for(solid, mean, load, limit);
     values.ratio = ratio;
     const granular::ConeBearing bearing =
-        load == Load::hopper_filling ? code::hopper_filling(code::conical, angle, values.friction, values.ratio)
-                                     : code::hopper_discharge(code::conical, angle, values);
-    const double surcharge = above ? above->filling(Load::bottom, limit, v.top).vertical : 0;
+        load == Load::hopper_filling ? code::hopper_filling(hopper.shape(), angle, values.friction, values.ratio)
+                                     : code::hopper_discharge(hopper.shape(), angle, values);
+    const double surcharge = above ? above->filling(Load::bottom, limit, hopper.top).vertical : 0;
     const double pressure = bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, surcharge);
     return code::Stresses{pressure, code::hopper_friction(angle, values.friction, values.ratio) * pressure, 0};
   };
@@ -173,15 +171,14 @@ CodeLoads loads_on_cone(const continuum::Layout& layout, const VesselPart& v, do
 
 }  // namespace
 
-CodeLoads code_loads(const continuum::Layout& layout, const BandOfWall& band, double top, double height) {
+CodeLoads code_loads(const SiloShape& shape, const BandOfWall& band, double top, double height) {
   if (!(height < top)) return {};
-  const VesselPart& v = layout.given.vessel[band.patch];
-  if (is_hopper(v)) return loads_on_cone(layout, v, top, height);
-  const bool is_upright = hydraulic_radius(v) > 0;
-  if (!is_upright && !(band.sine > 1 - 1e-3)) return {};
-  const auto silo = silo_of_code(layout, top, height);
+  const SiloPiece* const piece = shape.of_part(band.patch, height);
+  if (piece && piece->is_hopper()) return loads_on_hopper(shape, *piece, top, height);
+  if (!piece && !(band.sine > 1 - 1e-3)) return {};
+  const auto silo = silo_of_code(shape, top, height);
   if (!silo) return {};
-  return is_upright ? loads_on_upright(*silo, height) : loads_on_floor(*silo, height);
+  return piece ? loads_on_upright(*silo, height) : loads_on_floor(*silo, height);
 }
 
 CodePatch patch_of_code(const CodeSilo& s) {
@@ -198,12 +195,11 @@ CodePatch patch_of_code(const CodeSilo& s) {
 namespace {
 
 /// Each of the upright walls that the bed reaches.
-std::vector<CodeSilo> silos_of(const continuum::Layout& layout, double top) {
+std::vector<CodeSilo> silos_of(const SiloShape& shape, double top) {
   std::vector<CodeSilo> silos;
-  const continuum::Parameters& p = layout.given;
-  for (std::size_t n = 0; n < p.vessel.size(); ++n) {
-    if (!(hydraulic_radius(p.vessel[n]) > 0 && p.vessel[n].bottom < top)) continue;
-    if (const auto silo = silo_of_code(layout, top, p.vessel[n].bottom); silo && silo->part == n)
+  for (const SiloPiece& piece : shape.pieces) {
+    if (piece.is_hopper() || !(piece.bottom < top)) continue;
+    if (const auto silo = silo_of_code(shape, top, piece.bottom); silo && silo->part == piece.parts.front())
       silos.push_back(*silo);
   }
   return silos;
@@ -211,9 +207,9 @@ std::vector<CodeSilo> silos_of(const continuum::Layout& layout, double top) {
 
 }  // namespace
 
-void write_design_code(const std::filesystem::path& run_folder, const continuum::Layout& layout, double top) {
+void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top) {
   std::vector<std::vector<double>> rows;
-  for (const CodeSilo& s : silos_of(layout, top)) {
+  for (const CodeSilo& s : silos_of(shape, top)) {
     const CodePatch patch = patch_of_code(s);
     const code::DischargeFactors factors = code::discharge_factors(s.silo);
     const Values pressure = s.values(Load::wall_pressure, Limit::upper),
@@ -301,17 +297,17 @@ std::string values_text(const CodeSilo& s, Load load) {
 
 }  // namespace
 
-std::vector<Answer> answers_of_code(const continuum::Layout& layout, const std::filesystem::path& run_folder) {
+std::vector<Answer> answers_of_code(const SiloShape& shape, const std::filesystem::path& run_folder) {
   const std::filesystem::path path = run_folder / "analysis" / "en1991.csv";
   if (!std::filesystem::exists(path)) return {};
   const Series table = read_series(path);
   std::vector<Answer> answers;
   if (table.rows() == 0) return answers;
-  for (const CodeSilo& s : silos_of(layout, table.column("top").front())) {
-    const std::string name = continuum::name_of(layout.given, s.part);
-    const std::string solid = s.is_listed ? std::string(choice_name(*layout.given.grains.material)) + ", Table E.1"
-                                          : "not in Table E.1, φ_i of the law in a shear tester";
-    answers.push_back({fmt::format("EN 1991-4 takes, {}", name),
+  for (const CodeSilo& s : silos_of(shape, table.column("top").front())) {
+    const std::string solid = s.is_listed
+                                  ? std::string(choice_name(*shape.layout.given.grains.material)) + ", Table E.1"
+                                  : "not in Table E.1, φ_i of the law in a shear tester";
+    answers.push_back({fmt::format("EN 1991-4 takes, {}", s.name),
                        fmt::format("{}: h_c/d_c {:.3g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
                                    s.silo.slenderness(), 1e-3 * s.weight),
                        fmt::format("{}; wall pressure by {}; floor and cone's top by {}", solid,
@@ -319,13 +315,13 @@ std::vector<Answer> answers_of_code(const continuum::Layout& layout, const std::
     const CodePatch patch = patch_of_code(s);
     if (patch.filling > 0 || patch.discharge > 0)
       answers.push_back(
-          {fmt::format("Patch load, {}", name), "a local load that EN 1991-4 adds",
+          {fmt::format("Patch load, {}", s.name), "a local load that EN 1991-4 adds",
            fmt::format("EN 1991-4: {} filling, {} discharge, at z = {} over {} of height", pressure_text(patch.filling),
                        pressure_text(patch.discharge), length_text(patch.height), length_text(patch.extent))});
     if (!s.has_channel()) continue;
     const CodeLoads lowest = loads_on_upright(s, s.bottom);
     answers.push_back(
-        {fmt::format("Flow channel, {}", name),
+        {fmt::format("Flow channel, {}", s.name),
          fmt::format("outlet off the axis by {:.2g} d_c, above {:.2g}", s.eccentricity / s.silo.width,
                      code::large_eccentricity),
          fmt::format("EN 1991-4: {} at least in it, {} at most beside it, at z = {}", pressure_text(lowest.in_channel),

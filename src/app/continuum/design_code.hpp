@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/setup/layout.hpp"
+#include "app/continuum/silo_shape.hpp"
 #include "physics/granular/en1991.hpp"
 
 namespace talus::app {
 
 /// The upright walls that hold a height, as the code sees them.
 struct CodeSilo {
-  std::size_t part = 0;  ///< of the vessel
+  std::string name;      ///< of the walls
+  std::size_t part = 0;  ///< the first of them, of the vessel
   granular::en1991::Silo silo;
   granular::en1991::Solid solid;
   bool is_listed = false;      ///< in the code's table; else solid is unknown_solid() of the law's friction
@@ -33,7 +34,7 @@ struct CodeSilo {
 };
 
 /// Nothing where no upright walls reach from the height to the bed's top. \param top of the bed, m
-std::optional<CodeSilo> silo_of_code(const continuum::Layout& layout, double top, double height);
+std::optional<CodeSilo> silo_of_code(const SiloShape& shape, double top, double height);
 
 /// Characteristic loads on a band, Pa; nan where the code has no formula.
 struct CodeLoads {
@@ -43,9 +44,9 @@ struct CodeLoads {
   double in_channel = HopperRun::none, beside_channel = HopperRun::none;  ///< of the channel's radii the extremes
 };
 
-/// On upright round or square walls, cones under them and level floors between them. \param top of the bed, m \param
+/// On upright walls, hoppers under them and level floors between them. \param top of the bed, m \param
 /// height of the place, m
-CodeLoads code_loads(const continuum::Layout& layout, const BandOfWall& band, double top, double height);
+CodeLoads code_loads(const SiloShape& shape, const BandOfWall& band, double top, double height);
 
 /// The local load that the code adds, at the depth min(z_o, h_c/2).
 struct CodePatch {
@@ -56,10 +57,10 @@ CodePatch patch_of_code(const CodeSilo& silo);
 
 /// Writes analysis/en1991.csv: of each upright wall that the bed reaches what the code takes, and its patch load;
 /// nothing without such walls. \throws FileError
-void write_design_code(const std::filesystem::path& run_folder, const continuum::Layout& layout, double top);
+void write_design_code(const std::filesystem::path& run_folder, const SiloShape& shape, double top);
 
 /// The same as key results: class, values and limits, patch load, flow channel. \param run_folder with
 /// analysis/en1991.csv, if there is one \throws FileError
-std::vector<Answer> answers_of_code(const continuum::Layout& layout, const std::filesystem::path& run_folder);
+std::vector<Answer> answers_of_code(const SiloShape& shape, const std::filesystem::path& run_folder);
 
 }  // namespace talus::app

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "app/continuum/silo_shape.hpp"
 #include "physics/granular/silo.hpp"
 
 namespace talus::app {
@@ -19,33 +18,32 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double usual_angle = 30 * std::numbers::pi / 180;  // where the law has no friction of its own
 
 /// Janssen's stress at a height, Pa; nan where no upright walls reach from there to the bed's top.
-double janssen_at(const continuum::Layout& layout, double ratio, double top, double height) {
-  const continuum::Parameters& p = layout.given;
-  const VesselPart* v = upright_at(p, height);
-  if (!v || v->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
-  const double friction = friction_of(layout, *v);
-  const double length = friction > 0 ? hydraulic_radius(*v) / (friction * ratio) : infinity;
+double janssen_at(const SiloShape& shape, double ratio, double top, double height) {
+  const continuum::Parameters& p = shape.layout.given;
+  const SiloPiece* wall = shape.upright_at(height);
+  if (!wall || wall->bottom > height + p.bed.spacing || top <= height) return HopperRun::none;
+  const double length = wall->friction > 0 ? wall->hydraulic_radius() / (wall->friction * ratio) : infinity;
   return granular::janssen_stress(bulk_density(p) * p.gravity.acceleration, length, top - height);
 }
 
-PressureByHand pressure_of_cone(const continuum::Layout& layout, const VesselPart& v, double ratio, double top,
-                                double height) {
-  const continuum::Parameters& p = layout.given;
-  const double angle = std::atan(tangent_of(v)), mu = friction_of(layout, v);
-  const double apex = v.bottom - v.lower_radius / std::tan(angle), end = std::min(top, v.top) - apex;
-  const double above = top > v.top ? janssen_at(layout, ratio, top, v.top) : 0;
+PressureByHand pressure_of_hopper(const SiloShape& shape, const SiloPiece& hopper, double ratio, double top,
+                                  double height) {
+  const continuum::Parameters& p = shape.layout.given;
+  const double angle = std::atan(hopper.tangent), apex = hopper.apex(), end = std::min(top, hopper.top) - apex;
+  const double above = top > hopper.top ? janssen_at(shape, ratio, top, hopper.top) : 0;
   const double weight = bulk_density(p) * p.gravity.acceleration;
-  const auto pressure = [&](const granular::ConeBearing& bearing) {
+  const auto pressure = [&](granular::ConeBearing bearing) {
+    bearing.exponent *= 0.5 * hopper.shape();
     return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
   };
-  return {pressure(granular::cone_at_rest(angle, mu)),
-          pressure(granular::cone_in_flow(angle, mu, internal_friction_by_hand(p)))};
+  return {pressure(granular::cone_at_rest(angle, hopper.friction)),
+          pressure(granular::cone_in_flow(angle, hopper.friction, internal_friction_by_hand(p)))};
 }
 
 /// The cone that ends at an outlet.
 const VesselPart* cone_above(const continuum::Parameters& p, const continuum::VesselOutlet& outlet) {
   for (const VesselPart& v : p.vessel) {
-    if (!outlet.round || !is_hopper(v)) continue;
+    if (!outlet.round || !is_cone(v)) continue;
     const Vector3 axis = continuum::on_axis(p, v);
     if (std::abs(v.bottom - outlet.middle.z) <= p.bed.spacing && outlet.is_beside(axis, 0) &&
         std::hypot(axis.x - outlet.middle.x, axis.y - outlet.middle.y) < 0.1 * outlet.width)
@@ -118,13 +116,13 @@ double half_angle_of_cone(const continuum::Layout& layout) {
   return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;
 }
 
-PressureByHand pressure_by_hand(const continuum::Layout& layout, const BandOfWall& band, double ratio, double top,
+PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, double ratio, double top,
                                 double height) {
   if (!(height < top)) return {};
-  const VesselPart& v = layout.given.vessel[band.patch];
-  if (is_hopper(v)) return pressure_of_cone(layout, v, ratio, top, height);
-  const double vertical = janssen_at(layout, ratio, top, height);
-  if (hydraulic_radius(v) > 0) return {ratio * vertical, ratio * vertical};
+  const SiloPiece* const piece = shape.of_part(band.patch, height);
+  if (piece && piece->is_hopper()) return pressure_of_hopper(shape, *piece, ratio, top, height);
+  const double vertical = janssen_at(shape, ratio, top, height);
+  if (piece) return {ratio * vertical, ratio * vertical};
   return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none} : PressureByHand{};
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "analysis/hopper.hpp"
-#include "models/continuum/setup/layout.hpp"
+#include "app/continuum/silo_shape.hpp"
 #include "physics/granular/friction_angle.hpp"
 
 namespace talus::app {
@@ -33,10 +33,10 @@ struct PressureByHand {
   double at_rest = HopperRun::none, in_flow = HopperRun::none;
 };
 
-/// On upright round or square walls K times Janssen's stress; on a level band that stress; on a cone Walker's pressure,
+/// On upright walls K times Janssen's stress; on a level band that stress; on a hopper Walker's pressure,
 /// the bed above it a surcharge by Janssen. \param ratio K, as measured in the bed at rest \param top of the bed, m
 /// \param height of the place, m
-PressureByHand pressure_by_hand(const continuum::Layout& layout, const BandOfWall& band, double ratio, double top,
+PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, double ratio, double top,
                                 double height);
 
 }  // namespace talus::app

@@ -31,6 +31,7 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   if (bands.empty()) return;
   const Window flow = hopper::while_it_flows(run);
   const double ratio = hopper::wall_pressure_ratio(run, {}), top = hopper::settled_top(run);
+  const SiloShape shape(setup);
   std::vector<std::vector<double>> rows;
   std::vector<SeriesColumn> columns = {{"time", "s"}};
   std::vector<Curve> curves;
@@ -38,8 +39,8 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
     if (!(band.area > 0)) continue;
     const BandLoad load = load_of(run.series, band, run.gate_time, flow.from, flow.to, run.setting.averaging_time);
     const double middle = 0.5 * (band.low + band.high);
-    const PressureByHand hand = pressure_by_hand(setup, band, ratio, top, middle);
-    const CodeLoads code = code_loads(setup, band, top, middle);
+    const PressureByHand hand = pressure_by_hand(shape, band, ratio, top, middle);
+    const CodeLoads code = code_loads(shape, band, top, middle);
     rows.push_back({static_cast<double>(band.patch + 1),
                     band.low,
                     band.high,
@@ -90,7 +91,7 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
                {"en_pressure_in_channel", "Pa"},
                {"en_pressure_beside_channel", "Pa"}},
               rows);
-  write_design_code(run_folder, setup, top);
+  write_design_code(run_folder, shape, top);
   if (curves.empty()) return;
   std::vector<std::vector<double>> against_time;
   for (std::size_t n = 0; n < curves.front().time.size(); ++n) {
