@@ -13,7 +13,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -24,6 +23,7 @@
 #include "base/text.hpp"
 #include "io/parameter_value.hpp"
 #include "io/parameter_writer.hpp"
+#include "models/continuum/setup/choices.hpp"
 #include "numerics/run_record.hpp"
 #include "run/progress.hpp"
 
@@ -184,6 +184,25 @@ std::optional<std::pair<std::vector<std::string>, PreparedCase>> with_first_of(
   return std::nullopt;
 }
 
+/// The case by each accuracy: how long it takes, and what that sets.
+void print_accuracies(const Subject& s) {
+  print("  {:{}}  sets what the case leaves out:\n", "accuracy", s.key);
+  for (const std::string_view name : choices<continuum::Accuracy>) try {
+      CaseFile file = s.file;
+      file.set(fmt::format("accuracy={}", name));
+      const PreparedCase prepared = prepare_case(file);
+      std::vector<std::string> keys;
+      for (const ResolvedLine& line : resolved_table(prepared.parameters, file))
+        if (const auto set = prepared.filled_in.find(line.key);
+            set != prepared.filled_in.end() && (set->second == "accuracy" || line.key.ends_with(".bulk_modulus")))
+          keys.push_back(fmt::format("{} {} {}", line.key, line.value, line.unit));
+      const std::string time = run::format_seconds(measured_seconds(prepared, s.threads));
+      print("    {}\n", wrapped(fmt::format("{:{}}{}: {}", name, s.key, time, fmt::join(keys, ", ")), terminal_width(),
+                                s.key + 4, 4));
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): such as one that needs bed.spacing
+    }
+}
+
 /// What would shorten the run, each with its forecast, alone.
 void print_shortenings(const Subject& s, double seconds) {
   print("! This run would take {}. Options:\n", run::format_seconds(seconds));
@@ -201,9 +220,8 @@ void print_shortenings(const Subject& s, double seconds) {
                               setting.find(' ') == std::string::npos ? setting : fmt::format("\"{}\"", setting));
       option(change, measured_seconds(found->second, s.threads), shortening.text);
     }
-  const int processors = static_cast<int>(std::thread::hardware_concurrency());
-  if (processors > s.threads)
-    option(fmt::format("--threads {}", processors), measured_seconds(s.prepared, processors),
+  if (const int all_processors = processors(); all_processors > s.threads)
+    option(fmt::format("--threads {}", all_processors), measured_seconds(s.prepared, all_processors),
            "all processors of this machine");
 }
 
@@ -211,7 +229,7 @@ void print_forecast(const Subject& s) {
   const Forecast& f = s.prepared.forecast;
   ThreadTeam team(s.threads);
   const double each = s.prepared.measure_evaluation(team);
-  print("\nForecast (from counts; the speed measured on this machine now, {} thread{}):\n", s.threads,
+  print("\nForecast (from counts and the processor time of a step; {} thread{} without other programs):\n", s.threads,
         s.threads == 1 ? "" : "s");
   double max_seconds = 0;
   for (const Forecast::Phase& phase : f.phases) {
@@ -223,10 +241,13 @@ void print_forecast(const Subject& s) {
       print("  {:{}}  (without settle.damping_time, when a bed comes to rest is not known)\n", "", s.key);
       continue;
     }
-    const std::string evaluations =
-        phase.evaluations == phase.steps ? "" : fmt::format(", {} evaluations", count_text(phase.evaluations));
-    print("  {:{}}  about {} steps{} of {:.3g} ms: {}\n", phase.name, s.key, count_text(phase.steps), evaluations,
-          1e3 * each, run::format_seconds(least));
+    std::string note;
+    if (phase.present < 1)
+      note = fmt::format(", {:.0f} % of the particles present in the mean", 100 * phase.present);
+    else if (phase.evaluations != phase.steps)
+      note = fmt::format(", {} evaluations", count_text(phase.evaluations));
+    print("  {:{}}  about {} steps of {:.3g} ms{}: {}\n", phase.name, s.key, count_text(phase.steps), 1e3 * each, note,
+          run::format_seconds(least));
   }
   const double seconds = seconds_of(f, each);
   print("  {:{}}  {}{}\n", "time", s.key, run::format_seconds(seconds),
@@ -235,6 +256,7 @@ void print_forecast(const Subject& s) {
   print("  {:{}}  {:.0f} MB{}\n", "memory", s.key, f.memory_bytes / 1e6,
         available ? fmt::format(", of {:.0f} MB free now", *available / 1e6) : "");
   print("  {:{}}  {:.1f} MB\n", "disk", s.key, f.disk_bytes / 1e6);
+  if (s.file.contains("accuracy") || (seconds > hour && s.prepared.shortenings)) print_accuracies(s);
   if (seconds > hour) print_shortenings(s, seconds);
 }
 

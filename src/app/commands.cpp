@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <thread>
 
 #include "app/project/project.hpp"
 #include "app/usage/tree.hpp"
 #include "base/error.hpp"
+#include "base/system.hpp"
 #include "base/text.hpp"
 
 namespace talus::app {
@@ -58,7 +58,7 @@ void add_out_option(CLI::App& command, std::string& out, const std::string& text
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  threads = processors();
   command.add_option("--threads", threads, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <thread>
 
 #include "revision.hpp"  // written by tools/revision.cmake
 
@@ -89,6 +91,16 @@ std::string search_path() {
 }
 
 }  // namespace
+
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+int processors() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 std::vector<std::filesystem::path> find_programs(std::string_view name) {
   std::vector<std::filesystem::path> found;

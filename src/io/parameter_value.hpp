@@ -156,6 +156,16 @@ struct ValueFault {
 std::optional<ParameterValue> convert_value(const CaseEntry& entry, const Parameter& parameter, const ValueType& type,
                                             ValueFault& fault);
 
+/// The choice that a key of the case names, if it is one.
+template <class Choice>
+std::optional<Choice> choice_in(const CaseFile& file, std::string_view key) {
+  const CaseEntry* entry = file.find(key);
+  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+  for (std::size_t n = 0; name && n < choices<Choice>.size(); ++n)
+    if (choices<Choice>[n] == *name) return static_cast<Choice>(n);
+  return std::nullopt;
+}
+
 /// A value as it was written, for messages: `"5 mm"`, `2.5`, `an array`; long text is cut.
 std::string as_written(const CaseValue& value);
 

@@ -18,7 +18,6 @@
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
 #include "base/system.hpp"
 #include "io/json.hpp"
@@ -66,7 +65,7 @@ Manifest manifest_of_this_program() {
       {"nlohmann-json",
        fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
   manifest.processor = processor_name();
-  manifest.cores = static_cast<int>(std::thread::hardware_concurrency());
+  manifest.cores = processors();
   manifest.system = system_name();
   manifest.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return manifest;

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/system.hpp"
 #include "io/checkpoint.hpp"
 #include "io/run_folder.hpp"
 #include "io/series.hpp"
@@ -79,11 +79,6 @@ class Clock {
 
  private:
   using Wall = std::chrono::steady_clock;
-  static double processor_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-  }
   Wall::time_point start_ = Wall::now();
   double cpu_start_ = processor_seconds();
   double wall_ = 0, cpu_ = 0;

@@ -53,7 +53,7 @@ double measure_step(ModelParameters p, ThreadTeam& team) {
   if (cells > max_cells_measured) p.cell *= std::cbrt(cells / max_cells_measured);
   AirModel model(p);
   model.begin(team);
-  return cells / cells_of(p) * seconds_of(0.2, [&] { model.advance(team); });
+  return cells / cells_of(p) * seconds_of(team, 0.2, [&] { model.advance(team); });
 }
 
 Problem too_large(const ModelParameters& p, double available) {

@@ -2,7 +2,7 @@
 /// Cases of any model: the parameters of the model and of the run, read and checked together, and the files they name.
 #pragma once
 
-#include <chrono>
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,6 +10,8 @@
 
 #include "app/case/prepared_case.hpp"
 #include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/system.hpp"
 #include "io/case_file.hpp"
 #include "io/parameter_reader.hpp"
 
@@ -70,19 +72,20 @@ void read_input(std::string key, std::vector<Problem>& problems, Read&& read) {
   }
 }
 
-/// Seconds of one call of `body`, the mean over as many as fit into `duration`; one before them, which fills caches and
-/// lists, does not count.
+/// Seconds of one call of `body` with a processor for each thread, the mean over as many as fit into `duration`; one
+/// before them, which fills caches and lists, does not count. By processor time: other programs lengthen a call, hardly
+/// its share of the processors.
 template <class Body>
-double seconds_of(double duration, Body&& body) {
-  using Clock = std::chrono::steady_clock;
+double seconds_of(const ThreadTeam& team, double duration, Body&& body) {
   body();
-  const Clock::time_point start = Clock::now();
+  const auto clock = [threads = std::min(team.size(), processors())] { return processor_seconds() / threads; };
+  const double start = clock();
   double elapsed = 0;
   int calls = 0;
   do {
     body();
     ++calls;
-    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    elapsed = clock() - start;
   } while (elapsed < duration);
   return elapsed / calls;
 }

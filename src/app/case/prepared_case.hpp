@@ -37,6 +37,7 @@ struct Forecast {
     double steps = 0;
     double evaluations = 0;  ///< of the costliest stage
     double most = 1;         ///< how many times as many at most, where a phase's end is not known beforehand
+    double present = 1;      ///< share of the particles of the start that are there in the mean
   };
   std::vector<Phase> phases;
   double memory_bytes = 0;
@@ -72,7 +73,7 @@ struct PreparedCase {
   /// Draws walls and particles at the start as a PNG. None: of no such model.
   std::function<void(const std::filesystem::path& path)> draw_start;
   Forecast forecast;
-  /// Seconds that an evaluation takes, measured now on a small sample.
+  /// Seconds that an evaluation takes with as many processors as threads to themselves, measured on a small sample.
   std::function<double(ThreadTeam& team)> measure_evaluation;
   /// What would shorten the run. Null: nothing but what every run has.
   std::function<std::vector<Shortening>()> shortenings;

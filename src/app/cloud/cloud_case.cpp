@@ -155,7 +155,7 @@ double measure_evaluation(const Parameters& p, ThreadTeam& team) {
     std::iota(order.begin(), order.end(), std::int64_t{0});
     velocities.arrange_sum(order, velocities.choose_sum(grains.position));
   }
-  const double seconds = seconds_of(0.1, [&] { velocities(team, grains.position, velocity); });
+  const double seconds = seconds_of(team, 0.1, [&] { velocities(team, grains.position, velocity); });
   const int power = spectral || p.fluid.mobility == hydrodynamics::Mobility::none ? 1 : 2;
   return seconds * std::pow(count / measured, power);
 }

@@ -9,6 +9,7 @@
 
 #include "analysis/hopper_estimators.hpp"
 #include "app/case/model_case.hpp"
+#include "app/continuum/accuracy.hpp"
 #include "app/continuum/answers.hpp"
 #include "app/continuum/bed_file.hpp"
 #include "app/continuum/bed_start.hpp"
@@ -70,13 +71,25 @@ std::vector<NamedValue> groups(const Setup& setup) {
   return groups;
 }
 
+/// Share of the particles of the start that are present in the mean until `end`, s: those that leave a vessel at the
+/// analytical rate are taken away below it. 1 where none are, or where others come in.
+double mean_share_present(const Setup& setup, double end) {
+  const Parameters& p = setup.given;
+  const double rate = discharge_by_hand(setup);
+  if (!(rate > 0) || !p.inlets.empty() || !(p.removal.below || p.box.floor == FaceKind::open)) return 1;
+  const double emptied = setup.lattice.mass * continuum::bed_count(setup) * setup.copies / rate;
+  return emptied < end ? 0.5 * emptied / end : 1 - 0.5 * end / emptied;
+}
+
 Forecast forecast(const Setup& setup, const run::RunParameters& run) {
   const continuum::Forecast f = continuum::forecast(setup, run.end);
   Forecast forecast{.phases = {}, .memory_bytes = continuum::memory_of(f), .disk_bytes = 0};
   if (f.settling_steps > 0)
     forecast.phases.push_back(
         {"settling", f.settling_steps, f.settling_steps, f.max_settling_steps / f.settling_steps});
-  forecast.phases.push_back({"flow", f.flow_steps, f.flow_steps});
+  const double present = mean_share_present(setup, run.end);
+  forecast.phases.push_back(
+      {.name = "flow", .steps = f.flow_steps, .evaluations = present * f.flow_steps, .present = present});
   const double rows = run.series > 0 ? run.end / run.series : f.max_settling_steps + f.flow_steps;
   forecast.disk_bytes = (run.end / run.snapshots + 1) * (150 * f.particles + 45 * f.cells + 20e3) +
                         2 * (350 * f.particles + 250 * f.cells + 20e3) + rows * 600;
@@ -96,7 +109,7 @@ double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& t
   model.begin(team);
   const auto count = static_cast<double>(s.position.size());  // some may be taken away
   const double duration = p.air.enabled ? 0.6 : 0.2;          // the air's steps are longer, and few
-  return seconds_of(duration, [&] { model.advance(team); }) / count;
+  return seconds_of(team, duration, [&] { model.advance(team); }) / count;
 }
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
@@ -171,7 +184,7 @@ struct ContinuumCase : ModelCase<Parameters> {
 };
 
 /// \param unreadable files of keys \throws InputError with every problem, but for those in bed.file
-ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
+ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vector<Problem> unreadable) {
   defaults.plates.resize(std::min<std::size_t>(file.tables("plates"), max_inner_walls + 1));
   defaults.vessel.resize(std::min(file.tables("vessel"), max_parts_of_vessel));
   defaults.inlets.resize(std::min(file.tables("inlet"), max_inlets));
@@ -202,7 +215,7 @@ ContinuumCase read_continuum(const CaseFile& file, Parameters defaults, std::vec
 }
 
 /// \throws InputError with every problem
-ContinuumCase read_continuum(const CaseFile& file) {
+ContinuumCase read_as_it_is(const CaseFile& file) {
   Parameters defaults;
   std::vector<Problem> unreadable, of_file;
   try {
@@ -210,13 +223,22 @@ ContinuumCase read_continuum(const CaseFile& file) {
   } catch (const InputError& error) {
     of_file = error.problems();
   }
-  if (of_file.empty()) return read_continuum(file, std::move(defaults), std::move(unreadable));
+  if (of_file.empty()) return read_as_it_is(file, std::move(defaults), std::move(unreadable));
   try {
-    read_continuum(file, std::move(defaults), {});
+    read_as_it_is(file, std::move(defaults), {});
   } catch (const InputError& others) {
     of_file.insert(of_file.begin(), others.problems().begin(), others.problems().end());
   }
   throw InputError(std::move(of_file));
+}
+
+/// \throws InputError with every problem
+ContinuumCase read_continuum(const CaseFile& file) {
+  const CaseFile whole = with_accuracy(file, [](const CaseFile& trial) { return read_as_it_is(trial).setup; });
+  ContinuumCase read = read_as_it_is(whole);
+  for (const CaseEntry& entry : whole.entries())
+    if (!file.contains(entry.key)) read.filled.keys.insert_or_assign(entry.key, "accuracy");
+  return read;
 }
 
 /// Lists parameters, those that follow from others without a value of their own.

@@ -6,26 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "app/continuum/accuracy.hpp"
 #include "app/materials/materials.hpp"
 
 namespace talus::app {
 
 namespace {
 
-constexpr double enough_across = 12;  // particles, of an outlet
-constexpr int copies[] = {36, 30, 24, 20, 18, 15, 12, 10, 9, 8, 6, 5, 4};
+constexpr double enough_across = 12;                 // particles, of an outlet
 constexpr double larger[] = {3, 2.5, 2, 1.5, 1.25};  // spacings, over the case's
-
-/// Downwards, to four digits.
-std::string millimetres(double length) {
-  const double value = 1e3 * length, unit = std::pow(10, std::floor(std::log10(value)) - 3);
-  return fmt::format("{:.4g} mm", unit * std::floor(value / unit * (1 + 1e-12)));
-}
 
 Shortening sector() {
   Shortening s{.alternatives = {}, .text = "one sector of the axisymmetric vessel"};
-  for (const int n : copies) s.alternatives.push_back({fmt::format("box.sector={:g} deg", 360.0 / n)});
+  for (std::string& setting : sector_settings()) s.alternatives.push_back({std::move(setting)});
   return s;
 }
 

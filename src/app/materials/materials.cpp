@@ -27,7 +27,7 @@ constexpr std::pair<std::string_view, std::string_view> files[] = {
 #include "material_files.inc"  // made by the build from materials/
 };
 
-constexpr double moduli_over_weight = 1000;
+constexpr double moduli_over_weight[] = {62.5, 250, 1000};  // by Accuracy
 constexpr double max_mach_number_of_fall = 0.1;
 
 template <class T>
@@ -43,16 +43,6 @@ std::optional<T> read(const CaseFile& material, const std::string& key, const Pa
 std::optional<double> friction_on(const CaseFile& material, WallMaterial wall) {
   const std::string key = fmt::format("walls.{}.value", choice_name(wall));
   return read<double>(material, key, Parameter{key, dimension::none, friction_coefficient()});
-}
-
-/// The choice that a key of the case names, if it is one.
-template <class Choice>
-std::optional<Choice> named(const CaseFile& file, std::string_view key) {
-  const CaseEntry* entry = file.find(key);
-  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
-  for (std::size_t n = 0; name && n < choices<Choice>.size(); ++n)
-    if (choices<Choice>[n] == *name) return static_cast<Choice>(n);
-  return std::nullopt;
 }
 
 std::string known_walls(const CaseFile& material) {
@@ -95,7 +85,7 @@ const CaseFile& file_of(GrainMaterial material) {
 }
 
 std::optional<GrainMaterial> material_of(const CaseFile& file) {
-  return named<GrainMaterial>(file, "grains.material");
+  return choice_in<GrainMaterial>(file, "grains.material");
 }
 
 std::optional<ParameterValue> value_in(const CaseFile& material, const std::string& key, const Parameter& parameter,
@@ -165,7 +155,7 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
   for (const std::string& key : fill_in_values(file, defaults)) filled.keys.emplace(key, "material");
   defaults.grains.range = range_of(material);
   const auto rub = [&](const std::string& key, const std::string& friction_key, auto& friction) {
-    const auto wall = named<WallMaterial>(file, key);
+    const auto wall = choice_in<WallMaterial>(file, key);
     if (!wall || file.contains(friction_key)) return;
     if (const auto coefficient = friction_on(material, *wall)) {
       friction = *coefficient;
@@ -232,7 +222,8 @@ double bulk_modulus_for(const continuum::Layout& layout, double end) {
   const continuum::Parameters& p = layout.given;
   const double density = p.bed.packing * p.grains.density, speed = speed_of_fall(layout) / max_mach_number_of_fall;
   const double shear = shear_over_bulk(p.grains.material);
-  return std::max(moduli_over_weight * (density * p.gravity.acceleration * depth_that_may_be_reached(layout, end)),
+  const double stiff = moduli_over_weight[static_cast<std::size_t>(p.accuracy.value_or(continuum::Accuracy::reference))];
+  return std::max(stiff * (density * p.gravity.acceleration * depth_that_may_be_reached(layout, end)),
                   density * speed * speed / (1 + 4.0 / 3 * shear));
 }
 

@@ -63,7 +63,7 @@ template <class P>
 std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
 
 /// Pa; discharge, surfaces and heaps are then as for stiff grains (docs/design/time-steps.md): a thousand
-/// times the weight over its area of as deep a bed as the grains at the start and those that come in can make, and so
+/// times, for a design 250 times, for a draft 62.5 times the weight over its area of as deep a bed as the grains at the start and those that come in can make, and so
 /// much that what falls from where it begins to the lowest position has a Mach number of 0.1 at most. \param end of the
 /// run, s
 double bulk_modulus_for(const continuum::Layout& layout, double end);

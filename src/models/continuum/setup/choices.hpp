@@ -11,6 +11,8 @@
 
 namespace talus::continuum {
 
+/// How accurate a run is to be: what follows is in app/continuum/accuracy.hpp.
+enum class Accuracy { draft, design, reference };
 enum class GateOpens { when_settled, at_time, from_the_start };
 enum class Smoothing { local, fixed };
 enum class Continuity { printed, corrected };
@@ -86,6 +88,8 @@ namespace talus {
 template <>
 inline constexpr auto choices<continuum::GateOpens> = std::to_array<std::string_view>({"when-settled", "at-time",
                                                                                        "from-the-start"});
+template <>
+inline constexpr auto choices<continuum::Accuracy> = std::to_array<std::string_view>({"draft", "design", "reference"});
 template <>
 inline constexpr auto choices<continuum::Smoothing> = std::to_array<std::string_view>({"local", "fixed"});
 template <>

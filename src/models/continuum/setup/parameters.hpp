@@ -28,6 +28,7 @@
 namespace talus::continuum {
 
 struct Parameters {
+  std::optional<Accuracy> accuracy;
   struct BoxSize {
     double width = 0, depth = 0, height = 0;
     std::optional<double> sector = std::nullopt;
@@ -109,6 +110,13 @@ struct Parameters {
 /// Every key, once: parsing, ranges, defaults, schema, reference page and `talus check` follow from this list.
 template <class Visit, class P>
 void for_each_parameter(Visit&& visit, P& p) {
+  visit(Parameter{"accuracy",
+                  {},
+                  {},
+                  "sets keys that the case leaves out: 8, 12 or 20 particles across the outlet, the moduli of the law "
+                  "critical-state and, but for a reference, single precision and a sector of an axisymmetric vessel "
+                  "(talus check lists them); left out: none"},
+        p.accuracy);
   visit(Parameter{"box.width", dimension::length, above(0), "extent along x, from the left face at 0 to the right face",
                   true},
         p.box.width);
