@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "analysis/hopper_estimators.hpp"
 #include "app/case/model_case.hpp"
@@ -205,6 +206,11 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
     read.model.integration.courant = continuum::default_courant(read.model.integration.method);
     read.filled.keys.emplace("integration.courant", "method");
   }
+  if (!file.contains("sph.viscosity_alpha")) {
+    const double usual =
+        std::exchange(read.model.sph.viscosity_alpha, Setup(layout.with(read.model)).default_viscosity());
+    if (read.model.sph.viscosity_alpha < usual) read.filled.keys.emplace("sph.viscosity_alpha", "bed");
+  }
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)
       part.file = std::filesystem::absolute(input_path(file, part.file)).lexically_normal();
@@ -247,9 +253,9 @@ struct WithoutWhatFollows {
 
   template <class T>
   void operator()(const Parameter& parameter, const T& member) {
-    static constexpr std::string_view following[] = {"integration.courant", "law.critical-state.bulk_modulus",
-                                                     "law.critical-state.shear_modulus",
-                                                     "law.critical-state.reference_packing"};
+    static constexpr std::string_view following[] = {
+        "integration.courant", "sph.viscosity_alpha", "law.critical-state.bulk_modulus",
+        "law.critical-state.shear_modulus", "law.critical-state.reference_packing"};
     if constexpr (std::is_same_v<T, double>)
       if (std::find(std::begin(following), std::end(following), parameter.key) != std::end(following))
         return parameters(parameter, std::optional<T>{});

@@ -17,6 +17,7 @@ constexpr double millimetre = 1e-3;
 constexpr double min_across = 12;  // particles
 constexpr double min_outlet_over_axis = 2.8;
 constexpr double notable_share = 0.1;  // of an outlet, of a wall
+constexpr double notable_viscosity = 0.2;
 
 /// Over its area, Pa.
 double weight_of_bed(const Setup& setup) {
@@ -109,6 +110,22 @@ void add_outlet(const Parameters& p, double width, const std::string& name, std:
                    "fewer than 10 arch and clog, which a continuum does not", width < 10 * p.grains.diameter});
 }
 
+/// Artificial viscosity, which grows with the speed of sound and so with the size of a plant.
+void add_viscosity(const Setup& setup, std::vector<RegimeLine>& lines) {
+  const double viscosity = setup.viscosity_at_outlet();
+  if (!std::isfinite(viscosity)) return;
+  const double alpha = setup.given.sph.viscosity_alpha, loss = 100 * viscous_loss * viscosity;
+  const bool much = viscosity > notable_viscosity;
+  lines.push_back(
+      {"viscosity at the outlet", fmt::format("{:.3g}", viscosity),
+       fmt::format(
+           "sph.viscosity_alpha times sound speed and smoothing length over D (g D)^½ of the outlet: "
+           "it slows the discharge by some {:.2g} % (validation/plant){}",
+           loss,
+           much ? fmt::format("; take sph.viscosity_alpha = {:.2g} or less", alpha * max_viscosity / viscosity) : ""),
+       much});
+}
+
 void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
   const Parameters& p = setup.given;
   const std::vector<VesselOutlet>& outlets = setup.vessel_outlets;
@@ -160,6 +177,7 @@ std::vector<RegimeLine> regime_of_case(const Setup& setup) {
   add_sector(setup, lines);
   for (RegimeLine& line : regime_of_bed(setup)) lines.push_back(std::move(line));
   add_outlets(setup, lines);
+  add_viscosity(setup, lines);
   add_walls_beyond_box(setup, lines);
   add_rims(setup, lines);
   return lines;

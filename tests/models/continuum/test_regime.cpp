@@ -22,6 +22,7 @@ Parameters hopper() {
   p.box.width = 0.1, p.box.depth = 5e-3, p.box.height = 0.25;
   p.plate.height = 0.1, p.plate.slit_left = 0.03, p.plate.slit_right = 0.07;
   p.bed.spacing = 5e-3 / 3, p.bed.height = 0.25 / 3;
+  p.sph.viscosity_alpha = 0.01;
   return p;
 }
 

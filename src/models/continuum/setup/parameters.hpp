@@ -62,7 +62,7 @@ struct Parameters {
     double smoothing_ratio = 1;
     Continuity continuity = Continuity::printed;
     sph::StressForm stress_form = sph::StressForm::balanced;
-    double viscosity_alpha = 0.1;
+    double viscosity_alpha = 0.1;  // Setup::default_viscosity where a case leaves it out
     double viscosity_beta = 0;
     ViscositySpeed viscosity_speed = ViscositySpeed::largest;
     double density_relaxation = 1;
@@ -199,10 +199,12 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   "factor of the stress in Eq. 17: balanced (the floor carries the weight) or as printed"},
         p.sph.stress_form);
-  visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
-                  "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a "
-                  "few spacings above the head that they came with"},
-        p.sph.viscosity_alpha);
+  visit(
+      Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
+                "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a few "
+                "spacings above the head that they came with; left out: 0.1, or less, so that it takes at most 1.7 % "
+                "of the discharge through an outlet"},
+      p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
   visit(Parameter{"sph.viscosity_speed",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/setup/setup.hpp"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "models/continuum/setup/time_scale.hpp"
@@ -16,5 +18,19 @@ Setup::Setup(Layout layout)
       smoothing_length(given.sph.smoothing_ratio * sph::smoothing_length(lattice.mass, density)),
       scales(time_scales_of(given)),
       loading(given.settle.filling, loading_time(given, depth, scales, sound_speed), bottom, depth) {}
+
+double Setup::viscosity_at_outlet() const {
+  const double width = outlet_width.value_or(std::numeric_limits<double>::quiet_NaN());
+  return given.sph.viscosity_alpha * sound_speed * smoothing_length /
+         (width * std::sqrt(given.gravity.acceleration * width));
+}
+
+double Setup::default_viscosity() const {
+  constexpr double usual = 0.1;
+  Setup trial = *this;
+  trial.given.sph.viscosity_alpha = usual;
+  const double viscosity = trial.viscosity_at_outlet();
+  return viscosity > max_viscosity ? usual * max_viscosity / viscosity : usual;
+}
 
 }  // namespace talus::continuum

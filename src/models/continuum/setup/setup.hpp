@@ -20,6 +20,17 @@ struct Setup : Layout {
   double smoothing_length;  ///< in the bed, m
   TimeScales scales;
   Loading loading;  ///< how gravity is raised
+
+  /// Artificial viscosity at the outlet: sph.viscosity_alpha times speed of sound and smoothing length, over D (g D)^½
+  /// with D the width of the outlet. It takes viscous_loss times itself of a discharge; nan without an outlet.
+  double viscosity_at_outlet() const;
+  /// sph.viscosity_alpha where a case gives none: 0.1, at most what viscosity_at_outlet() of max_viscosity takes.
+  double default_viscosity() const;
 };
+
+/// Share of the discharge that a viscosity at the outlet of 1 takes. Source: validation/plant.
+inline constexpr double viscous_loss = 0.17;
+/// Of a viscosity that nobody chose, at the outlet.
+inline constexpr double max_viscosity = 0.1;
 
 }  // namespace talus::continuum
