@@ -72,11 +72,12 @@ void read_input(std::string key, std::vector<Problem>& problems, Read&& read) {
   }
 }
 
-/// Seconds of one call of `body` with a processor for each thread, the mean over as many as fit into `duration`; one
-/// before them, which fills caches and lists, does not count. By processor time: other programs lengthen a call, hardly
-/// its share of the processors.
+/// Seconds of one call of `body` with a processor for each thread, the mean over as many as fit into `duration`, a
+/// thousand at most, so that a small model does not come to its end; one before them, which fills caches and lists,
+/// does not count. By processor time: other programs lengthen a call, hardly its share of the processors.
 template <class Body>
 double seconds_of(const ThreadTeam& team, double duration, Body&& body) {
+  constexpr int max_calls = 1000;
   body();
   const auto clock = [threads = std::min(team.size(), processors())] { return processor_seconds() / threads; };
   const double start = clock();
@@ -86,7 +87,7 @@ double seconds_of(const ThreadTeam& team, double duration, Body&& body) {
     body();
     ++calls;
     elapsed = clock() - start;
-  } while (elapsed < duration);
+  } while (elapsed < duration && calls < max_calls);
   return elapsed / calls;
 }
 
