@@ -18,8 +18,7 @@ import study  # noqa: E402
 import talus  # noqa: E402
 
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
-RUNS = [("draft", 0.025), ("draft", 0.1), ("design", 0.0125), ("design", 0.025), ("design", 0.1), ("reference", 0.05),
-        ("reference", 0.1)]
+RUNS = [("draft", 0.025), ("design", 0.025), ("design", 0.1), ("reference", 0.1)]
 OVER_WEIGHT = {"draft": 62.5, "design": 250, "reference": 1000}
 OUTLET, HEIGHT, GRAVITY = 0.5, 1.0, 9.81  # m, m, m/s2
 REGION, WINDOW = (0.2, 1.5), (5.0, 15.0)  # above the outlet, m; after the opening, s

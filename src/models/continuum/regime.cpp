@@ -118,11 +118,12 @@ void add_viscosity(const Setup& setup, std::vector<RegimeLine>& lines) {
   const bool much = viscosity > notable_viscosity;
   lines.push_back(
       {"viscosity at the outlet", fmt::format("{:.3g}", viscosity),
-       fmt::format(
-           "sph.viscosity_alpha times sound speed and smoothing length over D (g D)^½ of the outlet: "
-           "it slows the discharge by some {:.2g} % (validation/plant){}",
-           loss,
-           much ? fmt::format("; take sph.viscosity_alpha = {:.2g} or less", alpha * max_viscosity / viscosity) : ""),
+       fmt::format("sph.viscosity_alpha times sound speed and smoothing length over D (g D)^½ of the outlet: "
+                   "it slows the discharge by some {:.2g} % (validation/plant){}",
+                   loss,
+                   much ? fmt::format("; take sph.viscosity_alpha = {:.2g}, softer grains or a smaller bed.spacing",
+                                      alpha * max_viscosity / viscosity)
+                        : ""),
        much});
 }
 

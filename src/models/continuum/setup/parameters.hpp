@@ -199,12 +199,11 @@ void for_each_parameter(Visit&& visit, P& p) {
                   {},
                   "factor of the stress in Eq. 17: balanced (the floor carries the weight) or as printed"},
         p.sph.stress_form);
-  visit(
-      Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
-                "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a few "
-                "spacings above the head that they came with; left out: 0.1, or less, so that it takes at most 1.7 % "
-                "of the discharge through an outlet"},
-      p.sph.viscosity_alpha);
+  visit(Parameter{"sph.viscosity_alpha", dimension::none, at_least(0),
+                  "Monaghan's viscosity, linear coefficient; with 0.01 a stream that strikes a wall throws grains a "
+                  "few spacings above the head that they came with; left out: 0.1, or less, down to 0.01, so that it "
+                  "takes 1.7 % of the discharge through an outlet"},
+        p.sph.viscosity_alpha);
   visit(Parameter{"sph.viscosity_beta", dimension::none, at_least(0), "Monaghan's viscosity, quadratic coefficient"},
         p.sph.viscosity_beta);
   visit(Parameter{"sph.viscosity_speed",

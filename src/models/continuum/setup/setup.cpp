@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/setup/setup.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -26,11 +27,11 @@ double Setup::viscosity_at_outlet() const {
 }
 
 double Setup::default_viscosity() const {
-  constexpr double usual = 0.1;
+  constexpr double usual = 0.1, least = 0.01;  // with less a bed does not come to rest
   Setup trial = *this;
   trial.given.sph.viscosity_alpha = usual;
   const double viscosity = trial.viscosity_at_outlet();
-  return viscosity > max_viscosity ? usual * max_viscosity / viscosity : usual;
+  return viscosity > max_viscosity ? std::max(least, usual * max_viscosity / viscosity) : usual;
 }
 
 }  // namespace talus::continuum

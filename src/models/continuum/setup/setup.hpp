@@ -24,7 +24,8 @@ struct Setup : Layout {
   /// Artificial viscosity at the outlet: sph.viscosity_alpha times speed of sound and smoothing length, over D (g D)^½
   /// with D the width of the outlet. It takes viscous_loss times itself of a discharge; nan without an outlet.
   double viscosity_at_outlet() const;
-  /// sph.viscosity_alpha where a case gives none: 0.1, at most what viscosity_at_outlet() of max_viscosity takes.
+  /// sph.viscosity_alpha where a case gives none: 0.1, or what makes viscosity_at_outlet() max_viscosity, if that is
+  /// less; at least 0.01.
   double default_viscosity() const;
 };
 
