@@ -2,6 +2,7 @@
 /// The answers about a vessel in space: the third part of the list of hopper_measures.cpp.
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "analysis/discharge.hpp"
 #include "analysis/hopper_estimators.hpp"
@@ -52,14 +53,31 @@ double balance_at_rest(const Run& run, const Window&) {
   return weight_balance_error(run.series, weight, run.gate_time - averages(run).load, run.gate_time);
 }
 
-/// A number of the last snapshot before the gate opened.
-double settled(const Run& run, Number number) {
+/// The last snapshot before the gate opened; nothing without one.
+std::optional<std::size_t> settled_snapshot(const Run& run) {
   const std::vector<double>& time = run.snapshots.time();
-  if (time.empty() || time.front() > averages(run).load) return none;
+  if (time.empty() || time.front() > averages(run).load) return std::nullopt;
   std::size_t last = 0;
   for (std::size_t n = 0; n < time.size(); ++n)
     if (time[n] <= 0) last = n;
-  return run.snapshots.value(last, number);
+  return last;
+}
+
+double settled(const Run& run, Number number) {
+  const auto last = settled_snapshot(run);
+  return last ? run.snapshots.value(*last, number) : none;
+}
+
+/// Whether walls bear as much at the last snapshot before the gate opened as when it opened: the bed may still be
+/// getting its weight.
+bool is_settled_bed_loaded(const Run& run) {
+  constexpr double slack = 0.05;
+  const auto last = settled_snapshot(run);
+  if (!last) return false;
+  const double weight = run.setting.mass() * run.setting.gravity, load = averages(run).load;
+  const auto borne = [&](double until) { return 1 + weight_balance_error(run.series, weight, until - load, until); };
+  const double at_opening = borne(run.gate_time), then = borne(run.gate_time + run.snapshots.time()[*last]);
+  return std::abs(then - at_opening) <= slack * std::abs(at_opening);
 }
 
 double top_of_bed(const HopperSnapshot& s) {
@@ -96,7 +114,7 @@ double wall_pressure_ratio(const HopperRun& run, const Window&) {
     if (is_filled(band, top))
       of_walls +=
           band.area * load_of(run.series, band, run.gate_time, 0, 0, run.setting.averaging_time).pressure_at_rest;
-  const double of_bed = settled(run, vertical_force_beside_walls);
+  const double of_bed = is_settled_bed_loaded(run) ? settled(run, vertical_force_beside_walls) : none;
   return of_bed > 0 ? of_walls / of_bed : none;
 }
 
@@ -199,7 +217,7 @@ std::vector<Row> hopper_vessel_measures() {
           {cone}),
       Row("wall_pressure_ratio", "1",
           "K: stress across the upright walls, from their impulses over T before the gate opened, over the mean "
-          "τ_zz of the bed at the same heights, in the last snapshot before",
+          "τ_zz of the bed at the same heights, in the last snapshot before; none if walls bore another load then",
           {wall_pressure_ratio}, {has_upright_walls}),
       Row("weight_balance_error_at_rest", "1",
           "upward force of all walls, from their impulses over T before the gate opened, over M g, less 1",

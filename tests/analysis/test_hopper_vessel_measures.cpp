@@ -49,7 +49,9 @@ TEST(HopperVessel, TheShareThatMovesIsAgainstTheMeanAboveTheOutlet) {
 }
 
 /// 0.1 s at rest, then 2 kg/s for 0.3 s; the walls bear 600 Pa across, the bed 1000 Pa, all walls 4 N.
-HopperRun run() {
+/// \param settled_at when the first snapshot is, from the opening of the gate, s \param loaded_from when the walls
+/// begin to bear the bed, s
+HopperRun run(double settled_at = 0, double loaded_from = 0) {
   HopperRun run{.setting = setting(),
                 .series = {.names = {"time", "gate_time", "discharge_rate", "discharged_mass", "normal_impulse_wall_1",
                                      "normal_impulse_wall_2", "impulse_wall_x", "impulse_wall_y", "impulse_wall_z"},
@@ -58,13 +60,20 @@ HopperRun run() {
                 .gate_time = gate};
   for (int n = 0; n <= 400; ++n) {
     const double t = 1e-3 * n, flowing = t >= gate ? 2 : 0;
-    const double row[] = {
-        t, t < gate ? -1 : gate, flowing, flowing * (t - gate), 600 * 2e-3 * t, 300 * 2e-3 * t, 0, 0, -4 * t};
+    const double row[] = {t,
+                          t < gate ? -1 : gate,
+                          flowing,
+                          flowing * (t - gate),
+                          600 * 2e-3 * t,
+                          300 * 2e-3 * t,
+                          0,
+                          0,
+                          -4 * std::max(0.0, t - loaded_from)};
     for (std::size_t c = 0; c < 9; ++c) run.series.columns[c].push_back(row[c]);
   }
   run.snapshots = HopperRun::Numbers::of(
-      {0, 0.1},
-      [](std::size_t n) {
+      {settled_at, 0.1},
+      [settled_at](std::size_t n) {
         struct Held {
           HopperSetting setting;
           test::GrainColumns columns;
@@ -73,7 +82,7 @@ HopperRun run() {
               : setting(talus::setting()), columns(bed(time)), snapshot(setting, (loaded(), columns.view()), gate) {}
           void loaded() { columns.stress_zz.assign(columns.position.size(), 1000.0); }
         };
-        auto held = std::make_shared<Held>(gate + (n == 0 ? 0 : 0.1));
+        auto held = std::make_shared<Held>(gate + (n == 0 ? settled_at : 0.1));
         return std::shared_ptr<const HopperSnapshot>(held, &held->snapshot);
       },
       2);
@@ -179,6 +188,11 @@ TEST(HopperVessel, AnArchIsThePackingAboveTheOutlet) {
   std::erase_if(now.position, [](const Vector3& x) { return std::abs(x.x - 0.5 * width) < 0.02; });
   const Snapshot places{.time = 1, .columns = {{"position", "m", std::span<const Vector3>(now.position)}}};
   EXPECT_EQ(hopper::outlet_packing(HopperSnapshot(s, places, gate)), 0);
+}
+
+TEST(HopperVessel, TheRatioOfPressuresIsUnknownWhereNoSnapshotHasTheSettledBed) {
+  EXPECT_TRUE(std::isfinite(hopper::wall_pressure_ratio(run(-0.05), {})));
+  EXPECT_TRUE(std::isnan(hopper::wall_pressure_ratio(run(-0.05, gate - 0.04), {}))) << "it bears nothing yet";
 }
 
 TEST(HopperVessel, TheRatioOfPressuresIsOfTheBandsThatTheBedFills) {

@@ -105,6 +105,13 @@ double internal_friction_by_hand(const continuum::Parameters& p, granular::Frict
   return friction > 0 ? granular::angle_of_friction(test, friction) : usual_angle;
 }
 
+double pressure_ratio_at_rest(const continuum::Layout& layout) {
+  if (!layout.given.law.is<granular::CriticalState>()) return HopperRun::none;
+  const auto& law = layout.given.law.of<granular::CriticalState>();
+  const double shear = law.shear_modulus / law.bulk_modulus;
+  return (1 - 2.0 / 3 * shear) / (1 + 4.0 / 3 * shear);
+}
+
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
   const VesselPart* cone = emptying_cone(layout);
   return cone ? granular::mass_flow_half_angle(friction_of(layout, *cone), internal_friction_by_hand(layout.given))

@@ -21,6 +21,10 @@ double discharge_by_hand(const continuum::Layout& layout, const continuum::Vesse
 double internal_friction_by_hand(const continuum::Parameters& parameters,
                                  granular::FrictionTest test = granular::FrictionTest::plane_strain);
 
+/// K of a bed that settles without strain to the sides below yield, (1 - 2G/3B)/(1 + 4G/3B), B and G of the law
+/// critical-state; nan of other laws.
+double pressure_ratio_at_rest(const continuum::Layout& layout);
+
 /// The largest half angle of mass flow in a cone (physics/granular/silo.hpp), rad; nan if the vessel empties
 /// through no cone.
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout);

@@ -30,7 +30,8 @@ void write_wall_loads(const std::filesystem::path& run_folder, const HopperRun& 
   const std::vector<BandOfWall>& bands = run.setting.bands;
   if (bands.empty()) return;
   const Window flow = hopper::while_it_flows(run);
-  const double ratio = hopper::wall_pressure_ratio(run, {}), top = hopper::settled_top(run);
+  const double measured = hopper::wall_pressure_ratio(run, {}), top = hopper::settled_top(run);
+  const double ratio = std::isfinite(measured) ? measured : pressure_ratio_at_rest(setup);
   const SiloShape shape(setup);
   std::vector<std::vector<double>> rows;
   std::vector<SeriesColumn> columns = {{"time", "s"}};

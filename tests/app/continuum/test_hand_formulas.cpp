@@ -110,6 +110,15 @@ TEST(InternalFrictionByHand, IsTheLawsInPlaneStrain) {
   EXPECT_DOUBLE_EQ(internal_friction_by_hand(p), std::numbers::pi / 2);
 }
 
+TEST(PressureRatioAtRest, IsThatOfTheModuli) {
+  continuum::Parameters p = small_silo();
+  EXPECT_TRUE(std::isnan(pressure_ratio_at_rest(continuum::Layout(p))));
+  granular::CriticalState::Parameters law;
+  law.bulk_modulus = 1e6, law.shear_modulus = 0.375e6;
+  p.law = law;
+  EXPECT_NEAR(pressure_ratio_at_rest(continuum::Layout(p)), 0.5, 1e-12) << "wheat: 1 - sin 30 degrees";
+}
+
 TEST(MassFlowByHand, IsOfTheConeAndItsWall) {
   continuum::Parameters p = small_silo();
   EXPECT_DOUBLE_EQ(mass_flow_half_angle_by_hand(continuum::Layout(p)),
