@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -112,19 +113,18 @@ void add_outlet(const Parameters& p, double width, const std::string& name, std:
 
 /// Artificial viscosity, which grows with the speed of sound and so with the size of a plant.
 void add_viscosity(const Setup& setup, std::vector<RegimeLine>& lines) {
+  constexpr double range = 1;  // of what the study found
   const double viscosity = setup.viscosity_at_outlet();
   if (!std::isfinite(viscosity)) return;
-  const double alpha = setup.given.sph.viscosity_alpha, loss = 100 * viscous_loss * viscosity;
   const bool much = viscosity > notable_viscosity;
-  lines.push_back(
-      {"viscosity at the outlet", fmt::format("{:.3g}", viscosity),
-       fmt::format("sph.viscosity_alpha times sound speed and smoothing length over D (g D)^½ of the outlet: "
-                   "it slows the discharge by some {:.2g} % (validation/plant){}",
-                   loss,
-                   much ? fmt::format("; take sph.viscosity_alpha = {:.2g}, softer grains or a smaller bed.spacing",
-                                      alpha * max_viscosity / viscosity)
-                        : ""),
-       much});
+  std::string text = fmt::format(
+      "sph.viscosity_alpha times sound speed and smoothing length over D (g D)^½ of the outlet: it slows the discharge "
+      "by {} {:.2g} % (validation/plant)",
+      viscosity > range ? "more than" : "some", 100 * viscous_loss * std::min(viscosity, range));
+  if (much)
+    text += fmt::format("; take sph.viscosity_alpha = {:.2g}, softer grains or a smaller bed.spacing",
+                        setup.given.sph.viscosity_alpha * max_viscosity / viscosity);
+  lines.push_back({"viscosity at the outlet", fmt::format("{:.3g}", viscosity), text, much});
 }
 
 void add_outlets(const Setup& setup, std::vector<RegimeLine>& lines) {
