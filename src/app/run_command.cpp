@@ -65,7 +65,9 @@ PreparedCase prepare_together(const RunOptions& options, const RunRequest& reque
     prepared = prepare_case(file);
     if (!prepared->make_part) {
       ParameterReader reader(file);
-      reader.check({prepared->only_alone});
+      reader.check({{.key = "model",
+                     .what = fmt::format("\"{}\" runs on one process only", prepared->model),
+                     .allowed = "\"continuum\", or one process: talus run without mpirun or srun"}});
       reader.throw_problems();
     }
   } catch (const std::exception& fault) {

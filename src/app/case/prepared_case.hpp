@@ -57,10 +57,8 @@ struct PreparedCase {
   std::function<std::unique_ptr<OpenedRun>(const std::filesystem::path& folder)> open;
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
-  /// The part of the model that a process among several has. Null: it runs on one process only, and `only_alone` says
-  /// what asks for that.
+  /// The part of the model that a process among several has. Null: it runs on one process only.
   std::function<std::unique_ptr<run::AnyModel>(const Ranks& ranks)> make_part;
-  Problem only_alone;
   std::vector<run::Observer> observers;
   run::Headline headline;  ///< what the line of progress shows
   /// Dimensionless groups and scales, for `check` and the log.

@@ -254,9 +254,6 @@ PreparedCase prepare_cloud(const CaseFile& file) {
     return std::make_unique<CloudRun>(folder, study);
   };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
-  prepared.only_alone = {.key = "model",
-                         .what = "the cloud runs on one process only",
-                         .allowed = "\"continuum\", or one process: talus run without mpirun or srun"};
   const double layer = 2 * p.particles.radius;
   prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
   prepared.forecast = forecast(p, read.run);

@@ -324,12 +324,7 @@ PreparedCase prepare_continuum(const CaseFile& file) {
     draw_bed(*setup, title, path);
   };
   prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
-  if (p.air.enabled)
-    prepared.only_alone = {.key = "air.enabled",
-                           .what = "with air a case runs on one process only",
-                           .allowed = "false, or one process: talus run without mpirun or srun"};
-  else
-    prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
+  prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
   prepared.observers = {[setup](const Snapshot& snapshot) { return observe_hopper(snapshot, *setup); }};
   prepared.forecast = forecast(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };

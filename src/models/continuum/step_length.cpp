@@ -58,9 +58,9 @@ GrainLimits joined_limits(ThreadTeam& team, const State& s, const Workspace& w, 
 }
 
 double step_length(ThreadTeam& team, const Setup& setup, const State& s, Workspace& w) {
+  const std::optional<GrainLimits> known = std::exchange(w.limits, std::nullopt);
   if (w.air && !w.air->is_due(s)) return s.last_step;
   bool no_vote = true;
-  const std::optional<GrainLimits> known = std::exchange(w.limits, std::nullopt);
   const GrainLimits limits = known ? *known : joined_limits(team, s, w, no_vote);
   const double of_grains = step_of_grains(setup, limits, w, w.share.of_all(s.position.size()));
   return w.air ? std::min(of_grains, w.air->max_step()) : of_grains;

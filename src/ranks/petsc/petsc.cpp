@@ -142,6 +142,10 @@ class MpiProcesses final : public Ranks {
     for (std::uint64_t& v : votes.sum) v = (next++)->sum;
   }
 
+  void add_up(std::span<double> sums) const override {
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), as_int(sums.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  }
+
   std::string gather(const std::string& own) const override {
     const int length = as_int(own.size());
     std::vector<int> lengths(static_cast<std::size_t>(size())), first(lengths.size());

@@ -24,6 +24,7 @@ class Shuffled final : public Ranks {
  public:
   explicit Shuffled(const Ranks& ranks) : Ranks(ranks.rank(), ranks.size()), ranks_(ranks) {}
   void join(Votes& votes) const override { ranks_.join(votes); }
+  void add_up(std::span<double> sums) const override { ranks_.add_up(sums); }
   std::string gather(const std::string& own) const override { return ranks_.gather(own); }
   void from_first(std::span<std::byte> bytes) const override { ranks_.from_first(bytes); }
   std::unique_ptr<Plan> plan(std::span<const std::size_t> counts) const override { return ranks_.plan(counts); }
@@ -182,6 +183,18 @@ TEST(Share, StabilisersInSinglePrecision) {
 
 TEST(Share, OwnersThatLieAnywhere) {
   expect_same_bits(falling_block(), 30, Shuffled(processes()), true);
+}
+
+/// What the air gives and what it is left with is the same too.
+TEST(Share, AirThatEveryProcessHas) {
+  Parameters p = falling_block();
+  p.air.enabled = true;
+  p.air.cell = spacing;
+  expect_same_bits(p, 60, processes(), false);
+  p.integration.method = Method::runge_kutta;
+  p.box.left = p.box.right = FaceKind::periodic;
+  p.air.gas.boundaries.kind[0] = p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
+  expect_same_bits(p, 30, Shuffled(processes()), true);
 }
 
 TEST(Share, VesselWithAGate) {

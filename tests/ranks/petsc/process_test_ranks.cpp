@@ -43,6 +43,13 @@ TEST(Processes, SumInFixedPointAsOneProcessDoes) {
   EXPECT_EQ(own.value(point).z, all.value(point).z);
 }
 
+TEST(Processes, AddUpInPlace) {
+  const int size = processes().size();
+  std::vector<double> sums{0x1p-50 * (processes().rank() + 1), -0.5};
+  processes().add_up(sums);
+  EXPECT_THAT(sums, ElementsAre(0x1p-51 * size * (size + 1), -0.5 * size));
+}
+
 TEST(Processes, GatherInTheirOrder) {
   std::vector<int> own(static_cast<std::size_t>(processes().rank()), processes().rank()), expected;
   for (int r = 0; r < processes().size(); ++r) expected.insert(expected.end(), static_cast<std::size_t>(r), r);

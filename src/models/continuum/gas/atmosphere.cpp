@@ -24,8 +24,9 @@ air::Parameters gas_of(const Parameters& p) {
 
 }  // namespace
 
-Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary)
+Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary, const Share& share)
     : boundary_(boundary),
+      share_(share),
       openings_(boundary.openings()),
       grain_density_(p.grains.density),
       max_solid_fraction_(std::max(random_close_packing, p.bed.packing)),
@@ -79,19 +80,22 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   for_each(team, received_.size(),
            [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
   const FixedPoint point(s.impulse_unit / duration);
-  a.force = accumulate(
-                team, received_.size(), FixedVector{},
-                [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass * a.acceleration[i]); },
-                [](FixedVector one, const FixedVector& other) { return one += other; })
-                .value(point);
+  FixedVector force = accumulate(
+      team, received_.size(), FixedVector{},
+      [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass * a.acceleration[i]); },
+      [](FixedVector one, const FixedVector& other) { return one += other; });
+  sum_up(share_.ranks(), std::span(&force, 1));
+  a.force = force.value(point);
   ++a.steps;
   a.iterations = static_cast<std::uint64_t>(flow_.iterations());
   measure_slip(team, s);
 }
 
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposition_.find_weights(team, s.position, smoothing_length);
+  deposition_.find_weights(team, s.position, smoothing_length, share_.part().is_copy);
   deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+  share_.ranks().add_up(s.air.solids.fraction);
+  for (CellField& component : s.air.solids.flux) share_.ranks().add_up(component);
   if (!boundary_.vessel().is_empty()) leave_overfull(s.air.solids);
 }
 
@@ -124,7 +128,9 @@ void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
                           y.data() + begin, z.data() + begin, slip_square_.data() + begin);
   });
   const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
-  const double slip = deposition_.max_mean(team, per_solid_volume_, slip_square_, s.air.reynolds_max / reynolds_of_one);
+  const double slip =
+      largest_of(share_.ranks(), deposition_.max_mean(team, per_solid_volume_, slip_square_,
+                                                      s.air.reynolds_max / reynolds_of_one));
   s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds_of_one * slip);
 }
 
