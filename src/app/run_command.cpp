@@ -63,13 +63,7 @@ PreparedCase prepare_together(const RunOptions& options, const RunRequest& reque
     CaseFile file = options.case_options.read();
     if (options.resume) keep_snapshot_interval(file, request.folder);
     prepared = prepare_case(file);
-    if (!prepared->make_part) {
-      ParameterReader reader(file);
-      reader.check({{.key = "model",
-                     .what = fmt::format("\"{}\" runs on one process only", prepared->model),
-                     .allowed = "\"continuum\", or one process: talus run without mpirun or srun"}});
-      reader.throw_problems();
-    }
+    check_ranks(*prepared, file, ranks.size());
   } catch (const std::exception& fault) {
     error = std::current_exception();
     told = fmt::format("process {}: {}\n", ranks.rank(), fault.what());

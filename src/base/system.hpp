@@ -17,6 +17,9 @@ std::optional<double> available_memory();
 /// where that cannot be said.
 std::optional<double> available_disk(const std::filesystem::path& folder);
 
+/// Processor time that the calling thread has taken, s.
+double processor_seconds_of_thread();
+
 /// The programs of this name (ffmpeg, sbatch, python3) in the folders of PATH that may be executed, in the order of the
 /// folders. An empty entry of PATH is passed over: what lies in the current folder is not run. Without a PATH, those of
 /// the system's own.

@@ -41,6 +41,8 @@ class AnyModel {
   virtual void resume(ThreadTeam& team) = 0;                  ///< completes what was read
   /// With several processes: makes the whole state at the first one, for what is asked until the next step.
   virtual void gather() {}
+  /// What each of them had to do, as gathered, in words for the log; empty of one process.
+  virtual std::string sharing() const { return {}; }
   void resume(ThreadTeam& team, const CheckpointReader& checkpoint) {
     read(checkpoint);
     resume(team);
@@ -97,6 +99,10 @@ class ModelAdapter final : public AnyModel {
   void resume(ThreadTeam& team) override { model_.resume(team); }
   void gather() override {
     if constexpr (requires { model_.gather(); }) model_.gather();
+  }
+  std::string sharing() const override {
+    if constexpr (requires { model_.sharing(); }) return model_.sharing();
+    return {};
   }
 
  private:

@@ -39,6 +39,7 @@ class LedModel final : public AnyModel {
     together(Order::resume, [&] { model_->resume(team); });
   }
   void gather() override { whole(); }
+  std::string sharing() const override { return whole().sharing(); }
 
  private:
   template <class Do>

@@ -2,6 +2,7 @@
 """Cases on several processes, as users start them. Skipped where the program was built without MPI."""
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -87,6 +88,25 @@ class Ranks(program.ProgramTest):
         whole = hash_ranks.hash_of_run(None, BUILD, self.folder / "whole", case, settings)
         found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "killed"))
         self.assertEqual(found, whole.split()[0])
+
+    def test_the_forecast_knows_the_copies(self):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        settings = {**settings, "bed.spacing": "2.5 mm", "run.end": "0.2 ms"}
+        for ranks in 2, 5:
+            run = hash_ranks.start(ranks, hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / f"{ranks}", case,
+                                                                  settings, 1))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found = float(re.search(r"\(of one ([\d.]+) %\)", (self.folder / f"{ranks}/log.txt").read_text())[1])
+            said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--set", "bed.spacing=2.5 mm", "--ranks",
+                              ranks).stdout
+            self.assertIn(f"On {ranks} processes (modelled", said)
+            expected = float(re.search(r"copies of .* \((\d+) %\)", said)[1])
+            self.assertLess(abs(expected - found), 0.35 * found, f"{ranks} processes")
+
+    def test_processes_that_a_case_cannot_have_are_refused_beforehand(self):
+        for case, ranks, words in (("niiya2020-circle", 2, "on one process only"), ("drum", 100000, "for 100000 processes")):
+            said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--ranks", ranks, status=2).stderr
+            self.assertIn(words, said)
 
     def test_hands_over(self):
         done = self.run_hopper(2, "talus", "handed")

@@ -16,6 +16,7 @@
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "app/continuum/hopper_observers.hpp"
+#include "app/continuum/ranks_forecast.hpp"
 #include "app/continuum/shorter_runs.hpp"
 #include "app/continuum/vessel_fields.hpp"
 #include "app/continuum/wall_loads.hpp"
@@ -325,6 +326,10 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   };
   prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
   prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
+  prepared.particles = continuum::forecast(*setup, end).particles;
+  prepared.on_ranks = [setup, end](ThreadTeam& team, double step, int ranks) {
+    return forecast_on_ranks(*setup, end, air_of_step(*setup, team), step, ranks);
+  };
   prepared.observers = {[setup](const Snapshot& snapshot) { return observe_hopper(snapshot, *setup); }};
   prepared.forecast = forecast(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };

@@ -124,11 +124,13 @@ Continuum::Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks)
 void Continuum::begin(ThreadTeam& team) {
   make_workspace();
   continuum::begin(team, *setup_, state_, *workspace_);
+  workspace_->share.time() = {};
 }
 
 void Continuum::resume(ThreadTeam& team) {
   make_workspace();
   derive(team, *setup_, state_, *workspace_);
+  workspace_->share.time() = {};
 }
 
 void Continuum::make_workspace() {
@@ -141,11 +143,13 @@ void Continuum::make_workspace() {
 void Continuum::advance(ThreadTeam& team) {
   whole_.reset();
   part_.reset();
+  const Stopwatch watch(workspace_->share.time().steps);
   continuum::advance(team, *setup_, state_, *workspace_);
 }
 
 void Continuum::gather() {
   workspace_->share.gather(state_, gathered_);
+  if (!ranks_.is_alone()) account_ = workspace_->share.account(workspace_->pairs.neighbourhood().pairs());
   whole_.reset();
   part_.reset();
 }

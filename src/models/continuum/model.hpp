@@ -47,6 +47,11 @@ class Continuum {
   /// next step, is of this state. Of all processes together.
   void gather();
 
+  /// What the processes shared, in words (Share::account), as gathered; empty of one.
+  const std::string& sharing() const { return account_; }
+  /// Since it began or resumed.
+  const TimeOfSteps& time_of_steps() const { return workspace_->share.time(); }
+
   /// Of the last step: step_size, speed_max, density extremes, packing_max (kernel), momentum; since the start:
   /// gate_time (-1: shut), mass_outside (beyond open faces: what has left), the impulses of gravity and damping, and by
   /// wall what it received ("impulse_floor_z", N s).
@@ -82,6 +87,7 @@ class Continuum {
   const Ranks& ranks_;
   std::shared_ptr<const Setup> setup_;
   State state_, gathered_;
+  std::string account_;
   std::unique_ptr<Workspace> workspace_;          // made by begin or resume
   std::optional<Domain> around_whole_;            // of a sector, with its workspace
   mutable std::optional<PointSet> part_, whole_;  // of the present state, if they were asked for

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/share.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -129,24 +132,34 @@ std::vector<int> Share::owners(const State& s) {
   const std::size_t here = s.list_position.size();
   std::vector<int> owner(here, ranks_.rank());
   if (count_ == 0) return owner;
+  std::uint64_t least = 0, most = 0;
+  const bool are_at_start = !partition_;
+  const auto note = [&] {
+    least_owned_ = std::min(least_owned_, least), most_owned_ = std::max(most_owned_, most);
+    if (!are_at_start) moved_ += here - static_cast<std::size_t>(std::count(owner.begin(), owner.end(), ranks_.rank()));
+  };
   const auto assign = [&] {
     Votes votes{.least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(size, 0)};
     for (std::size_t i = 0; i < here; ++i)
       ++votes.sum[static_cast<std::size_t>(owner[i] = partition_->rank_of(s.list_position[i]))];
     ranks_.join(votes);
-    return static_cast<double>(*std::max_element(votes.sum.begin(), votes.sum.end()));
+    std::tie(least, most) = std::pair(*std::min_element(votes.sum.begin(), votes.sum.end()),
+                                      *std::max_element(votes.sum.begin(), votes.sum.end()));
+    return static_cast<double>(most);
   };
   const double even = static_cast<double>(count_) / static_cast<double>(size);
-  if (partition_ && assign() <= uneven * even) return owner;
+  if (partition_ && assign() <= uneven * even) return note(), owner;
   if (!partition_) partition_ = ranks_.partition();
   // Work follows the number of particles to one or two per cent: their lists are about as long everywhere.
   partition_->cut(s.list_position, std::vector<double>(here, 1.0));
   assign();
+  note();
   return owner;
 }
 
 void Share::distribute(State& s, const Domain& domain, std::span<std::vector<double>* const> carried) {
   if (is_all()) return;
+  const Stopwatch watch(time_.sharing);
   resize_columns(s, place_.size());
   Votes votes{.least = {}, .largest = {0, 0}, .sum = {}};
   for (std::size_t i = 0; i < place_.size(); ++i) {
@@ -264,6 +277,7 @@ void Share::keep_owned(std::vector<double>& column) const {
 
 bool Share::drop_halo(State& s) {
   if (is_halo_.empty()) return false;
+  const Stopwatch watch(time_.sharing);
   std::vector<std::uint32_t> owned;
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (owns(i)) owned.push_back(static_cast<std::uint32_t>(i));
@@ -277,6 +291,7 @@ bool Share::drop_halo(State& s) {
 
 void Share::sort(const State& s, double cell_size) {
   if (is_all()) return;
+  const Stopwatch watch(time_.sharing);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Votes votes{.least = {infinity, infinity, infinity}, .largest = {}, .sum = {}};
   for (const Vector3& x : s.position)
@@ -374,7 +389,10 @@ void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
   votes.least.push_back(own);
   std::vector<FixedVector> sums;
   for (const Waiting& some : waiting_) sums.insert(sums.end(), some.sums.begin(), some.sums.end());
-  talus::join(ranks_, votes, sums);
+  {
+    const Stopwatch watch(time_.messages);
+    talus::join(ranks_, votes, sums);
+  }
   std::span<const FixedVector> rest = sums;
   for (const Waiting& some : waiting_) {
     some.add(rest.first(some.sums.size()));
@@ -390,6 +408,27 @@ void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
   of_first.step = s.step;
   of_first.time = s.time;
   throw NumericalError(of_first);
+}
+
+std::string Share::account(std::size_t pairs) const {
+  const double owned = static_cast<double>(place_.size() - halo_.received());
+  const double copies = static_cast<double>(halo_.received()), size = ranks_.size();
+  Votes votes{.least = {},
+              .largest = {copies / std::max(1.0, owned), static_cast<double>(pairs)},
+              .sum = {halo_.received(), pairs, moved_}};
+  for (const double part : {time_.messages, time_.sharing, time_.air})
+    votes.sum.push_back(static_cast<std::uint64_t>(std::lround(1e6 * part / std::max(1e-9, time_.steps))));
+  ranks_.join(votes);
+  const auto sum = [&](std::size_t n) { return static_cast<double>(votes.sum[n]); };
+  const double count = static_cast<double>(std::max<std::size_t>(count_, 1));
+  const auto percent = [&](std::size_t n) { return 1e-4 * sum(n) / size; };
+  return fmt::format(
+      "{} processes: each owned {:.1f} to {:.1f} % of the particles, copies of others are {:.1f} % of them (of one "
+      "{:.1f} %), {} changed their process; of a step messages take {:.1f} %, migration and halos {:.1f} %, air that "
+      "all compute {:.1f} %; the longest lists are {:.2f} of the mean",
+      size, 100 * static_cast<double>(std::min(least_owned_, most_owned_)) / count,
+      100 * static_cast<double>(most_owned_) / count, 100 * sum(0) / count, 100 * votes.largest[0], votes.sum[2],
+      percent(3), percent(4), percent(5), votes.largest[1] * size / std::max(1.0, sum(1)));
 }
 
 void Share::join_window(WallLoads& loads) const {

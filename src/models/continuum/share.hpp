@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/system.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/neighbourhood.hpp"
@@ -25,6 +26,28 @@
 #include "ranks/ranks.hpp"
 
 namespace talus::continuum {
+
+/// Adds the processor time that its thread takes while it lives to a sum, s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += processor_seconds_of_thread() - began_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  double began_ = processor_seconds_of_thread();
+};
+
+/// Where the time of the steps goes on this process: processor time of its main thread, s. A process that waits for a
+/// message takes it as if it computed, unless the processor has other programs to run.
+struct TimeOfSteps {
+  double steps = 0;     ///< all of it
+  double messages = 0;  ///< to the halo and votes
+  double sharing = 0;   ///< owners, migration, halo, places
+  double air = 0;       ///< what every process computes alike
+};
 
 class Share {
  public:
@@ -36,7 +59,8 @@ class Share {
   bool owns(std::size_t i) const { return is_halo_.empty() || !is_halo_[i]; }
   /// How many particles all processes own. \param here how many this one has, with its halo
   std::size_t of_all(std::size_t here) const { return is_all() ? here : count_; }
-  std::size_t halo() const { return halo_.received(); }
+
+  TimeOfSteps& time() const { return time_; }
 
   // The calls below do nothing for one process; with several they are calls together.
 
@@ -52,7 +76,16 @@ class Share {
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }
 
   /// Gives columns the halo's values, in one message.
-  void refresh(std::span<const Halo::Column> columns) { halo_.refresh(columns); }
+  void refresh(std::span<const Halo::Column> columns) {
+    if (is_all()) return;
+    const Stopwatch watch(time_.messages);
+    halo_.refresh(columns);
+  }
+  void vote(Votes& votes) const {
+    if (is_all()) return;
+    const Stopwatch watch(time_.messages);
+    ranks_.join(votes);
+  }
   Halo& halo_messages() { return halo_; }
 
   /// Removes the halo from one more column.
@@ -85,6 +118,10 @@ class Share {
   /// Joins what the walls received since the window began, so that each process has all of it.
   void join_window(WallLoads& loads) const;
 
+  /// What the work of this process is among that of all since it began or resumed, and what sharing it takes, in words.
+  /// \param pairs in the lists of this process
+  std::string account(std::size_t pairs) const;
+
  private:
   std::vector<int> owners(const State& state);
   ByRank halo_of_others(const State& state, const Domain& domain) const;
@@ -97,6 +134,8 @@ class Share {
   std::vector<char> is_halo_;        // of the particles here; empty: none is
   Halo halo_;
   double reach_ = 0, margin_ = 0;
+  mutable TimeOfSteps time_;
+  std::uint64_t least_owned_ = UINT64_MAX, most_owned_ = 0, moved_ = 0;  // of any process; from this one to others
   struct Waiting {
     std::vector<FixedVector> sums;
     std::function<void(std::span<const FixedVector>)> add;

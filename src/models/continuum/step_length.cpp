@@ -52,7 +52,7 @@ double step_of_grains(const Setup& setup, const GrainLimits& limits, const Works
 GrainLimits joined_limits(ThreadTeam& team, const State& s, const Workspace& w, bool& vote) {
   const GrainLimits here = limits_of_grains(team, s, w);
   Votes votes{.least = {here.min_smoothing_length, vote ? 1.0 : 0.0}, .largest = {here.max_square_speed}, .sum = {}};
-  w.share.ranks().join(votes);
+  w.share.vote(votes);
   vote = votes.least[1] > 0;
   return {votes.least[0], votes.largest[0]};
 }
