@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -47,6 +48,33 @@ std::span<const std::int64_t> Snapshot::integers(std::string_view name) const {
 }
 bool Snapshot::has(std::string_view name) const {
   return std::any_of(columns.begin(), columns.end(), [&](const ColumnView& column) { return column.name == name; });
+}
+
+ColumnSource source_of(const ColumnView& column) {
+  return std::visit(
+      [&](const auto values) {
+        using Entry = std::remove_cv_t<typename decltype(values)::element_type>;
+        const auto kind = std::is_same_v<Entry, Vector3>  ? ColumnSource::Kind::vector
+                          : std::is_same_v<Entry, double> ? ColumnSource::Kind::real
+                                                          : ColumnSource::Kind::integer;
+        return ColumnSource{std::string(column.name), std::string(column.unit), kind,
+                            [values](std::size_t first, std::size_t count, std::byte* to) {
+                              if (count > 0) std::memcpy(to, values.data() + first, count * sizeof(Entry));
+                            }};
+      },
+      column.values);
+}
+
+PointSource source_of(const Snapshot& snapshot) {
+  PointSource source{snapshot.time, snapshot.step, snapshot.size(), {}, snapshot.copies};
+  for (const ColumnView& column : snapshot.columns) {
+    const std::size_t entries = std::visit([](const auto& values) { return values.size(); }, column.values);
+    if (entries != source.count)
+      throw std::invalid_argument("snapshot: column '" + std::string(column.name) + "' has " + std::to_string(entries) +
+                                  " entries for " + std::to_string(source.count) + " particles");
+    source.columns.push_back(source_of(column));
+  }
+  return source;
 }
 
 Snapshot PointSet::view() const {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +25,19 @@ struct ColumnView {
   std::string_view unit;
   std::variant<std::span<const double>, std::span<const Vector3>, std::span<const std::int64_t>> values;
 };
+
+/// A column that is read piece by piece: it need not be anywhere as a whole.
+struct ColumnSource {
+  enum class Kind { real, vector, integer, byte };
+  std::string name, unit;
+  Kind kind = Kind::real;
+  /// Writes so many entries, from `first` on, to memory. Calls go from the first to the last, each entry once.
+  std::function<void(std::size_t first, std::size_t count, std::byte* to)> read;
+
+  std::size_t entry_bytes() const { return kind == Kind::byte ? 1 : kind == Kind::vector ? 24 : 8; }
+};
+/// Of a column that is as it is until the source has been read.
+ColumnSource source_of(const ColumnView& column);
 
 /// Says of columns that they are of one sector about an upright axis, of which the whole is so many copies
 ///(`whole_of`).
@@ -51,6 +66,17 @@ struct Snapshot {
   std::span<const Vector3> positions() const { return vectors("position"); }
   bool has(std::string_view name) const;
 };
+
+/// The same whose columns are read piece by piece: what is written to a file.
+struct PointSource {
+  double time = 0;
+  std::uint64_t step = 0;
+  std::size_t count = 0;
+  std::vector<ColumnSource> columns;  ///< each with `count` entries
+  std::optional<SectorCopies> copies = std::nullopt;
+};
+/// \throws std::invalid_argument if columns are not equally long
+PointSource source_of(const Snapshot& snapshot);
 
 /// Particles that own their columns: what is read from a file.
 struct PointSet {

@@ -31,7 +31,7 @@ class AnyModel {
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
   virtual Snapshot snapshot() const = 0;                     ///< valid until the next step
-  virtual Snapshot stored() const = 0;                       ///< the same as files hold it: a sector once
+  virtual PointSource stored() const = 0;                    ///< the same as files hold it: a sector once
   virtual std::optional<GridSnapshot> grid() const = 0;      ///< of the air; nothing where there is none
   virtual std::optional<SurfaceSnapshot> walls() const = 0;  ///< of a vessel; nothing where there is none
   virtual std::vector<NamedValue> totals() const = 0;
@@ -72,11 +72,11 @@ class ModelAdapter final : public AnyModel {
     else
       return snapshot_of(model_.state());
   }
-  Snapshot stored() const override {
+  PointSource stored() const override {
     if constexpr (requires { model_.stored(); })
       return model_.stored();
     else
-      return snapshot();
+      return source_of(snapshot());
   }
   std::optional<GridSnapshot> grid() const override {
     if constexpr (requires { model_.grid(); }) return model_.grid();

@@ -28,7 +28,7 @@ class LedModel final : public AnyModel {
     together(Order::advance, [&] { model_->advance(team); });
   }
   Snapshot snapshot() const override { return whole().snapshot(); }
-  Snapshot stored() const override { return whole().stored(); }
+  PointSource stored() const override { return whole().stored(); }
   std::optional<GridSnapshot> grid() const override { return whole().grid(); }
   std::optional<SurfaceSnapshot> walls() const override { return whole().walls(); }
   std::vector<NamedValue> totals() const override { return whole().totals(); }

@@ -193,16 +193,19 @@ Snapshot Continuum::snapshot() const {
     snapshot.domain = &domain();
     return snapshot;
   }
-  if (!whole_) whole_ = whole_of(stored());
+  if (!whole_) whole_ = whole_of(part());
   Snapshot snapshot = whole_->view();
   snapshot.domain = &*around_whole_;
   return snapshot;
 }
 
-Snapshot Continuum::stored() const {
-  if (!domain().sector()) return snapshot();
+Snapshot Continuum::part() const {
   if (!part_) part_ = part_of(whole_state(), *domain().sector());
   return part_->view();
+}
+
+PointSource Continuum::stored() const {
+  return source_of(domain().sector() ? part() : snapshot());
 }
 
 std::vector<NamedValue> Continuum::totals() const {

@@ -64,7 +64,7 @@ class Continuum {
   Snapshot snapshot() const;
 
   /// The same as files hold it: of a sector its particles once (part_of(), sector.hpp). Valid until the next step.
-  Snapshot stored() const;
+  PointSource stored() const;
 
   /// The air's cells as its last step left them: velocity and pressure (against air.pressure), solid_fraction, velocity
   /// of the grains (0 where there are none), drag on the grains in a unit volume (N/m3). Nothing in a vacuum.
@@ -78,6 +78,7 @@ class Continuum {
 
  private:
   void make_workspace();
+  Snapshot part() const;  // of a sector
   /// Of all particles, m.
   std::vector<double> smoothing_lengths() const;
   /// From when on the packing is that of a bed that has settled, or fallen by a spacing: beside walls and about a
