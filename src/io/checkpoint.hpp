@@ -63,6 +63,9 @@ class CheckpointWriter {
 /// kind.
 class CheckpointReader {
  public:
+  /// One that was found whole.
+  explicit CheckpointReader(const std::filesystem::path& path) : CheckpointReader(hdf5::Reader(path), 0) {}
+
   /// for_each_field(reader, state): fills the kept fields
   template <class T>
   void operator()(const FieldInfo& field, T& member) const {

@@ -54,10 +54,7 @@ ColumnSource source_of(const ColumnView& column) {
   return std::visit(
       [&](const auto values) {
         using Entry = std::remove_cv_t<typename decltype(values)::element_type>;
-        const auto kind = std::is_same_v<Entry, Vector3>  ? ColumnSource::Kind::vector
-                          : std::is_same_v<Entry, double> ? ColumnSource::Kind::real
-                                                          : ColumnSource::Kind::integer;
-        return ColumnSource{std::string(column.name), std::string(column.unit), kind,
+        return ColumnSource{std::string(column.name), std::string(column.unit), kind_of<Entry>,
                             [values](std::size_t first, std::size_t count, std::byte* to) {
                               if (count > 0) std::memcpy(to, values.data() + first, count * sizeof(Entry));
                             }};
@@ -75,6 +72,25 @@ PointSource source_of(const Snapshot& snapshot) {
     source.columns.push_back(source_of(column));
   }
   return source;
+}
+
+PointSet points_of(const PointSource& source, std::size_t first, std::size_t count,
+                   std::span<const std::string> names) {
+  PointSet points{source.time, source.step, {}, source.copies};
+  for (const ColumnSource& column : source.columns) {
+    if (!names.empty() && std::find(names.begin(), names.end(), column.name) == names.end()) continue;
+    const auto add = [&](auto values) {
+      column.read(first, count, reinterpret_cast<std::byte*>(values.data()));
+      points.columns.push_back({column.name, column.unit, std::move(values)});
+    };
+    if (column.kind == ColumnSource::Kind::vector)
+      add(std::vector<Vector3>(count));
+    else if (column.kind == ColumnSource::Kind::real)
+      add(std::vector<double>(count));
+    else
+      add(std::vector<std::int64_t>(count));
+  }
+  return points;
 }
 
 Snapshot PointSet::view() const {

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct ColumnSource {
 
   std::size_t entry_bytes() const { return kind == Kind::byte ? 1 : kind == Kind::vector ? 24 : 8; }
 };
+/// Of a column of doubles, vectors or 64-bit integers.
+template <class Entry>
+inline constexpr ColumnSource::Kind kind_of = std::is_same_v<Entry, Vector3>  ? ColumnSource::Kind::vector
+                                              : std::is_same_v<Entry, double> ? ColumnSource::Kind::real
+                                                                              : ColumnSource::Kind::integer;
 /// Of a column that is as it is until the source has been read.
 ColumnSource source_of(const ColumnView& column);
 
@@ -78,6 +84,14 @@ struct PointSource {
 /// \throws std::invalid_argument if columns are not equally long
 PointSource source_of(const Snapshot& snapshot);
 
+/// Some entries of a column of the particles, which is counted among those that for_each_field names.
+struct ColumnPiece {
+  std::uint64_t column, first, count;
+};
+
+/// Hands over particles piece by piece, in their order; at least one piece, if an empty one.
+using Pieces = std::function<void(const std::function<void(const Snapshot& piece)>& take)>;
+
 /// Particles that own their columns: what is read from a file.
 struct PointSet {
   struct Column {
@@ -92,6 +106,10 @@ struct PointSet {
 
   Snapshot view() const;
 };
+
+/// Reads some particles of a source, of all columns or of those named.
+PointSet points_of(const PointSource& source, std::size_t first, std::size_t count,
+                   std::span<const std::string> names = {});
 
 /// Values in the cells of a regular grid: the air.
 struct GridSnapshot {

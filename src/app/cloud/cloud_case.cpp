@@ -255,7 +255,11 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
   const double layer = 2 * p.particles.radius;
-  prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
+  prepared.observers = {{.columns = {"position"}, .observe = [layer](const Pieces& pieces) {
+                           std::vector<NamedValue> values;
+                           pieces([&](const Snapshot& all) { values = observe_front(all, layer); });
+                           return values;
+                         }}};
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };

@@ -330,7 +330,8 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   prepared.on_ranks = [setup, end](ThreadTeam& team, double step, int ranks) {
     return forecast_on_ranks(*setup, end, air_of_step(*setup, team), step, ranks);
   };
-  prepared.observers = {[setup](const Snapshot& snapshot) { return observe_hopper(snapshot, *setup); }};
+  prepared.observers = {{.columns = {"position", "velocity", "density", "stress_zz", "strain"},
+                         .observe = [setup](const Pieces& pieces) { return observe_hopper(pieces, *setup); }}};
   prepared.forecast = forecast(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };
   prepared.shortenings = [setup, end] { return shorter_runs(*setup, end); };

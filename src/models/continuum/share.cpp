@@ -21,16 +21,15 @@ constexpr double uneven = 1.08;              // most particles of a process over
 constexpr std::size_t asked_together = 32;   // particles
 constexpr std::size_t samples_of_rank = 32;  // from which the borders of a common sort are chosen
 
-/// The columns of particles as rows of words of 8 bytes.
+/// The kept columns of particles as rows of words of 8 bytes.
 class Rows {
  public:
-  enum class Of { kept, all };
   /// \pre every column has an entry for each particle
-  Rows(State& state, Of of) {
+  explicit Rows(State& state) {
     for_each_field(
         [&]<class Member>(const FieldInfo& field, Member& column) {
           if constexpr (!std::is_arithmetic_v<Member>)
-            if (field.of_particles && (of == Of::all || field.role == FieldRole::kept)) add(column);
+            if (field.of_particles && field.role == FieldRole::kept) add(column);
         },
         state);
   }
@@ -116,14 +115,12 @@ void Share::begin(State& s) {
       ranks_.from_first(std::as_writable_bytes(std::span(member)));
   };
   for_each_field(tell, s);
-  count_ = ranks_.value_from_first(s.position.size());
-  if (!ranks_.is_first()) {
-    resize_columns(s, 0);
-    s.wall_loads.window_push.clear();
-    s.wall_loads.window_received.clear();
-  }
+  const std::vector<std::uint64_t> counts = ranks_.gather_values(std::vector{std::uint64_t{s.position.size()}});
+  count_ = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  const auto before = std::accumulate(counts.begin(), counts.begin() + ranks_.rank(), std::int64_t{0});
+  if (!ranks_.is_first()) s.wall_loads.window_push.clear(), s.wall_loads.window_received.clear();
   place_.resize(s.position.size());
-  std::iota(place_.begin(), place_.end(), std::int64_t{0});
+  std::iota(place_.begin(), place_.end(), before);
 }
 
 /// Whose the particles will be.
@@ -172,7 +169,7 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
     resize_columns(s, count);
     place_.resize(count);
     for (std::vector<double>* const column : carried) column->resize(count);
-    Rows rows(s, Rows::Of::kept);
+    Rows rows(s);
     rows.add(place_);
     for (std::vector<double>* const column : carried) rows.add(*column);
     return rows;
@@ -354,25 +351,36 @@ std::size_t Share::remove(std::span<const std::uint32_t> kept) {
   return gone.size();
 }
 
-void Share::gather(State& s, State& whole) const {
-  if (is_all()) return;
-  WallLoads loads = s.wall_loads;
+void Share::read(const State& s, const ColumnPiece& piece, std::byte* to) const {
+  const std::byte* data = nullptr;
+  std::size_t bytes = 0, number = 0;
+  const auto find = [&]<class Member>(const FieldInfo& field, const Member& column) {
+    if constexpr (!std::is_arithmetic_v<Member>)
+      if (field.of_particles && number++ == piece.column)
+        data = reinterpret_cast<const std::byte*>(column.data()), bytes = sizeof(column[0]);
+  };
+  for_each_field(find, s);
+  const auto from = static_cast<std::int64_t>(piece.first), until = from + static_cast<std::int64_t>(piece.count);
+  std::string own;
+  for (auto at = std::lower_bound(place_.begin(), place_.end(), from); at != place_.end() && *at < until; ++at) {
+    const auto i = static_cast<std::size_t>(at - place_.begin());
+    if (!owns(i)) continue;
+    own.append(reinterpret_cast<const char*>(&*at), sizeof *at);
+    own.append(reinterpret_cast<const char*>(data + bytes * i), bytes);
+  }
+  const std::string all = ranks_.gather_at_first(own);
+  for (std::size_t at = 0; at < all.size(); at += sizeof(std::int64_t) + bytes) {
+    std::int64_t place = 0;
+    std::memcpy(&place, all.data() + at, sizeof place);
+    std::memcpy(to + bytes * static_cast<std::size_t>(place - from), all.data() + at + sizeof place, bytes);
+  }
+}
+
+void Share::collect_window(WallLoads& loads) const {
   join_window(loads);
-  const Rows rows(s, Rows::Of::all);
-  ByRank to_first(ranks_);
-  std::vector<std::int64_t> place;
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    if (owns(i)) to_first.add(0, i), place.push_back(place_[i]);
-  const std::unique_ptr<Plan> plan = ranks_.plan(to_first.counts());
-  std::vector<std::uint64_t> got(rows.width() * plan->received());
-  plan->exchange(rows.of(to_first.all()).data(), rows.width(), got.data());
-  const std::vector<std::int64_t> place_of = plan->exchange(place);
-  if (!ranks_.is_first()) return;
-  whole = s;
-  whole.wall_loads = std::move(loads);
-  resize_columns(whole, count_);
-  const Rows to(whole, Rows::Of::all);
-  for (std::size_t n = 0; n < place_of.size(); ++n) to.put(got, n, static_cast<std::size_t>(place_of[n]));
+  if (ranks_.is_first()) return;
+  loads.window_push.clear();
+  loads.window_received.clear();
 }
 
 void Share::add_later(std::vector<FixedVector> sums, std::function<void(std::span<const FixedVector>)> add) {
@@ -382,11 +390,27 @@ void Share::add_later(std::vector<FixedVector> sums, std::function<void(std::spa
     waiting_.push_back({std::move(sums), std::move(add)});
 }
 
+double Share::place_of(std::optional<std::size_t> here) const {
+  return !here ? std::numeric_limits<double>::infinity() : is_all() ? 0 : static_cast<double>(place_[*here]);
+}
+
+NumericalError::Report Share::told_by(double first, std::optional<std::size_t> here,
+                                      const std::function<NumericalError::Report(std::size_t)>& report) const {
+  NumericalError::Report told = here && place_of(here) == first ? report(*here) : NumericalError::Report{};
+  for (std::string* const text : {&told.what, &told.term, &told.place, &told.advice}) *text = ranks_.gather(*text);
+  return told;
+}
+
+NumericalError::Report Share::report_of_first(std::optional<std::size_t> here,
+                                              const std::function<NumericalError::Report(std::size_t)>& report) const {
+  Votes votes{.least = {place_of(here)}, .largest = {}, .sum = {}};
+  vote(votes);
+  return told_by(votes.least[0], here, report);
+}
+
 void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
                  const std::function<NumericalError::Report(std::size_t)>& report) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  const double own = !here ? none : is_all() ? 0 : static_cast<double>(place_[*here]);
-  votes.least.push_back(own);
+  votes.least.push_back(place_of(here));
   std::vector<FixedVector> sums;
   for (const Waiting& some : waiting_) sums.insert(sums.end(), some.sums.begin(), some.sums.end());
   {
@@ -401,10 +425,8 @@ void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
   waiting_.clear();
   const double first = votes.least.back();
   votes.least.pop_back();
-  if (first == none) return;
-  NumericalError::Report of_first = first == own ? report(*here) : NumericalError::Report{};
-  for (std::string* const text : {&of_first.what, &of_first.term, &of_first.place, &of_first.advice})
-    *text = ranks_.gather(*text);
+  if (std::isinf(first)) return;
+  NumericalError::Report of_first = told_by(first, here, report);
   of_first.step = s.step;
   of_first.time = s.time;
   throw NumericalError(of_first);

@@ -64,7 +64,8 @@ class Share {
 
   // The calls below do nothing for one process; with several they are calls together.
 
-  /// Takes the particles of the first process's state for all there are, and its numbers for those of all processes.
+  /// Takes the particles of the states for all there are, those of the first process first, and its numbers for those
+  /// of all processes.
   void begin(State& state);
 
   /// Moves particles to their owners and finds the halo, for neighbour lists that are built from list_position,
@@ -103,9 +104,10 @@ class Share {
   /// stay here, rising \returns how many all processes have taken away \pre no halo
   std::size_t remove(std::span<const std::uint32_t> kept);
 
-  /// Makes the whole state at the first process, as one process by itself would have it. `whole` of others is left as
-  /// it is.
-  void gather(State& state, State& whole) const;
+  /// Reads the particles of all, in their order. \param to memory of the first process
+  void read(const State& state, const ColumnPiece& piece, std::byte* to) const;
+  /// Gives the first process what the walls received since the window began, all of it.
+  void collect_window(WallLoads& loads) const;
 
   /// Has a sum of all processes added with the next votes, to what no step reads before: sums travel with what has to
   /// be known at once. For one process at once. \param add receives the sums over all processes
@@ -115,6 +117,10 @@ class Share {
   void join(const State& state, Votes& votes, std::optional<std::size_t> here,
             const std::function<NumericalError::Report(std::size_t)>& report);
 
+  /// What the process says whose particle comes first in the order of all. \param here none: it has no such particle
+  NumericalError::Report report_of_first(std::optional<std::size_t> here,
+                                         const std::function<NumericalError::Report(std::size_t)>& report) const;
+
   /// Joins what the walls received since the window began, so that each process has all of it.
   void join_window(WallLoads& loads) const;
 
@@ -123,6 +129,9 @@ class Share {
   std::string account(std::size_t pairs) const;
 
  private:
+  double place_of(std::optional<std::size_t> here) const;
+  NumericalError::Report told_by(double first, std::optional<std::size_t> here,
+                                 const std::function<NumericalError::Report(std::size_t)>& report) const;
   std::vector<int> owners(const State& state);
   ByRank halo_of_others(const State& state, const Domain& domain) const;
   std::vector<std::uint32_t> by_place(std::size_t own) const;

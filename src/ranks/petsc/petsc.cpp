@@ -156,6 +156,16 @@ class MpiProcesses final : public Ranks {
     return all;
   }
 
+  std::string gather_at_first(const std::string& own) const override {
+    const int length = as_int(own.size());
+    std::vector<int> lengths(is_first() ? static_cast<std::size_t>(size()) : 0), first(lengths.size());
+    MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+    std::exclusive_scan(lengths.begin(), lengths.end(), first.begin(), 0);
+    std::string all(is_first() ? static_cast<std::size_t>(first.back() + lengths.back()) : 0, '\0');
+    MPI_Gatherv(own.data(), length, MPI_BYTE, all.data(), lengths.data(), first.data(), MPI_BYTE, 0, MPI_COMM_WORLD);
+    return all;
+  }
+
   void from_first(std::span<std::byte> bytes) const override {
     MPI_Bcast(bytes.data(), as_int(bytes.size()), MPI_BYTE, 0, MPI_COMM_WORLD);
   }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "models/continuum/cases.hpp"
+#include "models/continuum/columns.hpp"
 #include "models/continuum/vessel_parts.hpp"
 #include "ranks/petsc/processes.hpp"
 
@@ -25,6 +26,7 @@ class Shuffled final : public Ranks {
   explicit Shuffled(const Ranks& ranks) : Ranks(ranks.rank(), ranks.size()), ranks_(ranks) {}
   void join(Votes& votes) const override { ranks_.join(votes); }
   void add_up(std::span<double> sums) const override { ranks_.add_up(sums); }
+  std::string gather_at_first(const std::string& own) const override { return ranks_.gather_at_first(own); }
   std::string gather(const std::string& own) const override { return ranks_.gather(own); }
   void from_first(std::span<std::byte> bytes) const override { ranks_.from_first(bytes); }
   std::unique_ptr<Plan> plan(std::span<const std::size_t> counts) const override { return ranks_.plan(counts); }
@@ -62,7 +64,7 @@ struct Started {
   Workspace workspace;
 
   Started(const Parameters& p, const Ranks& ranks)
-      : setup(p), state(initial_state(setup)), workspace(setup, state, ranks) {
+      : setup(p), state(initial_state(setup, ranks.rank(), ranks.size())), workspace(setup, state, ranks) {
     begin(team, setup, state, workspace);
   }
   void step() { advance(team, setup, state, workspace); }
@@ -91,8 +93,23 @@ std::map<std::int64_t, std::size_t> numbers_of(const State& s) {
 
 /// Every kept field of the first process's whole state.
 void expect_same_state(const Started& alone, Started& part) {
+  Share& share = part.workspace.share;
+  share.collect_window(part.state.wall_loads);
   State whole = part.state;
-  part.workspace.share.gather(part.state, whole);
+  const std::size_t count = share.of_all(0);
+  resize_columns(whole, count);
+  std::uint64_t number = 0;
+  const auto read = [&]<class Member>(const FieldInfo& field, Member& member) {
+    if constexpr (!std::is_arithmetic_v<Member>) {
+      if (!field.of_particles) return;
+      // In two pieces.
+      auto* const to = reinterpret_cast<std::byte*>(member.data());
+      const std::size_t half = count / 2;
+      share.read(part.state, {number, 0, half}, to);
+      share.read(part.state, {number++, half, count - half}, to + half * sizeof(member[0]));
+    }
+  };
+  for_each_field(read, whole);
   if (!processes().is_first()) return;
   std::vector<std::string> fields;
   const auto write = [&]<class Member>(const FieldInfo& field, const Member& member) {
