@@ -174,12 +174,16 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
     for (std::vector<double>* const column : carried) rows.add(*column);
     return rows;
   };
-  // Sends rows of particles, and puts what comes behind those that are here.
-  const auto append = [&](const ByRank& to) {
+  // Sends rows of particles, and puts what comes behind those that stay, for which there is room in between.
+  const auto append = [&](const ByRank& to, const std::vector<std::uint32_t>* stay) {
     Rows rows = rows_for(place_.size());
     std::unique_ptr<Plan> plan = ranks_.plan(to.counts());
     std::vector<std::uint64_t> got(rows.width() * plan->received());
-    plan->exchange(rows.of(to.all()).data(), rows.width(), got.data());
+    {
+      const std::vector<std::uint64_t> going = rows.of(to.all());
+      if (stay && stay->size() < place_.size()) rows.take(*stay), rows_for(stay->size());
+      plan->exchange(going.data(), rows.width(), got.data());
+    }
     const std::size_t before = place_.size();
     rows = rows_for(before + plan->received());
     for (std::size_t n = 0; n < plan->received(); ++n) rows.put(got, n, before + n);
@@ -187,19 +191,16 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
   };
 
   ByRank leaving(ranks_);
-  std::vector<std::uint32_t> order;  // those that stay, then those that come
+  std::vector<std::uint32_t> stay;
   const std::vector<int> owner = owners(s);
   for (std::size_t i = 0; i < owner.size(); ++i)
-    owner[i] == ranks_.rank() ? order.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
-  append(leaving);
-  for (std::size_t i = owner.size(); i < place_.size(); ++i) order.push_back(static_cast<std::uint32_t>(i));
-  if (order.size() < place_.size()) rows_for(place_.size()).take(order);
-  const std::size_t own = order.size();
-  rows_for(own);
+    owner[i] == ranks_.rank() ? stay.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
+  append(leaving, &stay);
+  const std::size_t own = place_.size();
 
   const ByRank copied = halo_of_others(s, domain);
-  std::unique_ptr<Plan> plan = append(copied);
-  order = by_place(own);
+  std::unique_ptr<Plan> plan = append(copied, nullptr);
+  const std::vector<std::uint32_t> order = by_place(own);
   rows_for(place_.size()).take(order);
   std::vector<std::uint32_t> number(order.size()), sent = copied.all(), received;
   for (std::size_t n = 0; n < order.size(); ++n) number[order[n]] = static_cast<std::uint32_t>(n);
