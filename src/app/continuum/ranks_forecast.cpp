@@ -21,6 +21,7 @@ constexpr double of_message_to_all = 3e-6;   // s, for each doubling of the proc
 constexpr double of_deposited_cell = 30e-9;  // s a step of the air: 32 bytes to all
 constexpr double uneven = 1.05;              // the largest work over the mean
 constexpr double libraries = 47e6;           // of talus-mpi, bytes
+constexpr double of_particle = 1250;         // bytes
 
 PartOfBed largest_part(std::array<double, 3> sides, std::array<int, 3> cuts, int parts, double reach) {
   if (parts == 1) {
@@ -76,8 +77,9 @@ Lines forecast_on_ranks(const continuum::Setup& setup, double end, const AirOfSt
                          2 * of_message_to_all * std::log2(ranks) + of_deposited_cell * f.cells * air.deposits;
   const double efficiency = step / (ranks * on_each);
   const double least = f.settling_steps + f.flow_steps, most = f.max_settling_steps + f.flow_steps;
-  const double of_one = continuum::memory_of(f);
-  const double memory = libraries + 900 * f.cells + (of_one - 900 * f.cells) * (part.owned + part.copies) / f.particles;
+  // Every process has the vessel.
+  const double memory =
+      libraries + of_particle * (part.owned + part.copies) + 900 * f.cells + 350 * f.wall_points + 400 * f.triangles;
   Lines lines = {{"particles", fmt::format("{:.3g} on each, with copies of {:.3g} others on the largest ({:.0f} %)",
                                            f.particles / ranks, part.copies, 100 * part.copies / part.owned)},
                  {"step", fmt::format("{:.3g} ms in place of {:.3g} ms on one process: efficiency {:.2f}",

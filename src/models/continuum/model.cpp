@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "base/exact_sum.hpp"
@@ -22,8 +21,7 @@ namespace talus::continuum {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t piece = std::size_t{1} << 16;  // particles that the first process reads at a time
-constexpr double notable_share = 0.1;                // of the particles: fewer are the edge of a stream
+constexpr double notable_share = 0.1;  // of the particles: fewer are the edge of a stream
 
 /// Whether Eqs 13 and 14 are used at rates beyond those for which the paper has them.
 RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions, const RunRecord& record) {
@@ -160,17 +158,6 @@ Continuum::AtEnd Continuum::find_at_end() const {
           .particles = share.of_all(s.position.size())};
 }
 
-std::optional<ColumnSource> Continuum::column_of_all(const FieldInfo& field, ColumnSource::Kind kind,
-                                                     std::uint64_t number) const {
-  if (ranks_.is_alone()) return std::nullopt;
-  return ColumnSource{std::string(field.name), std::string(field.unit), kind,
-                      [this, number](std::size_t first, std::size_t count, std::byte* to) {
-                        const ColumnPiece wanted{number, first, count};
-                        announce_(wanted);
-                        workspace_->share.read(state_, wanted, to);
-                      }};
-}
-
 double Continuum::time_origin() const {
   return state_.gate_time >= 0 ? state_.gate_time : std::numeric_limits<double>::infinity();
 }
@@ -195,71 +182,6 @@ std::optional<std::string> Continuum::ended() const {
 
 NumericalError::Report Continuum::step_limit() const {
   return continuum::step_limit(*setup_, state_, *workspace_);
-}
-
-Snapshot Continuum::snapshot() const {
-  Snapshot snapshot;
-  if (domain().sector()) {
-    if (!whole_) whole_ = whole_of(part());
-    snapshot = whole_->view();
-    snapshot.domain = &*around_whole_;
-  } else {
-    snapshot = ranks_.is_alone() ? snapshot_of(state_) : part();
-    snapshot.domain = &domain();
-  }
-  return snapshot;
-}
-
-Snapshot Continuum::part() const {
-  if (!part_ && ranks_.is_alone()) part_ = part_of(state_, *domain().sector());
-  if (!part_) {
-    const PointSource all = stored();
-    part_ = points_of(all, 0, all.count);
-  }
-  return part_->view();
-}
-
-PointSource Continuum::stored() const {
-  const std::optional<Sector>& sector = domain().sector();
-  if (ranks_.is_alone()) return source_of(sector ? part() : snapshot());
-  PointSource all{state_.time, state_.step, workspace_->share.of_all(state_.position.size()), {}, {}};
-  std::uint64_t number = 0;
-  std::optional<ColumnSource> turns;
-  const auto collect = [&]<class Member>(const FieldInfo& field, const Member&) {
-    if constexpr (!std::is_arithmetic_v<Member>) {
-      if (!field.of_particles) return;
-      ColumnSource column = *column_of_all(field, kind_of<typename Member::value_type>, number++);
-      if (field.name == "sector_turns") turns = column;
-      if (field.in_snapshots) all.columns.push_back(std::move(column));
-    }
-  };
-  for_each_field(collect, state_);
-  if (!sector) return all;
-  all.copies = copies_of(state_, *sector);
-  for (ColumnSource& column : all.columns)
-    if (column.name == "identity")
-      column.read = [own = column.read, turns = turns->read, copies = *all.copies](std::size_t first, std::size_t count,
-                                                                                   std::byte* to) {
-        std::vector<std::int64_t> turned(count), identity(count);
-        turns(first, count, reinterpret_cast<std::byte*>(turned.data()));
-        own(first, count, reinterpret_cast<std::byte*>(identity.data()));
-        for (std::size_t i = 0; i < count; ++i) identity[i] = identity_in_whole(copies, identity[i], turned[i]);
-        std::memcpy(to, identity.data(), count * sizeof identity[0]);
-      };
-  return all;
-}
-
-void Continuum::visit(std::span<const std::string> columns, const std::function<void(const Snapshot&)>& take) const {
-  if (ranks_.is_alone() || domain().sector()) return take(snapshot());
-  const PointSource all = stored();
-  std::size_t first = 0;
-  do {
-    const PointSet points = points_of(all, first, std::min(piece, all.count - first), columns);
-    Snapshot some = points.view();
-    some.domain = &domain();
-    take(some);
-    first += piece;
-  } while (first < all.count);
 }
 
 std::vector<NamedValue> Continuum::totals() const {
