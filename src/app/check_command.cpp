@@ -39,7 +39,7 @@ struct Subject {
   const CaseOptions& options;
   const CaseFile& file;
   const PreparedCase& prepared;
-  int threads;
+  int threads, ranks;
   std::size_t key;  ///< columns of the longest key, or name
 };
 
@@ -267,23 +267,34 @@ void print_start(const Subject& s) {
     print("  {:{}}  {}\n", name, s.key, wrapped(text, terminal_width(), s.key + 4, s.key + 4));
 }
 
+void print_on_ranks(const Subject& s) {
+  if (s.ranks == 1) return;
+  ThreadTeam team(s.threads);
+  print("\nOn {} processes (modelled from the speed measured on this machine now, {} thread{} each):\n", s.ranks,
+        s.threads, s.threads == 1 ? "" : "s");
+  for (const auto& [name, text] : s.prepared.on_ranks(team, s.prepared.measure_evaluation(team), s.ranks))
+    print("  {:{}}  {}\n", name, s.key, wrapped(text, terminal_width(), s.key + 4, s.key + 4));
+}
+
 using Section = void (*)(const Subject&);
-constexpr Section in_short[] = {print_given, print_following, print_start, print_warnings, print_forecast};
-constexpr Section in_full[] = {print_every_key, print_scales, print_start, print_warnings, print_forecast};
+constexpr Section in_short[] = {print_given,    print_following, print_start,
+                                print_warnings, print_forecast,  print_on_ranks};
+constexpr Section in_full[] = {print_every_key, print_scales,   print_start,
+                               print_warnings,  print_forecast, print_on_ranks};
 
 /// \param picture of walls and bed at the start, none if empty
-ExitStatus check(const CaseOptions& options, int threads, bool all, const std::string& picture) {
+ExitStatus check(const CaseOptions& options, int threads, int ranks, bool all, const std::string& picture) {
   if (std::filesystem::is_directory(options.path)) return check_folder(options.path);
   const CaseFile file = options.read();
   const PreparedCase prepared = prepare_case(file);
-  check_memory(prepared, file);
+  ranks > 1 ? check_ranks(prepared, file, ranks) : check_memory(prepared, file);
   const std::filesystem::path drawn = picture.empty() ? std::filesystem::path() : read_out(picture, {".png"});
   if (!picture.empty() && !prepared.draw_start)
     throw InputError({{.where = "--picture " + picture,
                        .what = fmt::format("the model {} has no bed", prepared.model),
                        .allowed = "a case of the model continuum"}});
 
-  Subject subject{options, file, prepared, threads, std::string_view("from the material").size()};
+  Subject subject{options, file, prepared, threads, ranks, std::string_view("from the material").size()};
   for (const NamedValue& group : prepared.groups) subject.key = std::max(subject.key, group.name.size());
   if (all)
     for (const DescribedParameter& item : prepared.parameters.that_hold())
@@ -303,7 +314,7 @@ ExitStatus check(const CaseOptions& options, int threads, bool all, const std::s
 void add_check_command(CLI::App& app, Action& action) {
   struct Options {
     CaseOptions case_options;
-    int threads = 1;
+    int threads = 1, ranks = 1;
     bool all = false;
     std::string picture;
   };
@@ -312,6 +323,9 @@ void add_check_command(CLI::App& app, Action& action) {
       "check", "check a case: all problems at once, or what follows from it and a forecast; or the files of a run");
   options->case_options.add_to(*command);
   add_threads_option(*command, options->threads);
+  command->add_option("--ranks", options->ranks, "also what the run takes on so many processes, modelled")
+      ->check(CLI::Range(1, 1000000))
+      ->default_str("1");
   command->add_flag("--all", options->all, "every key in SI, with its default, where it is from and what it means");
   command->add_option("--picture", options->picture, "PNG file for sections of walls and bed at the start")
       ->type_name("FILE.png");
@@ -321,7 +335,9 @@ void add_check_command(CLI::App& app, Action& action) {
       "In place of CASE the folder of a run, or one that holds runs: compares their series and snapshots with the\n"
       "checksums that were written with them; exit status 4 if one has changed.");
   command->callback([options, &action] {
-    action = [options] { return check(options->case_options, options->threads, options->all, options->picture); };
+    action = [options] {
+      return check(options->case_options, options->threads, options->ranks, options->all, options->picture);
+    };
   });
 }
 

@@ -91,6 +91,17 @@ void add_man_command(CLI::App& app, Action& action) {
   });
 }
 
+CLI::Option* add_launch_options(CLI::App& command, std::string& launch, std::vector<std::string>& of_sbatch,
+                                const std::string& text) {
+  auto* option =
+      command.add_option("--launch", launch, text)->check(CLI::IsMember({"here", "slurm"}))->default_str("here");
+  command.add_option("--slurm", of_sbatch, "an option of sbatch: --slurm=--time=2:00:00; may be repeated")
+      ->type_name("OPTION")
+      ->allow_extra_args(false)
+      ->needs(option);
+  return option;
+}
+
 std::vector<std::string> words_of(const CLI::App& command) {
   std::vector<std::string> words, places{"--"};
   for (const CLI::Option* option : command.get_options()) {

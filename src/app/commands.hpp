@@ -14,7 +14,8 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming)
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace talus::app {
 
@@ -63,6 +64,10 @@ void add_out_option(CLI::App& command, std::string& out, const std::string& text
 
 /// Adds --threads N with the number of processors as default.
 void add_threads_option(CLI::App& command, int& threads);
+
+/// Adds --launch here or slurm, which is returned, and --slurm OPTION for sbatch.
+CLI::Option* add_launch_options(CLI::App& command, std::string& launch, std::vector<std::string>& of_sbatch,
+                                const std::string& text);
 
 /// What a command was given, checked: --NAME, --NAME=VALUE, positional values after "--".
 std::vector<std::string> words_of(const CLI::App& command);

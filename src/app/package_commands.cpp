@@ -286,15 +286,8 @@ void add_ensemble_command(CLI::App& app, Action& action) {
   command->add_option("--plot", options->texts, "quantities that sweep.png shows; those that differ if not given")
       ->delimiter(',')
       ->type_name("NAME,...");
-  auto* launch = command
-                     ->add_option("--launch", options->text,
-                                  "where the members run: here, or slurm: as an array job, gathered by another")
-                     ->check(CLI::IsMember({"here", "slurm"}))
-                     ->default_str("here");
-  command->add_option("--slurm", options->texts, "an option of sbatch: --slurm=--time=2:00:00; may be repeated")
-      ->type_name("OPTION")
-      ->allow_extra_args(false)
-      ->needs(launch);
+  auto* launch = add_launch_options(*command, options->text, options->texts,
+                                    "where the members run: here, or slurm: as an array job, gathered by another");
   command->add_flag("--gather", options->flag, "run nothing: tables and pictures of the members that are done")
       ->excludes(resume)
       ->excludes(launch);

@@ -12,6 +12,7 @@
 
 #include "app/commands.hpp"
 #include "app/models/models.hpp"
+#include "app/project/project.hpp"
 #include "app/runs/refinement.hpp"
 #include "app/runs/run_case.hpp"
 #include "base/text.hpp"
@@ -29,7 +30,9 @@ namespace {
 struct RunOptions {
   CaseOptions case_options;
   RunRequest request;
-  std::string out;
+  std::string out, launch;
+  std::vector<std::string> of_sbatch;
+  int nodes = 1;
   bool resume = false, overwrite = false, refine = false, threads_given = false;
 };
 
@@ -63,11 +66,7 @@ PreparedCase prepare_together(const RunOptions& options, const RunRequest& reque
     CaseFile file = options.case_options.read();
     if (options.resume) keep_snapshot_interval(file, request.folder);
     prepared = prepare_case(file);
-    if (!prepared->make_part) {
-      ParameterReader reader(file);
-      reader.check({prepared->only_alone});
-      reader.throw_problems();
-    }
+    check_ranks(*prepared, file, ranks.size());
   } catch (const std::exception& fault) {
     error = std::current_exception();
     told = fmt::format("process {}: {}\n", ranks.rank(), fault.what());
@@ -116,6 +115,14 @@ ExitStatus run_together(const RunOptions& options, RunRequest request, const Ran
   return ExitStatus::done;
 }
 
+/// The case is checked here, so that no job waits for a case that cannot run.
+ExitStatus launch(const CaseOptions& options, int nodes, const std::vector<std::string>& words) {
+  const CaseFile file = options.read();
+  const PreparedCase prepared = prepare_case(file);
+  if (nodes > 1) check_ranks(prepared, file, nodes);
+  return become_package("launch", words);
+}
+
 ExitStatus run(const RunOptions& options, const Ranks& ranks) {
   RunRequest request = options.request;
   request.folder =
@@ -147,21 +154,36 @@ void add_run_command(CLI::App& app, Action& action, const Ranks& ranks) {
   add_out_option(*command, options->out, "folder of the results; results/NAME of the case if not given");
   add_threads_option(*command, options->request.threads);
   auto* resume = command->add_flag("--resume", options->resume, "go on with the run in the folder");
-  command->add_flag("--overwrite", options->overwrite, "replace the run in the folder")->excludes(resume);
-  command->add_flag("--dry-run", options->request.dry_run, "read and check the case, build its start, write nothing");
-  command->add_flag("--refine", options->refine,
-                    "run it again with bed.spacing divided by 1.5, in the folder DIR-refined, and extrapolate");
+  auto* overwrite =
+      command->add_flag("--overwrite", options->overwrite, "replace the run in the folder")->excludes(resume);
+  auto* dry_run = command->add_flag("--dry-run", options->request.dry_run,
+                                    "read and check the case, build its start, write nothing");
+  auto* refine =
+      command->add_flag("--refine", options->refine,
+                        "run it again with bed.spacing divided by 1.5, in the folder DIR-refined, and extrapolate");
   command
       ->add_option("--walltime", options->request.walltime,
                    "leave with a checkpoint after so many seconds of wall time")
       ->check(CLI::PositiveNumber);
+  auto* launched = add_launch_options(*command, options->launch, options->of_sbatch,
+                                      "where it runs: here, or slurm: as a job, one process a node")
+                       ->excludes(overwrite)
+                       ->excludes(dry_run)
+                       ->excludes(refine);
+  command->add_option("--nodes", options->nodes, "of the job")
+      ->check(CLI::Range(1, 100000))
+      ->default_str("1")
+      ->needs(launched);
   command->footer(
       "The folder holds manifest.json, series.csv, snapshots/*.vtkhdf (ParaView), checkpoints, analysis/, pictures/,\n"
       "summary.json and log.txt. Ctrl-C, SIGTERM, a file `stop` in the folder and --walltime end the run with a\n"
       "checkpoint (exit status 130); --resume goes on bitwise identically.");
   command->callback([options, command, &action, &ranks] {
     options->threads_given = command->count("--threads") > 0;
-    action = [options, &ranks] { return run(*options, ranks); };
+    action = [options, command, &ranks] {
+      return options->launch == "slurm" ? launch(options->case_options, options->nodes, words_of(*command))
+                                        : run(*options, ranks);
+    };
   });
 }
 

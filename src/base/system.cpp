@@ -58,6 +58,12 @@ double free_address_space() {
   return static_cast<double>(limit.rlim_cur) - pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+double seconds_of(clockid_t clock) {
+  timespec t{};
+  clock_gettime(clock, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
 }  // namespace
 
 std::optional<double> available_memory() {
@@ -93,9 +99,11 @@ std::string search_path() {
 }  // namespace
 
 double processor_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double processor_seconds_of_thread() {
+  return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
 int processors() {

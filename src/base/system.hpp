@@ -23,6 +23,9 @@ double processor_seconds();
 /// Processors of this machine, at least 1.
 int processors();
 
+/// Processor time that the calling thread has taken, s.
+double processor_seconds_of_thread();
+
 /// The programs of this name (ffmpeg, sbatch, python3) in the folders of PATH that may be executed, in the order of the
 /// folders. An empty entry of PATH is passed over: what lies in the current folder is not run. Without a PATH, those of
 /// the system's own.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/checkpoint.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "base/error.hpp"
@@ -16,8 +18,9 @@ namespace {
 constexpr int format = 1;
 constexpr std::size_t user_block = 512;  // HDF5 looks for its signature at 0, 512, 1024, ...
 
-std::string checksum_line(std::string_view head, std::string_view content) {
-  return fmt::format("crc32 {:08x}\n", checksum(content, checksum(head)));
+/// Of the lines before it and what stands behind the user block.
+std::string checksum_line(std::uint32_t sum) {
+  return fmt::format("crc32 {:08x}\n", sum);
 }
 
 /// The lines before the checksum.
@@ -37,8 +40,13 @@ std::optional<std::uint64_t> take_number(std::string_view& text, std::string_vie
 }
 
 /// \returns the sequence number of a whole checkpoint; nothing if it is damaged, `damage` then says how
-std::optional<std::uint64_t> verify(std::string_view content, std::string& damage) {
-  std::string_view rest = content.substr(0, user_block);
+/// \throws FileError if it cannot be read
+std::optional<std::uint64_t> verify(const std::filesystem::path& path, std::string& damage) {
+  Descriptor file(path.string(), O_RDONLY);
+  std::array<char, user_block> front{};
+  std::size_t length = 0;
+  while (const std::size_t got = file.read_some(front.data() + length, user_block - length)) length += got;
+  std::string_view rest(front.data(), length);
   const auto damaged = [&](std::string what) {
     damage = std::move(what);
     return std::nullopt;
@@ -52,10 +60,13 @@ std::optional<std::uint64_t> verify(std::string_view content, std::string& damag
   const auto sequence = take_number(rest, "sequence ");
   const auto bytes = take_number(rest, "bytes ");
   if (!found_format || !sequence || !bytes) return damaged("its first lines are damaged");
-  if (content.size() != user_block + *bytes)
-    return damaged(fmt::format("is {} bytes long in place of {}", content.size(), user_block + *bytes));
-  const std::string expected = checksum_line(head_of(*sequence, *bytes), content.substr(user_block));
-  if (!rest.starts_with(expected)) return damaged("does not have the checksum that was written with it");
+  std::uint32_t sum = checksum(head_of(*sequence, *bytes));
+  std::array<char, 1 << 16> buffer;
+  while (const std::size_t got = file.read_some(buffer.data(), buffer.size()))
+    sum = checksum({buffer.data(), got}, sum), length += got;
+  if (length != user_block + *bytes)
+    return damaged(fmt::format("is {} bytes long in place of {}", length, user_block + *bytes));
+  if (!rest.starts_with(checksum_line(sum))) return damaged("does not have the checksum that was written with it");
   return sequence;
 }
 
@@ -69,6 +80,11 @@ std::optional<std::size_t> newest(const std::array<std::optional<std::uint64_t>,
 
 CheckpointWriter::CheckpointWriter(std::string_view fingerprint) : file_("checkpoint") {
   file_.write("fingerprint", fingerprint);
+}
+
+void CheckpointWriter::column(std::size_t count, ColumnSource source) {
+  const std::string name = "state/" + source.name;
+  file_.write(name, count, std::move(source));
 }
 
 void CheckpointWriter::put(const std::string& name, const std::vector<double>& values, std::string_view unit) {
@@ -106,17 +122,20 @@ void expect(const hdf5::Reader& file, const std::string& name, Kind kind, std::s
 CheckpointReader::CheckpointReader(hdf5::Reader file, std::uint64_t sequence)
     : file_(std::move(file)), sequence_(sequence), fingerprint_(file_.text("fingerprint")) {}
 
-void CheckpointReader::get(const std::string& name, std::vector<double>& values) const {
+void CheckpointReader::get(const std::string& name, std::vector<double>& values,
+                           std::optional<hdf5::Entries> some) const {
   expect(file_, name, Kind::real, 1, 1);
-  values = file_.doubles(name);
+  values = file_.doubles(name, some);
 }
-void CheckpointReader::get(const std::string& name, std::vector<Vector3>& values) const {
+void CheckpointReader::get(const std::string& name, std::vector<Vector3>& values,
+                           std::optional<hdf5::Entries> some) const {
   expect(file_, name, Kind::real, 2, 3);
-  values = file_.vectors(name);
+  values = file_.vectors(name, some);
 }
-void CheckpointReader::get(const std::string& name, std::vector<std::int64_t>& values) const {
+void CheckpointReader::get(const std::string& name, std::vector<std::int64_t>& values,
+                           std::optional<hdf5::Entries> some) const {
   expect(file_, name, Kind::integer, 1, 1);
-  values = file_.integers(name);
+  values = file_.integers(name, some);
 }
 void CheckpointReader::get(const std::string& name, double& value) const {
   expect(file_, name, Kind::real, 0, 1);
@@ -138,7 +157,7 @@ CheckpointFiles::CheckpointFiles(std::filesystem::path folder) : folder_(std::mo
     if (error) throw FileError(path.string(), "cannot look for it: " + error.message());
     if (!exists) continue;
     std::string damage;
-    sequences_[i] = verify(read_whole_file(path), damage);
+    sequences_[i] = verify(path, damage);
     if (!damage.empty()) damages_.push_back(path.string() + ": " + damage);
   }
 }
@@ -147,12 +166,16 @@ void CheckpointFiles::save(const CheckpointWriter& checkpoint) {
   const std::optional<std::size_t> latest = newest(sequences_);
   const std::size_t target = latest ? 1 - *latest : 0;
   const std::uint64_t sequence = latest ? *sequences_[*latest] + 1 : 1;
-  std::string content = checkpoint.file_.image(user_block);
-  const std::string_view image = std::string_view(content).substr(user_block);
-  std::string head = head_of(sequence, image.size());
-  head += checksum_line(head, image);
-  std::copy(head.begin(), head.end(), content.begin());
-  write_atomically(folder_ / names[target], content);
+  const std::string head = head_of(sequence, checkpoint.file_.bytes());
+  write_atomically(folder_ / names[target], [&](Descriptor& file) {
+    file.write(std::string(user_block, '\0'));
+    std::uint32_t sum = checksum(head);
+    checkpoint.file_.each_piece([&](std::string_view piece) {
+      sum = checksum(piece, sum);
+      file.write(piece);
+    });
+    file.write_at(0, head + checksum_line(sum));
+  });
   sequences_[target] = sequence;
 }
 
@@ -162,9 +185,7 @@ std::optional<CheckpointReader> CheckpointFiles::load() const {
     if (damages_.empty()) return {};
     throw FileError(folder_.string(), fmt::format("holds no whole checkpoint: {}", fmt::join(damages_, "; ")));
   }
-  const std::filesystem::path path = folder_ / names[*latest];
-  const std::string content = read_whole_file(path);
-  return CheckpointReader(hdf5::Reader(std::string_view(content).substr(user_block), path), *sequences_[*latest]);
+  return CheckpointReader(hdf5::Reader(folder_ / names[*latest]), *sequences_[*latest]);
 }
 
 }  // namespace talus

@@ -26,8 +26,9 @@
 
 namespace talus {
 
-/// Collects a checkpoint in memory: a visitor for `for_each_field` that takes the kept fields, and named entries next
-/// to them. Values are copied at the call. Every member throws FileError for a name that is there already.
+/// Collects a checkpoint: a visitor for `for_each_field` that takes the kept fields, and named entries next to them.
+/// Columns of the state are read when it is saved, all else at the call. Every member throws FileError for a name that
+/// is there already.
 class CheckpointWriter {
  public:
   /// \param fingerprint of the case
@@ -36,8 +37,14 @@ class CheckpointWriter {
   /// for_each_field(writer, state)
   template <class T>
   void operator()(const FieldInfo& field, const T& member) {
-    if (field.role == FieldRole::kept) put("state/" + std::string(field.name), member, field.unit);
+    if (field.role != FieldRole::kept) return;
+    if constexpr (std::is_arithmetic_v<T>)
+      put("state/" + std::string(field.name), member, field.unit);
+    else
+      column(member.size(), source_of({field.name, field.unit, std::span(member)}));
   }
+  /// A column of the state.
+  void column(std::size_t count, ColumnSource source);
 
   /// Entries of the run and its observers; names are paths such as "run/rows".
   void put(const std::string& name, const std::vector<double>& values, std::string_view unit = {});
@@ -56,15 +63,27 @@ class CheckpointWriter {
 /// kind.
 class CheckpointReader {
  public:
+  /// One that was found whole.
+  explicit CheckpointReader(const std::filesystem::path& path) : CheckpointReader(hdf5::Reader(path), 0) {}
+
   /// for_each_field(reader, state): fills the kept fields
   template <class T>
   void operator()(const FieldInfo& field, T& member) const {
-    if (field.role == FieldRole::kept) get("state/" + std::string(field.name), member);
+    if (field.role != FieldRole::kept) return;
+    const std::string name = "state/" + std::string(field.name);
+    if constexpr (std::is_arithmetic_v<T>)
+      get(name, member);
+    else
+      get(name, member, field.of_particles ? part_ : std::nullopt);
   }
+  /// How many entries a column has.
+  std::size_t entries(const std::string& name) const { return file_.describe(name).entries(); }
+  /// From here on `for_each_field` gets these entries of the columns of particles alone.
+  void take_part(hdf5::Entries part) { part_ = part; }
 
-  void get(const std::string& name, std::vector<double>& values) const;
-  void get(const std::string& name, std::vector<Vector3>& values) const;
-  void get(const std::string& name, std::vector<std::int64_t>& values) const;
+  void get(const std::string& name, std::vector<double>& values, std::optional<hdf5::Entries> some = {}) const;
+  void get(const std::string& name, std::vector<Vector3>& values, std::optional<hdf5::Entries> some = {}) const;
+  void get(const std::string& name, std::vector<std::int64_t>& values, std::optional<hdf5::Entries> some = {}) const;
   void get(const std::string& name, double& value) const;
   void get(const std::string& name, std::uint64_t& value) const;
   void get(const std::string& name, std::string& text) const;
@@ -79,6 +98,7 @@ class CheckpointReader {
   CheckpointReader(hdf5::Reader file, std::uint64_t sequence);
 
   hdf5::Reader file_;
+  std::optional<hdf5::Entries> part_;
   std::uint64_t sequence_;
   std::string fingerprint_;
 };

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,9 @@ class Descriptor {
   /// \param flags of open(2); new files get the permissions that the umask leaves
   /// \param reported path that errors name; empty: `path`
   Descriptor(const std::string& path, int flags, const std::string& reported = {});
+  /// A file in memory (tmpfs; where there is none, of the folder for temporary files), which takes none where nothing
+  /// has been written. \param path its name, out: to be unlinked once it need not be opened again
+  static Descriptor in_memory(std::string& path, const std::string& reported);
   ~Descriptor();
   Descriptor(Descriptor&& other) noexcept
       : number_(std::exchange(other.number_, -1)), reported_(std::move(other.reported_)) {}
@@ -29,9 +33,12 @@ class Descriptor {
 
   int number() const { return number_; }
   void write(std::string_view bytes);
-  std::string read();               ///< from here to the end
-  void truncate(std::size_t size);  ///< truncates and continues there
-  void sync();                      ///< to the disk; a file system that cannot flush a folder is let be
+  void write_at(std::size_t place, std::string_view bytes);
+  void read_at(std::size_t place, char* to, std::size_t count) const;  ///< \throws FileError if there are fewer
+  std::size_t read_some(char* to, std::size_t most);  ///< the next bytes \returns how many; 0 at the end
+  std::string read();                                 ///< from here to the end
+  void truncate(std::size_t size);                    ///< truncates and continues there
+  void sync();  ///< to the disk; a file system that cannot flush a folder is let be
   void close();
 
  private:
@@ -59,6 +66,9 @@ enum class Flush { now, later };
 /// \throws FileError with the system's reason; the temporary is gone then and an older file at `path` is as it was
 ///         (only where flushing the folder fails, after the renaming, is it already the new one)
 void write_atomically(const std::filesystem::path& path, std::string_view content, Flush flush = Flush::now);
+/// The same with what a function writes to the file.
+void write_atomically(const std::filesystem::path& path, const std::function<void(Descriptor& file)>& write,
+                      Flush flush = Flush::now);
 
 /// \throws FileError with the system's reason
 std::string read_whole_file(const std::filesystem::path& path);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <atomic>
+#include <cstdio>
 
 #include "base/error.hpp"
 #include "io/file.hpp"
@@ -11,8 +11,7 @@ namespace talus::hdf5 {
 
 namespace {
 
-/// Where the memory grows in small steps; columns larger than this make it grow at once.
-constexpr std::size_t memory_increment = 1 << 16;
+constexpr std::size_t piece = std::size_t{1} << 20;  // bytes at a time, of a file's way to the disk
 
 /// Keeps the library from printing its stack of errors. The setting is each thread's own, so every member of Reader and
 /// Writer begins with it.
@@ -31,18 +30,6 @@ void silence() {
       },
       &reason);
   throw FileError(path.string(), what + ": " + reason);
-}
-
-/// Files that are opened with it are in memory only, distinguished by their names: see `unique_name`.
-Handle file_access_in_memory() {
-  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fapl_core(access.id(), memory_increment, false);
-  return access;
-}
-
-std::string unique_name() {
-  static std::atomic<unsigned long> count{0};
-  return "talus-memory-" + std::to_string(count++);
 }
 
 static_assert(sizeof(Vector3) == 3 * sizeof(double), "columns of vectors are written as n x 3 doubles");
@@ -65,7 +52,10 @@ Handle dataspace(std::span<const hsize_t> shape) {
 
 Writer::Writer(std::filesystem::path path) : path_(std::move(path)) {
   silence();
-  file_ = Handle(H5Fcreate(unique_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, file_access_in_memory().id()), H5Fclose);
+  std::string name;
+  memory_ = Descriptor::in_memory(name, path_.string());
+  file_ = Handle(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  std::remove(name.c_str());
   if (file_.id() < 0) fail(path_, "cannot be built in memory");
 }
 
@@ -77,22 +67,23 @@ void Writer::group(const std::string& name) {
   if (group.id() < 0) fail(path_, "cannot make group '" + name + "'");
 }
 
-void Writer::write_raw(const std::string& name, hid_t type, std::span<const hsize_t> shape, const void* values,
-                       std::string_view unit) {
+Handle Writer::write_raw(const std::string& name, hid_t type, std::span<const hsize_t> shape, const void* values,
+                         std::string_view unit) {
   silence();
   const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.id(), 1);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
+  // Room for what comes later.
+  H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
+  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
   const Handle space = dataspace(shape);
-  {
-    const Handle data(H5Dcreate2(file_.id(), name.c_str(), type, space.id(), link.id(), creation.id(), H5P_DEFAULT),
-                      H5Dclose);
-    const bool empty = std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
-    if (data.id() < 0 || (!empty && H5Dwrite(data.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
-      fail(path_, "cannot write '" + name + "'");
-  }
+  Handle data(H5Dcreate2(file_.id(), name.c_str(), type, space.id(), link.id(), creation.id(), H5P_DEFAULT), H5Dclose);
+  const bool none = values == nullptr || std::find(shape.begin(), shape.end(), hsize_t{0}) != shape.end();
+  if (data.id() < 0 || (!none && H5Dwrite(data.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0))
+    fail(path_, "cannot write '" + name + "'");
   if (!unit.empty()) attribute(name, "units", unit);
+  return data;
 }
 
 void Writer::write(const std::string& name, std::span<const double> values, std::string_view unit) {
@@ -158,15 +149,57 @@ void Writer::attribute(const std::string& object, const char* name, std::span<co
   attribute_raw(object, name, H5T_NATIVE_DOUBLE, values.size(), values.data());
 }
 
-std::string Writer::image(std::size_t front) const {
+void Writer::write(const std::string& name, std::size_t count, ColumnSource source) {
+  using Kind = ColumnSource::Kind;
+  const hid_t type = source.kind == Kind::integer ? H5T_NATIVE_INT64
+                     : source.kind == Kind::byte  ? H5T_NATIVE_UINT8
+                                                  : H5T_NATIVE_DOUBLE;
+  const std::array<hsize_t, 2> shape{count, 3};
+  const Handle data =
+      write_raw(name, type, std::span(shape).first(source.kind == Kind::vector ? 2 : 1), nullptr, source.unit);
+  if (count == 0) return;
+  const haddr_t at = H5Dget_offset(data.id());
+  if (at == HADDR_UNDEF) fail(path_, "has no room for '" + name + "'");
+  later_.push_back({static_cast<std::size_t>(at), count, std::move(source)});
+}
+
+std::size_t Writer::bytes() const {
   silence();
-  if (H5Fflush(file_.id(), H5F_SCOPE_LOCAL) < 0) fail(path_, "cannot be built in memory");
-  const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
-  if (size <= 0) fail(path_, "cannot be built in memory");
-  std::string image(front + static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file_.id(), image.data() + front, static_cast<std::size_t>(size)) != size)
+  hsize_t size = 0;
+  if (H5Fflush(file_.id(), H5F_SCOPE_LOCAL) < 0 || H5Fget_filesize(file_.id(), &size) < 0 || size == 0)
     fail(path_, "cannot be built in memory");
-  return image;
+  return size;
+}
+
+void Writer::each_piece(const std::function<void(std::string_view)>& take) const {
+  const std::size_t end = bytes();
+  std::string buffer(piece, '\0');
+  std::size_t at = 0;
+  const auto built_until = [&](std::size_t until) {
+    for (std::size_t count; at < until; at += count) {
+      count = std::min(piece, until - at);
+      memory_.read_at(at, buffer.data(), count);
+      take(std::string_view(buffer).substr(0, count));
+    }
+  };
+  std::vector<const Later*> in_order;
+  for (const Later& later : later_) in_order.push_back(&later);
+  std::sort(in_order.begin(), in_order.end(), [](const Later* a, const Later* b) { return a->at < b->at; });
+  for (const Later* const later : in_order) {
+    built_until(later->at);
+    const std::size_t each = later->source.entry_bytes(), most = piece / each;
+    for (std::size_t first = 0; first < later->count; first += most) {
+      const std::size_t count = std::min(most, later->count - first);
+      later->source.read(first, count, reinterpret_cast<std::byte*>(buffer.data()));
+      take(std::string_view(buffer).substr(0, count * each));
+    }
+    at = later->at + later->count * each;
+  }
+  built_until(end);
+}
+
+void Writer::save() const {
+  write_atomically(path_, [&](Descriptor& file) { each_piece([&](std::string_view bytes) { file.write(bytes); }); });
 }
 
 namespace {
@@ -196,15 +229,6 @@ Reader::Reader(std::filesystem::path path) : path_(std::move(path)) {
   silence();
   const Descriptor opened(path_.string(), 0);  // the system's reason is clearer than the library's
   file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (file_.id() < 0) fail(path_, "is not a whole HDF5 file");
-}
-
-Reader::Reader(std::string_view image, std::filesystem::path path) : path_(std::move(path)) {
-  silence();
-  const Handle access = file_access_in_memory();
-  // The library takes a pointer to changeable bytes, and copies them.
-  H5Pset_file_image(access.id(), const_cast<char*>(image.data()), image.size());
-  file_ = Handle(H5Fopen(unique_name().c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (file_.id() < 0) fail(path_, "is not a whole HDF5 file");
 }
 
@@ -258,40 +282,43 @@ Description Reader::describe(const std::string& name) const {
           .is_signed = kind == H5T_INTEGER && H5Tget_sign(type.id()) == H5T_SGN_2};
 }
 
-void Reader::read_raw(const std::string& name, hid_t type, void* values) const {
-  const Handle data = open(name);
-  if (H5Dread(data.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) fail(path_, "cannot read '" + name + "'");
+void Reader::read_raw(const std::string& name, hid_t type, void* values, std::optional<Entries> some) const {
+  const Handle data = open(name), space(H5Dget_space(data.id()), H5Sclose);
+  Handle memory;
+  if (some) {
+    const Description description = describe(name);
+    std::vector<hsize_t> first(description.shape.size(), 0), count(description.shape.begin(), description.shape.end());
+    first.at(0) = some->first, count.at(0) = some->count;
+    memory = dataspace(count);
+    if (H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, first.data(), nullptr, count.data(), nullptr) < 0)
+      fail(path_, "cannot read '" + name + "'");
+  }
+  if (H5Dread(data.id(), type, some ? memory.id() : H5S_ALL, some ? space.id() : H5S_ALL, H5P_DEFAULT, values) < 0)
+    fail(path_, "cannot read '" + name + "'");
 }
 
-namespace {
-
-std::size_t count(const Description& description) {
-  std::size_t product = 1;
-  for (const std::size_t extent : description.shape) product *= extent;
-  return product;
-}
-
-}  // namespace
-
-std::vector<double> Reader::doubles(const std::string& name) const {
-  std::vector<double> values(count(describe(name)));
-  read_raw(name, H5T_NATIVE_DOUBLE, values.data());
+template <class Entry>
+std::vector<Entry> Reader::read(const std::string& name, hid_t type, std::optional<Entries> some) const {
+  std::size_t count = sizeof(double);
+  for (const std::size_t extent : describe(name).shape) count *= extent;
+  std::vector<Entry> values(some ? some->count : count / sizeof(Entry));
+  if (!some || some->count > 0) read_raw(name, type, values.data(), some);
   return values;
 }
 
-std::vector<Vector3> Reader::vectors(const std::string& name) const {
+std::vector<double> Reader::doubles(const std::string& name, std::optional<Entries> some) const {
+  return read<double>(name, H5T_NATIVE_DOUBLE, some);
+}
+
+std::vector<Vector3> Reader::vectors(const std::string& name, std::optional<Entries> some) const {
   const Description description = describe(name);
   if (description.shape.size() != 2 || description.shape[1] != 3)
     throw FileError(path_.string(), "'" + name + "' is not n x 3 numbers");
-  std::vector<Vector3> values(description.shape[0]);
-  read_raw(name, H5T_NATIVE_DOUBLE, values.data());
-  return values;
+  return read<Vector3>(name, H5T_NATIVE_DOUBLE, some);
 }
 
-std::vector<std::int64_t> Reader::integers(const std::string& name) const {
-  std::vector<std::int64_t> values(count(describe(name)));
-  read_raw(name, H5T_NATIVE_INT64, values.data());
-  return values;
+std::vector<std::int64_t> Reader::integers(const std::string& name, std::optional<Entries> some) const {
+  return read<std::int64_t>(name, H5T_NATIVE_INT64, some);
 }
 
 std::uint64_t Reader::number(const std::string& name) const {

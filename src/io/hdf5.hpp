@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The little of HDF5 that Talus needs: files built in memory and files read, with columns, numbers and texts. Failures
-/// are exceptions that carry the library's own reason; the library prints nothing.
+/// The little of HDF5 that Talus needs: files written and read, with columns, numbers and texts. Failures are
+/// exceptions that carry the library's own reason; the library prints nothing.
 ///
-/// Files are built in memory (the library's core driver), because a disk that fills up while the library writes leaves
-/// it with a file that it can neither finish nor close; `write_atomically` takes the finished image to the disk. The
-/// price is memory for two copies of a file while it is written. Nothing is compressed: digits of positions and
-/// velocities are noise, and deflate with shuffle takes 4 times as long as writing to save a third.
+/// The library builds files in memory (a file of tmpfs), because a disk that fills up while it writes leaves it with a
+/// file that it can neither finish nor close. Columns that are read piece by piece have room in that file which takes
+/// no memory; what goes to the disk, in order and once, is the file with their pieces in that room. Nothing is
+/// compressed: digits of positions and velocities are noise, and deflate with shuffle takes 4 times as long as writing
+/// to save a third.
 #pragma once
 
 #include <hdf5.h>
@@ -13,6 +14,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +23,8 @@
 #include <vector>
 
 #include "base/vector.hpp"
+#include "io/file.hpp"
+#include "numerics/snapshot.hpp"
 
 namespace talus::hdf5 {
 
@@ -44,7 +49,7 @@ class Handle {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
-/// A file being built in memory. Names are paths ("PointData/radius"); groups on the way are made. Units go into the
+/// A file being built. Names are paths ("PointData/radius"); groups on the way are made. Units go into the
 /// attribute "units" of each data set. The same calls give the same bytes: no times are recorded.
 /// \throws FileError, from every member, naming the file it is meant for
 class Writer {
@@ -58,6 +63,8 @@ class Writer {
   void write(const std::string& name, std::span<const Vector3> values, std::string_view unit = {});
   void write(const std::string& name, std::span<const std::int64_t> values, std::string_view unit = {});
   void write(const std::string& name, std::span<const std::uint8_t> values);
+  /// A column of so many entries, which is read when the file is taken to the disk.
+  void write(const std::string& name, std::size_t count, ColumnSource source);
   /// Cells of a grid, in single precision: nz x ny x nx, or nz x ny x nx x 3. \param shape nz, ny, nx
   void write_grid(const std::string& name, const std::array<std::size_t, 3>& shape, std::span<const double> values,
                   std::string_view unit);
@@ -72,17 +79,27 @@ class Writer {
   void attribute(const std::string& object, const char* name, std::span<const std::int64_t> values);
   void attribute(const std::string& object, const char* name, std::span<const double> values);
 
-  /// The finished file.
-  /// \param front bytes left free before it (they hold '\0')
-  std::string image(std::size_t front = 0) const;
+  /// The length of the finished file; nothing is added to it then.
+  std::size_t bytes() const;
+  /// Hands over the finished file, from its first byte to the last, once.
+  void each_piece(const std::function<void(std::string_view piece)>& take) const;
+  /// Writes it to the path. \throws FileError as write_atomically
+  void save() const;
 
  private:
+  struct Later {
+    std::size_t at, count;  // byte of the file, entries
+    ColumnSource source;
+  };
   void attribute_raw(const std::string& object, const char* name, hid_t type, std::size_t count, const void* values);
-  void write_raw(const std::string& name, hid_t type, std::span<const hsize_t> shape, const void* values,
-                 std::string_view unit);
+  /// \param values none: they come later
+  Handle write_raw(const std::string& name, hid_t type, std::span<const hsize_t> shape, const void* values,
+                   std::string_view unit);
 
   std::filesystem::path path_;
+  Descriptor memory_;
   Handle file_;
+  std::vector<Later> later_;
 };
 
 /// What a data set holds.
@@ -96,14 +113,17 @@ struct Description {
   std::size_t components() const { return shape.size() < 2 ? 1 : shape[1]; }
 };
 
+/// Some entries of a column.
+struct Entries {
+  std::size_t first, count;
+};
+
 /// A file to read.
 /// \throws FileError, from every member, naming the file
 class Reader {
  public:
   /// Opens a file. \throws FileError if it cannot be opened or is not a (whole) HDF5 file
   explicit Reader(std::filesystem::path path);
-  /// Reads from an image in memory, which is copied. \param path used in messages only
-  Reader(std::string_view image, std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
   bool has(const std::string& name) const;
@@ -111,10 +131,10 @@ class Reader {
   std::vector<std::string> names(const std::string& group) const;
   Description describe(const std::string& name) const;
 
-  /// All entries in the file's order, converted to the type asked for.
-  std::vector<double> doubles(const std::string& name) const;
-  std::vector<Vector3> vectors(const std::string& name) const;  ///< of n x 3
-  std::vector<std::int64_t> integers(const std::string& name) const;
+  /// Entries in the file's order, converted to the type asked for: all, or some of a column.
+  std::vector<double> doubles(const std::string& name, std::optional<Entries> some = {}) const;
+  std::vector<Vector3> vectors(const std::string& name, std::optional<Entries> some = {}) const;  ///< of n x 3
+  std::vector<std::int64_t> integers(const std::string& name, std::optional<Entries> some = {}) const;
   std::uint64_t number(const std::string& name) const;
   std::string text(const std::string& name) const;
 
@@ -127,7 +147,9 @@ class Reader {
  private:
   template <class Number>
   std::vector<Number> attribute(const std::string& object, const char* name, hid_t type) const;
-  void read_raw(const std::string& name, hid_t type, void* values) const;
+  template <class Entry>
+  std::vector<Entry> read(const std::string& name, hid_t type, std::optional<Entries> some) const;
+  void read_raw(const std::string& name, hid_t type, void* values, std::optional<Entries> some = {}) const;
   Handle open(const std::string& name) const;
 
   std::filesystem::path path_;

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,21 +22,32 @@ namespace {
 const std::string root = "VTKHDF";
 constexpr std::uint8_t vtk_vertex = 1, vtk_triangle = 5;  // vtkCellType.h
 
-/// Type, version and cells, all of one kind. \param offsets where the points of each cell begin in `connectivity`, and
-/// where the last ends
-void write_cells(hdf5::Writer& file, std::size_t points, std::uint8_t cell_type, std::span<const std::int64_t> offsets,
-                 std::span<const std::int64_t> connectivity) {
-  const std::size_t cells = offsets.size() - 1;
+/// A column whose entries follow from their numbers.
+template <class Value>
+ColumnSource made(ColumnSource::Kind kind, Value&& value) {
+  using Entry = decltype(value(std::size_t{}));
+  return {{}, {}, kind, [value](std::size_t first, std::size_t count, std::byte* to) {
+            for (std::size_t n = 0; n < count; ++n) {
+              const Entry entry = value(first + n);
+              std::memcpy(to + n * sizeof entry, &entry, sizeof entry);
+            }
+          }};
+}
+
+/// Type, version and cells, all of one kind.
+/// \param offsets where the points of each cell begin in `connectivity`, and where the last ends
+void write_cells(hdf5::Writer& file, std::size_t points, std::uint8_t cell_type, std::size_t cells,
+                 std::size_t connections, ColumnSource offsets, ColumnSource connectivity) {
   const auto single = [](std::size_t n) { return std::vector<std::int64_t>{static_cast<std::int64_t>(n)}; };
   file.group(root);
   file.attribute(root, "Type", "UnstructuredGrid");
   file.attribute(root, "Version", std::vector<std::int64_t>{1, 0});
   file.write(root + "/NumberOfPoints", single(points));
   file.write(root + "/NumberOfCells", single(cells));
-  file.write(root + "/NumberOfConnectivityIds", single(connectivity.size()));
-  file.write(root + "/Offsets", offsets);
-  file.write(root + "/Connectivity", connectivity);
-  file.write(root + "/Types", std::vector<std::uint8_t>(cells, cell_type));
+  file.write(root + "/NumberOfConnectivityIds", single(connections));
+  file.write(root + "/Offsets", cells + 1, std::move(offsets));
+  file.write(root + "/Connectivity", connections, std::move(connectivity));
+  file.write(root + "/Types", cells, made(ColumnSource::Kind::byte, [cell_type](std::size_t) { return cell_type; }));
 }
 
 void write_time(hdf5::Writer& file, double time, std::uint64_t step) {
@@ -47,33 +58,24 @@ void write_time(hdf5::Writer& file, double time, std::uint64_t step) {
 
 }  // namespace
 
-void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
-  const std::size_t count = snapshot.size();
+void write_points(const std::filesystem::path& path, const PointSource& points) {
+  const std::size_t count = points.count;
   hdf5::Writer file(path);
-  std::vector<std::int64_t> numbers(count + 1);
-  std::iota(numbers.begin(), numbers.end(), 0);
-  write_cells(file, count, vtk_vertex, numbers, std::span(numbers).first(count));
+  const ColumnSource numbers =
+      made(ColumnSource::Kind::integer, [](std::size_t n) { return static_cast<std::int64_t>(n); });
+  write_cells(file, count, vtk_vertex, count, count, numbers, numbers);
 
   file.group(root + "/PointData");
-  for (const ColumnView& column : snapshot.columns) {
-    const std::string name = column.name == "position" ? "Points" : fmt::format("PointData/{}", column.name);
-    std::visit(
-        [&](const auto& values) {
-          if (values.size() != count)
-            throw std::invalid_argument(fmt::format("snapshot: column '{}' has {} entries for {} particles",
-                                                    column.name, values.size(), count));
-          file.write(root + "/" + name, values, column.unit);
-        },
-        column.values);
-  }
+  for (const ColumnSource& column : points.columns)
+    file.write(root + "/" + (column.name == "position" ? "Points" : "PointData/" + column.name), count, column);
 
-  write_time(file, snapshot.time, snapshot.step);
-  if (const auto& copies = snapshot.copies) {
+  write_time(file, points.time, points.step);
+  if (const auto& copies = points.copies) {
     file.write(root + "/FieldData/sector_copies", std::vector<std::int64_t>{copies->count}, "1");
     file.write(root + "/FieldData/sector_axis", std::vector<Vector3>{copies->axis}, "m");
     file.write(root + "/FieldData/sector_identities", std::vector<std::int64_t>{copies->identities}, "1");
   }
-  write_atomically(path, file.image());
+  file.save();
 }
 
 namespace {
@@ -242,7 +244,9 @@ void write_surface(const std::filesystem::path& path, const SurfaceSnapshot& sna
     connectivity.insert(connectivity.end(), corners.begin(), corners.end());
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   }
-  write_cells(file, snapshot.points.size(), vtk_triangle, offsets, connectivity);
+  const auto source = [](const std::vector<std::int64_t>& numbers) { return source_of({{}, {}, std::span(numbers)}); };
+  write_cells(file, snapshot.points.size(), vtk_triangle, snapshot.triangles.size(), connectivity.size(),
+              source(offsets), source(connectivity));
   file.write(root + "/Points", snapshot.points, "m");
   file.group(root + "/CellData");
   for (const GridSnapshot::Column& column : snapshot.columns)
@@ -255,7 +259,7 @@ void write_surface(const std::filesystem::path& path, const SurfaceSnapshot& sna
         },
         column.values);
   write_time(file, snapshot.time, snapshot.step);
-  write_atomically(path, file.image());
+  file.save();
 }
 
 }  // namespace talus

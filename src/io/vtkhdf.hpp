@@ -22,7 +22,10 @@ namespace talus {
 /// Writes a snapshot, whole or not at all. The same snapshot gives the same bytes.
 /// \throws FileError with the system's reason
 /// \throws std::invalid_argument if columns differ in length (a fault of the model)
-void write_points(const std::filesystem::path& path, const Snapshot& snapshot);
+void write_points(const std::filesystem::path& path, const PointSource& points);
+inline void write_points(const std::filesystem::path& path, const Snapshot& snapshot) {
+  write_points(path, source_of(snapshot));
+}
 
 /// Reads an unstructured grid or poly data of one time, ours or another program's: points and data of points; cells are
 /// passed over. Reals of any width become doubles, integers 64 bits; columns of k components other than 3 become

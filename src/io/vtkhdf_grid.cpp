@@ -96,7 +96,7 @@ void write_grid(const std::filesystem::path& path, const GridSnapshot& snapshot)
           file.write_grid(point_data + "/" + column.name, shape, std::span(all), column.unit);
         },
         column.values);
-  write_atomically(path, file.image());
+  file.save();
 }
 
 GridSnapshot read_grid(const std::filesystem::path& path) {

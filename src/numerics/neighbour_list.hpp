@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ class NeighbourList {
   bool holds(ThreadTeam& team, std::span<const Vector3> position) const;
 
   std::span<const std::uint32_t> of(std::size_t i) const { return {neighbours_.data() + first_[i], length_[i]}; }
+
+  std::size_t pairs() const { return std::accumulate(length_.begin(), length_.end(), std::size_t{0}); }
 
   /// Behind each list the number of all points stands until a multiple of `padded_to` is reached, so that whole
   /// registers can be read.

@@ -63,6 +63,7 @@ class Neighbourhood {
   /// The neighbours of particle i, itself not among them, sorted: first particles, then ghosts, numbered from
   /// particles() on. All of them are visible, unless sight_may_change(i): then ask the domain about the undecided ones.
   std::span<const std::uint32_t> of(std::size_t i) const { return list_.of(i); }
+  std::size_t pairs() const { return list_.pairs(); }                          ///< listed, those with ghosts among them
   std::size_t first_ghost_of(std::size_t i) const { return first_ghost_[i]; }  ///< index into of(i)
   bool sight_may_change(std::size_t i) const { return sight_may_change_[i]; }
   /// Of each of of(i), whether its visibility is undecided; empty unless sight_may_change(i).

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -47,6 +48,49 @@ std::span<const std::int64_t> Snapshot::integers(std::string_view name) const {
 }
 bool Snapshot::has(std::string_view name) const {
   return std::any_of(columns.begin(), columns.end(), [&](const ColumnView& column) { return column.name == name; });
+}
+
+ColumnSource source_of(const ColumnView& column) {
+  return std::visit(
+      [&](const auto values) {
+        using Entry = std::remove_cv_t<typename decltype(values)::element_type>;
+        return ColumnSource{std::string(column.name), std::string(column.unit), kind_of<Entry>,
+                            [values](std::size_t first, std::size_t count, std::byte* to) {
+                              if (count > 0) std::memcpy(to, values.data() + first, count * sizeof(Entry));
+                            }};
+      },
+      column.values);
+}
+
+PointSource source_of(const Snapshot& snapshot) {
+  PointSource source{snapshot.time, snapshot.step, snapshot.size(), {}, snapshot.copies};
+  for (const ColumnView& column : snapshot.columns) {
+    const std::size_t entries = std::visit([](const auto& values) { return values.size(); }, column.values);
+    if (entries != source.count)
+      throw std::invalid_argument("snapshot: column '" + std::string(column.name) + "' has " + std::to_string(entries) +
+                                  " entries for " + std::to_string(source.count) + " particles");
+    source.columns.push_back(source_of(column));
+  }
+  return source;
+}
+
+PointSet points_of(const PointSource& source, std::size_t first, std::size_t count,
+                   std::span<const std::string> names) {
+  PointSet points{source.time, source.step, {}, source.copies};
+  for (const ColumnSource& column : source.columns) {
+    if (!names.empty() && std::find(names.begin(), names.end(), column.name) == names.end()) continue;
+    const auto add = [&](auto values) {
+      column.read(first, count, reinterpret_cast<std::byte*>(values.data()));
+      points.columns.push_back({column.name, column.unit, std::move(values)});
+    };
+    if (column.kind == ColumnSource::Kind::vector)
+      add(std::vector<Vector3>(count));
+    else if (column.kind == ColumnSource::Kind::real)
+      add(std::vector<double>(count));
+    else
+      add(std::vector<std::int64_t>(count));
+  }
+  return points;
 }
 
 Snapshot PointSet::view() const {

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -23,6 +26,24 @@ struct ColumnView {
   std::string_view unit;
   std::variant<std::span<const double>, std::span<const Vector3>, std::span<const std::int64_t>> values;
 };
+
+/// A column that is read piece by piece: it need not be anywhere as a whole.
+struct ColumnSource {
+  enum class Kind { real, vector, integer, byte };
+  std::string name, unit;
+  Kind kind = Kind::real;
+  /// Writes so many entries, from `first` on, to memory. Calls go from the first to the last, each entry once.
+  std::function<void(std::size_t first, std::size_t count, std::byte* to)> read;
+
+  std::size_t entry_bytes() const { return kind == Kind::byte ? 1 : kind == Kind::vector ? 24 : 8; }
+};
+/// Of a column of doubles, vectors or 64-bit integers.
+template <class Entry>
+inline constexpr ColumnSource::Kind kind_of = std::is_same_v<Entry, Vector3>  ? ColumnSource::Kind::vector
+                                              : std::is_same_v<Entry, double> ? ColumnSource::Kind::real
+                                                                              : ColumnSource::Kind::integer;
+/// Of a column that is as it is until the source has been read.
+ColumnSource source_of(const ColumnView& column);
 
 /// Says of columns that they are of one sector about an upright axis, of which the whole is so many copies
 ///(`whole_of`).
@@ -52,6 +73,25 @@ struct Snapshot {
   bool has(std::string_view name) const;
 };
 
+/// The same whose columns are read piece by piece: what is written to a file.
+struct PointSource {
+  double time = 0;
+  std::uint64_t step = 0;
+  std::size_t count = 0;
+  std::vector<ColumnSource> columns;  ///< each with `count` entries
+  std::optional<SectorCopies> copies = std::nullopt;
+};
+/// \throws std::invalid_argument if columns are not equally long
+PointSource source_of(const Snapshot& snapshot);
+
+/// Some entries of a column of the particles, which is counted among those that for_each_field names.
+struct ColumnPiece {
+  std::uint64_t column, first, count;
+};
+
+/// Hands over particles piece by piece, in their order; at least one piece, if an empty one.
+using Pieces = std::function<void(const std::function<void(const Snapshot& piece)>& take)>;
+
 /// Particles that own their columns: what is read from a file.
 struct PointSet {
   struct Column {
@@ -66,6 +106,10 @@ struct PointSet {
 
   Snapshot view() const;
 };
+
+/// Reads some particles of a source, of all columns or of those named.
+PointSet points_of(const PointSource& source, std::size_t first, std::size_t count,
+                   std::span<const std::string> names = {});
 
 /// Values in the cells of a regular grid: the air.
 struct GridSnapshot {

@@ -30,7 +30,9 @@ class Alone final : public Ranks {
  public:
   Alone() : Ranks(0, 1) {}
   void join(Votes&) const override {}
+  void add_up(std::span<double>) const override {}
   std::string gather(const std::string& own) const override { return own; }
+  std::string gather_at_first(const std::string& own) const override { return own; }
   void from_first(std::span<std::byte>) const override {}
   std::unique_ptr<Plan> plan(std::span<const std::size_t> counts) const override {
     return std::make_unique<NobodyElse>(counts[0]);

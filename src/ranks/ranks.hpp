@@ -79,8 +79,13 @@ class Ranks {
 
   /// Together: the votes of all.
   virtual void join(Votes& votes) const = 0;
+  /// Together: sums over all processes, place by place. \pre the terms of a sum are multiples of one power of two, and
+  /// their sums less than 2^53 times that: then they are integers, exact and of no order
+  virtual void add_up(std::span<double> sums) const = 0;
   /// Together: the bytes of all processes, in their order. For what is small.
   virtual std::string gather(const std::string& own) const = 0;
+  /// Together: the same at the first one alone; nothing elsewhere.
+  virtual std::string gather_at_first(const std::string& own) const = 0;
   /// Together: the first one's bytes, of the same number everywhere.
   virtual void from_first(std::span<std::byte> bytes) const = 0;
   /// Together. \param counts how many items go to each process

@@ -2,6 +2,7 @@
 /// Type erasure of models: `run` drives any model through these few virtual calls per step.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,7 @@ class AnyModel {
   virtual void begin(ThreadTeam& team) = 0;
   virtual void advance(ThreadTeam& team) = 0;
   virtual Snapshot snapshot() const = 0;                     ///< valid until the next step
-  virtual Snapshot stored() const = 0;                       ///< the same as files hold it: a sector once
+  virtual PointSource stored() const = 0;                    ///< the same as files hold it: a sector once
   virtual std::optional<GridSnapshot> grid() const = 0;      ///< of the air; nothing where there is none
   virtual std::optional<SurfaceSnapshot> walls() const = 0;  ///< of a vessel; nothing where there is none
   virtual std::vector<NamedValue> totals() const = 0;
@@ -39,8 +40,16 @@ class AnyModel {
   virtual void save(CheckpointWriter& checkpoint) const = 0;
   virtual void read(const CheckpointReader& checkpoint) = 0;  ///< the kept fields
   virtual void resume(ThreadTeam& team) = 0;                  ///< completes what was read
-  /// With several processes: makes the whole state at the first one, for what is asked until the next step.
+  /// The particles of snapshot(), piece by piece. \param columns that are asked for, positions among them
+  virtual void visit(std::span<const std::string> /*columns*/, const std::function<void(const Snapshot&)>& take) const {
+    take(snapshot());
+  }
+  // Several processes: see Continuum.
   virtual void gather() {}
+  virtual void lead(std::function<void(const ColumnPiece&)> /*announce*/) {}
+  virtual void send(const ColumnPiece& /*piece*/) {}
+  /// What each of them had to do, as gathered, in words for the log; empty of one process.
+  virtual std::string sharing() const { return {}; }
   void resume(ThreadTeam& team, const CheckpointReader& checkpoint) {
     read(checkpoint);
     resume(team);
@@ -70,11 +79,11 @@ class ModelAdapter final : public AnyModel {
     else
       return snapshot_of(model_.state());
   }
-  Snapshot stored() const override {
+  PointSource stored() const override {
     if constexpr (requires { model_.stored(); })
       return model_.stored();
     else
-      return snapshot();
+      return source_of(snapshot());
   }
   std::optional<GridSnapshot> grid() const override {
     if constexpr (requires { model_.grid(); }) return model_.grid();
@@ -87,16 +96,39 @@ class ModelAdapter final : public AnyModel {
   std::vector<NamedValue> totals() const override { return model_.totals(); }
   std::vector<RegimeLine> regime(const RunRecord& record) const override { return model_.regime(record); }
   void save(CheckpointWriter& checkpoint) const override {
-    if constexpr (requires { model_.whole_state(); })
-      for_each_field(checkpoint, model_.whole_state());
-    else
-      for_each_field(checkpoint, model_.state());
+    std::uint64_t number = 0;
+    const auto save = [&]<class Member>(const FieldInfo& field, const Member& member) {
+      if constexpr (!std::is_arithmetic_v<Member> && requires { model_.column_of_all(field, {}, number); })
+        if (field.of_particles)
+          if (auto column = model_.column_of_all(field, kind_of<typename Member::value_type>, number++)) {
+            if (field.role == FieldRole::kept) checkpoint.column(model_.particles(), std::move(*column));
+            return;
+          }
+      checkpoint(field, member);
+    };
+    for_each_field(save, model_.state());
   }
   void read(const CheckpointReader& checkpoint) override { for_each_field(checkpoint, model_.mutable_state()); }
   using AnyModel::resume;
   void resume(ThreadTeam& team) override { model_.resume(team); }
+  void visit(std::span<const std::string> columns, const std::function<void(const Snapshot&)>& take) const override {
+    if constexpr (requires { model_.visit(columns, take); })
+      model_.visit(columns, take);
+    else
+      AnyModel::visit(columns, take);
+  }
+  void lead(std::function<void(const ColumnPiece&)> announce) override {
+    if constexpr (requires { model_.lead(announce); }) model_.lead(std::move(announce));
+  }
+  void send(const ColumnPiece& piece) override {
+    if constexpr (requires { model_.send(piece); }) model_.send(piece);
+  }
   void gather() override {
     if constexpr (requires { model_.gather(); }) model_.gather();
+  }
+  std::string sharing() const override {
+    if constexpr (requires { model_.sharing(); }) return model_.sharing();
+    return {};
   }
 
  private:

@@ -11,16 +11,40 @@ Followers::~Followers() {
   if (!have_left_) ranks_.value_from_first(Order::leave);
 }
 
+namespace {
+
+/// Reads the share of this process in the particles of a checkpoint.
+void read_part(AnyModel& model, const std::filesystem::path& path, const Ranks& ranks) {
+  CheckpointReader checkpoint(path);
+  const std::size_t count = checkpoint.entries("state/position");
+  const auto border = [&](int n) {
+    return count * static_cast<std::size_t>(n) / static_cast<std::size_t>(ranks.size());
+  };
+  checkpoint.take_part({border(ranks.rank()), border(ranks.rank() + 1) - border(ranks.rank())});
+  model.read(checkpoint);
+}
+
+}  // namespace
+
 class LedModel final : public AnyModel {
  public:
-  LedModel(std::unique_ptr<AnyModel> model, Followers& followers) : model_(std::move(model)), followers_(followers) {}
+  LedModel(std::unique_ptr<AnyModel> model, Followers& followers) : model_(std::move(model)), followers_(followers) {
+    model_->lead([&ranks = followers.ranks_](const ColumnPiece& piece) {
+      ranks.value_from_first(Order::send);
+      ranks.value_from_first(piece);
+    });
+  }
 
   double time() const override { return model_->time(); }
   std::uint64_t step() const override { return model_->step(); }
   double time_origin() const override { return model_->time_origin(); }
   double latest_origin() const override { return model_->latest_origin(); }
   std::optional<std::string> ended() const override { return model_->ended(); }
-  NumericalError::Report step_limit() const override { return whole().step_limit(); }
+  NumericalError::Report step_limit() const override {
+    NumericalError::Report report{};
+    together(Order::limit, [&] { report = model_->step_limit(); });
+    return report;
+  }
   void begin(ThreadTeam& team) override {
     together(Order::begin, [&] { model_->begin(team); });
   }
@@ -28,17 +52,26 @@ class LedModel final : public AnyModel {
     together(Order::advance, [&] { model_->advance(team); });
   }
   Snapshot snapshot() const override { return whole().snapshot(); }
-  Snapshot stored() const override { return whole().stored(); }
+  PointSource stored() const override { return whole().stored(); }
   std::optional<GridSnapshot> grid() const override { return whole().grid(); }
   std::optional<SurfaceSnapshot> walls() const override { return whole().walls(); }
   std::vector<NamedValue> totals() const override { return whole().totals(); }
   std::vector<RegimeLine> regime(const RunRecord& record) const override { return whole().regime(record); }
   void save(CheckpointWriter& checkpoint) const override { whole().save(checkpoint); }
-  void read(const CheckpointReader& checkpoint) override { model_->read(checkpoint); }
+  void read(const CheckpointReader& checkpoint) override {
+    together(Order::read, [&] {
+      followers_.ranks_.gather(checkpoint.path().string());
+      read_part(*model_, checkpoint.path(), followers_.ranks_);
+    });
+  }
+  void visit(std::span<const std::string> columns, const std::function<void(const Snapshot&)>& take) const override {
+    whole().visit(columns, take);
+  }
   void resume(ThreadTeam& team) override {
     together(Order::resume, [&] { model_->resume(team); });
   }
   void gather() override { whole(); }
+  std::string sharing() const override { return whole().sharing(); }
 
  private:
   template <class Do>
@@ -56,7 +89,7 @@ class LedModel final : public AnyModel {
     is_whole_ = order == Order::gather;
   }
 
-  /// The model with the whole state, which is gathered once in a step.
+  /// The model that knows of all particles, for which it is gathered once in a step.
   const AnyModel& whole() const {
     if (!is_whole_ && !followers_.have_left_) together(Order::gather, [&] { model_->gather(); });
     return *model_;
@@ -82,6 +115,15 @@ void follow(AnyModel& model, ThreadTeam& team, const Ranks& ranks) {
         break;
       case Order::advance:
         model.advance(team);
+        break;
+      case Order::read:
+        read_part(model, ranks.gather({}), ranks);
+        break;
+      case Order::send:
+        model.send(ranks.value_from_first(ColumnPiece{}));
+        break;
+      case Order::limit:
+        model.step_limit();
         break;
       case Order::gather:
         model.gather();

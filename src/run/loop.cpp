@@ -87,9 +87,9 @@ class Clock {
 std::vector<NamedValue> row_of(const AnyModel& model, const std::vector<Observer>& observers) {
   std::vector<NamedValue> row = {{"time", "s", model.time()}, {"step", "1", static_cast<double>(model.step())}};
   for (NamedValue& value : model.totals()) row.push_back(std::move(value));
-  const Snapshot snapshot = model.snapshot();
-  for (const Observer& observe : observers)
-    for (NamedValue& value : observe(snapshot)) row.push_back(std::move(value));
+  for (const Observer& observer : observers)
+    for (NamedValue& value : observer.observe([&](const auto& take) { model.visit(observer.columns, take); }))
+      row.push_back(std::move(value));
   return row;
 }
 

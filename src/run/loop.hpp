@@ -16,8 +16,11 @@
 
 namespace talus::run {
 
-/// Evaluates the particles after every step; its values become columns of series.csv. The names never change.
-using Observer = std::function<std::vector<NamedValue>(const Snapshot&)>;
+/// Evaluates the particles; its values become columns of series.csv. The names never change.
+struct Observer {
+  std::vector<std::string> columns;  ///< that it asks for, positions among them
+  std::function<std::vector<NamedValue>(const Pieces& pieces)> observe;
+};
 
 /// The value shown in the progress line.
 struct Headline {

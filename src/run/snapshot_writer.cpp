@@ -31,7 +31,7 @@ void SnapshotWriter::keep_sum(std::size_t kind, const std::filesystem::path& pat
 
 void SnapshotWriter::write(const AnyModel& model) {
   const auto number = static_cast<int>(taken_);
-  if (const Snapshot particles = model.stored(); !particles.columns.empty()) {
+  if (const PointSource particles = model.stored(); !particles.columns.empty()) {
     const std::filesystem::path path = folder_.snapshot(number);
     write_points(path, particles);
     keep_sum(0, path);

@@ -2,6 +2,7 @@
 """Cases on several processes, as users start them. Skipped where the program was built without MPI."""
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -28,6 +29,9 @@ class Ranks(program.ProgramTest):
 
     def test_single_precision(self):
         self.check_same("hopper, vacuum, single precision", [(2, 1), (3, 1), (8, 1)])
+
+    def test_air(self):
+        self.check_same("hopper, air", [(2, 1), (3, 2)])
 
     def test_vessel(self):
         self.check_same("silo of round walls", [(2, 1), (3, 1), (8, 1)])
@@ -85,19 +89,37 @@ class Ranks(program.ProgramTest):
         found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "killed"))
         self.assertEqual(found, whole.split()[0])
 
+    def test_the_forecast_knows_the_copies(self):
+        case, settings = hash_ranks.CASES["hopper, vacuum"]
+        settings = {**settings, "bed.spacing": "2.5 mm", "run.end": "0.2 ms"}
+        for ranks in 2, 5:
+            run = hash_ranks.start(ranks, hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / f"{ranks}", case,
+                                                                  settings, 1))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found = float(re.search(r"\(of one ([\d.]+) %\)", (self.folder / f"{ranks}/log.txt").read_text())[1])
+            said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--set", "bed.spacing=2.5 mm", "--ranks",
+                              ranks).stdout
+            self.assertIn(f"On {ranks} processes (modelled", said)
+            expected = float(re.search(r"copies of .* \((\d+) %\)", said)[1])
+            self.assertLess(abs(expected - found), 0.35 * found, f"{ranks} processes")
+
+    def test_processes_that_a_case_cannot_have_are_refused_beforehand(self):
+        for case, ranks, words in (("niiya2020-circle", 2, "on one process only"), ("drum", 100000, "for 100000 processes")):
+            said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--ranks", ranks, status=2).stderr
+            self.assertIn(words, said)
+
     def test_hands_over(self):
         done = self.run_hopper(2, "talus", "handed")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("Done:"), 1)
 
     def test_refuses_what_runs_on_one_process(self):
-        for case, key in ("yuu2011-hopper-air", "air.enabled"), ("niiya2020-circle", "model"):
-            words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", case, {}, 1)
-            done = hash_ranks.start(2, words)
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(f"{key}: ", done.stderr)
-            self.assertIn("on one process only", done.stderr)
-            self.assertFalse((self.folder / "refused").exists())
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", "niiya2020-circle", {}, 1)
+        done = hash_ranks.start(2, words)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("model: ", done.stderr)
+        self.assertIn("on one process only", done.stderr)
+        self.assertFalse((self.folder / "refused").exists())
 
     def test_faults_are_said_once_with_their_status(self):
         self.assertEqual(self.run_hopper(2, "talus-mpi", "fault", "--set", "bed.spacing=-1 mm").returncode, 2)

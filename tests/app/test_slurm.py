@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ensembles as array jobs of Slurm: the scripts, run here task by task, give what an ensemble here gives. And the plot
-of a sweep."""
+"""Runs and ensembles as jobs of Slurm: the scripts, run here task by task, give what the same gives here. And the plot of
+a sweep."""
 import os
 import re
 import shutil
@@ -19,7 +19,7 @@ echo "1$(wc -l < "$SUBMITTED");cluster"
 
 
 class Slurm(ProgramTest):
-    def launch(self, *arguments, status=0, sbatch=SBATCH):
+    def launch(self, *arguments, status=0, sbatch=SBATCH, command="ensemble"):
         """With a fake sbatch, or none."""
         tools = self.folder / "tools"
         shutil.rmtree(tools, ignore_errors=True)
@@ -30,7 +30,7 @@ class Slurm(ProgramTest):
             (tools / "sbatch").write_text(sbatch)
             (tools / "sbatch").chmod(0o755)
         environment = {**os.environ, "PATH": str(tools), "SUBMITTED": str(self.folder / "submitted")}
-        return self.talus("ensemble", "case.toml", "--launch", "slurm", *arguments, status=status, env=environment)
+        return self.talus(command, "case.toml", "--launch", "slurm", *arguments, status=status, env=environment)
 
     def run_task(self, script, task):
         """What Slurm does with a task."""
@@ -74,6 +74,35 @@ class Slurm(ProgramTest):
         for member in (self.folder / "here").glob("*/seed_????"):
             self.assertEqual(bits(member), bits(self.folder / name / member.relative_to(self.folder / "here")))
         self.assertEqual(list((self.folder / name).glob("*/*.out")), sorted(slurm.glob("*.out")))
+
+    def test_a_run_as_a_job_that_goes_on_when_it_begins_again(self):
+        said = self.launch("--out", "it's 100%", "--nodes", 1, "--threads", 1, "--set", "output.pictures=false",
+                           "--slurm=--time=1:00:00", command="run").stdout
+        self.assertIn("Submitted a run on 1 node: 11", said)
+        script = self.folder / "it's 100%-slurm/job.sh"
+        self.assertEqual((self.folder / "submitted").read_text(), f"--parsable {script}\n")
+        directives = re.findall(r"^#SBATCH (.*)", script.read_text(), re.M)
+        for wanted in ("--nodes=1", "--ntasks-per-node=1", "--signal=USR1@120", "--time=1:00:00"):
+            self.assertIn(wanted, directives)
+        # In place of srun, which starts the processes.
+        srun = self.folder / "tools/srun"
+        srun.write_text('#!/bin/bash\n[[ $1 == --cpu-bind=none ]] && shift\nexec "$@"\n')
+        srun.chmod(0o755)
+        environment = {**os.environ, "PATH": f"{srun.parent}:{os.environ['PATH']}"}
+        for _ in range(2):
+            done = subprocess.run(["bash", script], env=environment, cwd="/", capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("resumed", (self.folder / "it's 100%/log.txt").read_text())
+        self.talus("run", "case.toml", "--out", "here", "--threads", 1)
+        self.assertEqual(bits(self.folder / "here"), bits(self.folder / "it's 100%"))
+        self.assertIn("is there already", self.launch("--out", "here", status=2, command="run").stderr)
+
+    def test_a_run_that_cannot_be_is_refused_before_it_waits(self):
+        said = self.launch("--out", "r", "--nodes", 4, command="run", status=2).stderr
+        self.assertIn("on one process only", said)
+        said = self.launch("--out", "r", "--set", "particles.count=-1", "--set", "run.end=-1 s", command="run", status=2)
+        self.assertIn("2 problems", said.stderr)
+        self.assertFalse((self.folder / "submitted").exists())
 
     def test_a_task_that_begins_again_resumes(self):
         self.launch("--out", "e", "--members", 1)

@@ -40,7 +40,7 @@ class Falling final : public AnyModel {
   Snapshot snapshot() const override {
     return {.time = time_, .step = step_, .columns = {{"position", "m", std::span<const Vector3>(position_)}}};
   }
-  Snapshot stored() const override { return snapshot(); }
+  PointSource stored() const override { return source_of(snapshot()); }
   std::optional<GridSnapshot> grid() const override { return std::nullopt; }
   std::optional<SurfaceSnapshot> walls() const override { return std::nullopt; }
   std::vector<NamedValue> totals() const override { return {{"z", "m", position_[0].z}}; }

@@ -29,7 +29,7 @@ class Moving final : public AnyModel {
   Snapshot snapshot() const override {
     return {.time = time_, .step = step_, .columns = {{"position", "m", std::span<const Vector3>(position_)}}};
   }
-  Snapshot stored() const override { return snapshot(); }
+  PointSource stored() const override { return source_of(snapshot()); }
   std::optional<GridSnapshot> grid() const override { return std::nullopt; }
   std::optional<SurfaceSnapshot> walls() const override { return std::nullopt; }
   std::vector<NamedValue> totals() const override { return {{"x", "m", position_[0].x}}; }

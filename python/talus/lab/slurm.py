@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The members of an ensemble as an array job of Slurm, one task each, and a job after them that gathers. Source: Slurm 22.05,
-"Job Array Support", https://slurm.schedmd.com/job_array.html"""
+"""Jobs of Slurm: one run on the processors of several nodes; the members of an ensemble as an array job, one task each, and
+a job after them that gathers. Source: Slurm 22.05, "sbatch" and "Job Array Support",
+https://slurm.schedmd.com/job_array.html"""
 import os
 import shutil
 import subprocess
@@ -51,6 +52,23 @@ echo "members: job $members; gathered by job ${{gather%%;*}}"
 """
 
 
+RUN = """#!/bin/bash
+# One run on several nodes. Written by talus run --launch slurm.
+#SBATCH --job-name=talus
+#SBATCH --nodes={nodes}
+#SBATCH --ntasks-per-node=1
+#SBATCH --exclusive
+#SBATCH --signal=USR1@120
+#SBATCH --output={output}
+#SBATCH --open-mode=append
+{options}cd {here} || exit 4
+
+# Goes on where the folder is there: a job that begins again, too. Each process takes its share of the node's processors.
+if [[ -e {folder} ]]; then set -- --resume; fi
+exec srun --cpu-bind=none {command} "$@"
+"""
+
+
 def _is_plain(text):
     return not any(ord(c) < 32 or ord(c) == 127 or c == '"' for c in text)
 
@@ -70,6 +88,35 @@ def check(options, folder):
         raise InputError(faults)
 
 
+def _directives(options):
+    """Behind those of a script: of an option that is given twice sbatch takes the second."""
+    return "".join(f"#SBATCH {option}\n" for option in options)
+
+
+def _submit(command, what):
+    """Runs a command that submits jobs, where there is sbatch. \param what it submits, in words"""
+    if not shutil.which("sbatch"):
+        say(f"There is no sbatch here. Where there is: {join(map(str, command))}")
+        return
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          check=False)
+    if done.returncode != 0:
+        raise RunError(f"{command[-1]}: sbatch refused: {done.stdout.strip()}")
+    say(f"Submitted {what}: {done.stdout.strip()}")
+
+
+def launch_run(folder, command, nodes, options):
+    """Submits a run, whose script and output go beside its folder. \param command the run's, the program first, without
+    --resume"""
+    job = Path(f"{os.path.abspath(folder)}-slurm")
+    ask("claim", folders=[job], files=[job / "job.out"])
+    write({job / "job.sh": RUN.format(nodes=nodes, output=_in_directive(job / "job.out"), options=_directives(options),
+                                      here=quote(os.getcwd()), folder=quote(str(folder)), command=join(command))})
+    _submit(["sbatch", "--parsable", str(job / "job.sh")], f"a run on {nodes} node{'s' * (nodes != 1)}")
+    say(f"Results: {folder}")
+    return DONE
+
+
 def _write_scripts(folder, members, gathering, at_once, options):
     """FOLDER/slurm/members.sh (the array job), gather.sh (the job after it) and submit.sh (what submits both), whose path is
     returned. A task whose folder is there resumes, so that a task may be requeued; Slurm tells it two minutes before its limit
@@ -82,7 +129,7 @@ def _write_scripts(folder, members, gathering, at_once, options):
                     for k, member in enumerate(members))
     write({slurm / "members.sh": MEMBERS.format(
         ensemble=slurm.parent, last=len(members) - 1, at_once=f"%{at_once}" if at_once else "", here=here, tasks=tasks,
-        output=_in_directive(slurm / "tasks.out"), options="".join(f"#SBATCH {option}\n" for option in options)),
+        output=_in_directive(slurm / "tasks.out"), options=_directives(options)),
            slurm / "gather.sh": GATHER.format(output=_in_directive(slurm / "gather.out"), here=here, command=join(gathering)),
            slurm / "submit.sh": SUBMIT.format(members=quote(str(slurm / "members.sh")),
                                               gather=quote(str(slurm / "gather.sh")))})
@@ -96,14 +143,6 @@ def launch(folder, runs, gathering, at_once, options):
     if not members:
         say(f"All {len(runs)} runs are done already; --gather makes the tables.")
         return DONE
-    submit = _write_scripts(folder, members, gathering, at_once, options)
-    if shutil.which("sbatch"):
-        done = subprocess.run(["/bin/bash", submit], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              text=True, check=False)
-        if done.returncode != 0:
-            raise RunError(f"{submit}: sbatch refused: {done.stdout.strip()}")
-        say(f"Submitted {len(members)} runs: {done.stdout.strip()}")
-    else:
-        say(f"There is no sbatch here. Where there is: bash {submit}")
+    _submit(["bash", str(_write_scripts(folder, members, gathering, at_once, options))], f"{len(members)} runs")
     say(f"Results: {folder}")
     return DONE

@@ -113,9 +113,6 @@ PreparedCase prepare_air(const CaseFile& file) {
   prepared.regime = air::regime_of_case(p);
   prepared.open = [p](const std::filesystem::path& folder) { return opened(p, folder); };
   prepared.make_model = [p] { return run::any_model(AirModel(p)); };
-  prepared.only_alone = {.key = "model",
-                         .what = "the air runs on one process only",
-                         .allowed = "\"continuum\", or one process: talus run without mpirun or srun"};
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_step(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };

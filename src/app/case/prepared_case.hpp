@@ -44,6 +44,8 @@ struct Forecast {
   double disk_bytes = 0;
 };
 
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
 struct PreparedCase {
   std::string model;
   std::int64_t seed = 0;
@@ -58,10 +60,11 @@ struct PreparedCase {
   std::function<std::unique_ptr<OpenedRun>(const std::filesystem::path& folder)> open;
   /// The initial state, ready for begin() or resume().
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
-  /// The part of the model that a process among several has. Null: it runs on one process only, and `only_alone` says
-  /// what asks for that.
+  /// The part of the model that a process among several has. Null: it runs on one process only.
   std::function<std::unique_ptr<run::AnyModel>(const Ranks& ranks)> make_part;
-  Problem only_alone;
+  double particles = 0;  ///< that several processes can share: so many processes are the most
+  /// What the run takes on several processes, modelled: lines of a name and a text. \param step seconds on one
+  std::function<Lines(ThreadTeam& team, double step, int ranks)> on_ranks;
   std::vector<run::Observer> observers;
   run::Headline headline;  ///< what the line of progress shows
   /// Dimensionless groups and scales, for `check` and the log.
@@ -69,7 +72,7 @@ struct PreparedCase {
   /// Whether the case keeps to what its laws assume: the lines of the validity report that are known before the run.
   std::vector<RegimeLine> regime;
   /// Where the particles lie at the start, for `check`: lines of a name and a text. None: there is nothing to say.
-  std::function<std::vector<std::pair<std::string, std::string>>()> start;
+  std::function<Lines()> start;
   /// Draws walls and particles at the start as a PNG. None: of no such model.
   std::function<void(const std::filesystem::path& path)> draw_start;
   Forecast forecast;

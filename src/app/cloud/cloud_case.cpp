@@ -254,11 +254,12 @@ PreparedCase prepare_cloud(const CaseFile& file) {
     return std::make_unique<CloudRun>(folder, study);
   };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
-  prepared.only_alone = {.key = "model",
-                         .what = "the cloud runs on one process only",
-                         .allowed = "\"continuum\", or one process: talus run without mpirun or srun"};
   const double layer = 2 * p.particles.radius;
-  prepared.observers = {[layer](const Snapshot& snapshot) { return observe_front(snapshot, layer); }};
+  prepared.observers = {{.columns = {"position"}, .observe = [layer](const Pieces& pieces) {
+                           std::vector<NamedValue> values;
+                           pieces([&](const Snapshot& all) { values = observe_front(all, layer); });
+                           return values;
+                         }}};
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
   prepared.too_large = [p](double available) { return too_large(p, available); };

@@ -18,6 +18,7 @@
 #include "app/continuum/continuum_pictures.hpp"
 #include "app/continuum/hand_formulas.hpp"
 #include "app/continuum/hopper_observers.hpp"
+#include "app/continuum/ranks_forecast.hpp"
 #include "app/continuum/shorter_runs.hpp"
 #include "app/continuum/vessel_fields.hpp"
 #include "app/continuum/wall_loads.hpp"
@@ -352,13 +353,13 @@ PreparedCase prepare_continuum(const CaseFile& file) {
     draw_bed(*setup, title, path);
   };
   prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
-  if (p.air.enabled)
-    prepared.only_alone = {.key = "air.enabled",
-                           .what = "with air a case runs on one process only",
-                           .allowed = "false, or one process: talus run without mpirun or srun"};
-  else
-    prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
-  prepared.observers = {[setup](const Snapshot& snapshot) { return observe_hopper(snapshot, *setup); }};
+  prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
+  prepared.particles = continuum::forecast(*setup, end).particles;
+  prepared.on_ranks = [setup, end](ThreadTeam& team, double step, int ranks) {
+    return forecast_on_ranks(*setup, end, air_of_step(*setup, team), step, ranks);
+  };
+  prepared.observers = {{.columns = {"position", "velocity", "density", "stress_zz", "strain"},
+                         .observe = [setup](const Pieces& pieces) { return observe_hopper(pieces, *setup); }}};
   prepared.forecast = forecast(*setup, read.run);
   prepared.measure_evaluation = [setup, end](ThreadTeam& team) { return measure_step(setup, end, team); };
   prepared.shortenings = [setup, end] { return shorter_runs(*setup, end); };

@@ -20,77 +20,85 @@ double spread_along_z(double distance, double h) {
   return (outer * outer * outer - 4 * inner * inner * inner) / (6 * h);
 }
 
-/// What passes each of several outlets of a vessel, near which it is, spread along z as that of all; empty of one
-/// alone.
-std::vector<NamedValue> rates_by_outlet(const Snapshot& snapshot, const continuum::Layout& layout) {
-  const std::vector<continuum::VesselOutlet>& outlets = layout.vessel_outlets;
+/// What passes each of several outlets of a vessel, near which it is, spread along z as that of all.
+void add_rates(const Snapshot& some, const continuum::Layout& layout, std::vector<NamedValue>& rates) {
   const double mass = layout.lattice.mass, spacing = layout.given.bed.spacing;
-  std::vector<NamedValue> rates;
-  if (outlets.size() < 2) return rates;
-  const auto position = snapshot.positions();
-  const auto velocity = snapshot.vectors("velocity");
-  for (const continuum::VesselOutlet& outlet : outlets) {
-    double rate = 0;
+  const auto position = some.positions();
+  const auto velocity = some.vectors("velocity");
+  for (std::size_t n = 0; n < rates.size(); ++n) {
+    const continuum::VesselOutlet& outlet = layout.vessel_outlets[n];
     for (std::size_t i = 0; i < position.size(); ++i) {
       const double above = position[i].z - outlet.middle.z;
       if (std::abs(above) < sph::support * spacing && outlet.is_beside(position[i], spacing))
-        rate -= mass * velocity[i].z * spread_along_z(above, spacing);
+        rates[n].value -= mass * velocity[i].z * spread_along_z(above, spacing);
     }
-    rates.push_back({"discharge_rate_" + outlet.name, "kg/s", rate});
   }
-  return rates;
 }
+
+/// Particles near slit and probe.
+struct Near {
+  std::vector<Vector3> position, velocity;
+  std::vector<double> density, stress, strain;
+};
 
 }  // namespace
 
-std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Layout& layout) {
+std::vector<NamedValue> observe_hopper(const Pieces& pieces, const continuum::Layout& layout) {
   const continuum::Parameters& p = layout.given;
-  const auto position = snapshot.positions();
-  const auto velocity = snapshot.vectors("velocity");
-  const auto density = snapshot.scalars("density");
   const double mass = layout.lattice.mass;
 
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double passed = 0, rate = 0, lowest = infinity, near_floor = 0;
   const auto& outlet = layout.outlet;
   const double plate = outlet ? outlet->height : p.plate.height.value_or(-infinity);
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const double z = position[i].z, above = z - plate;
-    if (above < 0) passed += mass;
-    if (std::abs(above) < sph::support * p.bed.spacing)
-      rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
-    lowest = std::min(lowest, z);
-    if (z < p.bed.spacing) near_floor += mass;
+  std::vector<NamedValue> by_outlet;
+  if (layout.vessel_outlets.size() > 1)
+    for (const continuum::VesselOutlet& one : layout.vessel_outlets)
+      by_outlet.push_back({"discharge_rate_" + one.name, "kg/s", 0});
+  Vector3 slit, probe;
+  double probe_above_slit = 0;
+  if (outlet) {
+    slit = {0.5 * (outlet->left + outlet->right), outlet->middle_y, outlet->height};
+    probe_above_slit = share_of_outlet * layout.outlet_width.value_or(0);
+    probe = slit + Vector3{0, 0, probe_above_slit};
   }
-  if (position.empty()) lowest = std::nan("");
-  const std::vector<NamedValue> by_outlet = rates_by_outlet(snapshot, layout);
+  Near near;
+  const Domain* domain = nullptr;
+  pieces([&](const Snapshot& some) {
+    const auto position = some.positions(), velocity = some.vectors("velocity");
+    const auto density = some.scalars("density");
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      const double z = position[i].z, above = z - plate;
+      if (above < 0) passed += mass;
+      if (std::abs(above) < sph::support * p.bed.spacing)
+        rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
+      lowest = std::min(lowest, z);
+      if (z < p.bed.spacing) near_floor += mass;
+    }
+    add_rates(some, layout, by_outlet);
+    domain = some.domain;
+    if (!outlet) return;
+    // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
+    const auto stress = some.scalars("stress_zz"), strain = some.scalars("strain");
+    for (const std::size_t i : particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit)) {
+      const double reach = sph::support * sph::smoothing_length(mass, density[i]);
+      if (std::abs(position[i].x - slit.x) > reach || std::abs(position[i].z - slit.z) > reach + probe_above_slit)
+        continue;
+      near.position.push_back(position[i]), near.velocity.push_back(velocity[i]);
+      near.density.push_back(density[i]), near.stress.push_back(stress[i]), near.strain.push_back(strain[i]);
+    }
+  });
+  if (std::isinf(lowest)) lowest = std::nan("");
 
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
-    const Vector3 slit{0.5 * (outlet->left + outlet->right), outlet->middle_y, outlet->height};
-    const double probe_above_slit = share_of_outlet * layout.outlet_width.value_or(0);
-    const Vector3 probe = slit + Vector3{0, 0, probe_above_slit};
-    // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
-    auto near = particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit);
-    std::erase_if(near, [&](std::size_t i) {
-      const double reach = sph::support * sph::smoothing_length(mass, density[i]);
-      return std::abs(position[i].x - slit.x) > reach || std::abs(position[i].z - slit.z) > reach + probe_above_slit;
-    });
-    const auto pick = [&near](const auto& column) {
-      std::vector<std::decay_t<decltype(column[0])>> picked;
-      for (const std::size_t i : near) picked.push_back(column[i]);
-      return picked;
-    };
-    const auto places = pick(position);
-    const auto velocities = pick(velocity);
-    const auto densities = pick(density);
-    const ParticleField field(particles_of_density(places, densities, mass, p.grains.density), *snapshot.domain);
-    slit_velocity = field.value(slit, velocities).z;
-    probe_velocity = field.value(probe, velocities).z;
-    probe_density = field.value(probe, densities);
-    probe_stress = field.value(probe, pick(snapshot.scalars("stress_zz")));
-    probe_strain = field.value(probe, pick(snapshot.scalars("strain")));
+    const ParticleField field(particles_of_density(near.position, near.density, mass, p.grains.density), *domain);
+    slit_velocity = field.value(slit, near.velocity).z;
+    probe_velocity = field.value(probe, near.velocity).z;
+    probe_density = field.value(probe, near.density);
+    probe_stress = field.value(probe, near.stress);
+    probe_strain = field.value(probe, near.strain);
   }
   std::vector<NamedValue> values = {{"discharged_mass", "kg", passed},
                                     {"discharge_rate", "kg/s", rate},

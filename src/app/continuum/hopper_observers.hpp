@@ -21,6 +21,6 @@ namespace talus::app {
 /// Values at a place are the kernel's means over the particles around it; nan where there are none.
 /// Of a vessel with several outlets the columns discharge_rate_NAME besides, the flux through each at its own height,
 /// of the particles no farther beside it than a spacing.
-std::vector<NamedValue> observe_hopper(const Snapshot& snapshot, const continuum::Layout& layout);
+std::vector<NamedValue> observe_hopper(const Pieces& pieces, const continuum::Layout& layout);
 
 }  // namespace talus::app

@@ -19,6 +19,7 @@
 #include "io/checkpoint.hpp"
 #include "io/file.hpp"
 #include "io/file_list.hpp"
+#include "io/parameter_reader.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/report_page.hpp"
 #include "io/run_json.hpp"
@@ -220,6 +221,7 @@ ExitStatus run_in_folder(const PreparedCase& prepared, const RunRequest& request
     summary.quantities.push_back(value);
   write_summary(folder.summary(), summary);
 
+  if (const std::string sharing = model->sharing(); !sharing.empty()) log.write("{}", sharing);
   if (loop.interrupted) {
     log.write("interrupted by {} at t = {:.6g} s, step {}", loop.reason, model->time(), loop.steps);
     print("Interrupted by {} at t = {:.6g} s; --resume goes on from there: {}\n", loop.reason, model->time(),
@@ -262,6 +264,19 @@ void summarize_failure(const PreparedCase& prepared, const RunFolder& folder, co
 std::string case_fingerprint(const PreparedCase& prepared) {
   std::string all = fingerprint(prepared.parameters, not_in_fingerprint) + "-" + prepared.instruction_set;
   return prepared.inputs.empty() ? all : all + "-" + prepared.inputs;
+}
+
+void check_ranks(const PreparedCase& prepared, const CaseFile& file, int ranks) {
+  ParameterReader reader(file);
+  if (!prepared.make_part)
+    reader.check({{.key = "model",
+                   .what = fmt::format("\"{}\" runs on one process only", prepared.model),
+                   .allowed = "\"continuum\", or one process: talus run without mpirun or srun"}});
+  else if (ranks > prepared.particles)
+    reader.check({{.key = "bed.spacing",
+                   .what = fmt::format("makes {:.0f} particles for {} processes", prepared.particles, ranks),
+                   .allowed = "at most as many processes as particles; some 10 000 particles on each pay"}});
+  reader.throw_problems();
 }
 
 void keep_snapshot_interval(CaseFile& file, const std::filesystem::path& folder) {

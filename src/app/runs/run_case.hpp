@@ -25,6 +25,9 @@ struct RunRequest {
 /// names, and the instruction set that its choice resolves to. A run may be resumed with a later end.
 std::string case_fingerprint(const PreparedCase& prepared);
 
+/// \throws InputError for a case that so many processes cannot share
+void check_ranks(const PreparedCase& prepared, const CaseFile& file, int ranks);
+
 /// A case that leaves output.snapshots to its default, a share of run.end, keeps the interval of the run in the folder
 /// that it is to go on with, whose end it may change. \throws FileError if there is a manifest that cannot be read
 void keep_snapshot_interval(CaseFile& file, const std::filesystem::path& folder);

@@ -23,58 +23,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notable_share = 0.1;  // of the particles: fewer are the edge of a stream
 
-/// Of all particles, found in one pass: a row of the series needs them every few steps.
-struct ParticleTotals {
-  double max_speed = 0;                                                             ///< m/s
-  Vector3 momentum;                                                                 ///< N s
-  double min_density = infinity, max_density = -infinity, max_packing = -infinity;  ///< kg/m^3, 1
-  double mass_outside = 0;  ///< beyond the open faces of the box: what has left, kg
-};
-
-ParticleTotals totals_of_particles(const Box& box, const State& s) {
-  ParticleTotals totals;
-  double square = 0;
-  std::size_t outside = 0;
-  const FixedPoint point(s.impulse_unit);
-  FixedVector momentum;
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const Vector3 &x = s.position[i], &v = s.velocity[i];
-    square = std::max(square, dot(v, v));
-    momentum.add(point, s.mass * v);
-    totals.min_density = std::min(totals.min_density, s.density[i]);
-    totals.max_density = std::max(totals.max_density, s.density[i]);
-    totals.max_packing = std::max(totals.max_packing, s.packing[i]);
-    outside += (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
-               (x.z > box.high.z);
-  }
-  if (s.position.empty())
-    totals.min_density = totals.max_density = totals.max_packing = std::numeric_limits<double>::quiet_NaN();
-  totals.max_speed = std::sqrt(square);
-  totals.momentum = momentum.value(point);
-  totals.mass_outside = s.mass * static_cast<double>(outside);
-  return totals;
-}
-
-/// Of the particles, without the stress by collisions, Pa.
-double max_pressure(const State& s) {
-  double pressure = 0;
-  for (std::size_t i = 0; i < s.position.size(); ++i)
-    pressure = std::max(pressure, trace(tensor_at(s.material.stress, i)) / 3);
-  return pressure;
-}
-
-/// Share of the particles that bear a pressure whose inertial number is above a bound; 0 if there are none.
-double share_above_inertial_number(const Parameters& p, const State& s, double bound) {
-  double bearing = 0, above = 0;
-  for (std::size_t i = 0; i < s.position.size(); ++i) {
-    const double pressure = trace(tensor_at(s.material.stress, i)) / 3;
-    if (!(pressure > 0)) continue;
-    ++bearing;
-    above += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) > bound;
-  }
-  return bearing > 0 ? above / bearing : 0;
-}
-
 /// Whether Eqs 13 and 14 are used at rates beyond those for which the paper has them.
 RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions, const RunRecord& record) {
   const double over = std::max(record.value("velocity_gradient_shear_max") / granular::max_shear_rate,
@@ -89,11 +37,8 @@ RegimeLine regime_of_collisions(const granular::CollisionParameters& collisions,
           unlimited && over > 1};
 }
 
-double solid_volume(const Parameters& p, const State& s) {
-  return s.mass * static_cast<double>(s.position.size()) / p.grains.density;
-}
-
-std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
+std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s, std::size_t particles) {
+  const double solid_volume = s.mass * static_cast<double>(particles) / p.grains.density;
   const AirAround& air = s.air;
   const RegimeLine reynolds{"Reynolds number of a grain", fmt::format("{:.3g}", air.reynolds_max),
                             "largest since the start; the drag laws hold up to 1000", air.reynolds_max > 1000};
@@ -111,24 +56,26 @@ std::vector<RegimeLine> regime_of_air(const Parameters& p, const State& s) {
           {"air's imbalance", fmt::format("{:.3g} cm3", imbalance * 1e6),
            fmt::format("room that grains left or took without air moving, {:.3g} of their volume; up to about 0.1 is "
                        "the grid's error, more is air.continuity = \"air-alone\" where grains change places with air",
-                       imbalance / solid_volume(p, s)),
-           imbalance > 0.1 * solid_volume(p, s)},
+                       imbalance / solid_volume),
+           imbalance > 0.1 * solid_volume},
           reynolds};
 }
 
 }  // namespace
 
 Continuum::Continuum(std::shared_ptr<const Setup> setup, const Ranks& ranks)
-    : ranks_(ranks), setup_(std::move(setup)), state_(initial_state(*setup_)) {}
+    : ranks_(ranks), setup_(std::move(setup)), state_(initial_state(*setup_, ranks.rank(), ranks.size())) {}
 
 void Continuum::begin(ThreadTeam& team) {
   make_workspace();
   continuum::begin(team, *setup_, state_, *workspace_);
+  workspace_->share.time() = {};
 }
 
 void Continuum::resume(ThreadTeam& team) {
   make_workspace();
   derive(team, *setup_, state_, *workspace_);
+  workspace_->share.time() = {};
 }
 
 void Continuum::make_workspace() {
@@ -141,20 +88,74 @@ void Continuum::make_workspace() {
 void Continuum::advance(ThreadTeam& team) {
   whole_.reset();
   part_.reset();
+  const Stopwatch watch(workspace_->share.time().steps);
   continuum::advance(team, *setup_, state_, *workspace_);
 }
 
 void Continuum::gather() {
-  workspace_->share.gather(state_, gathered_);
+  Share& share = workspace_->share;
+  totals_ = find_totals();
+  at_end_ = find_at_end();
+  share.collect_window(state_.wall_loads);
+  account_ = share.account(workspace_->pairs.neighbourhood().pairs());
   whole_.reset();
   part_.reset();
 }
 
-std::vector<double> Continuum::smoothing_lengths() const {
-  if (ranks_.is_alone()) return workspace_->smoothing_length;
-  std::vector<double> lengths;
-  for (const double density : gathered_.density) lengths.push_back(workspace_->pairs.smoothing_length(density));
-  return lengths;
+Continuum::Totals Continuum::find_totals() const {
+  const State& s = state_;
+  const Box& box = domain().box();
+  const Share& share = workspace_->share;
+  double square = 0, min_density = infinity, max_density = -infinity, max_packing = -infinity;
+  std::uint64_t outside = 0;
+  const FixedPoint point(s.impulse_unit);
+  FixedVector momentum;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    if (!share.owns(i)) continue;
+    const Vector3 &x = s.position[i], &v = s.velocity[i];
+    square = std::max(square, dot(v, v));
+    momentum.add(point, s.mass * v);
+    min_density = std::min(min_density, s.density[i]);
+    max_density = std::max(max_density, s.density[i]);
+    max_packing = std::max(max_packing, s.packing[i]);
+    outside += (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
+               (x.z > box.high.z);
+  }
+  Votes votes{.least = {min_density}, .largest = {square, max_density, max_packing}, .sum = {outside}};
+  join(ranks_, votes, std::span(&momentum, 1));
+  const bool none = share.of_all(s.position.size()) == 0;
+  const auto of_any = [none](double value) { return none ? std::numeric_limits<double>::quiet_NaN() : value; };
+  return {.max_speed = std::sqrt(votes.largest[0]),
+          .momentum = momentum.value(point),
+          .min_density = of_any(votes.least[0]),
+          .max_density = of_any(votes.largest[1]),
+          .max_packing = of_any(votes.largest[2]),
+          .mass_outside = s.mass * static_cast<double>(votes.sum[0])};
+}
+
+Continuum::AtEnd Continuum::find_at_end() const {
+  const State& s = state_;
+  const Parameters& p = setup_->given;
+  const Share& share = workspace_->share;
+  const double bound = setup_->material.range().max_inertial_number;
+  double length = infinity, largest = 0;
+  std::uint64_t bearing = 0, above = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    if (!share.owns(i)) continue;
+    length = std::min(length, workspace_->smoothing_length[i]);
+    const double pressure = trace(tensor_at(s.material.stress, i)) / 3;
+    largest = std::max(largest, pressure);
+    if (!(pressure > 0)) continue;
+    ++bearing;
+    above += s.shear_rate[i] * p.grains.diameter * std::sqrt(p.grains.density / pressure) > bound;
+  }
+  Votes votes{.least = {length}, .largest = {largest}, .sum = {bearing, above}};
+  ranks_.join(votes);
+  const auto sum = [&](std::size_t n) { return static_cast<double>(votes.sum[n]); };
+  return {.min_smoothing_length = votes.least[0],
+          .max_pressure = votes.largest[0],
+          .too_fast = votes.sum[0] > 0 ? sum(1) / sum(0) : 0,
+          .particles = share.of_all(s.position.size())};
 }
 
 double Continuum::time_origin() const {
@@ -180,32 +181,14 @@ std::optional<std::string> Continuum::ended() const {
 }
 
 NumericalError::Report Continuum::step_limit() const {
-  return continuum::step_limit(*setup_, whole_state(), smoothing_lengths(), *workspace_);
-}
-
-Snapshot Continuum::snapshot() const {
-  if (!domain().sector()) {
-    Snapshot snapshot = snapshot_of(whole_state());
-    snapshot.domain = &domain();
-    return snapshot;
-  }
-  if (!whole_) whole_ = whole_of(stored());
-  Snapshot snapshot = whole_->view();
-  snapshot.domain = &*around_whole_;
-  return snapshot;
-}
-
-Snapshot Continuum::stored() const {
-  if (!domain().sector()) return snapshot();
-  if (!part_) part_ = part_of(whole_state(), *domain().sector());
-  return part_->view();
+  return continuum::step_limit(*setup_, state_, *workspace_);
 }
 
 std::vector<NamedValue> Continuum::totals() const {
-  const State& s = whole_state();
+  const State& s = state_;
   const std::optional<Sector>& sector = domain().sector();
   const double copies = sector ? sector->copies() : 1;
-  const ParticleTotals particles = totals_of_particles(domain().box(), s);
+  const Totals particles = ranks_.is_alone() ? find_totals() : totals_;
   std::vector<NamedValue> values = {{"step_size", "s", s.last_step},
                                     {"speed_max", "m/s", particles.max_speed},
                                     {"density_min", "kg/m3", particles.min_density},
@@ -282,19 +265,18 @@ std::optional<GridSnapshot> Continuum::grid() const {
 std::optional<SurfaceSnapshot> Continuum::walls() const {
   if (setup_->given.vessel.empty()) return std::nullopt;
   SurfaceSnapshot snapshot =
-      loads_on(workspace_->load_mesh, workspace_->load_fields, whole_state().wall_loads, state_.time, state_.gate_time);
+      loads_on(workspace_->load_mesh, workspace_->load_fields, state_.wall_loads, state_.time, state_.gate_time);
   snapshot.step = state_.step;
   return snapshot;
 }
 
 std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
-  const State& s = whole_state();
+  const State& s = state_;
+  const AtEnd end = ranks_.is_alone() ? find_at_end() : at_end_;
   const double c = setup_->sound_speed;
-  const std::vector<double> lengths = smoothing_lengths();
   // Of an empty vessel that of the bed's particles.
-  const double h = lengths.empty() ? workspace_->pairs.smoothing_length(setup_->density)
-                                   : *std::min_element(lengths.begin(), lengths.end());
-  const double step = lengths.empty()
+  const double h = end.particles == 0 ? workspace_->pairs.smoothing_length(setup_->density) : end.min_smoothing_length;
+  const double step = end.particles == 0
                           ? setup_->given.integration.step.value_or(setup_->given.integration.courant * h / c)
                           : s.last_step;
   const double courant = step * c / h;
@@ -321,19 +303,19 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   };
   lines.insert(lines.end(), of_run.begin(), of_run.end());
   if (const double most = setup_->material.range().max_pressure; std::isfinite(most)) {
-    const double pressure = max_pressure(s);
+    const double pressure = end.max_pressure;
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
   }
   if (setup_->given.grains.material) {
-    const double pressure = max_pressure(s), most = setup_->given.grains.range.max_pressure;
+    const double pressure = end.max_pressure, most = setup_->given.grains.range.max_pressure;
     lines.push_back({"pressure for the material", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("largest at the end; the values of {} hold up to {:.4g} Pa",
                                  choice_name(*setup_->given.grains.material), most),
                      pressure > most});
   }
   if (const double most = setup_->material.range().max_inertial_number; std::isfinite(most)) {
-    const double beyond = share_above_inertial_number(setup_->given, s, most);
+    const double beyond = end.too_fast;
     lines.push_back({"share of flow too fast for the law", fmt::format("{:.3f}", beyond),
                      fmt::format("at the end, of the particles that bear a pressure those with an inertial number "
                                  "above {:g}, where the range of the law ends",
@@ -343,7 +325,7 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
   if (setup_->given.collisions.form != granular::Collisions::none)
     lines.push_back(regime_of_collisions(setup_->given.collisions, record));
   if (setup_->given.air.enabled)
-    for (RegimeLine& line : regime_of_air(setup_->given, s)) lines.push_back(std::move(line));
+    for (RegimeLine& line : regime_of_air(setup_->given, s, end.particles)) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -106,14 +106,14 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
   }
 }
 
+SectorCopies copies_of(const State& s, const Sector& sector) {
+  return {sector.axis(), sector.copies(), static_cast<std::int64_t>(s.population.next_identity)};
+}
+
 PointSet part_of(const State& s, const Sector& sector) {
   const Snapshot state = snapshot_of(s);
-  const auto number = static_cast<std::int64_t>(s.population.next_identity);
-  const int copies = sector.copies();
-  PointSet part{.time = state.time,
-                .step = state.step,
-                .columns = {},
-                .copies = SectorCopies{.axis = sector.axis(), .count = copies, .identities = number}};
+  const SectorCopies copies = copies_of(s, sector);
+  PointSet part{.time = state.time, .step = state.step, .columns = {}, .copies = copies};
   for (const ColumnView& column : state.columns)
     std::visit(
         [&](const auto& values) {
@@ -121,7 +121,7 @@ PointSet part_of(const State& s, const Sector& sector) {
           std::vector<std::decay_t<decltype(values[0])>> own(values.begin(), values.end());
           if constexpr (std::is_same_v<decltype(own), std::vector<std::int64_t>>)
             for (std::size_t i = 0; i < own.size() && column.name == "identity"; ++i)
-              own[i] += number * ((copies - s.sector_turns[i]) % copies);
+              own[i] = identity_in_whole(copies, own[i], s.sector_turns[i]);
           part.columns.push_back({std::string(column.name), std::string(column.unit), std::move(own)});
         },
         column.values);

@@ -25,5 +25,10 @@ void return_to_sector(const Domain& domain, const Material& material, State& sta
 /// The sector as snapshots hold it: its particles once, each with the identity of the one that stands there in the
 /// whole (whole_of(), numerics/snapshot.hpp). A particle that has passed a face goes on in the next copy.
 PointSet part_of(const State& state, const Sector& sector);
+SectorCopies copies_of(const State& state, const Sector& sector);
+/// \param turns of the particle (State::sector_turns)
+inline std::int64_t identity_in_whole(const SectorCopies& copies, std::int64_t identity, std::int64_t turns) {
+  return identity + copies.identities * ((copies.count - turns) % copies.count);
+}
 
 }  // namespace talus::continuum

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "models/continuum/share.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <tuple>
 
 #include "models/continuum/columns.hpp"
-#include "numerics/cell_grid.hpp"
 
 namespace talus::continuum {
 
 namespace {
 
-constexpr double uneven = 1.08;              // most particles of a process over the mean, at which space is cut again
-constexpr std::size_t asked_together = 32;   // particles
-constexpr std::size_t samples_of_rank = 32;  // from which the borders of a common sort are chosen
+constexpr double uneven = 1.08;             // most particles of a process over the mean, at which space is cut again
+constexpr std::size_t asked_together = 32;  // particles
 
-/// The columns of particles as rows of words of 8 bytes.
+/// The kept columns of particles as rows of words of 8 bytes.
 class Rows {
  public:
-  enum class Of { kept, all };
   /// \pre every column has an entry for each particle
-  Rows(State& state, Of of) {
+  explicit Rows(State& state) {
     for_each_field(
         [&]<class Member>(const FieldInfo& field, Member& column) {
           if constexpr (!std::is_arithmetic_v<Member>)
-            if (field.of_particles && (of == Of::all || field.role == FieldRole::kept)) add(column);
+            if (field.of_particles && field.role == FieldRole::kept) add(column);
         },
         state);
   }
@@ -75,33 +75,6 @@ class Rows {
   std::size_t width_ = 0;
 };
 
-std::vector<std::uint32_t> numbers(std::size_t count) {
-  std::vector<std::uint32_t> numbers(count);
-  std::iota(numbers.begin(), numbers.end(), 0u);
-  return numbers;
-}
-
-/// A particle in the common sort.
-struct Sorted {
-  std::uint64_t key;
-  std::int64_t place;
-  std::int64_t rank, number;  // where it is
-  bool operator<(const Sorted& other) const { return std::tie(key, place) < std::tie(other.key, other.place); }
-};
-
-/// The borders between what each process sorts, chosen from samples of all. \param own sorted
-std::vector<Sorted> borders(const Ranks& ranks, const std::vector<Sorted>& own) {
-  std::vector<Sorted> samples;
-  for (std::size_t n = 0; n < std::min(samples_of_rank, own.size()); ++n)
-    samples.push_back(own[n * own.size() / std::min(samples_of_rank, own.size())]);
-  samples = ranks.gather_values(samples);
-  std::sort(samples.begin(), samples.end());
-  std::vector<Sorted> borders;
-  const auto size = static_cast<std::size_t>(ranks.size());
-  for (std::size_t r = 1; r < size && !samples.empty(); ++r) borders.push_back(samples[r * samples.size() / size]);
-  return borders;
-}
-
 }  // namespace
 
 void Share::begin(State& s) {
@@ -113,14 +86,12 @@ void Share::begin(State& s) {
       ranks_.from_first(std::as_writable_bytes(std::span(member)));
   };
   for_each_field(tell, s);
-  count_ = ranks_.value_from_first(s.position.size());
-  if (!ranks_.is_first()) {
-    resize_columns(s, 0);
-    s.wall_loads.window_push.clear();
-    s.wall_loads.window_received.clear();
-  }
+  const std::vector<std::uint64_t> counts = ranks_.gather_values(std::vector{std::uint64_t{s.position.size()}});
+  count_ = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+  const auto before = std::accumulate(counts.begin(), counts.begin() + ranks_.rank(), std::int64_t{0});
+  if (!ranks_.is_first()) s.wall_loads.window_push.clear(), s.wall_loads.window_received.clear();
   place_.resize(s.position.size());
-  std::iota(place_.begin(), place_.end(), std::int64_t{0});
+  std::iota(place_.begin(), place_.end(), before);
 }
 
 /// Whose the particles will be.
@@ -129,24 +100,34 @@ std::vector<int> Share::owners(const State& s) {
   const std::size_t here = s.list_position.size();
   std::vector<int> owner(here, ranks_.rank());
   if (count_ == 0) return owner;
+  std::uint64_t least = 0, most = 0;
+  const bool are_at_start = !partition_;
+  const auto note = [&] {
+    least_owned_ = std::min(least_owned_, least), most_owned_ = std::max(most_owned_, most);
+    if (!are_at_start) moved_ += here - static_cast<std::size_t>(std::count(owner.begin(), owner.end(), ranks_.rank()));
+  };
   const auto assign = [&] {
     Votes votes{.least = {}, .largest = {}, .sum = std::vector<std::uint64_t>(size, 0)};
     for (std::size_t i = 0; i < here; ++i)
       ++votes.sum[static_cast<std::size_t>(owner[i] = partition_->rank_of(s.list_position[i]))];
     ranks_.join(votes);
-    return static_cast<double>(*std::max_element(votes.sum.begin(), votes.sum.end()));
+    std::tie(least, most) = std::pair(*std::min_element(votes.sum.begin(), votes.sum.end()),
+                                      *std::max_element(votes.sum.begin(), votes.sum.end()));
+    return static_cast<double>(most);
   };
   const double even = static_cast<double>(count_) / static_cast<double>(size);
-  if (partition_ && assign() <= uneven * even) return owner;
+  if (partition_ && assign() <= uneven * even) return note(), owner;
   if (!partition_) partition_ = ranks_.partition();
   // Work follows the number of particles to one or two per cent: their lists are about as long everywhere.
   partition_->cut(s.list_position, std::vector<double>(here, 1.0));
   assign();
+  note();
   return owner;
 }
 
 void Share::distribute(State& s, const Domain& domain, std::span<std::vector<double>* const> carried) {
   if (is_all()) return;
+  const Stopwatch watch(time_.sharing);
   resize_columns(s, place_.size());
   Votes votes{.least = {}, .largest = {0, 0}, .sum = {}};
   for (std::size_t i = 0; i < place_.size(); ++i) {
@@ -159,17 +140,21 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
     resize_columns(s, count);
     place_.resize(count);
     for (std::vector<double>* const column : carried) column->resize(count);
-    Rows rows(s, Rows::Of::kept);
+    Rows rows(s);
     rows.add(place_);
     for (std::vector<double>* const column : carried) rows.add(*column);
     return rows;
   };
-  // Sends rows of particles, and puts what comes behind those that are here.
-  const auto append = [&](const ByRank& to) {
+  // Sends rows of particles, and puts what comes behind those that stay, for which there is room in between.
+  const auto append = [&](const ByRank& to, const std::vector<std::uint32_t>* stay) {
     Rows rows = rows_for(place_.size());
     std::unique_ptr<Plan> plan = ranks_.plan(to.counts());
     std::vector<std::uint64_t> got(rows.width() * plan->received());
-    plan->exchange(rows.of(to.all()).data(), rows.width(), got.data());
+    {
+      const std::vector<std::uint64_t> going = rows.of(to.all());
+      if (stay && stay->size() < place_.size()) rows.take(*stay), rows_for(stay->size());
+      plan->exchange(going.data(), rows.width(), got.data());
+    }
     const std::size_t before = place_.size();
     rows = rows_for(before + plan->received());
     for (std::size_t n = 0; n < plan->received(); ++n) rows.put(got, n, before + n);
@@ -177,19 +162,16 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
   };
 
   ByRank leaving(ranks_);
-  std::vector<std::uint32_t> order;  // those that stay, then those that come
+  std::vector<std::uint32_t> stay;
   const std::vector<int> owner = owners(s);
   for (std::size_t i = 0; i < owner.size(); ++i)
-    owner[i] == ranks_.rank() ? order.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
-  append(leaving);
-  for (std::size_t i = owner.size(); i < place_.size(); ++i) order.push_back(static_cast<std::uint32_t>(i));
-  if (order.size() < place_.size()) rows_for(place_.size()).take(order);
-  const std::size_t own = order.size();
-  rows_for(own);
+    owner[i] == ranks_.rank() ? stay.push_back(static_cast<std::uint32_t>(i)) : leaving.add(owner[i], i);
+  append(leaving, &stay);
+  const std::size_t own = place_.size();
 
   const ByRank copied = halo_of_others(s, domain);
-  std::unique_ptr<Plan> plan = append(copied);
-  order = by_place(own);
+  std::unique_ptr<Plan> plan = append(copied, nullptr);
+  const std::vector<std::uint32_t> order = by_place(own);
   rows_for(place_.size()).take(order);
   std::vector<std::uint32_t> number(order.size()), sent = copied.all(), received;
   for (std::size_t n = 0; n < order.size(); ++n) number[order[n]] = static_cast<std::uint32_t>(n);
@@ -198,17 +180,6 @@ void Share::distribute(State& s, const Domain& domain, std::span<std::vector<dou
   is_halo_.assign(number.size(), 0);
   for (const std::uint32_t n : received) is_halo_[n] = 1;
   halo_ = Halo(std::move(plan), std::move(sent), std::move(received));
-}
-
-/// The order of the particles by their places. \param own how many come first, which mostly are in it
-std::vector<std::uint32_t> Share::by_place(std::size_t own) const {
-  std::vector<std::uint32_t> order = numbers(place_.size());
-  const auto before = [&](std::uint32_t a, std::uint32_t b) { return place_[a] < place_[b]; };
-  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(own);
-  if (!std::is_sorted(order.begin(), middle, before)) std::sort(order.begin(), middle, before);
-  std::sort(middle, order.end(), before);
-  std::inplace_merge(order.begin(), middle, order.end(), before);
-  return order;
 }
 
 /// Which of the particles others may list: those whose parts of space meet the box that a particle reaches, or the box
@@ -264,6 +235,7 @@ void Share::keep_owned(std::vector<double>& column) const {
 
 bool Share::drop_halo(State& s) {
   if (is_halo_.empty()) return false;
+  const Stopwatch watch(time_.sharing);
   std::vector<std::uint32_t> owned;
   for (std::size_t i = 0; i < place_.size(); ++i)
     if (owns(i)) owned.push_back(static_cast<std::uint32_t>(i));
@@ -275,89 +247,36 @@ bool Share::drop_halo(State& s) {
   return true;
 }
 
-void Share::sort(const State& s, double cell_size) {
-  if (is_all()) return;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Votes votes{.least = {infinity, infinity, infinity}, .largest = {}, .sum = {}};
-  for (const Vector3& x : s.position)
-    for (int axis = 0; axis < 3; ++axis) {
-      double& least = votes.least[static_cast<std::size_t>(axis)];
-      least = std::min(least, x[axis]);
-    }
-  ranks_.join(votes);
-  const std::vector<std::uint64_t> keys =
-      spatial_keys(s.position, {votes.least[0], votes.least[1], votes.least[2]}, cell_size);
-  std::vector<Sorted> own;
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    own.push_back({keys[i], place_[i], ranks_.rank(), static_cast<std::int64_t>(i)});
-  std::sort(own.begin(), own.end());
-
-  // Each process sorts what is between two borders.
-  const std::vector<Sorted> border = borders(ranks_, own);
-  ByRank to_sort(ranks_);
-  for (std::size_t n = 0; n < own.size(); ++n)
-    to_sort.add(static_cast<int>(std::upper_bound(border.begin(), border.end(), own[n]) - border.begin()), n);
-  std::vector<Sorted> part = ranks_.plan(to_sort.counts())->exchange(own);
-  std::sort(part.begin(), part.end());
-  std::int64_t first = 0;
-  const std::vector<std::int64_t> counts = ranks_.gather_values(std::vector{static_cast<std::int64_t>(part.size())});
-  for (int r = 0; r < ranks_.rank(); ++r) first += counts[static_cast<std::size_t>(r)];
-
-  // And tells the others the places.
-  struct Told {
-    std::int64_t number, place;
+void Share::read(const State& s, const ColumnPiece& piece, std::byte* to) const {
+  const std::byte* data = nullptr;
+  std::size_t bytes = 0, number = 0;
+  const auto find = [&]<class Member>(const FieldInfo& field, const Member& column) {
+    if constexpr (!std::is_arithmetic_v<Member>)
+      if (field.of_particles && number++ == piece.column)
+        data = reinterpret_cast<const std::byte*>(column.data()), bytes = sizeof(column[0]);
   };
-  ByRank to_tell(ranks_);
-  for (std::size_t n = 0; n < part.size(); ++n) to_tell.add(static_cast<int>(part[n].rank), n);
-  std::vector<Told> told;
-  for (const std::uint32_t n : to_tell.all()) told.push_back({part[n].number, first + static_cast<std::int64_t>(n)});
-  for (const Told& one : ranks_.plan(to_tell.counts())->exchange(told))
-    place_[static_cast<std::size_t>(one.number)] = one.place;
-}
-
-void Share::add(std::size_t count) {
-  if (is_all()) return;
-  for (std::size_t n = 0; n < count && ranks_.is_first(); ++n) {
-    place_.push_back(static_cast<std::int64_t>(count_ + n));
-    if (!is_halo_.empty()) is_halo_.push_back(0);
+  for_each_field(find, s);
+  const auto from = static_cast<std::int64_t>(piece.first), until = from + static_cast<std::int64_t>(piece.count);
+  std::string own;
+  for (auto at = std::lower_bound(place_.begin(), place_.end(), from); at != place_.end() && *at < until; ++at) {
+    const auto i = static_cast<std::size_t>(at - place_.begin());
+    if (!owns(i)) continue;
+    own.append(reinterpret_cast<const char*>(&*at), sizeof *at);
+    own.append(reinterpret_cast<const char*>(data + bytes * i), bytes);
   }
-  count_ += count;
-}
-
-std::size_t Share::remove(std::span<const std::uint32_t> kept) {
-  std::vector<std::int64_t> gone, left;
-  for (std::size_t i = 0, n = 0; i < place_.size(); ++i) {
-    const bool stays = n < kept.size() && kept[n] == i;
-    (stays ? left : gone).push_back(place_[i]);
-    n += stays;
+  const std::string all = ranks_.gather_at_first(own);
+  for (std::size_t at = 0; at < all.size(); at += sizeof(std::int64_t) + bytes) {
+    std::int64_t place = 0;
+    std::memcpy(&place, all.data() + at, sizeof place);
+    std::memcpy(to + bytes * static_cast<std::size_t>(place - from), all.data() + at + sizeof place, bytes);
   }
-  gone = ranks_.gather_values(gone);
-  std::sort(gone.begin(), gone.end());
-  for (std::int64_t& place : left) place -= std::lower_bound(gone.begin(), gone.end(), place) - gone.begin();
-  place_ = std::move(left);
-  count_ -= gone.size();
-  return gone.size();
 }
 
-void Share::gather(State& s, State& whole) const {
-  if (is_all()) return;
-  WallLoads loads = s.wall_loads;
+void Share::collect_window(WallLoads& loads) const {
   join_window(loads);
-  const Rows rows(s, Rows::Of::all);
-  ByRank to_first(ranks_);
-  std::vector<std::int64_t> place;
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    if (owns(i)) to_first.add(0, i), place.push_back(place_[i]);
-  const std::unique_ptr<Plan> plan = ranks_.plan(to_first.counts());
-  std::vector<std::uint64_t> got(rows.width() * plan->received());
-  plan->exchange(rows.of(to_first.all()).data(), rows.width(), got.data());
-  const std::vector<std::int64_t> place_of = plan->exchange(place);
-  if (!ranks_.is_first()) return;
-  whole = s;
-  whole.wall_loads = std::move(loads);
-  resize_columns(whole, count_);
-  const Rows to(whole, Rows::Of::all);
-  for (std::size_t n = 0; n < place_of.size(); ++n) to.put(got, n, static_cast<std::size_t>(place_of[n]));
+  if (ranks_.is_first()) return;
+  loads.window_push.clear();
+  loads.window_received.clear();
 }
 
 void Share::add_later(std::vector<FixedVector> sums, std::function<void(std::span<const FixedVector>)> add) {
@@ -367,14 +286,33 @@ void Share::add_later(std::vector<FixedVector> sums, std::function<void(std::spa
     waiting_.push_back({std::move(sums), std::move(add)});
 }
 
+double Share::place_of(std::optional<std::size_t> here) const {
+  return !here ? std::numeric_limits<double>::infinity() : is_all() ? 0 : static_cast<double>(place_[*here]);
+}
+
+NumericalError::Report Share::told_by(double first, std::optional<std::size_t> here,
+                                      const std::function<NumericalError::Report(std::size_t)>& report) const {
+  NumericalError::Report told = here && place_of(here) == first ? report(*here) : NumericalError::Report{};
+  for (std::string* const text : {&told.what, &told.term, &told.place, &told.advice}) *text = ranks_.gather(*text);
+  return told;
+}
+
+NumericalError::Report Share::report_of_first(std::optional<std::size_t> here,
+                                              const std::function<NumericalError::Report(std::size_t)>& report) const {
+  Votes votes{.least = {place_of(here)}, .largest = {}, .sum = {}};
+  vote(votes);
+  return told_by(votes.least[0], here, report);
+}
+
 void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
                  const std::function<NumericalError::Report(std::size_t)>& report) {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  const double own = !here ? none : is_all() ? 0 : static_cast<double>(place_[*here]);
-  votes.least.push_back(own);
+  votes.least.push_back(place_of(here));
   std::vector<FixedVector> sums;
   for (const Waiting& some : waiting_) sums.insert(sums.end(), some.sums.begin(), some.sums.end());
-  talus::join(ranks_, votes, sums);
+  {
+    const Stopwatch watch(time_.messages);
+    talus::join(ranks_, votes, sums);
+  }
   std::span<const FixedVector> rest = sums;
   for (const Waiting& some : waiting_) {
     some.add(rest.first(some.sums.size()));
@@ -383,13 +321,32 @@ void Share::join(const State& s, Votes& votes, std::optional<std::size_t> here,
   waiting_.clear();
   const double first = votes.least.back();
   votes.least.pop_back();
-  if (first == none) return;
-  NumericalError::Report of_first = first == own ? report(*here) : NumericalError::Report{};
-  for (std::string* const text : {&of_first.what, &of_first.term, &of_first.place, &of_first.advice})
-    *text = ranks_.gather(*text);
+  if (std::isinf(first)) return;
+  NumericalError::Report of_first = told_by(first, here, report);
   of_first.step = s.step;
   of_first.time = s.time;
   throw NumericalError(of_first);
+}
+
+std::string Share::account(std::size_t pairs) const {
+  const double owned = static_cast<double>(place_.size() - halo_.received());
+  const double copies = static_cast<double>(halo_.received()), size = ranks_.size();
+  Votes votes{.least = {},
+              .largest = {copies / std::max(1.0, owned), static_cast<double>(pairs)},
+              .sum = {halo_.received(), pairs, moved_}};
+  for (const double part : {time_.messages, time_.sharing, time_.air})
+    votes.sum.push_back(static_cast<std::uint64_t>(std::lround(1e6 * part / std::max(1e-9, time_.steps))));
+  ranks_.join(votes);
+  const auto sum = [&](std::size_t n) { return static_cast<double>(votes.sum[n]); };
+  const double count = static_cast<double>(std::max<std::size_t>(count_, 1));
+  const auto percent = [&](std::size_t n) { return 1e-4 * sum(n) / size; };
+  return fmt::format(
+      "{} processes: each owned {:.1f} to {:.1f} % of the particles, copies of others are {:.1f} % of them (of one "
+      "{:.1f} %), {} changed their process; of a step messages take {:.1f} %, migration and halos {:.1f} %, air that "
+      "all compute {:.1f} %; the longest lists are {:.2f} of the mean",
+      size, 100 * static_cast<double>(std::min(least_owned_, most_owned_)) / count,
+      100 * static_cast<double>(most_owned_) / count, 100 * sum(0) / count, 100 * votes.largest[0], votes.sum[2],
+      percent(3), percent(4), percent(5), votes.largest[1] * size / std::max(1.0, sum(1)));
 }
 
 void Share::join_window(WallLoads& loads) const {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/system.hpp"
 #include "models/continuum/state.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "numerics/neighbourhood.hpp"
@@ -25,6 +26,28 @@
 #include "ranks/ranks.hpp"
 
 namespace talus::continuum {
+
+/// Adds the processor time that its thread takes while it lives to a sum, s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += processor_seconds_of_thread() - began_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  double began_ = processor_seconds_of_thread();
+};
+
+/// Where the time of the steps goes on this process: processor time of its main thread, s. A process that waits for a
+/// message takes it as if it computed, unless the processor has other programs to run.
+struct TimeOfSteps {
+  double steps = 0;     ///< all of it
+  double messages = 0;  ///< to the halo and votes
+  double sharing = 0;   ///< owners, migration, halo, places
+  double air = 0;       ///< what every process computes alike
+};
 
 class Share {
  public:
@@ -36,11 +59,13 @@ class Share {
   bool owns(std::size_t i) const { return is_halo_.empty() || !is_halo_[i]; }
   /// How many particles all processes own. \param here how many this one has, with its halo
   std::size_t of_all(std::size_t here) const { return is_all() ? here : count_; }
-  std::size_t halo() const { return halo_.received(); }
+
+  TimeOfSteps& time() const { return time_; }
 
   // The calls below do nothing for one process; with several they are calls together.
 
-  /// Takes the particles of the first process's state for all there are, and its numbers for those of all processes.
+  /// Takes the particles of the states for all there are, those of the first process first, and its numbers for those
+  /// of all processes.
   void begin(State& state);
 
   /// Moves particles to their owners and finds the halo, for neighbour lists that are built from list_position,
@@ -52,7 +77,16 @@ class Share {
   PartOfPoints part() const { return {is_halo_, reach_, margin_}; }
 
   /// Gives columns the halo's values, in one message.
-  void refresh(std::span<const Halo::Column> columns) { halo_.refresh(columns); }
+  void refresh(std::span<const Halo::Column> columns) {
+    if (is_all()) return;
+    const Stopwatch watch(time_.messages);
+    halo_.refresh(columns);
+  }
+  void vote(Votes& votes) const {
+    if (is_all()) return;
+    const Stopwatch watch(time_.messages);
+    ranks_.join(votes);
+  }
   Halo& halo_messages() { return halo_; }
 
   /// Removes the halo from one more column.
@@ -70,9 +104,10 @@ class Share {
   /// stay here, rising \returns how many all processes have taken away \pre no halo
   std::size_t remove(std::span<const std::uint32_t> kept);
 
-  /// Makes the whole state at the first process, as one process by itself would have it. `whole` of others is left as
-  /// it is.
-  void gather(State& state, State& whole) const;
+  /// Reads the particles of all, in their order. \param to memory of the first process
+  void read(const State& state, const ColumnPiece& piece, std::byte* to) const;
+  /// Gives the first process what the walls received since the window began, all of it.
+  void collect_window(WallLoads& loads) const;
 
   /// Has a sum of all processes added with the next votes, to what no step reads before: sums travel with what has to
   /// be known at once. For one process at once. \param add receives the sums over all processes
@@ -82,10 +117,21 @@ class Share {
   void join(const State& state, Votes& votes, std::optional<std::size_t> here,
             const std::function<NumericalError::Report(std::size_t)>& report);
 
+  /// What the process says whose particle comes first in the order of all. \param here none: it has no such particle
+  NumericalError::Report report_of_first(std::optional<std::size_t> here,
+                                         const std::function<NumericalError::Report(std::size_t)>& report) const;
+
   /// Joins what the walls received since the window began, so that each process has all of it.
   void join_window(WallLoads& loads) const;
 
+  /// What the work of this process is among that of all since it began or resumed, and what sharing it takes, in words.
+  /// \param pairs in the lists of this process
+  std::string account(std::size_t pairs) const;
+
  private:
+  double place_of(std::optional<std::size_t> here) const;
+  NumericalError::Report told_by(double first, std::optional<std::size_t> here,
+                                 const std::function<NumericalError::Report(std::size_t)>& report) const;
   std::vector<int> owners(const State& state);
   ByRank halo_of_others(const State& state, const Domain& domain) const;
   std::vector<std::uint32_t> by_place(std::size_t own) const;
@@ -97,6 +143,8 @@ class Share {
   std::vector<char> is_halo_;        // of the particles here; empty: none is
   Halo halo_;
   double reach_ = 0, margin_ = 0;
+  mutable TimeOfSteps time_;
+  std::uint64_t least_owned_ = UINT64_MAX, most_owned_ = 0, moved_ = 0;  // of any process; from this one to others
   struct Waiting {
     std::vector<FixedVector> sums;
     std::function<void(std::span<const FixedVector>)> add;

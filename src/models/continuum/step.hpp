@@ -23,9 +23,8 @@ GrainLimits joined_limits(ThreadTeam& team, const State& state, const Workspace&
 double step_length(ThreadTeam& team, const Setup& setup, const State& state, Workspace& workspace);
 
 /// The condition that limits the last step, and where: the Courant number of the grains, or the air.
-/// \param state of all particles \param smoothing_length of these, m
-NumericalError::Report step_limit(const Setup& setup, const State& state, std::span<const double> smoothing_length,
-                                  const Workspace& workspace);
+/// Together, of several processes.
+NumericalError::Report step_limit(const Setup& setup, const State& state, const Workspace& workspace);
 
 /// Advances by one step.
 /// \throws NumericalError for a velocity or density that is not finite, or a bed that does not settle in time

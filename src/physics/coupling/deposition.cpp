@@ -50,7 +50,7 @@ Deposition::Deposition(const Grid& grid, const Domain& domain, const Surface& su
 }
 
 void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> position,
-                              std::span<const double> smoothing_length) {
+                              std::span<const double> smoothing_length, std::span<const char> is_left_out) {
   count_ = position.size();
   blocks_.resize((count_ + block_size - 1) / block_size);
   team.run(blocks_.size(), [&](std::size_t b) {
@@ -58,7 +58,10 @@ void Deposition::find_weights(ThreadTeam& team, std::span<const Vector3> positio
     Scratch scratch;
     block.particle.clear(), block.rows = block.weights = 0;
     for (std::size_t i = b * block_size; i < std::min((b + 1) * block_size, count_); ++i)
-      find_weights(position[i], smoothing_length[i], scratch, block);
+      if (is_left_out.empty() || !is_left_out[i])
+        find_weights(position[i], smoothing_length[i], scratch, block);
+      else
+        block.particle.push_back({.rows = block.rows});
   });
 }
 

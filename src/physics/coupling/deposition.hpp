@@ -31,10 +31,13 @@ class Deposition {
   Deposition(const Grid& grid, const Domain& domain, const Surface& surface = Surface::none());
 
   /// Finds the weights. \param smoothing_length of each particle, m; the kernel reaches twice as far
-  void find_weights(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
+  /// \param is_left_out of each particle: it has no weights; empty: none is
+  void find_weights(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
+                    std::span<const char> is_left_out = {});
 
   /// \param solid_volume of each particle, without pores, m^3; the same for all
-  /// Sums in fixed point: they do not depend on the order of the particles.
+  /// Sums in fixed point, which do not depend on the order of the particles: multiples of 2^-50 (fraction) and 2^-44
+  /// m/s, exact up to 2^53 of these.
   /// \param fraction out: solid volume over volume of every cell
   /// \param flux out: by component, that times the solid's velocity, m/s
   void deposit(ThreadTeam& team, double solid_volume, std::span<const Vector3> velocity, CellField& fraction,

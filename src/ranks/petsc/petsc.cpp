@@ -142,6 +142,10 @@ class MpiProcesses final : public Ranks {
     for (std::uint64_t& v : votes.sum) v = (next++)->sum;
   }
 
+  void add_up(std::span<double> sums) const override {
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), as_int(sums.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  }
+
   std::string gather(const std::string& own) const override {
     const int length = as_int(own.size());
     std::vector<int> lengths(static_cast<std::size_t>(size())), first(lengths.size());
@@ -149,6 +153,16 @@ class MpiProcesses final : public Ranks {
     std::exclusive_scan(lengths.begin(), lengths.end(), first.begin(), 0);
     std::string all(static_cast<std::size_t>(first.back() + lengths.back()), '\0');
     MPI_Allgatherv(own.data(), length, MPI_BYTE, all.data(), lengths.data(), first.data(), MPI_BYTE, MPI_COMM_WORLD);
+    return all;
+  }
+
+  std::string gather_at_first(const std::string& own) const override {
+    const int length = as_int(own.size());
+    std::vector<int> lengths(is_first() ? static_cast<std::size_t>(size()) : 0), first(lengths.size());
+    MPI_Gather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, 0, MPI_COMM_WORLD);
+    std::exclusive_scan(lengths.begin(), lengths.end(), first.begin(), 0);
+    std::string all(is_first() ? static_cast<std::size_t>(first.back() + lengths.back()) : 0, '\0');
+    MPI_Gatherv(own.data(), length, MPI_BYTE, all.data(), lengths.data(), first.data(), MPI_BYTE, 0, MPI_COMM_WORLD);
     return all;
   }
 

@@ -20,6 +20,10 @@ double value_of(const std::vector<NamedValue>& values, const std::string& name) 
   return std::find_if(values.begin(), values.end(), [&](const NamedValue& v) { return v.name == name; })->value;
 }
 
+std::vector<NamedValue> observe_hopper(const Snapshot& all, const continuum::Layout& layout) {
+  return app::observe_hopper([&](const auto& take) { take(all); }, layout);
+}
+
 TEST(HopperObservers, SeeTheGateAsTheGrainsDo) {
   continuum::Parameters p = continuum::small_hopper();
   p.gate.opens = continuum::GateOpens::at_time;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "models/continuum/cases.hpp"
+#include "models/continuum/columns.hpp"
 #include "models/continuum/vessel_parts.hpp"
 #include "ranks/petsc/processes.hpp"
 
@@ -24,6 +25,8 @@ class Shuffled final : public Ranks {
  public:
   explicit Shuffled(const Ranks& ranks) : Ranks(ranks.rank(), ranks.size()), ranks_(ranks) {}
   void join(Votes& votes) const override { ranks_.join(votes); }
+  void add_up(std::span<double> sums) const override { ranks_.add_up(sums); }
+  std::string gather_at_first(const std::string& own) const override { return ranks_.gather_at_first(own); }
   std::string gather(const std::string& own) const override { return ranks_.gather(own); }
   void from_first(std::span<std::byte> bytes) const override { ranks_.from_first(bytes); }
   std::unique_ptr<Plan> plan(std::span<const std::size_t> counts) const override { return ranks_.plan(counts); }
@@ -61,7 +64,7 @@ struct Started {
   Workspace workspace;
 
   Started(const Parameters& p, const Ranks& ranks)
-      : setup(p), state(initial_state(setup)), workspace(setup, state, ranks) {
+      : setup(p), state(initial_state(setup, ranks.rank(), ranks.size())), workspace(setup, state, ranks) {
     begin(team, setup, state, workspace);
   }
   void step() { advance(team, setup, state, workspace); }
@@ -90,8 +93,23 @@ std::map<std::int64_t, std::size_t> numbers_of(const State& s) {
 
 /// Every kept field of the first process's whole state.
 void expect_same_state(const Started& alone, Started& part) {
+  Share& share = part.workspace.share;
+  share.collect_window(part.state.wall_loads);
   State whole = part.state;
-  part.workspace.share.gather(part.state, whole);
+  const std::size_t count = share.of_all(0);
+  resize_columns(whole, count);
+  std::uint64_t number = 0;
+  const auto read = [&]<class Member>(const FieldInfo& field, Member& member) {
+    if constexpr (!std::is_arithmetic_v<Member>) {
+      if (!field.of_particles) return;
+      // In two pieces.
+      auto* const to = reinterpret_cast<std::byte*>(member.data());
+      const std::size_t half = count / 2;
+      share.read(part.state, {number, 0, half}, to);
+      share.read(part.state, {number++, half, count - half}, to + half * sizeof(member[0]));
+    }
+  };
+  for_each_field(read, whole);
   if (!processes().is_first()) return;
   std::vector<std::string> fields;
   const auto write = [&]<class Member>(const FieldInfo& field, const Member& member) {
@@ -182,6 +200,18 @@ TEST(Share, StabilisersInSinglePrecision) {
 
 TEST(Share, OwnersThatLieAnywhere) {
   expect_same_bits(falling_block(), 30, Shuffled(processes()), true);
+}
+
+/// What the air gives and what it is left with is the same too.
+TEST(Share, AirThatEveryProcessHas) {
+  Parameters p = falling_block();
+  p.air.enabled = true;
+  p.air.cell = spacing;
+  expect_same_bits(p, 60, processes(), false);
+  p.integration.method = Method::runge_kutta;
+  p.box.left = p.box.right = FaceKind::periodic;
+  p.air.gas.boundaries.kind[0] = p.air.gas.boundaries.kind[1] = FlowBoundary::periodic;
+  expect_same_bits(p, 30, Shuffled(processes()), true);
 }
 
 TEST(Share, VesselWithAGate) {

@@ -208,8 +208,8 @@ TEST(Sector, FlowsTheSameForAnyThreadsAndResumed) {
   const auto identities = whole.integers("identity");
   EXPECT_EQ(std::set(identities.begin(), identities.end()).size(), 12 * count);
   EXPECT_FALSE(whole.domain->sector());
-  const Snapshot stored = model.stored();
-  EXPECT_EQ(stored.size(), count) << "a file holds the sector once";
+  const PointSource stored = model.stored();
+  EXPECT_EQ(stored.count, count) << "a file holds the sector once";
   ASSERT_TRUE(stored.copies);
   EXPECT_EQ(stored.copies->count, 12);
 }

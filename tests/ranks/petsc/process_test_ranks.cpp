@@ -43,10 +43,20 @@ TEST(Processes, SumInFixedPointAsOneProcessDoes) {
   EXPECT_EQ(own.value(point).z, all.value(point).z);
 }
 
+TEST(Processes, AddUpInPlace) {
+  const int size = processes().size();
+  std::vector<double> sums{0x1p-50 * (processes().rank() + 1), -0.5};
+  processes().add_up(sums);
+  EXPECT_THAT(sums, ElementsAre(0x1p-51 * size * (size + 1), -0.5 * size));
+}
+
 TEST(Processes, GatherInTheirOrder) {
   std::vector<int> own(static_cast<std::size_t>(processes().rank()), processes().rank()), expected;
   for (int r = 0; r < processes().size(); ++r) expected.insert(expected.end(), static_cast<std::size_t>(r), r);
   EXPECT_EQ(processes().gather_values(own), expected);
+  const std::string of_one(static_cast<std::size_t>(processes().rank()), 'x');
+  const std::string all = processes().gather(of_one);
+  EXPECT_EQ(processes().gather_at_first(of_one), processes().is_first() ? all : std::string());
   EXPECT_EQ(processes().value_from_first(5 + processes().rank()), 5);
 }
 

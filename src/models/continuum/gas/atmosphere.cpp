@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/exact_sum.hpp"
 #include "numerics/grid/loops.hpp"
@@ -24,8 +25,9 @@ air::Parameters gas_of(const Parameters& p) {
 
 }  // namespace
 
-Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary)
+Atmosphere::Atmosphere(const Parameters& p, const Boundary& boundary, const Share& share)
     : boundary_(boundary),
+      share_(share),
       openings_(boundary.openings()),
       grain_density_(p.grains.density),
       max_solid_fraction_(std::max(random_close_packing, p.bed.packing)),
@@ -54,6 +56,7 @@ void Atmosphere::take_grains(ThreadTeam& team, std::span<const double> smoothing
   for_each_cell(team, a.grid, [&](int, int, int, std::ptrdiff_t c) {
     a.excess[static_cast<std::size_t>(c)] -= a.solids.fraction[static_cast<std::size_t>(c)];
   });
+  const Stopwatch watch(share_.time().air);
   max_step_ = flow_.time_step(team, a.solids, a.flow);
 }
 
@@ -61,6 +64,7 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   AirAround& a = s.air;
   a.steps_left = static_cast<std::uint64_t>(max_step_ / dt);
   const double duration = static_cast<double>(a.steps_left) * dt;
+  std::optional<Stopwatch> watch(share_.time().air);
   try {
     flow_.advance(team, duration, a.solids, a.flow, per_solid_volume_);
     for (const auto& [cell, share] : overfull_)
@@ -74,24 +78,28 @@ void Atmosphere::move_air(ThreadTeam& team, double dt, State& s) {
   const double* pressure = a.flow.pressure.data();
   a.swing_max =
       std::max(a.swing_max, max_of_cells(team, a.grid, [&](std::ptrdiff_t c) { return std::abs(pressure[c]); }));
+  watch.reset();
   received_.resize(s.position.size());
   deposition_.distribute(team, s.mass / grain_density_, per_solid_volume_, received_);
   for_each(team, received_.size(),
            [&](std::size_t i) { a.acceleration[i] = (1 / (s.mass * duration)) * received_[i]; });
   const FixedPoint point(s.impulse_unit / duration);
-  a.force = accumulate(
-                team, received_.size(), FixedVector{},
-                [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass * a.acceleration[i]); },
-                [](FixedVector one, const FixedVector& other) { return one += other; })
-                .value(point);
+  FixedVector force = accumulate(
+      team, received_.size(), FixedVector{},
+      [&](std::size_t i, FixedVector& sum) { sum.add(point, s.mass * a.acceleration[i]); },
+      [](FixedVector one, const FixedVector& other) { return one += other; });
+  sum_up(share_.ranks(), std::span(&force, 1));
+  a.force = force.value(point);
   ++a.steps;
   a.iterations = static_cast<std::uint64_t>(flow_.iterations());
   measure_slip(team, s);
 }
 
 void Atmosphere::deposit(ThreadTeam& team, std::span<const double> smoothing_length, State& s) {
-  deposition_.find_weights(team, s.position, smoothing_length);
+  deposition_.find_weights(team, s.position, smoothing_length, share_.part().is_copy);
   deposition_.deposit(team, s.mass / grain_density_, s.velocity, s.air.solids.fraction, s.air.solids.flux);
+  share_.ranks().add_up(s.air.solids.fraction);
+  for (CellField& component : s.air.solids.flux) share_.ranks().add_up(component);
   if (!boundary_.vessel().is_empty()) leave_overfull(s.air.solids);
 }
 
@@ -124,7 +132,8 @@ void Atmosphere::measure_slip(ThreadTeam& team, State& s) {
                           y.data() + begin, z.data() + begin, slip_square_.data() + begin);
   });
   const double reynolds_of_one = coupling::grain_reynolds(medium_, 1);
-  const double slip = deposition_.max_mean(team, per_solid_volume_, slip_square_, s.air.reynolds_max / reynolds_of_one);
+  const double slip = largest_of(share_.ranks(), deposition_.max_mean(team, per_solid_volume_, slip_square_,
+                                                                      s.air.reynolds_max / reynolds_of_one));
   s.air.reynolds_max = std::max(s.air.reynolds_max, reynolds_of_one * slip);
 }
 

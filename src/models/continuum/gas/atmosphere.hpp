@@ -2,6 +2,8 @@
 /// The air around the particles. It takes longer steps than they do: from the solid volume and flux of the particles at
 /// the start of its step it computes the impulse of drag and pressure on each particle, which is applied evenly over
 /// the particle steps of the same time. The momentum that the air loses is gained by the particles, to round-off.
+///
+/// Of several processes each has the whole air: what their particles deposit is added up, and all solve the same.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +15,7 @@
 #include "models/air/flow.hpp"
 #include "models/continuum/boundary/boundary.hpp"
 #include "models/continuum/setup/parameters.hpp"
+#include "models/continuum/share.hpp"
 #include "models/continuum/state.hpp"
 #include "physics/coupling/deposition.hpp"
 
@@ -28,13 +31,16 @@ std::vector<Problem> check_air(const Parameters& parameters);
 class Atmosphere {
  public:
   /// \param boundary outlives the atmosphere; gates opened in it are open to the air from its next step on
-  Atmosphere(const Parameters& parameters, const Boundary& boundary);
+  /// \param share in the particles; outlives it
+  Atmosphere(const Parameters& parameters, const Boundary& boundary, const Share& share);
 
   /// Air at rest around the particles of a new state.
   void begin(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
 
   /// Whether the particles have reached the end of the step of the air.
   bool is_due(const State& state) const { return state.air.steps_left == 0; }
+
+  // Calls together, of several processes.
 
   /// If due: deposits the particles on the cells.
   void take_grains(ThreadTeam& team, std::span<const double> smoothing_length, State& state);
@@ -59,6 +65,7 @@ class Atmosphere {
   void measure_slip(ThreadTeam& team, State& state);
 
   const Boundary& boundary_;
+  const Share& share_;
   int openings_;  // known to the air
   double grain_density_;
   double max_solid_fraction_;  // of a cell beside the vessel

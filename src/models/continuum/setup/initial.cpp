@@ -2,6 +2,7 @@
 #include "models/continuum/setup/initial.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "base/random.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
@@ -46,7 +47,7 @@ void add_bed(const Layout& layout, std::int64_t tag, State& state) {
 
 }  // namespace
 
-State initial_state(const Setup& setup) {
+State initial_state(const Setup& setup, int part, int parts) {
   const Parameters& parameters = setup.given;
   const Material& material = setup.material;
   State state;
@@ -62,8 +63,19 @@ State initial_state(const Setup& setup) {
   const std::size_t given = parameters.bed.given ? parameters.bed.given->position.size() : 0;
   fit_to_walls(*setup.boundary, parameters.bed.spacing, given, state.position);
   displace(parameters, state.position);
+  state.population = initial_population(setup, state.position.size());
+  const auto border = [all = state.position.size(), parts](int n) {
+    return static_cast<std::ptrdiff_t>(all * static_cast<std::size_t>(n) / static_cast<std::size_t>(parts));
+  };
+  const std::ptrdiff_t first = border(part), last = border(part + 1);
+  if (parts > 1) {
+    const auto keep = [first, last](auto& column) {
+      if (!column.empty()) column = std::decay_t<decltype(column)>(column.begin() + first, column.begin() + last);
+    };
+    keep(state.position), keep(state.velocity), keep(state.density), keep(state.tag);
+  }
   const std::size_t count = state.position.size();
-  for (std::size_t n = 0; n < count; ++n) state.identity.push_back(static_cast<std::int64_t>(n));
+  for (std::ptrdiff_t n = first; n < last; ++n) state.identity.push_back(n);
   for (auto& column : state.material.stress) column.assign(count, 0.0);
   if (state.has.lasting_rate)
     for (auto& column : state.lasting_rate) column.assign(count, 0.0);
@@ -75,7 +87,6 @@ State initial_state(const Setup& setup) {
   state.wall_loads = no_loads(load_fields(setup).count(), state.impulse_unit);
   if (state.has.reset_position) state.reset_position = state.position;
   if (state.has.sector_turns) state.sector_turns.assign(count, 0);
-  state.population = initial_population(setup, count);
   state.slots = material.slots();
   state.material.history.assign(state.slots.size(), std::vector<double>(count, 0.0));
   if (parameters.air.enabled) {

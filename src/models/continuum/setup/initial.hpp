@@ -10,7 +10,7 @@ namespace talus::continuum {
 /// Fills the bed of the case with the lattice of the layout. Source: Yuu & Umekage 2011, section 3 ("The initial
 /// imaginary particle configuration is regular and uniform"); bed.disorder then moves each particle by so much, at
 /// random by the case's seed. Particles of bed.file have their own positions, and velocities and densities where the
-/// file has them.
-State initial_state(const Setup& setup);
+/// file has them. \param part of so many parts, as equal as can be, in the order of the particles: only it is kept
+State initial_state(const Setup& setup, int part = 0, int parts = 1);
 
 }  // namespace talus::continuum
