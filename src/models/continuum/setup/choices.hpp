@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "base/parameter.hpp"
@@ -34,6 +35,7 @@ enum class WallMaterial { steel, acrylic, glass, concrete };
 
 /// Where the values of a material hold.
 struct MaterialRange {
+  std::string name = {};                                                            ///< the material's; empty: none
   double min_diameter = 0, max_diameter = std::numeric_limits<double>::infinity();  ///< of its grains, m
   double max_pressure = std::numeric_limits<double>::infinity();                    ///< Pa
 };

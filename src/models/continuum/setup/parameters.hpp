@@ -144,12 +144,15 @@ void for_each_parameter(Visit&& visit, P& p) {
   timed(Parameter{"gate.time", dimension::time, at_least(0),
                   "time at which the gate opens, with gate.opens = \"at-time\""},
         p.gate.time);
-  visit(Parameter{"grains.material",
-                  {},
-                  {},
-                  "what the grains are: density, diameter, packing, law and friction on walls follow where the case "
-                  "does not give them (talus materials); left out: the defaults below"},
-        p.grains.material);
+  visit(
+      Parameter{
+          "grains.material",
+          {},
+          {},
+          "what the grains are: density, diameter, packing, law and friction on walls follow where the case "
+          "does not give them (talus materials, or the file my-powder.toml of another, as talus calibrate writes it); "
+          "left out: the defaults below"},
+      p.grains.material);
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
