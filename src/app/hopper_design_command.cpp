@@ -74,6 +74,7 @@ DesignInput read_input(const DesignWords& words) {
   const FilledIn filled = fill_in_material(file, p);
   for (Problem problem : filled.problems) {
     if (problem.where.empty()) problem.where = problem.key == "walls.material" ? "--wall" : "--material";
+    if (problem.where == "--wall") problem.allowed = "a wall of the material's file, or a coefficient such as 0.35";
     problem.key = problem.where.starts_with("--") ? "" : problem.key;
     problems.push_back(std::move(problem));
   }
@@ -210,15 +211,16 @@ ExitStatus design_hopper(const DesignWords& words) {
   if (!input.law.has_cohesion()) {
     line("critical outlet", "any", "any", "no cohesion: only grains' size counts, 6 to 10 diameters");
   } else {
+    const auto stress = [](double value) { return value > 0 ? pressure_text(value) : std::string("none"); };
     both(
         "flow factor there", [&](std::size_t n) { return fmt::format("{:.2f}", outlet[n].factor); },
         "Jenike 1964, closed form of Arnold & McLean: 7 % above the chart at 30 deg");
     both(
-        "strength of an arch, f_c", [&](std::size_t n) { return pressure_text(outlet[n].strength); },
+        "strength of an arch, f_c", [&](std::size_t n) { return stress(outlet[n].strength); },
         "where the flow function meets the flow factor; steady shear, without time consolidation");
     both(
-        "sigma_1 there", [&](std::size_t n) { return pressure_text(outlet[n].major); },
-        "compare with the loads of the shear tests");
+        "sigma_1 there", [&](std::size_t n) { return stress(outlet[n].major); },
+        "compare with the loads of the shear tests; none: a flow function through the origin, which meets none");
     both(
         "critical outlet", [&](std::size_t n) { return width_text(outlet[n].width); },
         "H f_c/(rho_b g), H = 1 + theta/180 deg and 2 + theta/60 deg; a round outlet's diameter, a slot's width");

@@ -22,8 +22,10 @@ def quantity(text, option, unit, problems, low=0.0, high=math.inf):
     [said] = ask("quantities", texts=[text])
     if said.get("unit") == unit and low < said["si"] < high:
         return said["si"]
-    ends = f" between {low:g} and {high:g}" if high < math.inf else f" above {low:g}"
-    problems.append(problem(f"{option} {text}", said.get("why") or "will not do", allowed=f"a quantity in {unit}{ends}"))
+    if unit == "deg":
+        low, high = math.degrees(low), math.degrees(high)
+    ends = f" between {low:g} and {high:g} {unit}" if high < math.inf else f" above {low:g} {unit}"
+    problems.append(problem(f"{option} {text}", said.get("why") or "will not do", allowed=f"a quantity{ends}"))
     return None
 
 
@@ -87,17 +89,19 @@ def read_walls(words, problems):
 
 def table_of_loci(loci, friction, strength, growth):
     """What each locus says beside the fit, Pa."""
-    lines = [f"{'consolidation':>14}{'angle':>8}{'fit':>7}{'f_c':>10}{'fit':>9}{'sigma_1':>10}{'ff_c':>7}{'fit off points':>16}",
-             f"{'Pa':>14}{'deg':>8}{'deg':>7}{'Pa':>10}{'Pa':>9}{'Pa':>10}"]
+    lines = [f"{'consolidation':>14}{'angle':>8}{'fit':>7}{'f_c':>9}{'fit':>8}{'sigma_1':>10}{'fit':>8}{'ff_c':>7}{'fit':>6}"
+             f"{'off points':>12}", f"{'Pa':>14}{'deg':>8}{'deg':>7}{'Pa':>9}{'Pa':>8}{'Pa':>10}{'Pa':>8}"]
     angle = math.atan(friction)
     for locus in loci:
         bond = strength + growth * locus["consolidation"]
         f_c = 2 * friction * bond * math.cos(angle) / (1 - math.sin(angle))
+        major = (locus["consolidation"] + bond) * (1 + friction**2) * (1 + math.sin(angle)) - bond
         points = np.array(locus["points"])
         off = np.sqrt(np.mean((friction * (points[:, 0] + bond) / points[:, 1] - 1) ** 2))
         ratio = locus["major"] / locus["strength"] if locus["strength"] > 0 else math.inf
         lines.append(f"{locus['consolidation']:14.4g}{math.degrees(locus['angle']):8.1f}{math.degrees(angle):7.1f}"
-                     f"{locus['strength']:10.4g}{f_c:9.4g}{locus['major']:10.4g}{ratio:7.3g}{100 * off:14.1f} %")
+                     f"{locus['strength']:9.4g}{f_c:8.4g}{locus['major']:10.4g}{major:8.4g}{ratio:7.3g}"
+                     f"{major / f_c if f_c else math.inf:6.3g}{100 * off:10.1f} %")
     return "\n".join(lines)
 
 
@@ -145,7 +149,7 @@ def from_shear_cell(options, grain_density, diameter, problems):
 
 
 def from_heap(options, grain_density, diameter, problems):
-    angle = quantity(options.repose, "--repose", "rad", problems, math.radians(18), math.radians(42))
+    angle = quantity(options.repose, "--repose", "deg", problems, math.radians(18), math.radians(42))
     density = quantity(options.bulk_density, "--bulk-density", "kg/m3", problems)
     if options.bulk_density is None:
         problems.append(problem("--bulk-density", "missing", allowed='such as "620 kg/m3"'))

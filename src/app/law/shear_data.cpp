@@ -69,6 +69,7 @@ void add_evaluated(const CsvTable& table, std::vector<MeasuredLocus>& loci) {
     MeasuredLocus& locus = loci.emplace_back();
     locus.consolidation = load;
     locus.bulk_density = value("bulk_density", row);
+    locus.major = value("major_stress", row);
     for (const double share : {0.25, 0.75}) locus.points.push_back({share * load, cohesion + slope * share * load});
   }
 }
@@ -77,7 +78,7 @@ void check_columns(const CsvTable& table, Faults& faults) {
   const auto has = [&](std::string_view name) { return table.find(name) != nullptr; };
   const bool points = has("consolidation") && has("normal_stress") && has("shear_stress") && !has("friction_angle");
   const bool evaluated = has("friction_angle") && has("cohesion") != has("unconfined_strength") &&
-                         has("consolidation") != has("major_stress") && !has("normal_stress") && !has("shear_stress");
+                         (has("consolidation") || has("major_stress")) && !has("normal_stress") && !has("shear_stress");
   if (!points && !evaluated)
     faults.add(1, "", "these columns are neither points of failure nor evaluated loci", std::string(headers));
 }
@@ -98,6 +99,7 @@ void evaluate(MeasuredLocus& locus, std::optional<YieldPoint> pre_shear, int lin
   } catch (const std::invalid_argument&) {
     return faults.add(line, of, "its shear stress does not grow with the load", "a friction above 0");
   }
+  locus.locus.major = locus.major.value_or(locus.locus.major);
   if (!(locus.locus.flow_factor() >= 1))
     faults.add(line, of,
                fmt::format("f_c = {:.4g} Pa is more than sigma_1 = {:.4g} Pa: ff_c = {:.2g}", locus.locus.strength,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -100,7 +101,9 @@ std::vector<Problem> unknown_tables(const CaseFile& material, const FilledIn& fi
   std::vector<Problem> problems;
   for (const CaseEntry& entry : material.entries()) {
     const std::string table(table_of(entry.key));
-    if (last_part(entry.key) != "value" || filled.keys.contains(table) || lies_in(table, "walls")) continue;
+    const bool told = std::any_of(filled.problems.begin(), filled.problems.end(),
+                                  [&](const Problem& problem) { return problem.key == entry.key; });
+    if (told || last_part(entry.key) != "value" || filled.keys.contains(table) || lies_in(table, "walls")) continue;
     problems.push_back({.where = entry.where,
                         .line = entry.line,
                         .key = table,
@@ -150,7 +153,11 @@ std::optional<CaseFile> material_file(const CaseFile& file, std::vector<Problem>
 }
 
 CaseFile without_own_material(const CaseFile& file) {
-  return own_material(file) ? file.without(material_key) : file;
+  if (!own_material(file)) return file;
+  CaseFile without = file.without(material_key).without("walls.material");
+  for (std::size_t n = 0; n < file.tables("vessel"); ++n)
+    without = without.without(continuum::vessel_key(n, "material"));
+  return without;
 }
 
 std::optional<ParameterValue> value_in(const CaseFile& material, const std::string& key, const Parameter& parameter,
@@ -236,7 +243,9 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
       filled.keys.emplace(friction_key, "material");
     } else if (filled.problems.size() == before) {
       filled.problems.push_back(
-          {.key = key,
+          {.where = file.find(key)->where,
+           .line = file.find(key)->line,
+           .key = key,
            .what = fmt::format("no friction of {} on {} is known", defaults.grains.range.name, choice_name(*wall)),
            .allowed = fmt::format("{}; or {}", known_walls(material), friction_key)});
     }

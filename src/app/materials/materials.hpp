@@ -63,8 +63,8 @@ FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults)
 template <class P>
 FilledIn fill_in_values(const CaseFile& file, P& parameters);
 
-/// The case without grains.material if that is a file: its values are those of keys, and none of the program's
-/// materials is meant.
+/// The case without grains.material, if that is a file, and without what its walls are made of: fill_in_material() has
+/// made values of other keys of these, and none of the program's materials is meant.
 CaseFile without_own_material(const CaseFile& file);
 
 /// Pa; discharge, surfaces and heaps are then as for stiff grains (docs/design/time-steps.md): a thousand

@@ -86,7 +86,10 @@ CriticalOutlet critical_outlet(HopperShape shape, double half_angle, double wall
     outlet.width = std::numeric_limits<double>::infinity();
     return outlet;
   }
-  if (excess(low) > 0) return {};
+  if (excess(low) > 0) {
+    outlet.major = outlet.strength = outlet.width = 0;
+    return outlet;
+  }
   excess(crossing(excess, low, high));
   return outlet;
 }

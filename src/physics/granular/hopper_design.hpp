@@ -40,7 +40,7 @@ YieldLocus steady_locus(const CriticalStateParameters& law, double load);
 /// Where the strength of what flows is that of its arch: f_c = sigma_1/ff. Smaller outlets arch.
 struct CriticalOutlet {
   double major = 0, strength = 0;  ///< sigma_1, f_c, Pa; 0 where none arches
-  double factor = 0;               ///< ff there
+  double factor = 0;               ///< ff there; where none arches, of vanishing stress
   double effective_angle = 0;      ///< delta there
   double width = 0;                ///< B = H f_c/(rho_b g), m; infinite where any outlet arches
 };
