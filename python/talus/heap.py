@@ -8,9 +8,10 @@ from talus.program import simulate
 
 AGEING = 0.08   # friction that grains at rest have beyond that in flow: the law's own
 SCATTER = 1.0   # degrees, of heaps that are poured again, by others, and of particles of another size
-NEAR = 0.4      # degrees, how near the last heap must be
+NEAR = 0.5      # degrees, how near the last heap must be
 MOST_RUNS = 6
-TOO_STEEP = 2.0  # degrees by which a heap is steeper than slow flow stops, to begin with
+# A heap of 31.1 degrees has atan M = 28.0 degrees, one of 37.2 has 34.2: where the first heap begins.
+KNOWN, OF, RISE = 31.1, 28.0, 0.98
 
 
 def slope_of(positions, spacing):
@@ -42,7 +43,7 @@ def friction_of(angle, heap_of, tell):
     """M and the ends of its interval, so that the heap of the law has an angle: by secants of M against the angle, from heaps that are
     near it. \\param angle degrees \\param heap_of function of (M, number of the run), returns the angle of its heap, degrees
     \\param tell function of (text)"""
-    friction, found = math.tan(math.radians(angle - TOO_STEEP)), []
+    friction, found = math.tan(math.radians(OF + (angle - KNOWN) / RISE)), []
     while True:
         found.append((friction, heap_of(friction, len(found) + 1)))
         tell(f"heap {len(found)}: M = {friction:.4f}, {found[-1][1]:.2f} degrees of {angle:.4g}")
@@ -52,9 +53,9 @@ def friction_of(angle, heap_of, tell):
             slope = (m - n) / (a - b) if abs(a - b) > 0.2 else math.radians(1) * (1 + m * m)
             slope = min(max(slope, 0.5 * math.radians(1)), 4 * math.radians(1))
         else:
-            slope = math.radians(1) * (1 + friction**2)
+            slope = math.radians(1) / RISE * (1 + friction**2)
         near, at = found_near[0]
-        if len(found) > 1 and abs(at - angle) <= NEAR or len(found) == MOST_RUNS:
+        if abs(at - angle) <= NEAR or len(found) == MOST_RUNS:
             best = near + slope * (angle - at)
             return best, best - slope * SCATTER, best + slope * SCATTER
         friction = near + slope * (angle - at)

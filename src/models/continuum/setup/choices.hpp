@@ -29,7 +29,7 @@ constexpr double default_courant(Method method) {
 }
 
 /// One for each file of materials/.
-enum class GrainMaterial { glass_beads, sand, wheat, maize };
+enum class GrainMaterial { glass_beads, sand, wheat, maize, pharma_powder };
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
@@ -106,8 +106,8 @@ template <>
 inline constexpr auto choices<continuum::Method> = std::to_array<std::string_view>({"runge-kutta", "leapfrog"});
 
 template <>
-inline constexpr auto choices<continuum::GrainMaterial> = std::to_array<std::string_view>({"glass-beads", "sand",
-                                                                                           "wheat", "maize"});
+inline constexpr auto choices<continuum::GrainMaterial> =
+    std::to_array<std::string_view>({"glass-beads", "sand", "wheat", "maize", "pharma-powder"});
 template <>
 inline constexpr auto choices<continuum::WallMaterial> = std::to_array<std::string_view>({"steel", "acrylic", "glass",
                                                                                           "concrete"});
