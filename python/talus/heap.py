@@ -30,13 +30,24 @@ def slope_of(positions, spacing):
     return math.degrees(math.atan(-np.polyfit(*np.array(points).T, 1)[0]))
 
 
-def poured(case, folder, settings):
-    """Pours a heap, or takes the one that is there. Returns its angle, degrees."""
-    run = simulate(case, folder, settings, existing="resume")
+def settings_of(material, friction, density):
+    """Of validation/materials/heap.toml for a material's file: a floor at least as rough as the grains, poured at the same volume a
+    second whatever the bulk density, kg/m^3."""
+    return {"grains.material": str(material), "walls.coefficient": max(0.5, round(friction, 6)),
+            "inlet.1.rate": f"{40e-3 * density / 900:.6g} kg/s", "inlet.1.to": "6 s", "run.end": "6.5 s"}
+
+
+def angle_of(run):
+    """Degrees, of a run of that case, of the particles that rest."""
     last, box = run.snapshots[-1], run.case["box"]
     rest = np.linalg.norm(np.asarray(last["velocity"]), axis=1) < 0.01
     middle = [0.5 * box["width"], 0.5 * box["depth"], 0]
     return slope_of(np.asarray(last.positions)[rest] - middle, run.case["bed"]["spacing"])
+
+
+def poured(case, folder, settings):
+    """Pours a heap, or takes the one that is there. Returns its angle, degrees."""
+    return angle_of(simulate(case, folder, settings, existing="resume"))
 
 
 def friction_of(angle, heap_of, tell):

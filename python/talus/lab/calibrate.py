@@ -174,9 +174,7 @@ def from_heap(options, grain_density, diameter, problems):
         candidate = folder / f"heap_{number}.toml"
         ask("claim", folders=[folder], files=[])
         write({candidate: material_of(powder.Estimate(friction, friction, friction)).text()})
-        return heap.poured(case, folder / f"heap_{number}", {
-            "grains.material": str(candidate.resolve()), "walls.coefficient": max(0.5, round(friction, 6)),
-            "inlet.1.rate": f"{40e-3 * density / 900:.6g} kg/s", "inlet.1.to": "6 s", "run.end": "6.5 s"})
+        return heap.poured(case, folder / f"heap_{number}", heap.settings_of(candidate.resolve(), friction, density))
 
     return material_of(powder.Estimate(*heap.friction_of(degrees, heap_of, say)))
 
