@@ -326,12 +326,8 @@ double artificial_stress(const Parameters& p) {
   return has_cohesion(p) ? p.sph.artificial_stress : 0;
 }
 
-double wall_adhesion(const Parameters& p) {
-  return has_cohesion(p) && p.walls.friction == Friction::coulomb ? p.walls.adhesion : 0;
-}
-
-double wall_adhesion(const Parameters& p, const VesselPart& part) {
-  return part.adhesion && has_cohesion(p) && p.walls.friction == Friction::coulomb ? *part.adhesion : wall_adhesion(p);
+double wall_adhesion(const Parameters& p, const std::optional<double>& of_part) {
+  return has_cohesion(p) && p.walls.friction == Friction::coulomb ? of_part.value_or(p.walls.adhesion) : 0;
 }
 
 std::vector<Problem> check(const Parameters& given) {
@@ -345,11 +341,6 @@ std::vector<Problem> check(const Parameters& given) {
   of_vessel.insert(of_vessel.end(), outside.begin(), outside.end());
   problems.insert(problems.end(), of_vessel.begin(), of_vessel.end());
   for (const Problem& problem : check_sector(given)) problems.push_back(problem);
-  for (std::size_t n = 0; n < given.vessel.size(); ++n)
-    if (given.vessel[n].adhesion && !has_cohesion(given))
-      problems.push_back({.key = vessel_key(n, "adhesion"),
-                          .what = "the grains do not stick together",
-                          .allowed = "a law with cohesion: law.critical-state.tensile_strength above 0"});
   // The layout of a sound boundary, with beds as high as their mass makes them.
   std::optional<Layout> layout;
   const bool sized = given.bed.spacing > 0 && given.box.width > 0 && given.box.depth > 0 && given.box.height > 0;

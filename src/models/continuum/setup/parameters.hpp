@@ -359,9 +359,8 @@ double stress_regularisation(const Parameters& parameters);
 bool has_cohesion(const Parameters& parameters);
 
 /// walls.adhesion where grains stick together and walls rub, else 0, Pa.
-double wall_adhesion(const Parameters& parameters);
-/// The same of a part of the vessel.
-double wall_adhesion(const Parameters& parameters, const VesselPart& part);
+/// \param of_part of the vessel, which counts where it is given
+double wall_adhesion(const Parameters& parameters, const std::optional<double>& of_part = {});
 
 /// epsilon, sph.artificial_stress where grains stick together, else 0.
 double artificial_stress(const Parameters& parameters);
