@@ -19,7 +19,7 @@ import talus  # noqa: E402
 REFERENCE = tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8"))
 M, DENSITY, GRAVITY, HALF_ANGLE, BOTTOM = 0.5, 1500.0, 9.81, 20.0, 60.0  # SI, degrees, mm
 FACTOR = {"wedge": 1 + HALF_ANGLE / 180, "cone": 2 + HALF_ANGLE / 60}
-SERIES = {"wedge": [(60, 1), (90, 1), (120, 1), (60, 2)], "cone": [(60, 1), (90, 1), (60, 2)]}
+SERIES = {"wedge": [(60, 1), (90, 1), (120, 1), (60, 2)], "cone": [(60, 1), (60, 2)]}
 
 
 def tensile_strength(kind, outlet, ratio, gravity):
