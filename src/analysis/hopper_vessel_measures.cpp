@@ -125,22 +125,46 @@ double mean_speed_above(double height, std::span<const Vector3> positions, std::
   return sum / count;
 }
 
-double outlet_packing(const HopperSnapshot& s) {
+namespace {
+
+/// Packing above the outlet, in the n-th layer as high as it is wide, from 0: in its own width, or beside it, up to
+/// twice that width.
+double packing_above_outlet(const HopperSnapshot& s, int layer, bool beside) {
   const HopperShape& shape = s.shape();
   const HopperSetting& of = s.setting;
   if (!shape.outlet || !(of.outlet_width > 0)) return none;
   const double height = of.outlet_width, half_width = 0.5 * (shape.outlet->right - shape.outlet->left);
   const Vector3 middle{shape.outlet->left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
+  const double from = beside ? half_width : 0, to = beside ? 2 * half_width : half_width;
   double inside = 0;
   for (const Vector3& x : s.now.positions()) {
-    const double sideways = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y), up = x.z - shape.outlet->height;
+    const double sideways = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y);
+    const double up = x.z - shape.outlet->height - layer * height;
     if (up < 0 || up > height) continue;
-    inside += of.outlet_is_round ? std::hypot(sideways, along) <= half_width
-                                 : sideways <= half_width && along <= 0.5 * of.outlet_depth;
+    const double distance = of.outlet_is_round ? std::hypot(sideways, along) : sideways;
+    inside += distance >= from && distance <= to && (of.outlet_is_round || along <= 0.5 * of.outlet_depth);
   }
   const double area =
-      of.outlet_is_round ? std::numbers::pi * half_width * half_width : 2 * half_width * of.outlet_depth;
+      of.outlet_is_round ? std::numbers::pi * (to * to - from * from) : 2 * (to - from) * of.outlet_depth;
   return inside * of.particle_mass / (of.grain_density * area * height);
+}
+
+/// So high above the outlet its width is empty, while grains stand beside it.
+double rathole_height(const HopperSnapshot& s) {
+  const double least = 0.3 * s.setting.bed_packing, width = s.setting.outlet_width;
+  if (!s.shape().outlet || !(width > 0)) return none;
+  int high = 0;
+  for (int layer = 0; s.shape().outlet->height + layer * width < s.shape().height; ++layer) {
+    if (!(packing_above_outlet(s, layer, false) < least)) break;
+    if (packing_above_outlet(s, layer, true) >= least) high = layer + 1;
+  }
+  return high * width;
+}
+
+}  // namespace
+
+double outlet_packing(const HopperSnapshot& s) {
+  return packing_above_outlet(s, 0, false);
 }
 
 double share_in_motion(const HopperRun& run, const Window& window) {
@@ -208,6 +232,11 @@ std::vector<Row> hopper_vessel_measures() {
           "packing in the space of the outlet's width and as high above it, at the end: of an arch that stands there, "
           "0.3 of the bed's at least",
           at(outlet_packing), {outlet}),
+      Row("rathole_height", "m",
+          "height above the outlet up to which its width is empty, at the end, and grains stand beside it, up to twice "
+          "that "
+          "width; in layers as high as the outlet is wide, with less and with more than 0.3 of the bed's packing",
+          at(rathole_height), {outlet}),
       Row("mass_flow_half_angle_jenike", "deg",
           "half angle, from the vertical, up to which a cone empties in mass flow, analytical estimate: 90° − ½ "
           "acos((1 − sin φ)/(2 "

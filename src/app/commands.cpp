@@ -32,6 +32,24 @@ CaseFile CaseOptions::read() const {
   return file;
 }
 
+std::vector<double> numbers_of(const std::string& option, const std::string& text, const Dimension& unit, double below,
+                               const std::string& allowed, std::vector<Problem>& problems) {
+  std::vector<double> numbers;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string word = text.substr(from, comma - from);
+    const auto quantity = parse_quantity(word);
+    if (quantity && quantity->dimension == unit && quantity->value > 0 && quantity->value < below)
+      numbers.push_back(quantity->value);
+    else
+      problems.push_back({.where = fmt::format("{} {}", option, text),
+                          .what = fmt::format("\"{}\" is out of place", word),
+                          .allowed = allowed});
+    from = comma + 1;
+  }
+  return numbers;
+}
+
 std::filesystem::path default_results(const std::string& case_path) {
   return std::filesystem::path("results") / std::filesystem::path(case_path).stem();
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/unit.hpp"
 #include "io/case_file.hpp"
 #include "ranks/ranks.hpp"
 
@@ -30,6 +31,9 @@ void add_compare_command(CLI::App& app, Action& action);
 void add_analyze_command(CLI::App& app, Action& action);
 void add_law_command(CLI::App& app, Action& action);
 void add_shear_cell_command(CLI::App& app, Action& action);
+void add_calibrate_command(CLI::App& app, Action& action);
+void add_hopper_design_command(CLI::App& app, Action& action);
+
 void add_reproduce_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_picture_command(CLI::App& app, Action& action);
@@ -51,6 +55,11 @@ struct CaseOptions {
   /// \throws FileError, InputError as CaseFile
   CaseFile read() const;
 };
+
+/// Numbers above 0 of a list "a,b,c" in a dimension. Adds what is wrong with it to the problems. \param allowed in
+/// words
+std::vector<double> numbers_of(const std::string& option, const std::string& text, const Dimension& unit, double below,
+                               const std::string& allowed, std::vector<Problem>& problems);
 
 /// Where the results of a case go without --out: results/NAME of the case.
 std::filesystem::path default_results(const std::string& case_path);

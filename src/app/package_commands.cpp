@@ -17,6 +17,7 @@
 
 #include "analysis/measure.hpp"
 #include "app/commands.hpp"
+#include "app/law/shear_data.hpp"
 #include "app/models/models.hpp"
 #include "app/project/project.hpp"
 #include "app/report/report.hpp"
@@ -92,6 +93,30 @@ Json quantities(const Json& question) {
   Json all = Json::array();
   for (const std::string text : question.at("texts")) all.push_back(quantity(text));
   return all;
+}
+
+/// The yield loci of {"file"}: {"consolidation", "bulk_density" or null, "points", "angle", "major", "strength"}, SI.
+Json yield_loci(const Json& question) {
+  Json all = Json::array();
+  for (const MeasuredLocus& found : read_shear_data(question.at("file").get<std::string>())) {
+    Json points = Json::array();
+    for (const granular::YieldPoint& point : found.points) points.push_back({point.normal, point.shear});
+    all.push_back({{"consolidation", found.consolidation},
+                   {"bulk_density", found.bulk_density ? Json(*found.bulk_density) : Json()},
+                   {"points", std::move(points)},
+                   {"angle", found.locus.angle},
+                   {"major", found.locus.major},
+                   {"strength", found.locus.strength}});
+  }
+  return all;
+}
+
+/// The points of {"file"}, a wall yield locus: [normal stress, shear stress], Pa.
+Json wall_locus(const Json& question) {
+  Json points = Json::array();
+  for (const granular::YieldPoint& point : read_wall_data(question.at("file").get<std::string>()))
+    points.push_back({point.normal, point.shear});
+  return points;
 }
 
 /// The quantities of summaries: {"name", "unit", "may_be_missing"} of all models.
@@ -236,9 +261,16 @@ struct Question {
   std::string_view name;
   Json (*answer)(const Json& question);
 };
-constexpr Question questions[] = {{"plan", plan},       {"begin", begin},       {"claim", claim},
-                                  {"points", points},   {"measures", measures}, {"quantities", quantities},
-                                  {"numbers", numbers}, {"report", report}};
+constexpr Question questions[] = {{"plan", plan},
+                                  {"begin", begin},
+                                  {"claim", claim},
+                                  {"points", points},
+                                  {"measures", measures},
+                                  {"quantities", quantities},
+                                  {"numbers", numbers},
+                                  {"report", report},
+                                  {"yield-loci", yield_loci},
+                                  {"wall-locus", wall_locus}};
 
 ExitStatus answer_question() {
   const std::string text(std::istreambuf_iterator<char>(std::cin), {});
@@ -303,6 +335,25 @@ void add_compare_command(CLI::App& app, Action& action) {
   command->add_option("OTHER", options->text, "REFERENCE.toml, or the folder of another run")->required();
   command->add_option("--json", options->text, "also write the rows, and which runs they are of, to this file");
   command->add_option("--picture", options->text, "two runs: also draw their series over each other into this PNG");
+}
+
+void add_calibrate_command(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = add_command(
+      app, action, options, "calibrate", "make a material file of shear tests, or of the angle of a heap",
+      "Of each number the value, the interval of 95 % and where it is from; a case takes the file by grains.material.\n"
+      "Yield loci: CSV with the columns consolidation, normal_stress, shear_stress, or friction_angle, cohesion (or\n"
+      "unconfined_strength), consolidation (or major_stress); bulk_density; units in the header: normal_stress [kPa].\n"
+      "A heap is poured with the law itself, some times; killed, the same command goes on.");
+  command->add_option("--shear-cell", options->text, "yield loci of a shear tester");
+  command->add_option("--wall", options->texts, "a wall yield locus: normal_stress, shear_stress")
+      ->type_name("steel=FILE")
+      ->allow_extra_args(false);
+  command->add_option("--repose", options->text, "angle of a poured heap, 18 to 42 deg");
+  command->add_option("--bulk-density", options->text, "of the bed; with --shear-cell that of its file if not given");
+  command->add_option("--grain-density", options->text, "of a grain; if not given as of a packing of 0.6");
+  command->add_option("--diameter", options->text, "of a grain");
+  command->add_option("--out", options->out, "material file")->required()->type_name("NAME.toml");
 }
 
 void add_reproduce_command(CLI::App& app, Action& action) {

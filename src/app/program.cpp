@@ -79,6 +79,8 @@ int talus::app::run_command_line(int argc, char** argv, const Ranks& ranks) {
   talus::app::add_analyze_command(app, action);
   talus::app::add_law_command(app, action);
   talus::app::add_shear_cell_command(app, action);
+  talus::app::add_calibrate_command(app, action);
+  talus::app::add_hopper_design_command(app, action);
   talus::app::add_reproduce_command(app, action);
   talus::app::add_report_command(app, action);
   talus::app::add_picture_command(app, action);

@@ -25,25 +25,6 @@ struct ShearCellWords {
   bool overwrite = false;
 };
 
-/// Numbers of a list "a,b,c" in a dimension. Adds what is wrong with it to the problems.
-std::vector<double> numbers_of(const std::string& option, const std::string& text, const Dimension& unit, double below,
-                               const std::string& allowed, std::vector<Problem>& problems) {
-  std::vector<double> numbers;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string word = text.substr(from, comma - from);
-    const auto quantity = parse_quantity(word);
-    if (quantity && quantity->dimension == unit && quantity->value > 0 && quantity->value < below)
-      numbers.push_back(quantity->value);
-    else
-      problems.push_back({.where = fmt::format("{} {}", option, text),
-                          .what = fmt::format("\"{}\" is out of place", word),
-                          .allowed = allowed});
-    from = comma + 1;
-  }
-  return numbers;
-}
-
 void print_table(std::span<const granular::ShearTest> tests) {
   constexpr const char* words = "{:>10} {:>10} {:>9} {:>8} {:>9} {:>9} {:>9} {:>8} {:>12} {:>10}\n";
   print(words, "load", "density", "cohesion", "angle", "eff. ang.", "sigma_1", "f_c", "ff_c", "plane f_c", "cyl. f_c");

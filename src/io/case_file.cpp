@@ -214,6 +214,12 @@ CaseFile CaseFile::part(std::span<const std::string_view> keys) const {
   return part;
 }
 
+CaseFile CaseFile::without(std::string_view key) const {
+  CaseFile rest = *this;
+  std::erase_if(rest.entries_, [&](const CaseEntry& entry) { return entry.key == key; });
+  return rest;
+}
+
 const CaseEntry* CaseFile::find(std::string_view key) const {
   const auto entry =
       std::find_if(entries_.begin(), entries_.end(), [&](const CaseEntry& candidate) { return candidate.key == key; });

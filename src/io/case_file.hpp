@@ -53,6 +53,8 @@ class CaseFile {
 
   /// The same case as if it held these keys, and what lies in these tables, alone.
   CaseFile part(std::span<const std::string_view> keys) const;
+  /// The same case as if it did not hold this key.
+  CaseFile without(std::string_view key) const;
 
   const std::string& name() const { return name_; }
 

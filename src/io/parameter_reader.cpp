@@ -87,9 +87,9 @@ void ParameterReader::check(std::vector<Problem> contradictions) {
         });
     if (follows) continue;
     const CaseEntry* entry = file_.find(problem.key);
-    problem.where = entry ? entry->where : file_.name();
-    problem.line = entry ? entry->line : 0;
-    found_.push_back({std::move(problem), !entry, entry && entry->is_option});
+    const bool elsewhere = !problem.where.empty();
+    if (!elsewhere) problem.where = entry ? entry->where : file_.name(), problem.line = entry ? entry->line : 0;
+    found_.push_back({std::move(problem), !entry && !elsewhere, entry && entry->is_option});
   }
 }
 

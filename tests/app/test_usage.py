@@ -7,8 +7,8 @@ import unittest
 
 from program import PROGRAM, ProgramTest
 
-COMMANDS = ("new", "run", "check", "ensemble", "compare", "analyze", "law", "shear-cell", "reproduce", "report", "picture",
-            "movie", "schema", "materials", "completion", "man")
+COMMANDS = ("new", "run", "check", "ensemble", "compare", "analyze", "law", "shear-cell", "calibrate",
+            "hopper-design", "reproduce", "report", "picture", "movie", "schema", "materials", "completion", "man")
 COMPLETE = """source ./talus.bash
 COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1))
 compopt() { echo "asks for: $*"; }

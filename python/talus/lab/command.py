@@ -61,7 +61,8 @@ def arguments(*places, texts=(), lists=(), numbers=(), flags=()):
                        (flags, {"action": "store_true"})):
         for name in names:
             parser.add_argument(f"--{name}", **how)
-    return parser.parse_args()
+    words = sys.argv[1:]
+    return parser.parse_args(words if places else [word for word in words if word != "--"])
 
 
 def run_command(command):

@@ -72,6 +72,7 @@ class FlowAnswers {
   std::vector<Answer> all() const {
     if (!std::isfinite(left_)) return {};
     std::vector<Answer> answers = {end()};
+    if (const auto outlet = critical_outlet_by_hand(setup_)) answers.push_back(critical_outlet(*outlet));
     if (!setup_.given.vessel.empty()) answers.push_back(regime());
     answers.push_back(steady_discharge());
     if (const double peak = of("discharge_rate_max"); peak > 0)
@@ -100,16 +101,33 @@ class FlowAnswers {
     Answer answer{.question = "Flow", .answer = {}};
     if (std::isfinite(emptied))
       answer.answer = fmt::format("has emptied after {}, {}", time_text(emptied), rest);
-    else if (std::isfinite(stopped))
+    else if (is_cohesive() && has_arch() && (std::isfinite(stopped) || !(discharged() > 1e-9)))
       answer.answer =
-          fmt::format("has stopped after {} with {}: {}", time_text(stopped), rest,
-                      of("outlet_packing") >= arch * setup_.given.bed.packing ? "arch over the outlet"
-                                                                              : "stagnant at its angle of repose");
+          fmt::format("arched at {}, over the outlet: {}", std::isfinite(stopped) ? time_text(stopped) : "once", rest);
+    else if (std::isfinite(stopped))
+      answer.answer = fmt::format("has stopped after {} with {}: {}", time_text(stopped), rest,
+                                  has_arch()     ? "arch over the outlet"
+                                  : is_rathole() ? "rathole"
+                                                 : "stagnant at its angle of repose");
     else if (!(discharged() > 1e-9))
       answer.answer = fmt::format("has not started: {}", rest);
     else
       answer.answer = fmt::format("still flows at the end of the run: {}", rest);
     return answer;
+  }
+
+  bool is_cohesive() const { return continuum::has_cohesion(setup_.given); }
+  bool has_arch() const { return of("outlet_packing") >= arch * setup_.given.bed.packing; }
+  /// Higher than what slopes leave beside the outlet.
+  bool is_rathole() const { return is_cohesive() && of("rathole_height") > 1.5 * setup_.outlet_width.value_or(0); }
+
+  Answer critical_outlet(const granular::CriticalOutlet& outlet) const {
+    const std::string by_hand = std::isinf(outlet.width) ? "any arches"
+                                : outlet.width > 0       ? length_text(outlet.width)
+                                                         : "none";
+    return {
+        "Critical outlet", fmt::format("{} here", length_text(setup_.outlet_width.value_or(0))),
+        fmt::format("{} (Jenike: flow factor {:.3g}, f_c {})", by_hand, outlet.factor, pressure_text(outlet.strength))};
   }
 
   Answer regime() const {

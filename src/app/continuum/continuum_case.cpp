@@ -194,7 +194,8 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
   defaults.beds.resize(std::min(file.tables("beds"), max_beds));
   for (std::size_t n = 0; n < defaults.beds.size(); ++n) defaults.beds[n].tag = static_cast<std::int64_t>(n) + 1;
   FilledIn filled = fill_in_material(file, defaults);
-  ParameterReader reader(file, continuum::renamed_keys);
+  const CaseFile without = without_own_material(file);
+  ParameterReader reader(without, continuum::renamed_keys);
   reader.check(filled.problems);
   reader.check(std::move(unreadable));
   ContinuumCase read{{read_case(reader, std::move(defaults))}, std::move(filled)};

@@ -118,6 +118,18 @@ double mass_flow_half_angle_by_hand(const continuum::Layout& layout) {
               : HopperRun::none;
 }
 
+std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum::Layout& layout) {
+  const continuum::Parameters& p = layout.given;
+  const VesselPart* cone = emptying_cone(layout);
+  if (!continuum::has_cohesion(p) || !(cone || p.wedge.half_angle)) return std::nullopt;
+  const auto& law = p.law.of<granular::CriticalState>();
+  const double weight = bulk_density(p) * p.gravity.acceleration;
+  return cone ? granular::critical_outlet(granular::HopperShape::cone, half_angle_of_cone(layout),
+                                          friction_of(layout, *cone), law, weight)
+              : granular::critical_outlet(granular::HopperShape::wedge, *p.wedge.half_angle, p.walls.coefficient, law,
+                                          weight);
+}
+
 double half_angle_of_cone(const continuum::Layout& layout) {
   const VesselPart* cone = emptying_cone(layout);
   return cone ? std::atan(tangent_of(*cone)) : HopperRun::none;

@@ -2,9 +2,12 @@
 /// Analytical estimates of a case, to compare with what Talus computes.
 #pragma once
 
+#include <optional>
+
 #include "analysis/hopper.hpp"
 #include "app/continuum/silo_shape.hpp"
 #include "physics/granular/friction_angle.hpp"
+#include "physics/granular/hopper_design.hpp"
 
 namespace talus::app {
 
@@ -28,6 +31,10 @@ double pressure_ratio_at_rest(const continuum::Layout& layout);
 /// The largest half angle of mass flow in a cone (physics/granular/silo.hpp), rad; nan if the vessel empties
 /// through no cone.
 double mass_flow_half_angle_by_hand(const continuum::Layout& layout);
+
+/// The outlet of a cone or a wedge below which grains that stick together arch (physics/granular/hopper_design.hpp);
+/// nothing without cohesion, or without such a hopper.
+std::optional<granular::CriticalOutlet> critical_outlet_by_hand(const continuum::Layout& layout);
 
 /// The half angle that it has, rad; nan without such a cone.
 double half_angle_of_cone(const continuum::Layout& layout);

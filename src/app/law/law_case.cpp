@@ -16,13 +16,14 @@ namespace talus::app {
 LawCase read_law_case(const CaseFile& file) {
   static constexpr std::array<std::string_view, 7> concerned{
       "law", "collisions", "path", "grains.material", "grains.density", "grains.diameter", "gravity.acceleration"};
-  const CaseFile part = file.contains("model") ? file.part(concerned) : file;
+  const CaseFile part = without_own_material(file.contains("model") ? file.part(concerned) : file);
   LawCase parameters;
-  fill_in_values(file, parameters);
+  const FilledIn filled = fill_in_values(file, parameters);
   std::string title;
   ParameterReader reader(part, continuum::renamed_keys);
   reader(Parameter{.key = "title", .text = "one line"}, title);
   for_each_parameter(reader, parameters);
+  reader.check(filled.problems);
   reader.check(parameters, [](const LawCase& read) { return granular::check(read.law); });
   auto& critical = parameters.law.of<granular::CriticalState>();
   if (part.contains("law.critical-state.bulk_modulus") && !part.contains("law.critical-state.shear_modulus"))

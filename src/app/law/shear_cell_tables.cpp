@@ -21,14 +21,16 @@ void write_shear_tables(std::span<const granular::ShearTest> tests, const std::f
                                                    {"major_stress", "Pa"},
                                                    {"unconfined_strength", "Pa"},
                                                    {"strength_in_plane_strain", "Pa"},
-                                                   {"strength_of_cylinder", "Pa"}});
+                                                   {"strength_of_cylinder", "Pa"},
+                                                   {"density_in_oedometer", "kg/m3"},
+                                                   {"lateral_stress_in_oedometer", "Pa"}});
   for (const granular::ShearTest& test : tests) {
     const double load = test.pre_shear.normal;
     for (const granular::YieldPoint& point : test.points) append(loci, {load, point.normal, point.shear});
     for (const granular::Compression& sample : test.triaxial) append(triaxial, {load, sample.lateral, sample.axial});
-    append(flow,
-           {load, test.pre_shear.shear, test.density, test.locus.cohesion, test.locus.angle, test.locus.effective_angle,
-            test.locus.major, test.locus.strength, test.strength_in_plane_strain, test.strength_of_cylinder});
+    append(flow, {load, test.pre_shear.shear, test.density, test.locus.cohesion, test.locus.angle,
+                  test.locus.effective_angle, test.locus.major, test.locus.strength, test.strength_in_plane_strain,
+                  test.strength_of_cylinder, test.density_in_oedometer, test.oedometer.lateral});
   }
   for (SeriesWriter* writer : {&loci, &triaxial, &flow}) writer->sync();
 }

@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
+#include "app/case/model_case.hpp"
 #include "io/parameter_value.hpp"
 #include "models/continuum/population.hpp"
 #include "models/continuum/setup/time_scale.hpp"
@@ -27,12 +30,17 @@ constexpr std::pair<std::string_view, std::string_view> files[] = {
 #include "material_files.inc"  // made by the build from materials/
 };
 
+constexpr std::string_view material_key = "grains.material";
 constexpr double moduli_over_weight[] = {62.5, 250, 1000};  // by Accuracy
 constexpr double max_mach_number_of_fall = 0.1;
 
+/// \throws std::logic_error if a file of the program's holds no such value
 template <class T>
-std::optional<T> read(const CaseFile& material, const std::string& key, const Parameter& parameter) {
-  const auto value = value_in(material, key, parameter, value_type<T>());
+std::optional<T> read(const CaseFile& material, const std::string& key, const Parameter& parameter,
+                      std::vector<Problem>* of_own = nullptr) {
+  std::vector<Problem> problems;
+  const auto value = value_in(material, key, parameter, value_type<T>(), of_own ? *of_own : problems);
+  if (!problems.empty()) throw std::logic_error(to_string(problems[0]));
   if (!value) return std::nullopt;
   T member{};
   from_value(*value, member);
@@ -40,27 +48,59 @@ std::optional<T> read(const CaseFile& material, const std::string& key, const Pa
 }
 
 /// Of a wall; nothing if the material does not know it.
-std::optional<double> friction_on(const CaseFile& material, WallMaterial wall) {
+std::optional<double> friction_on(const CaseFile& material, WallMaterial wall, std::vector<Problem>& problems) {
   const std::string key = fmt::format("walls.{}.value", choice_name(wall));
-  return read<double>(material, key, Parameter{key, dimension::none, friction_coefficient()});
+  return read<double>(material, key, Parameter{key, dimension::none, friction_coefficient()}, &problems);
 }
 
 std::string known_walls(const CaseFile& material) {
   std::vector<std::string_view> names;
-  for (std::size_t n = 0; n < choices<WallMaterial>.size(); ++n)
-    if (friction_on(material, static_cast<WallMaterial>(n))) names.push_back(choices<WallMaterial>[n]);
-  return fmt::format("{}", fmt::join(names, ", "));
+  for (const std::string_view wall : choices<WallMaterial>)
+    if (material.contains(fmt::format("walls.{}.value", wall))) names.push_back(wall);
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-continuum::MaterialRange range_of(const CaseFile& material) {
-  continuum::MaterialRange range;
-  const auto pair = [&](const char* key, Dimension unit) {
-    return read<std::vector<double>>(material, key, Parameter{key, unit});
+continuum::MaterialRange range_of(const CaseFile& material, std::vector<Problem>& problems) {
+  continuum::MaterialRange range{.name = std::filesystem::path(material.name()).stem().string()};
+  const auto pair = [&](const char* key, Dimension unit) -> std::optional<std::vector<double>> {
+    const auto ends = read<std::vector<double>>(material, key, Parameter{key, unit}, &problems);
+    if (!ends || (ends->size() == 2 && ends->at(0) <= ends->at(1))) return ends;
+    const CaseEntry& entry = *material.find(key);
+    problems.push_back({.where = entry.where,
+                        .line = entry.line,
+                        .key = key,
+                        .what = "is no range",
+                        .allowed = "its two ends, the smaller first"});
+    return std::nullopt;
   };
   if (const auto d = pair("grains.diameter.range", dimension::length))
     range.min_diameter = d->at(0), range.max_diameter = d->at(1);
   if (const auto p = pair("pressure.range", dimension::pressure)) range.max_pressure = p->at(1);
   return range;
+}
+
+/// What a case says of its material, if that is a file.
+const std::string* own_material(const CaseFile& file) {
+  const CaseEntry* entry = file.find(material_key);
+  const auto* name = entry ? std::get_if<std::string>(&entry->value.value) : nullptr;
+  return name && name->ends_with(".toml") ? name : nullptr;
+}
+
+/// Tables of a file that are neither a key of a case nor say where it holds.
+std::vector<Problem> unknown_tables(const CaseFile& material, const FilledIn& filled) {
+  std::vector<Problem> problems;
+  for (const CaseEntry& entry : material.entries()) {
+    const std::string table(table_of(entry.key));
+    const bool told = std::any_of(filled.problems.begin(), filled.problems.end(),
+                                  [&](const Problem& problem) { return problem.key == entry.key; });
+    if (told || last_part(entry.key) != "value" || filled.keys.contains(table) || lies_in(table, "walls")) continue;
+    problems.push_back({.where = entry.where,
+                        .line = entry.line,
+                        .key = table,
+                        .what = "is no key of a case, nor a wall",
+                        .allowed = "keys of docs/case-reference-continuum.md; walls.steel and others; pressure"});
+  }
+  return problems;
 }
 
 std::string plain(const CaseValue& value) {
@@ -85,16 +125,44 @@ const CaseFile& file_of(GrainMaterial material) {
 }
 
 std::optional<GrainMaterial> material_of(const CaseFile& file) {
-  return choice_in<GrainMaterial>(file, "grains.material");
+  return choice_in<GrainMaterial>(file, material_key);
+}
+
+std::optional<CaseFile> material_file(const CaseFile& file, std::vector<Problem>& problems) {
+  if (const auto of_program = material_of(file)) return file_of(*of_program);
+  const std::string* own = own_material(file);
+  std::optional<CaseFile> material;
+  if (!own) return material;
+  try {
+    read_input(std::string(material_key), problems,
+               [&] { material = CaseFile::read(input_path(file, *own).string()); });
+  } catch (const InputError& error) {  // no TOML
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+  return material;
+}
+
+CaseFile without_own_material(const CaseFile& file) {
+  if (!own_material(file)) return file;
+  CaseFile without = file.without(material_key).without("walls.material");
+  for (std::size_t n = 0; n < file.tables("vessel"); ++n)
+    without = without.without(continuum::vessel_key(n, "material"));
+  return without;
 }
 
 std::optional<ParameterValue> value_in(const CaseFile& material, const std::string& key, const Parameter& parameter,
-                                       const ValueType& type) {
+                                       const ValueType& type, std::vector<Problem>& problems) {
   const CaseEntry* entry = material.find(key);
   if (!entry) return std::nullopt;
   ValueFault fault;
   auto value = convert_value(*entry, parameter, type, fault);
-  if (!value) throw std::logic_error(fmt::format("{}: {} {}", material.name(), key, fault.what));
+  if (!value)
+    problems.push_back({.where = entry->where,
+                        .line = entry->line,
+                        .key = key,
+                        .what = fault.what,
+                        .allowed = allowed_text(parameter, type),
+                        .nearest = fault.nearest});
   return value;
 }
 
@@ -148,22 +216,27 @@ std::optional<granular::en1991::Solid> solid_of_code(GrainMaterial material) {
 }
 
 FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults) {
-  FilledIn filled;
-  const auto grains = material_of(file);
-  if (!grains) return filled;
-  const CaseFile& material = file_of(*grains);
-  for (const std::string& key : fill_in_values(file, defaults)) filled.keys.emplace(key, "material");
-  defaults.grains.range = range_of(material);
+  FilledIn filled = fill_in_values(file, defaults);
+  std::vector<Problem> told;  // by fill_in_values()
+  const auto found = material_file(file, told);
+  if (!found) return filled;
+  const CaseFile& material = *found;
+  if (own_material(file))
+    for (Problem& problem : unknown_tables(material, filled)) filled.problems.push_back(std::move(problem));
+  defaults.grains.range = range_of(material, filled.problems);
   const auto rub = [&](const std::string& key, const std::string& friction_key, auto& friction) {
     const auto wall = choice_in<WallMaterial>(file, key);
     if (!wall || file.contains(friction_key)) return;
-    if (const auto coefficient = friction_on(material, *wall)) {
+    const std::size_t before = filled.problems.size();
+    if (const auto coefficient = friction_on(material, *wall, filled.problems)) {
       friction = *coefficient;
       filled.keys.emplace(friction_key, "material");
-    } else {
+    } else if (filled.problems.size() == before) {
       filled.problems.push_back(
-          {.key = key,
-           .what = fmt::format("no friction of {} on {} is known", choice_name(*grains), choice_name(*wall)),
+          {.where = file.find(key)->where,
+           .line = file.find(key)->line,
+           .key = key,
+           .what = fmt::format("no friction of {} on {} is known", defaults.grains.range.name, choice_name(*wall)),
            .allowed = fmt::format("{}; or {}", known_walls(material), friction_key)});
     }
   };
@@ -222,7 +295,8 @@ double bulk_modulus_for(const continuum::Layout& layout, double end) {
   const continuum::Parameters& p = layout.given;
   const double density = p.bed.packing * p.grains.density, speed = speed_of_fall(layout) / max_mach_number_of_fall;
   const double shear = shear_over_bulk(p.grains.material);
-  const double stiff = moduli_over_weight[static_cast<std::size_t>(p.accuracy.value_or(continuum::Accuracy::reference))];
+  const double stiff =
+      moduli_over_weight[static_cast<std::size_t>(p.accuracy.value_or(continuum::Accuracy::reference))];
   return std::max(stiff * (density * p.gravity.acceleration * depth_that_may_be_reached(layout, end)),
                   density * speed * speed / (1 + 4.0 / 3 * shear));
 }

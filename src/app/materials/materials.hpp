@@ -2,13 +2,13 @@
 /// The materials that a case may name: their files stand in the program. A file has a table for each key of a case that
 /// it fills in, with `value`, and `range` and `source` of it, of a friction also `test` and the `angle` that it gave;
 /// [walls.NAME] of each wall that its friction is known of;
-/// [pressure] with the range in which all of it holds; [en1991.NAME] of what EN 1991-4 says of the solid.
+/// [pressure] with the range in which all of it holds; [en1991.NAME] of what EN 1991-4 says of the solid. A case may
+/// also name a file of its own, which talus calibrate writes: the same without [en1991.NAME].
 #pragma once
 
 #include <array>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -52,20 +52,25 @@ std::optional<granular::en1991::Solid> solid_of_code(continuum::GrainMaterial ma
 /// Values that follow from other keys.
 struct FilledIn {
   std::map<std::string, std::string, std::less<>> keys;  ///< and what each follows from: "material", "bed", "method"
-  std::vector<Problem> problems;  ///< walls of which the material does not know how its grains rub on them
+  /// Walls of which the material does not know how its grains rub on them; what is wrong with a file of its own.
+  std::vector<Problem> problems;
 };
 
 /// Makes the values of the case's material the defaults of its keys. \param file the case
 FilledIn fill_in_material(const CaseFile& file, continuum::Parameters& defaults);
 
-/// The values alone, of any list of parameters with keys of a case: what of them the file has. \returns their keys
+/// The values alone, of any list of parameters with keys of a case: what of them the material has.
 template <class P>
-std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters);
+FilledIn fill_in_values(const CaseFile& file, P& parameters);
+
+/// The case without grains.material, if that is a file, and without what its walls are made of: fill_in_material() has
+/// made values of other keys of these, and none of the program's materials is meant.
+CaseFile without_own_material(const CaseFile& file);
 
 /// Pa; discharge, surfaces and heaps are then as for stiff grains (docs/design/time-steps.md): a thousand
-/// times, for a design 250 times, for a draft 62.5 times the weight over its area of as deep a bed as the grains at the start and those that come in can make, and so
-/// much that what falls from where it begins to the lowest position has a Mach number of 0.1 at most. \param end of the
-/// run, s
+/// times, for a design 250 times, for a draft 62.5 times the weight over its area of as deep a bed as the grains at the
+/// start and those that come in can make, and so much that what falls from where it begins to the lowest position has a
+/// Mach number of 0.1 at most. \param end of the run, s
 double bulk_modulus_for(const continuum::Layout& layout, double end);
 
 /// The shear modulus G over the bulk modulus B. Of a material that EN 1991-4 lists so that a bed which has settled
@@ -85,31 +90,36 @@ void set_from_bed(const CaseFile& file, const continuum::Layout& layout, double 
 /// The material that the case names; nothing if it names none of the program's.
 std::optional<continuum::GrainMaterial> material_of(const CaseFile& file);
 
-/// Whether the file of a material has a value for a key, and which. \throws std::logic_error if it is not one
+/// The file of the material that a case names; nothing if it names none. \param problems gets what is wrong with a file
+/// of its own
+std::optional<CaseFile> material_file(const CaseFile& file, std::vector<Problem>& problems);
+
+/// Whether the file of a material has a value for a key, and which; one that will not do is a problem.
 std::optional<ParameterValue> value_in(const CaseFile& material, const std::string& key, const Parameter& parameter,
-                                       const ValueType& type);
+                                       const ValueType& type, std::vector<Problem>& problems);
 
 /// Reads the values that the file of a material has.
 struct MaterialValues {
   const CaseFile& material;
-  std::set<std::string, std::less<>> keys = {};
+  FilledIn filled = {};
 
   template <class T>
   void operator()(const Parameter& parameter, T& member) {
-    const auto value = value_in(material, parameter.key + ".value", parameter, value_type<T>());
+    const auto value = value_in(material, parameter.key + ".value", parameter, value_type<T>(), filled.problems);
     if (!value) return;
     from_value(*value, member);
-    keys.insert(parameter.key);
+    filled.keys.emplace(parameter.key, "material");
   }
 };
 
 template <class P>
-std::set<std::string, std::less<>> fill_in_values(const CaseFile& file, P& parameters) {
-  const auto material = material_of(file);
-  if (!material) return {};
-  MaterialValues values{file_of(*material)};
+FilledIn fill_in_values(const CaseFile& file, P& parameters) {
+  FilledIn nothing;
+  const auto material = material_file(file, nothing.problems);
+  if (!material) return nothing;
+  MaterialValues values{*material};
   for_each_parameter(values, parameters);
-  return std::move(values.keys);
+  return std::move(values.filled);
 }
 
 }  // namespace talus::app

@@ -30,7 +30,7 @@ constexpr Question friction{"friction", friction_text, "0.5", {}, 0, 1.3};
 
 // Of grains with a material, whose values hold where none is given.
 constexpr Question material{.name = "material",
-                            .text = "what the grains are: glass-beads, sand, wheat or maize (talus materials)",
+                            .text = "what the grains are: one that talus materials lists",
                             .standard = "glass-beads",
                             .words = choices<continuum::GrainMaterial>,
                             .only_words = true};

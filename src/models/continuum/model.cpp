@@ -307,11 +307,10 @@ std::vector<RegimeLine> Continuum::regime(const RunRecord& record) const {
     lines.push_back({"largest pressure", fmt::format("{:.4g} Pa", pressure),
                      fmt::format("at the end; the fit of the law ends at {:.4g} Pa", most), pressure > most});
   }
-  if (setup_->given.grains.material) {
-    const double pressure = end.max_pressure, most = setup_->given.grains.range.max_pressure;
+  if (const MaterialRange& range = setup_->given.grains.range; !range.name.empty()) {
+    const double pressure = end.max_pressure, most = range.max_pressure;
     lines.push_back({"pressure for the material", fmt::format("{:.4g} Pa", pressure),
-                     fmt::format("largest at the end; the values of {} hold up to {:.4g} Pa",
-                                 choice_name(*setup_->given.grains.material), most),
+                     fmt::format("largest at the end; the values of {} hold up to {:.4g} Pa", range.name, most),
                      pressure > most});
   }
   if (const double most = setup_->material.range().max_inertial_number; std::isfinite(most)) {

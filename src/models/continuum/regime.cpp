@@ -44,18 +44,17 @@ void add_range_of_law(const Setup& setup, std::vector<RegimeLine>& lines) {
 /// Where the values of the material hold.
 void add_range_of_material(const Setup& setup, std::vector<RegimeLine>& lines) {
   const Parameters& p = setup.given;
-  if (!p.grains.material) return;
   const MaterialRange& range = p.grains.range;
-  const std::string_view name = choice_name(*p.grains.material);
+  if (range.name.empty()) return;
   lines.push_back({"diameter of the material's grains", fmt::format("{:.4g} mm", p.grains.diameter / millimetre),
-                   fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", name, range.min_diameter / millimetre,
-                               range.max_diameter / millimetre),
+                   fmt::format("the values of {} hold from {:.4g} to {:.4g} mm", range.name,
+                               range.min_diameter / millimetre, range.max_diameter / millimetre),
                    !(p.grains.diameter >= range.min_diameter && p.grains.diameter <= range.max_diameter)});
   const double weight = weight_of_bed(setup);
-  lines.push_back(
-      {"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
-       fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", name, range.max_pressure),
-       weight > range.max_pressure});
+  lines.push_back({"weight of the bed for its material", fmt::format("{:.4g} Pa", weight),
+                   fmt::format("over its area; the values of {} hold up to a pressure of {:.4g} Pa", range.name,
+                               range.max_pressure),
+                   weight > range.max_pressure});
 }
 
 /// A bed laid denser than its grains touch is under pressure before it bears its weight.

@@ -93,8 +93,10 @@ ShearTest shear_test(const AnyLaw& law, double load, std::span<const double> fra
                      const ShearCellOptions& options) {
   Sample sample(law, options);
   sample.load(load);
+  const PathPoint loaded = sample.point();
   sample.shear(options.steady_strain);
   ShearTest test{.pre_shear = {load, std::abs(sample.point().stress.zx)}, .density = sample.point().density};
+  test.oedometer = {loaded.stress.xx, loaded.stress.zz}, test.density_in_oedometer = loaded.density;
   for (const double fraction : fractions) {
     Sample failing = sample;
     failing.release(fraction * load);

@@ -12,11 +12,11 @@
 /// whose centre lies at
 ///     m = [A - (A^2 sin^2(phi) - tau_pre^2 cos^2(phi))^(1/2)]/cos^2(phi) - c/tan(phi),  A = sigma_pre + c/tan(phi).
 /// The line from the origin that touches that circle has the effective angle; ff_c = sigma_1/f_c.
-/// Uniaxial and triaxial tests: compressed along z under a constant lateral stress.
-/// Sources: Jenike, Storage and Flow of Solids, Bulletin 123 (Utah, 1964); Schulze, Powders and Bulk Solids (Springer,
-/// 2008), ch. 3; ASTM D6773-16. deviates: the trade takes the shear plane of the tester for a plane of failure. A law
-/// whose principal directions are those of the shear has tan(phi) = M there and sin(phi) = M in plane strain, so that
-/// f_c by the line is less than f_c of a compressed sample; both are given.
+/// Uniaxial and triaxial tests: compressed along z under a constant lateral stress. Oedometer: loaded along z, its
+/// sides held. Sources: Jenike, Storage and Flow of Solids, Bulletin 123 (Utah, 1964); Schulze, Powders and Bulk Solids
+/// (Springer, 2008), ch. 3; ASTM D6773-16. deviates: the trade takes the shear plane of the tester for a plane of
+/// failure. A law whose principal directions are those of the shear has tan(phi) = M there and sin(phi) = M in plane
+/// strain, so that f_c by the line is less than f_c of a compressed sample; both are given.
 #pragma once
 
 #include <span>
@@ -66,6 +66,8 @@ struct ShearTest {
   YieldLocus locus = {};
   double strength_in_plane_strain = 0;     ///< f_c of a compressed sample that cannot widen along y, Pa
   double strength_of_cylinder = 0;         ///< f_c of one that widens along x and y, Pa
+  Compression oedometer = {};              ///< a new sample that cannot widen, under the load: its stresses
+  double density_in_oedometer = 0;         ///< kg/m^3
   std::vector<Compression> triaxial = {};  ///< of cylinders under lateral stresses of the same fractions of the load
 };
 

@@ -94,6 +94,26 @@ TEST_F(Answers, OfAFlowThatGoesOnOrNeverBeganSaySo) {
   EXPECT_EQ(all().front().answer, "has not started: 440 g (100 %) left");
 }
 
+TEST_F(Answers, OfACohesivePowderSayWhereItArchedOrThatAChannelStands) {
+  continuum::Parameters sticky = small_silo();
+  sticky.law = granular::CriticalState::Parameters{.static_friction = 0.5, .tensile_strength = 200};
+  const auto flow = [&] { return answers_of(continuum::Setup(sticky), quantities, folder); };
+  set("emptying_time", none), set("residual_fraction", 1), set("residual_mass", 0.44), set("flow_stop_time", none);
+  set("outlet_packing", 0.55);
+  EXPECT_EQ(flow().front().answer, "arched at once, over the outlet: 440 g (100 %) left");
+  // Of uniform strength, by its shear tester: f_c = 1.618 a, H = 2 + 30/60.
+  EXPECT_EQ(flow()[1].question, "Critical outlet");
+  EXPECT_EQ(flow()[1].answer, "25.4 mm here");
+  EXPECT_TRUE(flow()[1].by_hand.starts_with("55 mm (Jenike: flow factor")) << flow()[1].by_hand;
+  set("residual_fraction", 0.5), set("flow_stop_time", 0.31);
+  EXPECT_EQ(flow().front().answer, "arched at 0.31 s, over the outlet: 440 g (50 %) left");
+  set("outlet_packing", 0.01);
+  quantities.push_back({"rathole_height", "m", 3 * 0.0254});
+  EXPECT_EQ(flow().front().answer, "has stopped after 0.31 s with 440 g (50 %) left: rathole");
+  set("rathole_height", 0.0254);
+  EXPECT_EQ(flow().front().answer, "has stopped after 0.31 s with 440 g (50 %) left: stagnant at its angle of repose");
+}
+
 TEST_F(Answers, NameTheBandOfEachWallThatBearsMost) {
   write_table(folder / "analysis/wall_loads.csv",
               {{"patch", "1"},

@@ -128,7 +128,8 @@ TEST(CohesiveBed, PullsAtAVesselAsFarAsItsWallHolds) {
   p.gate.opens = GateOpens::from_the_start;
   p.walls.friction = Friction::coulomb;
   p.walls.friction_from = FrictionFrom::start;
-  p.walls.adhesion = adhesion, p.walls.coefficient = 1;
+  p.walls.adhesion = 7 * adhesion, p.walls.coefficient = 1;  // the part's own counts
+  p.vessel[0].adhesion = adhesion;
   p.bed.velocity = {{0, 0, 0.05}};
   p.gravity.acceleration = 1e-3;
   ThreadTeam team(1);

@@ -32,6 +32,12 @@ TEST(ShearCell, FindsTheClosedFormsOfTheLaw) {
       const double a = 100 + 0.2 * load, c = m * a;
       EXPECT_NEAR(test.pre_shear.shear, m * (load + a), 0.003 * m * load);
       EXPECT_NEAR(test.density, 0.585 * 2500 * std::exp(load / 4.9e6), 0.1);
+      // Sides held: K = (1 - 2G/3B)/(1 + 4G/3B) with G = 0.6 B, or what yield leaves, less than without dilatancy.
+      const double at_yield = (load * (1 / std::sqrt(3.0) - 0.4 * m) - 100 * m) / (1 / std::sqrt(3.0) + 0.8 * m);
+      EXPECT_NEAR(test.oedometer.axial, load, 1e-6 * load);
+      EXPECT_GE(test.oedometer.lateral, 0.999 * load / 3);
+      EXPECT_LE(test.oedometer.lateral, 1.01 * std::max(load / 3, at_yield));
+      EXPECT_GT(test.density_in_oedometer, 1500);
       for (const YieldPoint& point : test.points) EXPECT_NEAR(point.shear, m * (point.normal + a), 0.01 * point.shear);
       EXPECT_NEAR(test.locus.cohesion, c, 0.01 * c);
       EXPECT_NEAR(std::tan(test.locus.angle), m, 0.01 * m);

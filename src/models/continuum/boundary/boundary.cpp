@@ -92,7 +92,7 @@ Boundary::Boundary(const Parameters& p) : domain_(domain_of(p)), vessel_(surface
     const VesselPart& v = p.vessel[n];
     patches_.push_back({.name = name_of(p, n),
                         .friction = p.walls.friction == Friction::coulomb ? v.friction.value_or(friction) : 0,
-                        .adhesion = adhesion,
+                        .adhesion = wall_adhesion(p, v.adhesion),
                         .opens_after = v.gate ? std::optional(v.opens_after) : std::nullopt,
                         .motion = motion_of(p, v)});
   }

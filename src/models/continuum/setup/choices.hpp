@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <string>
 #include <string_view>
 
 #include "base/parameter.hpp"
@@ -30,12 +31,13 @@ constexpr double default_courant(Method method) {
 }
 
 /// One for each file of materials/.
-enum class GrainMaterial { glass_beads, sand, wheat, maize };
+enum class GrainMaterial { glass_beads, sand, wheat, maize, pharma_powder };
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
 /// Where the values of a material hold.
 struct MaterialRange {
+  std::string name = {};                                                            ///< the material's; empty: none
   double min_diameter = 0, max_diameter = std::numeric_limits<double>::infinity();  ///< of its grains, m
   double max_pressure = std::numeric_limits<double>::infinity();                    ///< Pa
 };
@@ -108,8 +110,8 @@ template <>
 inline constexpr auto choices<continuum::Method> = std::to_array<std::string_view>({"runge-kutta", "leapfrog"});
 
 template <>
-inline constexpr auto choices<continuum::GrainMaterial> = std::to_array<std::string_view>({"glass-beads", "sand",
-                                                                                           "wheat", "maize"});
+inline constexpr auto choices<continuum::GrainMaterial> =
+    std::to_array<std::string_view>({"glass-beads", "sand", "wheat", "maize", "pharma-powder"});
 template <>
 inline constexpr auto choices<continuum::WallMaterial> = std::to_array<std::string_view>({"steel", "acrylic", "glass",
                                                                                           "concrete"});

@@ -326,8 +326,8 @@ double artificial_stress(const Parameters& p) {
   return has_cohesion(p) ? p.sph.artificial_stress : 0;
 }
 
-double wall_adhesion(const Parameters& p) {
-  return has_cohesion(p) && p.walls.friction == Friction::coulomb ? p.walls.adhesion : 0;
+double wall_adhesion(const Parameters& p, const std::optional<double>& of_part) {
+  return has_cohesion(p) && p.walls.friction == Friction::coulomb ? of_part.value_or(p.walls.adhesion) : 0;
 }
 
 std::vector<Problem> check(const Parameters& given) {

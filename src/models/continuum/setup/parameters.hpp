@@ -152,12 +152,15 @@ void for_each_parameter(Visit&& visit, P& p) {
   timed(Parameter{"gate.time", dimension::time, at_least(0),
                   "time at which the gate opens, with gate.opens = \"at-time\""},
         p.gate.time);
-  visit(Parameter{"grains.material",
-                  {},
-                  {},
-                  "what the grains are: density, diameter, packing, law and friction on walls follow where the case "
-                  "does not give them (talus materials); left out: the defaults below"},
-        p.grains.material);
+  visit(
+      Parameter{
+          "grains.material",
+          {},
+          {},
+          "what the grains are: density, diameter, packing, law and friction on walls follow where the case "
+          "does not give them (talus materials, or the file my-powder.toml of another, as talus calibrate writes it); "
+          "left out: the defaults below"},
+      p.grains.material);
   visit(Parameter{"grains.density", dimension::density, above(0), "true density of the grains, rho_p"},
         p.grains.density);
   visit(Parameter{"grains.diameter", dimension::length, above(0), "diameter of the grains, D_p"}, p.grains.diameter);
@@ -365,7 +368,8 @@ double stress_regularisation(const Parameters& parameters);
 bool has_cohesion(const Parameters& parameters);
 
 /// walls.adhesion where grains stick together and walls rub, else 0, Pa.
-double wall_adhesion(const Parameters& parameters);
+/// \param of_part of the vessel, which counts where it is given
+double wall_adhesion(const Parameters& parameters, const std::optional<double>& of_part = {});
 
 /// epsilon, sph.artificial_stress where grains stick together, else 0.
 double artificial_stress(const Parameters& parameters);

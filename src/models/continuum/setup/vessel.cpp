@@ -235,6 +235,8 @@ std::vector<Problem> check_vessel(const Parameters& p) {
     if (upright && !(v.top > v.bottom))
       add("top", fmt::format("{:.4g} mm is not above the bottom", v.top / millimetre),
           fmt::format("above {:.4g} mm", v.bottom / millimetre));
+    if (v.adhesion && !has_cohesion(p))
+      add("adhesion", "the grains do not stick together", "a law with cohesion, such as tensile_strength above 0");
     if (!v.centre.empty() && v.centre.size() != 2) add("centre", "is no place", "two lengths, x and y");
     if (v.shape == VesselShape::disc && !(v.hole < v.radius))
       add("hole", fmt::format("{:.4g} mm leaves no disc", v.hole / millimetre),

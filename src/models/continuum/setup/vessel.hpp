@@ -81,7 +81,7 @@ struct VesselPart {
   std::array<double, 3> rotate{}, move{};
   bool closed = false;
   std::optional<WallMaterial> material;
-  std::optional<double> friction;
+  std::optional<double> friction, adhesion;
   double spin = 0;   ///< rad/s
   double slide = 0;  ///< m/s
   std::optional<std::array<double, 3>> belt;
@@ -202,6 +202,10 @@ void for_each_parameter_of_vessel(Visit&& visit, P& parts) {
     visit(Parameter{key("friction"), dimension::none, friction_coefficient(),
                     "coefficient of friction of this wall; left out: walls.coefficient"},
           v.friction);
+    visit(
+        Parameter{key("adhesion"), dimension::pressure, at_least(0),
+                  "shear stress that this wall bears besides, of grains that stick together; left out: walls.adhesion"},
+        v.adhesion);
     revolved(
         Parameter{key("spin"),
                   {0, 0, -1, 1},

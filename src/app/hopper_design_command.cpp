@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+/// talus hopper-design: Jenike's hopper for a material and a wall, and the loads of EN 1991-4, by formulas alone.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "app/commands.hpp"
+#include "app/continuum/design_code.hpp"
+#include "app/continuum/engineering_units.hpp"
+#include "app/continuum/hand_formulas.hpp"
+#include "app/continuum/silo_shape.hpp"
+#include "app/materials/materials.hpp"
+#include "base/text.hpp"
+#include "physics/granular/hopper_design.hpp"
+#include "physics/granular/silo.hpp"
+
+namespace talus::app {
+
+namespace {
+
+using granular::HopperShape;
+
+constexpr double degree = std::numbers::pi / 180, margin = 3 * degree, any = 1e12;
+constexpr std::array shapes = {HopperShape::wedge, HopperShape::cone};
+
+struct DesignWords {
+  std::string material, wall = "steel", half_angle, outlet, diameter, height, gravity = "9.81 m/s2";
+};
+
+/// What the words say, SI; 0 where nothing is said.
+struct DesignInput {
+  continuum::Parameters grains;
+  granular::CriticalStateParameters law;
+  double half_angle = 0, outlet = 0, diameter = 0, height = 0;
+};
+
+DesignInput read_input(const DesignWords& words) {
+  DesignInput input;
+  std::vector<Problem> problems;
+  const auto number = [&](const char* option, const std::string& text, const Dimension& unit, double below,
+                          const char* allowed) {
+    if (text.empty()) return 0.0;
+    const auto read = numbers_of(option, text, unit, below, allowed, problems);
+    if (read.size() == 1) return read[0];
+    if (read.size() > 1) problems.push_back({.where = option, .what = "are several", .allowed = allowed});
+    return 0.0;
+  };
+  input.half_angle =
+      number("--half-angle", words.half_angle, dimension::angle, 90 * degree, "an angle such as \"20 deg\"");
+  input.outlet = number("--outlet", words.outlet, dimension::length, any, "a width such as \"200 mm\"");
+  input.diameter = number("--silo-diameter", words.diameter, dimension::length, any, "a length such as \"3 m\"");
+  input.height = number("--silo-height", words.height, dimension::length, any, "a depth of the bed such as \"9 m\"");
+  if ((input.diameter > 0) != (input.height > 0))
+    problems.push_back({.where = input.diameter > 0 ? "--silo-height" : "--silo-diameter",
+                        .what = "missing",
+                        .allowed = "both, or neither"});
+  if (input.outlet > 0 && input.diameter > 0 && input.outlet >= input.diameter)
+    problems.push_back({.where = "--outlet", .what = "is as wide as the silo", .allowed = "less than its diameter"});
+  continuum::Parameters& p = input.grains;
+  p.gravity.acceleration =
+      number("--gravity", words.gravity, dimension::acceleration, any, "an acceleration such as \"9.81 m/s2\"");
+  // A case that says no more than that: its material's values, and the friction on its walls.
+  const auto wall = parse_quantity(words.wall);
+  const bool is_number = wall && wall->dimension == dimension::none && wall->value > 0 && wall->value < 3;
+  std::string text = fmt::format("[grains]\nmaterial = {}\n", talus::quoted(words.material));
+  if (!is_number) text += fmt::format("[walls]\nmaterial = {}\n", talus::quoted(words.wall));
+  const CaseFile file = CaseFile::from_text(text, "");
+  const FilledIn filled = fill_in_material(file, p);
+  for (Problem problem : filled.problems) {
+    if (problem.where.empty()) problem.where = problem.key == "walls.material" ? "--wall" : "--material";
+    if (problem.where == "--wall") problem.allowed = "a wall of the material's file, or a coefficient such as 0.35";
+    problem.key = problem.where.starts_with("--") ? "" : problem.key;
+    problems.push_back(std::move(problem));
+  }
+  if (is_number) p.walls.coefficient = wall->value;
+  if (!is_number && !filled.keys.contains("walls.coefficient") && filled.problems.empty())
+    problems.push_back({.where = "--wall " + words.wall,
+                        .what = "is no wall",
+                        .allowed = "steel, acrylic, glass, concrete, or a coefficient of friction such as 0.35"});
+  if (p.grains.range.name.empty() && filled.problems.empty())
+    problems.push_back({.where = "--material " + words.material,
+                        .what = "is no material",
+                        .allowed = "one that talus materials lists, or a file that ends in .toml"});
+  p.grains.material = material_of(file);
+  input.law =
+      p.law.is<granular::CriticalState>() ? p.law.of<granular::CriticalState>() : granular::CriticalStateParameters{};
+  if (!problems.empty()) throw InputError(problems);
+  return input;
+}
+
+void line(const std::string& what, const std::string& wedge, const std::string& cone, std::string_view source) {
+  constexpr std::size_t column = 58;
+  print("{:32} {:>12} {:>12} {}\n", what, wedge, cone,
+        wrapped(source, std::max<std::size_t>(terminal_width(), column + 40), column, column));
+}
+
+std::string width_text(double width) {
+  return width > 0 ? std::isinf(width) ? "arches" : length_text(width) : "any";
+}
+
+/// A hopper of each shape, by Jenike.
+struct Design {
+  std::array<double, 2> limit, half_angle;
+  std::array<granular::CriticalOutlet, 2> outlet;
+};
+
+Design designed(const DesignInput& input, double weight) {
+  const double wall = input.grains.walls.coefficient;
+  Design design;
+  for (std::size_t n = 0; n < shapes.size(); ++n) {
+    // The angle of friction falls with the stress at the outlet, whose width depends on the half angle.
+    double internal = std::atan(input.law.static_friction);
+    for (int pass = 0; pass < 20; ++pass) {
+      design.limit[n] = granular::mass_flow_half_angle(shapes[n], wall, internal);
+      design.half_angle[n] = input.half_angle > 0 ? input.half_angle : std::max(design.limit[n] - margin, 1 * degree);
+      design.outlet[n] = granular::critical_outlet(shapes[n], design.half_angle[n], wall, input.law, weight);
+      if (!(design.outlet[n].width > 0) || std::isinf(design.outlet[n].width)) break;
+      internal = design.outlet[n].effective_angle;
+    }
+  }
+  return design;
+}
+
+void print_discharge(const DesignInput& input, const Design& design) {
+  const continuum::Parameters& p = input.grains;
+  const double density = bulk_density(p), gravity = p.gravity.acceleration, d = p.grains.diameter;
+  const auto johanson = [&](std::size_t n, double length) {
+    return rate_text(granular::johanson_discharge(shapes[n], design.half_angle[n], input.outlet, length, density,
+                                                  gravity, design.outlet[n].width),
+                     HopperRun::none);
+  };
+  const double steep = std::tan(design.half_angle[1]);
+  print("\nThrough {}, of a slot per metre:\n", length_text(input.outlet));
+  line("discharge, coarse grains", johanson(0, 1), johanson(1, 0),
+       "Johanson 1965, mass flow; less near the critical outlet");
+  line("the same, by the outlet",
+       rate_text(granular::rectangular_discharge(input.outlet, 1, true, density, gravity, d), HopperRun::none),
+       rate_text(granular::factor_of_cone(steep) * granular::orifice_discharge(input.outlet, density, gravity, d),
+                 HopperRun::none),
+       "Beverloo 1961, Rose & Tanaka 1959: grains that do not stick together, outlets above 6 diameters");
+  line(
+      "discharge, fine grains", "",
+      rate_text(granular::carleton_discharge(design.half_angle[1], input.outlet, density, gravity, p.grains.density, d),
+                HopperRun::none),
+      "Carleton 1972: held back by the air that must enter; grains that do not stick together");
+}
+
+void print_loads(const DesignInput& input, const Design& design) {
+  continuum::Parameters p = input.grains;
+  const double outlet = input.outlet > 0 ? input.outlet
+                        : std::isinf(design.outlet[1].width)
+                            ? 0.2 * input.diameter
+                            : std::clamp(design.outlet[1].width, 0.05 * input.diameter, 0.8 * input.diameter);
+  const double cone = 0.5 * (input.diameter - outlet) / std::tan(design.half_angle[1]);
+  p.box.width = p.box.depth = 1.2 * input.diameter, p.box.height = 1.2 * (cone + input.height) + 0.1;
+  p.bed.spacing = 0.02 * input.diameter;
+  continuum::VesselPart upright, hopper;
+  upright.name = "wall", upright.radius = 0.5 * input.diameter, upright.bottom = cone, upright.top = p.box.height;
+  hopper.name = "cone", hopper.shape = continuum::VesselShape::cone;
+  hopper.lower_radius = 0.5 * outlet, hopper.upper_radius = upright.radius, hopper.top = cone;
+  p.vessel = {upright, hopper};
+  const continuum::Layout layout(p);
+  const double top = cone + input.height;
+  const auto silo = silo_of_code(layout, top, cone);
+  if (!silo) return;
+  const double weight = bulk_density(p) * p.gravity.acceleration;
+  const double vertical = silo->filling(granular::en1991::Load::bottom, granular::en1991::Limit::upper, cone).vertical;
+  print("\nSilo, {} wide, bed {} deep above the cone of {}, outlet {}:\n", length_text(input.diameter),
+        length_text(input.height), fmt::format("{:.3g}°", design.half_angle[1] / degree), length_text(outlet));
+  line("rathole, if the flow is a funnel", "",
+       input.law.has_cohesion() ? length_text(granular::rathole_diameter(input.law, vertical, weight)) : "none",
+       fmt::format("Jenike 1964, G(phi) as Schulze 2008: consolidated by {}, at the cone's top; an upper bound",
+                   pressure_text(vertical)));
+  print("{:32} {:>12} {:>12}\n", "", "filling", "discharge");
+  const auto loads = [&](const char* what, std::size_t part, double height) {
+    BandOfWall band;
+    band.patch = part;
+    const CodeLoads at = code_loads(layout, band, top, height);
+    line(what, pressure_text(at.pressure_filling), pressure_text(at.pressure_discharge), "EN 1991-4:2006, upper");
+  };
+  loads("pressure, foot of the wall", 0, cone);
+  loads("pressure, top of the cone", 1, cone);
+  loads("pressure, cone at the outlet", 1, 0);
+}
+
+ExitStatus design_hopper(const DesignWords& words) {
+  const DesignInput input = read_input(words);
+  const continuum::Parameters& p = input.grains;
+  const double density = bulk_density(p), weight = density * p.gravity.acceleration;
+  const Design design = designed(input, weight);
+  const auto& [limit, half_angle, outlet] = design;
+  print("{} on {}: {:.4g} kg/m3, angle of friction {:.1f} deg in a shear tester, of the wall {:.1f} deg\n\n",
+        p.grains.range.name, words.wall, density, std::atan(input.law.static_friction) / degree,
+        std::atan(p.walls.coefficient) / degree);
+  line("", "wedge", "cone", "source; limits");
+  const auto both = [](const char* what, const auto& text, std::string_view source) {
+    line(what, text(0), text(1), source);
+  };
+  both(
+      "half angle of mass flow, at most", [&](std::size_t n) { return fmt::format("{:.1f} deg", limit[n] / degree); },
+      "Jenike 1964, closed forms of Arnold & McLean; a slot three times as long as wide");
+  both(
+      "half angle here", [&](std::size_t n) { return fmt::format("{:.1f} deg", half_angle[n] / degree); },
+      input.half_angle > 0 ? "as given" : "3 deg less, as practice has it");
+  if (!input.law.has_cohesion()) {
+    line("critical outlet", "any", "any", "no cohesion: only grains' size counts, 6 to 10 diameters");
+  } else {
+    const auto stress = [](double value) { return value > 0 ? pressure_text(value) : std::string("none"); };
+    both(
+        "flow factor there", [&](std::size_t n) { return fmt::format("{:.2f}", outlet[n].factor); },
+        "Jenike 1964, closed form of Arnold & McLean: 7 % above the chart at 30 deg");
+    both(
+        "strength of an arch, f_c", [&](std::size_t n) { return stress(outlet[n].strength); },
+        "where the flow function meets the flow factor; steady shear, without time consolidation");
+    both(
+        "sigma_1 there", [&](std::size_t n) { return stress(outlet[n].major); },
+        "compare with the loads of the shear tests; none: a flow function through the origin, which meets none");
+    both(
+        "critical outlet", [&](std::size_t n) { return width_text(outlet[n].width); },
+        "H f_c/(rho_b g), H = 1 + theta/180 deg and 2 + theta/60 deg; a round outlet's diameter, a slot's width");
+  }
+  if (input.outlet > 0) print_discharge(input, design);
+  if (input.diameter > 0) print_loads(input, design);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_hopper_design_command(CLI::App& app, Action& action) {
+  auto words = std::make_shared<DesignWords>();
+  CLI::App* command = app.add_subcommand(
+      "hopper-design", "design a hopper for a material: half angles, critical outlets, discharge, loads");
+  command->add_option("--material", words->material, "one that talus materials lists, or the file of another")
+      ->required();
+  command->add_option("--wall", words->wall, "steel, acrylic, glass, concrete, or a coefficient of friction")
+      ->capture_default_str();
+  command->add_option("--half-angle", words->half_angle, "of the hopper, from the vertical; 3 deg below the limit");
+  command->add_option("--outlet", words->outlet, "diameter, or width of a slot, of which the discharge is told");
+  command->add_option("--silo-diameter", words->diameter, "of a round silo, for ratholes and loads");
+  command->add_option("--silo-height", words->height, "depth of its bed above the cone");
+  command->add_option("--gravity", words->gravity, "acceleration")->capture_default_str();
+  command->footer(
+      "By formulas alone, each with its source and its limits; nothing is computed with particles, nothing written.\n"
+      "Strengths and angles are those of a shear tester (talus shear-cell).");
+  command->callback([words, &action] { action = [words] { return design_hopper(*words); }; });
+}
+
+}  // namespace talus::app
