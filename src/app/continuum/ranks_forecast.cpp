@@ -15,8 +15,9 @@ namespace talus::app {
 
 namespace {
 
-// Measured on two cores shared with others, waiting included (docs/design/ranks.md).
-constexpr double of_copy = 450e-9;           // s a step: messages, migration, halo
+// Measured on two cores shared with other programs, waiting included (docs/design/ranks.md).
+constexpr double of_copy = 450e-9;  // s a step: messages, migration, halo
+// Assumed of an ordinary network.
 constexpr double of_message_to_all = 3e-6;   // s, for each doubling of the processes; two a step
 constexpr double of_deposited_cell = 30e-9;  // s a step of the air: 32 bytes to all
 constexpr double uneven = 1.05;              // the largest work over the mean
