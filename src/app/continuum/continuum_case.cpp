@@ -211,7 +211,13 @@ ContinuumCase read_as_it_is(const CaseFile& file, Parameters defaults, std::vect
   if (!file.contains("sph.viscosity_alpha")) {
     const double usual =
         std::exchange(read.model.sph.viscosity_alpha, Setup(layout.with(read.model)).default_viscosity());
-    if (read.model.sph.viscosity_alpha < usual) read.filled.keys.emplace("sph.viscosity_alpha", "bed");
+    if (read.model.sph.viscosity_alpha < usual) {
+      read.filled.keys.emplace("sph.viscosity_alpha", "bed");
+      if (read.model.gate.opens != continuum::GateOpens::from_the_start && !read.model.settle.viscosity_alpha) {
+        read.model.settle.viscosity_alpha = usual;
+        read.filled.keys.emplace("settle.viscosity_alpha", "bed");
+      }
+    }
   }
   for (continuum::VesselPart& part : read.model.vessel)
     if (part.shape == continuum::VesselShape::stl)

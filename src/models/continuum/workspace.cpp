@@ -101,6 +101,9 @@ void refresh_halo(Workspace& w, const SummedColumns& c) {
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   const SummedColumns columns{s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate};
   refresh_halo(w, columns);
+  // The forces at the moment of the opening are still those of the settled bed, in a resumed run too.
+  const bool flows = s.gate_time >= 0 && s.time > s.gate_time;
+  w.pairs.set_viscosity(flows ? p.sph.viscosity_alpha : p.settle.viscosity_alpha.value_or(p.sph.viscosity_alpha));
   w.pairs(team, columns.view(), p.integration.method == Method::runge_kutta ? PairTerms::all : PairTerms::forces,
           w.rates);
   s.packing.resize(s.position.size());

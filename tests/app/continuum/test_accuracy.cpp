@@ -94,6 +94,15 @@ TEST(Accuracy, IsTheStiffnessOverTheWeight) {
   EXPECT_NEAR(modulus("accuracy=draft"), reference / 16, 0.01 * reference);
 }
 
+TEST(Accuracy, AndEveryOtherCaseHasAViscosityThatFollowsTheOutletOnceItFlows) {
+  const CaseFile file = with(silo(), {"accuracy=reference", "gate.opens=when-settled"});
+  EXPECT_EQ(of(file, "sph.viscosity_alpha").second, "bed");
+  EXPECT_LT(std::stod(of(file, "sph.viscosity_alpha").first), 0.1);
+  EXPECT_EQ(of(file, "settle.viscosity_alpha"), Found("0.1", "bed"));
+  EXPECT_EQ(of(with(file, {"sph.viscosity_alpha=0.05"}), "settle.viscosity_alpha").second, "default");
+  EXPECT_EQ(of(with(file, {"settle.viscosity_alpha=0.3"}), "settle.viscosity_alpha"), Found("0.3", "option"));
+}
+
 TEST(Accuracy, LeavesTheKeysOfTheCase) {
   const CaseFile file = with(silo(), {"bed.spacing=3 mm", "integration.pair_precision=double", "box.sector=60 deg",
                                       "law.critical-state.bulk_modulus=1 MPa"});

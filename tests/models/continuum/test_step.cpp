@@ -331,9 +331,13 @@ TEST(Advance, AResumedRunTakesTheSameSteps) {
     p.integration.method = method;
     p.gate.opens = GateOpens::at_time;
     p.gate.time = 0.01;
+    p.settle.viscosity_alpha = 0.2;
     ThreadTeam team(2);
-    // Before and after the gate, between list builds and beside sorts.
-    for (const int stop : {1, 90, 500, 731}) {
+    Continuum opening = started(p, team);
+    int opens = 0;
+    for (; opening.state().gate_time < 0; ++opens) opening.advance(team);
+    // Before, at and after the opening of the gate, between list builds and beside sorts.
+    for (const int stop : {1, 90, opens - 1, opens, opens + 1, 731}) {
       Continuum whole = started(p, team);
       for (int n = 0; n < stop; ++n) whole.advance(team);
       Continuum resumed(p);
@@ -350,6 +354,21 @@ TEST(Advance, AResumedRunTakesTheSameSteps) {
       EXPECT_EQ(whole.state().patch_impulse, resumed.state().patch_impulse);
     }
   }
+}
+
+TEST(Advance, TheViscosityOfSettlingEndsAtTheOpening) {
+  Parameters p = small_hopper();
+  p.gate.opens = GateOpens::at_time;
+  p.gate.time = 0.01;
+  p.sph.viscosity_alpha = p.settle.viscosity_alpha.emplace(0.2);
+  ThreadTeam team(1);
+  Continuum same = started(p, team);
+  p.sph.viscosity_alpha = 0.01;
+  Continuum less = started(p, team);
+  while (same.state().gate_time < 0) same.advance(team), less.advance(team);
+  EXPECT_EQ(same.state().velocity, less.state().velocity);
+  for (int n = 0; n < 2; ++n) same.advance(team), less.advance(team);
+  EXPECT_NE(same.state().velocity, less.state().velocity);
 }
 
 TEST(Advance, StopsAtTheFirstImpossibleValueAndNamesIt) {

@@ -42,6 +42,8 @@ class PairSums {
     find_neighbours(team, position, smoothing_length, std::vector<double>(position.size(), 0.5 * skin_));
   }
   double skin() const { return skin_; }  ///< m
+  /// Linear coefficient of Monaghan's viscosity, in the sums from now on.
+  void set_viscosity(double alpha) { constants_.viscosity_alpha = alpha; }
   const Neighbourhood& neighbourhood() const { return lists_.neighbourhood(); }
   VesselWalls& vessel_walls() { return vessel_; }
 

@@ -91,7 +91,7 @@ struct Parameters {
     std::optional<double> speed, duration, max_time;  ///< left out: time_scale.hpp
     std::optional<double> loading_time;
     Filling filling = Filling::at_once;
-    std::optional<double> damping_time;
+    std::optional<double> damping_time, viscosity_alpha = std::nullopt;
   } settle;
   struct Analysis {
     std::optional<double> averaging_time;  ///< left out: time_scale.hpp
@@ -306,6 +306,10 @@ void for_each_parameter(Visit&& visit, P& p) {
       Parameter{"settle.damping_time", dimension::time, above(0),
                 "time constant of an artificial damping of the velocities until the gate opens; left out: no damping"},
       p.settle.damping_time);
+  gated(Parameter{"settle.viscosity_alpha", dimension::none, at_least(0),
+                  "sph.viscosity_alpha until the gate opens; left out: the same, and 0.1 where that follows from the "
+                  "outlet"},
+        p.settle.viscosity_alpha);
 
   visit(Parameter{"analysis.averaging_time", dimension::time, above(0),
                   "averaging time of rates, wall loads and speeds; peaks are averages over half of it; left out: 0.3 "
