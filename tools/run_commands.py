@@ -59,6 +59,7 @@ NOT_RUN = (
     (r"build-fuzz/.*", "needs a build by clang: tools/campaign/run --only fuzz runs it"),
     (r"validation/dem-hopper/run.py .*", "takes ten minutes, and needs LAMMPS"),
     (r"validation/dem-hopper/as_run.py .*", "needs what LAMMPS makes: tests/python/test_dem_hopper.py runs it"),
+    (r"talus run .* --launch slurm .*", "submits a job: tests/app/test_slurm.py does with an sbatch of its own"),
     (r"talus calibrate --repose .*", "pours heaps, some minutes each: tests/app/test_calibrate.py tests its secants"),
     (r"paraview .*", "opens a window"),
     (r"talus", "shows its help"),
