@@ -142,8 +142,9 @@ class Materials(unittest.TestCase):
         self.assertTrue(0.5 < float(row["packing"]) < 0.65, row["packing"])
         self.assertTrue(0.4 < float(row["height"].strip("*")) < 0.9, row["height"])
 
-    def test_every_material_of_the_program_has_its_bands(self):
-        files = {path.stem for path in (VALIDATION.parent / "materials").glob("*.toml")}
+    def test_every_material_that_does_not_stick_has_its_bands(self):
+        files = {path.stem for path in (VALIDATION.parent / "materials").glob("*.toml")
+                 if "_strength]" not in path.read_text(encoding="utf-8")}
         self.assertEqual(set(materials.MATERIALS), files)
         for material in files:
             for kind, ratio, _, settings in materials.runs_of(material):
