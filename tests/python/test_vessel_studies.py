@@ -144,7 +144,7 @@ class Materials(unittest.TestCase):
 
     def test_every_material_that_does_not_stick_has_its_bands(self):
         files = {path.stem for path in (VALIDATION.parent / "materials").glob("*.toml")
-                 if "_strength]" not in path.read_text(encoding="utf-8")}
+                 if "consolidation_strength]" not in path.read_text(encoding="utf-8")}
         self.assertEqual(set(materials.MATERIALS), files)
         for material in files:
             for kind, ratio, _, settings in materials.runs_of(material):
