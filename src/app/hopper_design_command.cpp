@@ -194,7 +194,8 @@ ExitStatus design_hopper(const DesignWords& words) {
   const continuum::Parameters& p = input.grains;
   const double density = bulk_density(p), weight = density * p.gravity.acceleration;
   const Design design = designed(input, weight);
-  const auto& [limit, half_angle, outlet] = design;
+  const auto &limit = design.limit, &half_angle = design.half_angle;
+  const auto& outlet = design.outlet;
   print("{} on {}: {:.4g} kg/m3, angle of friction {:.1f} deg in a shear tester, of the wall {:.1f} deg\n\n",
         p.grains.range.name, words.wall, density, std::atan(input.law.static_friction) / degree,
         std::atan(p.walls.coefficient) / degree);

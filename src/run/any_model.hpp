@@ -46,7 +46,7 @@ class AnyModel {
   }
   // Several processes: see Continuum.
   virtual void gather() {}
-  virtual void lead(std::function<void(const ColumnPiece&)> /*announce*/) {}
+  virtual void lead(const std::function<void(const ColumnPiece&)>& /*announce*/) {}
   virtual void send(const ColumnPiece& /*piece*/) {}
   /// What each of them had to do, as gathered, in words for the log; empty of one process.
   virtual std::string sharing() const { return {}; }
@@ -98,12 +98,9 @@ class ModelAdapter final : public AnyModel {
   void save(CheckpointWriter& checkpoint) const override {
     std::uint64_t number = 0;
     const auto save = [&]<class Member>(const FieldInfo& field, const Member& member) {
-      if constexpr (!std::is_arithmetic_v<Member> && requires { model_.column_of_all(field, {}, number); })
-        if (field.of_particles)
-          if (auto column = model_.column_of_all(field, kind_of<typename Member::value_type>, number++)) {
-            if (field.role == FieldRole::kept) checkpoint.column(model_.particles(), std::move(*column));
-            return;
-          }
+      if constexpr (!std::is_arithmetic_v<Member> && has_columns<M>)
+        if (field.of_particles && save_column(model_, field, kind_of<typename Member::value_type>, number, checkpoint))
+          return;
       checkpoint(field, member);
     };
     for_each_field(save, model_.state());
@@ -117,8 +114,8 @@ class ModelAdapter final : public AnyModel {
     else
       AnyModel::visit(columns, take);
   }
-  void lead(std::function<void(const ColumnPiece&)> announce) override {
-    if constexpr (requires { model_.lead(announce); }) model_.lead(std::move(announce));
+  void lead(const std::function<void(const ColumnPiece&)>& announce) override {
+    if constexpr (requires { model_.lead(announce); }) model_.lead(announce);
   }
   void send(const ColumnPiece& piece) override {
     if constexpr (requires { model_.send(piece); }) model_.send(piece);
@@ -132,6 +129,20 @@ class ModelAdapter final : public AnyModel {
   }
 
  private:
+  /// Whether a model hands out columns of all particles.
+  template <class Any>
+  static constexpr bool has_columns = requires(const Any& model, const FieldInfo& field) {
+    model.column_of_all(field, ColumnSource::Kind{}, std::uint64_t{});
+  };
+  /// \returns whether a model has this column of all particles, which then is in the checkpoint if it is kept
+  template <class Any>
+  static bool save_column(const Any& model, const FieldInfo& field, ColumnSource::Kind kind, std::uint64_t& number,
+                          CheckpointWriter& checkpoint) {
+    auto column = model.column_of_all(field, kind, number++);
+    if (column && field.role == FieldRole::kept) checkpoint.column(model.particles(), std::move(*column));
+    return column.has_value();
+  }
+
   M model_;
 };
 
