@@ -356,21 +356,6 @@ TEST(Advance, AResumedRunTakesTheSameSteps) {
   }
 }
 
-TEST(Advance, TheViscosityOfSettlingEndsAtTheOpening) {
-  Parameters p = small_hopper();
-  p.gate.opens = GateOpens::at_time;
-  p.gate.time = 0.01;
-  p.sph.viscosity_alpha = p.settle.viscosity_alpha.emplace(0.2);
-  ThreadTeam team(1);
-  Continuum same = started(p, team);
-  p.sph.viscosity_alpha = 0.01;
-  Continuum less = started(p, team);
-  while (same.state().gate_time < 0) same.advance(team), less.advance(team);
-  EXPECT_EQ(same.state().velocity, less.state().velocity);
-  for (int n = 0; n < 2; ++n) same.advance(team), less.advance(team);
-  EXPECT_NE(same.state().velocity, less.state().velocity);
-}
-
 TEST(Advance, StopsAtTheFirstImpossibleValueAndNamesIt) {
   Parameters p = column(3, 1, 6, 10);
   p.integration.step = 1e-3;  // many times the stable one
