@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 #include "base/system.hpp"
@@ -18,9 +19,12 @@ namespace talus::app {
 
 namespace {
 
-/// So that Python finds the package talus, of the project or where it is installed, and the package this program.
+/// So that Python finds the package talus, of the project or where it is installed, and the package this program; of
+/// several processes the one for one, since what a process starts is none of them.
 void name_package_and_program() {
-  setenv("TALUS", run::own_program().c_str(), 1);
+  std::filesystem::path program = run::own_program();
+  if (program.filename() == "talus-mpi") program.replace_filename("talus");
+  setenv("TALUS", program.c_str(), 1);
   const auto project = find_project("python/talus/measures.py");
   if (!project) return;
   const std::string path = std::filesystem::absolute(*project / "python").lexically_normal().string();
