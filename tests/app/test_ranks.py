@@ -113,6 +113,10 @@ class Ranks(program.ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout.count("Done:"), 1)
 
+    def test_its_report_is_made(self):
+        done = self.run_hopper(2, "talus", "r", "--set", "output.report=true")
+        self.assertEqual(done.returncode, 0, done.stderr)  # Python, which it starts, asks the program
+
     def test_refuses_what_runs_on_one_process(self):
         words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", "niiya2020-circle", {}, 1)
         done = hash_ranks.start(2, words)
