@@ -61,7 +61,7 @@ def check_paths(root, documents):
                         yield f"{path.relative_to(root)}:{number}: there is no {name}"
 
 
-MAX_WORDS = 97_000
+MAX_WORDS = 97_000  # of all documents together: a page that grows takes from another
 
 
 def check_length(root, documents):

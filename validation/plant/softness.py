@@ -54,7 +54,7 @@ def viscosity_of(run):
 
 
 def measure(options):
-    """The rows by name, and by (accuracy, alpha) speed of sound, v, rate, its error, packing, steps, seconds."""
+    """The rows by name, and by (accuracy, alpha) v, rate, its error, packing, steps, seconds."""
     found = {}
     for accuracy, alpha in RUNS:
         run = talus.Run(folder_of(options.out, accuracy, alpha))

@@ -231,10 +231,13 @@ SiloShape::SiloShape(const continuum::Layout& of) : layout(of) {
 }
 
 const SiloPiece* SiloShape::of_part(std::size_t part, double height) const {
-  const double slack = layout.given.bed.spacing;
+  const SiloPiece* nearest = nullptr;
+  double least = layout.given.bed.spacing;
   for (const SiloPiece& piece : pieces)
-    if (piece.has(part) && height >= piece.bottom - slack && height <= piece.top + slack) return &piece;
-  return nullptr;
+    if (const double off = std::max({piece.bottom - height, height - piece.top, 0.0});
+        piece.has(part) && off <= least && !(nearest && off == least))
+      nearest = &piece, least = off;
+  return nearest;
 }
 
 const SiloPiece* SiloShape::upright_at(double height) const {

@@ -44,7 +44,7 @@ class SiloShape {
   const continuum::Layout& layout;
   std::vector<SiloPiece> pieces;
 
-  /// The piece at a height that a part of the vessel belongs to; null: none.
+  /// The piece that a part of the vessel belongs to at a height, or at most a spacing from it; null: none.
   const SiloPiece* of_part(std::size_t part, double height) const;
   /// The upright walls that hold a height, or stand next above it; null without.
   const SiloPiece* upright_at(double height) const;

@@ -113,7 +113,7 @@ void add_outlet(const Parameters& p, double width, const std::string& name, std:
 /// Artificial viscosity, which grows with the speed of sound and so with the size of a plant.
 void add_viscosity(const Setup& setup, std::vector<RegimeLine>& lines) {
   constexpr double range = 1;  // of what the study found
-  const double viscosity = setup.viscosity_at_outlet();
+  const double alpha = setup.given.sph.viscosity_alpha, viscosity = setup.viscosity_at_outlet(alpha);
   if (!std::isfinite(viscosity)) return;
   const bool much = viscosity > notable_viscosity;
   std::string text = fmt::format(
@@ -122,7 +122,7 @@ void add_viscosity(const Setup& setup, std::vector<RegimeLine>& lines) {
       viscosity > range ? "more than" : "some", 100 * viscous_loss * std::min(viscosity, range));
   if (much)
     text += fmt::format("; take sph.viscosity_alpha = {:.2g}, softer grains or a smaller bed.spacing",
-                        setup.given.sph.viscosity_alpha * max_viscosity / viscosity);
+                        alpha * max_viscosity / viscosity);
   lines.push_back({"viscosity at the outlet", fmt::format("{:.3g}", viscosity), text, much});
 }
 

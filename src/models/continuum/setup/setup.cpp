@@ -20,17 +20,14 @@ Setup::Setup(Layout layout)
       scales(time_scales_of(given)),
       loading(given.settle.filling, loading_time(given, depth, scales, sound_speed), bottom, depth) {}
 
-double Setup::viscosity_at_outlet() const {
+double Setup::viscosity_at_outlet(double alpha) const {
   const double width = outlet_width.value_or(std::numeric_limits<double>::quiet_NaN());
-  return given.sph.viscosity_alpha * sound_speed * smoothing_length /
-         (width * std::sqrt(given.gravity.acceleration * width));
+  return alpha * sound_speed * smoothing_length / (width * std::sqrt(given.gravity.acceleration * width));
 }
 
 double Setup::default_viscosity() const {
   constexpr double usual = 0.1, least = 0.01;  // with less a bed does not come to rest
-  Setup trial = *this;
-  trial.given.sph.viscosity_alpha = usual;
-  const double viscosity = trial.viscosity_at_outlet();
+  const double viscosity = viscosity_at_outlet(usual);
   return viscosity > max_viscosity ? std::max(least, usual * max_viscosity / viscosity) : usual;
 }
 

@@ -21,10 +21,11 @@ struct Setup : Layout {
   TimeScales scales;
   Loading loading;  ///< how gravity is raised
 
-  /// Artificial viscosity at the outlet: sph.viscosity_alpha times speed of sound and smoothing length, over D (g D)^½
-  /// with D the width of the outlet. It takes viscous_loss times itself of a discharge; nan without an outlet.
-  double viscosity_at_outlet() const;
-  /// sph.viscosity_alpha where a case gives none: 0.1, or what makes viscosity_at_outlet() max_viscosity, if that is
+  /// Artificial viscosity at the outlet: alpha times speed of sound and smoothing length, over D (g D)^½ with D the
+  /// width of the outlet. It takes viscous_loss times itself of a discharge; nan without an outlet.
+  /// \param alpha as sph.viscosity_alpha
+  double viscosity_at_outlet(double alpha) const;
+  /// sph.viscosity_alpha where a case gives none: 0.1, or what makes viscosity_at_outlet max_viscosity, if that is
   /// less; at least 0.01.
   double default_viscosity() const;
 };
