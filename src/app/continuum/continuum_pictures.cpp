@@ -125,7 +125,8 @@ void draw_grains(const Frames& frames, const HopperSetting& setting, const std::
       continue;
     }
     const Particles particles = particles_of_density(view.positions(), view.scalars("density"), setting.particle_mass,
-                                                     setting.grain_density, setting.smoothing_length);
+                                                     setting.grain_density, setting.smoothing_length,
+                                                     view.mass_ratios());
     Domain domain = setting.domain;
     if (frames.time[n] >= 0) domain.open_gates(frames.time[n]);
     dots.push_back(particle_dots(view.positions(), particles.smoothing_length, view.integers("identity"), domain,
