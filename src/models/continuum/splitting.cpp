@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -21,14 +22,8 @@ namespace {
 constexpr std::size_t min_merged = 4, max_merged = 12;
 
 /// Corners of a cube; the first few of them lie about its middle as evenly as so many can.
-constexpr std::array<std::array<double, 3>, 8> corners{{{-1, -1, -1},
-                                                        {1, 1, -1},
-                                                        {1, -1, 1},
-                                                        {-1, 1, 1},
-                                                        {1, 1, 1},
-                                                        {-1, -1, 1},
-                                                        {-1, 1, -1},
-                                                        {1, -1, -1}}};
+constexpr std::array<std::array<double, 3>, 8> corners{
+    {{-1, -1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}};
 
 /// Three directions at right angles.
 using Frame = std::array<Vector3, 3>;
@@ -61,11 +56,15 @@ struct Copies {
   std::vector<std::uint32_t> source;
   std::vector<double> mass_ratio;
   std::vector<Vector3> moved;  ///< m
-  std::vector<char> is_new;
+  std::vector<char> is_new, is_part;
 
-  void add(std::size_t of, double ratio, const Vector3& by = {}, bool fresh = false) {
+  void keep(std::size_t i, double ratio) {
+    source.push_back(static_cast<std::uint32_t>(i));
+    mass_ratio.push_back(ratio), moved.emplace_back(), is_new.push_back(0), is_part.push_back(0);
+  }
+  void add_part(std::size_t of, double ratio, const Vector3& by, bool fresh) {
     source.push_back(static_cast<std::uint32_t>(of));
-    mass_ratio.push_back(ratio), moved.push_back(by), is_new.push_back(fresh);
+    mass_ratio.push_back(ratio), moved.push_back(by), is_new.push_back(fresh), is_part.push_back(1);
   }
 };
 
@@ -85,7 +84,7 @@ void add_parts(const Boundary& boundary, double spacing, const State& s, std::si
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
     Vector3 by = place[n] - middle;
     if (is_between(boundary, s.position[i], s.position[i] + by)) by = {};
-    copies.add(i, mass[n], by, n > 0);
+    copies.add_part(i, mass[n], by, n > 0);
   }
 }
 
@@ -98,8 +97,9 @@ void apply(const Copies& copies, State& s) {
   }
 }
 
-/// Those that are too coarse, one level at a time. \returns whether there were any
-bool split(const Levels& levels, const Boundary& boundary, double spacing, State& s) {
+/// Those that are too coarse, one level at a time. \returns of each particle whether it is a part of one that has
+/// split; nothing if none has
+std::vector<char> split(const Levels& levels, const Boundary& boundary, double spacing, State& s) {
   Copies copies;
   bool any = false;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
@@ -107,11 +107,12 @@ bool split(const Levels& levels, const Boundary& boundary, double spacing, State
       add_parts(boundary, spacing, s, i, copies);
       any = true;
     } else {
-      copies.add(i, s.mass_ratio[i]);
+      copies.keep(i, s.mass_ratio[i]);
     }
   }
-  if (any) apply(copies, s);
-  return any;
+  if (!any) return {};
+  apply(copies, s);
+  return copies.is_part;
 }
 
 /// Where particles of a level and a bed merge.
@@ -185,55 +186,87 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
   return true;
 }
 
+/// Who moves when places are relaxed.
+enum class Relaxed { between_levels, given };
+
+/// Moves particles below free surfaces so that the sum of V grad W over their neighbours, by which a uniform pressure
+/// would push them, all but vanishes: on two lattices that meet it is a twelfth of one over the coarser spacing, and
+/// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
+/// moves. \param ratio sph.smoothing_ratio \param is_given who moves
+void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, const std::vector<char>& is_given,
+           State& s) {
+  constexpr double share = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
+  constexpr double most = 0.2;                 // of h, that one may move
+  ThreadTeam team(1);
+  const std::size_t count = s.position.size();
+  std::vector<double> length, volume, margin;
+  for (std::size_t i = 0; i < count; ++i) {
+    volume.push_back(s.mass_of(i) / s.density[i]);
+    length.push_back(ratio * cube_root(volume.back()));
+    margin.push_back(most * length.back());
+  }
+  Neighbourhood around(boundary.domain(), boundary.vessel());
+  around.build(team, s.position, length, margin);
+  const auto place = [&](std::uint32_t n) {
+    if (n < count) return s.position[n];
+    const Ghost& ghost = around.ghosts()[n - count];
+    return around.image(ghost).position(s.position[ghost.source]);
+  };
+  const auto source = [&](std::uint32_t n) { return n < count ? n : around.ghosts()[n - count].source; };
+  std::vector<std::uint32_t> moving;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto differs = [&](std::uint32_t n) {
+      return level_of(s.mass_ratio[source(n)]) != level_of(s.mass_ratio[i]);
+    };
+    if (who == Relaxed::given ? is_given[i] != 0 : std::ranges::any_of(around.of(i), differs)) moving.push_back(i);
+  }
+  std::vector<std::optional<Surface::Foot>> wall(moving.size());
+  for (std::size_t m = 0; m < moving.size(); ++m)
+    if (const std::uint32_t i = moving[m]; around.distance_from_vessel(i) < sph::support * length[i])
+      wall[m] = boundary.vessel().nearest(s.position[i], sph::support * length[i]);
+  const std::vector<Vector3> begun = s.position;
+  std::vector<Vector3> by(moving.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t m = 0; m < moving.size(); ++m) {
+      const std::uint32_t i = moving[m];
+      const Vector3& x = s.position[i];
+      double sum = 0;
+      Vector3 gradient, normal;
+      const auto add = [&](std::uint32_t j, const Vector3& other) {
+        const Vector3 d = x - other;
+        const double distance = norm(d), h = 0.5 * (length[i] + length[j]);
+        if (distance >= sph::support * h) return;
+        sum += volume[j] * sph::cubic_spline(distance, h);
+        gradient += (volume[j] * sph::cubic_spline_slope(distance, h)) * d;
+      };
+      if (wall[m]) normal = (1 / norm(begun[i] - wall[m]->place)) * (begun[i] - wall[m]->place);
+      const auto add_both = [&](std::uint32_t j, const Vector3& other) {
+        add(j, other);
+        if (wall[m]) add(j, other - (2 * dot(other - wall[m]->place, normal)) * normal);
+      };
+      add_both(i, x);
+      for (const std::uint32_t n : around.of(i)) add_both(source(n), place(n));
+      by[m] = sum > filled ? (-share * length[i] * length[i]) * gradient : Vector3{};
+      by[m] -= std::min(dot(by[m], normal), 0.0) * normal;
+    }
+    for (std::size_t m = 0; m < moving.size(); ++m) {
+      const std::uint32_t i = moving[m];
+      const Vector3 moved = s.position[i] + by[m] - begun[i];
+      if (norm(moved) < margin[i]) s.position[i] += by[m];
+    }
+  }
+}
+
 }  // namespace
 
-void split_and_merge(const Levels& levels, const Boundary& boundary, double spacing, State& s) {
-  for (int level = 0; level < levels.count() && split(levels, boundary, spacing, s); ++level) {
+void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, State& s) {
+  for (int level = 0; level < levels.count(); ++level) {
+    const std::vector<char> is_part = split(levels, boundary, p.bed.spacing, s);
+    if (is_part.empty()) break;
+    relax(boundary, p.sph.smoothing_ratio, 20, Relaxed::given, is_part, s);
   }
   merge(levels, boundary, s);
 }
-
-namespace {
-
-/// Moves particles that have neighbours of another level, away from walls and free surfaces, until the sum of V grad W
-/// over their neighbours, which a uniform pressure would push them by, has all but vanished: on two lattices that meet
-/// it is a twelfth of one over the coarser spacing. \param ratio sph.smoothing_ratio
-void relax(const Boundary& boundary, double smoothing_ratio, State& s) {
-  constexpr int passes = 20;
-  constexpr double share = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
-  ThreadTeam team(1);
-  std::vector<double> length;
-  for (std::size_t i = 0; i < s.position.size(); ++i)
-    length.push_back(smoothing_ratio * sph::smoothing_length(s.mass_of(i), s.density[i]));
-  std::vector<Vector3> by(s.position.size());
-  for (int pass = 0; pass < passes; ++pass) {
-    Neighbourhood around(boundary.domain(), boundary.vessel());
-    around.build(team, s.position, length, 0);
-    for_each(team, s.position.size(), [&](std::size_t i) {
-      by[i] = {};
-      if (around.distance_from_vessel(i) < sph::support * length[i]) return;
-      bool meets = false;
-      double sum = s.mass_of(i) / s.density[i] * sph::cubic_spline(0.0, length[i]);
-      Vector3 gradient;
-      for (const std::uint32_t n : around.of(i)) {
-        const bool is_ghost = n >= s.position.size();
-        const std::size_t j = is_ghost ? around.ghosts()[n - s.position.size()].source : n;
-        const Vector3 x = is_ghost ? around.image(around.ghosts()[n - s.position.size()]).position(s.position[j])
-                                   : s.position[j];
-        const Vector3 d = s.position[i] - x;
-        const double distance = norm(d), h = 0.5 * (length[i] + length[j]), volume = s.mass_of(j) / s.density[j];
-        meets = meets || level_of(s.mass_ratio[j]) != level_of(s.mass_ratio[i]);
-        if (distance >= sph::support * h) continue;
-        sum += volume * sph::cubic_spline(distance, h);
-        gradient += (volume * sph::cubic_spline_slope(distance, h)) * d;
-      }
-      if (meets && sum > filled) by[i] = (-share * length[i] * length[i]) * gradient;
-    });
-    for (std::size_t i = 0; i < s.position.size(); ++i) s.position[i] += by[i];
-  }
-}
-
-}  // namespace
 
 void lay_levels(const Setup& setup, State& s) {
   const Levels levels(setup);
@@ -241,7 +274,7 @@ void lay_levels(const Setup& setup, State& s) {
   for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, s); ++level) {
   }
   s.merged_energy = 0;
-  relax(*setup.boundary, setup.given.sph.smoothing_ratio, s);
+  relax(*setup.boundary, setup.given.sph.smoothing_ratio, 40, Relaxed::between_levels, {}, s);
 }
 
 }  // namespace talus::continuum

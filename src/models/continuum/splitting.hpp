@@ -17,8 +17,8 @@
 
 namespace talus::continuum {
 
-/// \param spacing bed.spacing, m; \pre positions are within the sector, if there is one
-void split_and_merge(const Levels& levels, const Boundary& boundary, double spacing, State& state);
+/// \pre positions are within the sector, if there is one
+void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& parameters, State& state);
 
 /// Merges the particles of a bed of bed.spacing, of which only positions, velocities, densities and tags are there yet.
 void lay_levels(const Setup& setup, State& state);

@@ -77,7 +77,8 @@ double time_step_of(const Setup& setup) {
 Forecast forecast(const Setup& setup, double end) {
   const Parameters& p = setup.given;
   const Triangles triangles = triangles_of_vessel(p);
-  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = share_of_particles(setup) * bed_count(setup);
+  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing),
+               bed = share_of_particles(setup) * bed_count(setup);
   const double step = time_step_of(setup);
   const SettlingTime settling = settling_time(setup);
   const double particles = bed + mass_to_come(p, end, settling.max) / setup.lattice.mass;
@@ -158,7 +159,7 @@ Parameters sample(const Layout& layout, double particles) {
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(layout)) / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
-  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.bed.mass = std::nullopt;
+  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.levels = {}, q.bed.mass = std::nullopt;
   q.bed.bottom = q.bed.left = q.bed.right = q.bed.front = q.bed.rear = std::nullopt;
   q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.file.clear();
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;

@@ -120,7 +120,8 @@ std::vector<Problem> check_levels(const Layout& layout) {
   refuse(stress_regularisation(p) > 0, "sph.stress_regularisation", "not summed over particles of several sizes yet",
          "0 with levels");
   refuse(!p.law.is<granular::CriticalState>(), "law.name",
-         "particles that split and merge have no place from which strain could be measured", "critical-state with levels");
+         "particles that split and merge have no place from which strain could be measured",
+         "critical-state with levels");
   const double coarsest = std::exp2(p.levels.count) * p.bed.spacing, reach = 2.2 * sph::support * coarsest,
                room = layout.boundary->domain().max_reach();
   refuse(!(reach < room), "levels.count",

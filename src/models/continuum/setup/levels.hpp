@@ -51,7 +51,8 @@ void for_each_parameter_of_levels(Visit&& visit, L& levels) {
   coarser(Parameter{"levels.high", dimension::length, {}, "its upper corner"}, levels.high);
 }
 
-/// The level of a particle by its mass, to the nearest. \param mass_ratio to that of a particle of bed.spacing, at least 1
+/// The level of a particle by its mass, to the nearest. \param mass_ratio to that of a particle of bed.spacing, at
+/// least 1
 inline int level_of(double mass_ratio) {
   int level = 0;
   for (double bound = std::sqrt(8.0); mass_ratio > bound; bound *= 8) ++level;
