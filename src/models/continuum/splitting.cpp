@@ -189,6 +189,17 @@ bool merge(const Levels& levels, const Boundary& boundary, State& s) {
 /// Who moves when places are relaxed.
 enum class Relaxed { between_levels, given };
 
+/// A wall as a particle beside it meets it.
+struct Mirror {
+  Vector3 place, normal;  ///< of the wall, m; unit, towards the particle
+};
+std::optional<Mirror> mirror_near(const Surface& vessel, const Vector3& x, double length) {
+  if (vessel.is_empty()) return std::nullopt;
+  const auto foot = vessel.nearest(x, sph::support * length);
+  if (!foot || !(foot->distance > 0)) return std::nullopt;
+  return Mirror{foot->place, (1 / foot->distance) * (x - foot->place)};
+}
+
 /// Moves particles below free surfaces so that the sum of V grad W over their neighbours, by which a uniform pressure
 /// would push them, all but vanishes: on two lattices that meet it is a twelfth of one over the coarser spacing, and
 /// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
@@ -205,7 +216,7 @@ void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, cons
     length.push_back(ratio * cube_root(volume.back()));
     margin.push_back(most * length.back());
   }
-  Neighbourhood around(boundary.domain(), boundary.vessel());
+  Neighbourhood around(boundary.domain());
   around.build(team, s.position, length, margin);
   const auto place = [&](std::uint32_t n) {
     if (n < count) return s.position[n];
@@ -220,18 +231,17 @@ void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, cons
     };
     if (who == Relaxed::given ? is_given[i] != 0 : std::ranges::any_of(around.of(i), differs)) moving.push_back(i);
   }
-  std::vector<std::optional<Surface::Foot>> wall(moving.size());
-  for (std::size_t m = 0; m < moving.size(); ++m)
-    if (const std::uint32_t i = moving[m]; around.distance_from_vessel(i) < sph::support * length[i])
-      wall[m] = boundary.vessel().nearest(s.position[i], sph::support * length[i]);
+  std::vector<std::optional<Mirror>> walls;
+  for (const std::uint32_t i : moving) walls.push_back(mirror_near(boundary.vessel(), s.position[i], length[i]));
   const std::vector<Vector3> begun = s.position;
   std::vector<Vector3> by(moving.size());
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t m = 0; m < moving.size(); ++m) {
       const std::uint32_t i = moving[m];
       const Vector3& x = s.position[i];
+      const std::optional<Mirror>& wall = walls[m];
       double sum = 0;
-      Vector3 gradient, normal;
+      Vector3 gradient;
       const auto add = [&](std::uint32_t j, const Vector3& other) {
         const Vector3 d = x - other;
         const double distance = norm(d), h = 0.5 * (length[i] + length[j]);
@@ -239,15 +249,16 @@ void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, cons
         sum += volume[j] * sph::cubic_spline(distance, h);
         gradient += (volume[j] * sph::cubic_spline_slope(distance, h)) * d;
       };
-      if (wall[m]) normal = (1 / norm(begun[i] - wall[m]->place)) * (begun[i] - wall[m]->place);
       const auto add_both = [&](std::uint32_t j, const Vector3& other) {
+        const double above = wall ? dot(other - wall->place, wall->normal) : 0;
+        if (above < 0) return;  // behind the wall
         add(j, other);
-        if (wall[m]) add(j, other - (2 * dot(other - wall[m]->place, normal)) * normal);
+        if (wall) add(j, other - (2 * above) * wall->normal);
       };
       add_both(i, x);
       for (const std::uint32_t n : around.of(i)) add_both(source(n), place(n));
       by[m] = sum > filled ? (-share * length[i] * length[i]) * gradient : Vector3{};
-      by[m] -= std::min(dot(by[m], normal), 0.0) * normal;
+      if (wall) by[m] -= std::min(dot(by[m], wall->normal), 0.0) * wall->normal;
     }
     for (std::size_t m = 0; m < moving.size(); ++m) {
       const std::uint32_t i = moving[m];

@@ -228,7 +228,7 @@ TEST(Splitting, ABedAtRestBearsTheSamePressureAcrossLevels) {
   Parameters fine = p;
   fine.levels = {};
   const auto levels = stress_over_weight(p, team), uniform = stress_over_weight(fine, team);
-  for (std::size_t n = 0; n < levels.size(); ++n) EXPECT_NEAR(levels[n] / uniform[n], 1, 0.02) << "layer " << n;
+  for (std::size_t n = 0; n < levels.size(); ++n) EXPECT_NEAR(levels[n] / uniform[n], 1, 0.03) << "layer " << n;
 }
 
 }  // namespace
