@@ -66,7 +66,7 @@ Section packing_section(const Particles& particles, const Domain& domain, double
           const double distance = std::sqrt(dx * dx + dz * dz);
           if (distance < support && domain.is_visible(cell, particle, image))
             section.value[row * section.columns + column] +=
-                particles.solid_volume / depth * sph::cubic_spline_line(distance, h);
+                particles.solid_volume_of(i) / depth * sph::cubic_spline_line(distance, h);
         }
     }
   }

@@ -38,12 +38,12 @@ std::vector<double> inertial_numbers(const Snapshot& snapshot, double diameter, 
       snapshot, [&](std::size_t i) { return rate[i]; }, diameter, grain_density);
 }
 
-double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken) {
+double inertial_share(std::span<const double> inertial, const std::vector<bool>& taken, const MassRatios& weight) {
   double all = 0, slow = 0;
   for (std::size_t i = 0; i < inertial.size(); ++i) {
     if (!taken[i]) continue;
-    ++all;
-    slow += inertial[i] < quasistatic;
+    all += weight[i];
+    if (inertial[i] < quasistatic) slow += weight[i];
   }
   return all > 0 ? slow / all : none;
 }
@@ -59,11 +59,12 @@ std::vector<bool> quasistatic_particles(const Snapshot& snapshot, std::span<cons
 
 double stress_ratio(const Snapshot& snapshot, const std::vector<bool>& taken) {
   const auto xx = snapshot.scalars("stress_xx"), zz = snapshot.scalars("stress_zz");
+  const MassRatios weight = snapshot.mass_ratios();
   double horizontal = 0, vertical = 0;
   for (std::size_t i = 0; i < xx.size(); ++i) {
     if (!taken[i]) continue;
-    horizontal += xx[i];
-    vertical += zz[i];
+    horizontal += weight[i] * xx[i];
+    vertical += weight[i] * zz[i];
   }
   return vertical > 0 ? horizontal / vertical : none;
 }

@@ -68,7 +68,7 @@ Domain HopperSnapshot::domain() const {
 
 Particles HopperSnapshot::particles() const {
   return particles_of_density(now.positions(), now.scalars("density"), setting.particle_mass, setting.grain_density,
-                              setting.smoothing_length);
+                              setting.smoothing_length, now.mass_ratios());
 }
 
 const Section& HopperSnapshot::packing_section() const {

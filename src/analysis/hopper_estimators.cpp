@@ -57,7 +57,10 @@ double first_time_at_or_above(const Curve& curve, double level) {
 }  // namespace
 
 double mass(const HopperSnapshot& s) {
-  return static_cast<double>(s.now.size()) * s.setting.particle_mass;
+  const MassRatios ratios = s.now.mass_ratios();
+  double of_finest = 0;
+  for (std::size_t i = 0; i < s.now.size(); ++i) of_finest += ratios[i];
+  return of_finest * s.setting.particle_mass;
 }
 
 const FreeSurface& surface_in(const HopperSnapshot& s, Where where) {
@@ -89,13 +92,16 @@ double stress_ratio(const HopperSnapshot& s) {
 }
 
 double inertial_share(const HopperSnapshot& s) {
-  return talus::inertial_share(s.inertial(), above_outlet(s.now.positions(), s.shape()));
+  return talus::inertial_share(s.inertial(), above_outlet(s.now.positions(), s.shape()), s.now.mass_ratios());
 }
 
 double left_right_imbalance(const HopperSnapshot& s) {
   double difference = 0;
-  for (const Vector3& x : s.now.positions())
-    if (x.z < s.shape().bin().top) difference += x.x < s.shape().middle() ? -1 : 1;
+  const auto positions = s.now.positions();
+  const MassRatios ratios = s.now.mass_ratios();
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (positions[i].z < s.shape().bin().top)
+      difference += positions[i].x < s.shape().middle() ? -ratios[i] : ratios[i];
   return std::abs(difference) / s.setting.particles;
 }
 

@@ -137,12 +137,16 @@ double packing_above_outlet(const HopperSnapshot& s, int layer, bool beside) {
   const Vector3 middle{shape.outlet->left + half_width, of.section.empty() ? 0.5 * shape.depth : of.middle, 0};
   const double from = beside ? half_width : 0, to = beside ? 2 * half_width : half_width;
   double inside = 0;
-  for (const Vector3& x : s.now.positions()) {
+  const auto positions = s.now.positions();
+  const MassRatios ratios = s.now.mass_ratios();
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vector3& x = positions[i];
     const double sideways = std::abs(x.x - middle.x), along = std::abs(x.y - middle.y);
     const double up = x.z - shape.outlet->height - layer * height;
     if (up < 0 || up > height) continue;
     const double distance = of.outlet_is_round ? std::hypot(sideways, along) : sideways;
-    inside += distance >= from && distance <= to && (of.outlet_is_round || along <= 0.5 * of.outlet_depth);
+    if (distance >= from && distance <= to && (of.outlet_is_round || along <= 0.5 * of.outlet_depth))
+      inside += ratios[i];
   }
   const double area =
       of.outlet_is_round ? std::numbers::pi * (to * to - from * from) : 2 * (to - from) * of.outlet_depth;
@@ -182,10 +186,15 @@ double share_that_moves(const HopperSnapshot& s) {
   if (!before || !s.shape().outlet) return none;
   const std::vector<double> speed = mean_speeds(*before, s.now);
   const auto positions = s.now.positions();
+  const MassRatios ratios = s.now.mass_ratios();
   const double outlet = s.shape().outlet->height, rests = hardly * mean_speed_above(outlet, positions, speed);
   double above = 0, moving = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    if (positions[i].z >= outlet) ++above, moving += speed[i] > rests;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    // Parts of a particle that has split since the last snapshot are not known.
+    if (positions[i].z < outlet || (!ratios.of.empty() && !std::isfinite(speed[i]))) continue;
+    above += ratios[i];
+    if (speed[i] > rests) moving += ratios[i];
+  }
   return above > 0 ? moving / above : none;
 }
 

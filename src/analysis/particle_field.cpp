@@ -33,12 +33,15 @@ std::vector<Image> identity_and_images(const Domain& domain, double reach, bool 
 }  // namespace
 
 Particles particles_of_density(std::span<const Vector3> position, std::span<const double> density, double mass,
-                               double grain_density, std::optional<double> smoothing_length) {
+                               double grain_density, std::optional<double> smoothing_length,
+                               const MassRatios& mass_ratio) {
   Particles particles{.position = position, .smoothing_length = {}, .volume = {}, .solid_volume = mass / grain_density};
-  for (const double rho : density) {
-    particles.volume.push_back(mass / rho);
-    particles.smoothing_length.push_back(smoothing_length.value_or(sph::smoothing_length(mass, rho)));
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    const double own = mass_ratio[i] * mass;
+    particles.volume.push_back(own / density[i]);
+    particles.smoothing_length.push_back(smoothing_length.value_or(sph::smoothing_length(own, density[i])));
   }
+  particles.mass_ratio.assign(mass_ratio.of.begin(), mass_ratio.of.end());
   return particles;
 }
 
@@ -75,7 +78,8 @@ void ParticleField::for_each_near(const Vector3& x, Visit&& visit) const {
 double ParticleField::packing(const Vector3& x) const {
   double sum = 0;
   for_each_near(x, [&](std::uint32_t j, const Image&, const Vector3& d) {
-    sum += sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
+    const double ratio = particles_.mass_ratio.empty() ? 1 : particles_.mass_ratio[j];
+    sum += ratio * sph::cubic_spline(norm(d), particles_.smoothing_length[j]);
   });
   return particles_.solid_volume * sum;
 }

@@ -18,18 +18,23 @@
 
 namespace talus {
 
-/// Particles of equal mass, one entry per particle.
+/// Particles, one entry per particle.
 struct Particles {
   std::span<const Vector3> position;     ///< m
   std::vector<double> smoothing_length;  ///< h, m
   std::vector<double> volume;            ///< that a particle takes up, voids counted, m^3
-  double solid_volume = 0;               ///< of the grains of a particle, m^3
+  double solid_volume = 0;               ///< of the grains of a particle of mass ratio 1, m^3
+  std::vector<double> mass_ratio = {};   ///< of each particle; empty: 1
+
+  double solid_volume_of(std::size_t i) const { return mass_ratio.empty() ? solid_volume : mass_ratio[i] * solid_volume; }
 };
 
 /// Particles of a bulk density each. \param density kg/m^3, above 0; \param mass of a particle, kg; \param
 /// grain_density rho_p, kg/m^3; \param smoothing_length of all, m; not given: of each from its density, (m/rho)^(1/3)
+/// \param mass_ratio to that mass
 Particles particles_of_density(std::span<const Vector3> position, std::span<const double> density, double mass,
-                               double grain_density, std::optional<double> smoothing_length = {});
+                               double grain_density, std::optional<double> smoothing_length = {},
+                               const MassRatios& mass_ratio = {});
 
 class ParticleField {
  public:

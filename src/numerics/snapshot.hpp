@@ -54,6 +54,12 @@ struct SectorCopies {
                                 ///< identities
 };
 
+/// Masses of particles over that of the finest; without such a column all are 1.
+struct MassRatios {
+  std::span<const double> of;
+  double operator[](std::size_t i) const { return of.empty() ? 1 : of[i]; }
+};
+
 /// The particles at one time. Valid as long as the state it was made from is unchanged. The column "position" is always
 /// there.
 struct Snapshot {
@@ -71,6 +77,7 @@ struct Snapshot {
   std::span<const std::int64_t> integers(std::string_view name) const;
   std::span<const Vector3> positions() const { return vectors("position"); }
   bool has(std::string_view name) const;
+  MassRatios mass_ratios() const { return {has("mass_ratio") ? scalars("mass_ratio") : std::span<const double>{}}; }
 };
 
 /// The same whose columns are read piece by piece: what is written to a file.

@@ -23,6 +23,8 @@ using continuum::Accuracy;
 constexpr int copies[] = {36, 30, 24, 20, 18, 15, 12, 10, 9, 8, 6, 5, 4};
 constexpr double across_outlet[] = {8, 12, 20};          // particles, by Accuracy
 constexpr double trial_spacings[] = {25, 50, 100, 200};  // on the width of the box, while the outlet is not known
+constexpr int max_levels = 2;
+constexpr std::int64_t across_vessel = 16;  // of the coarsest particles, at least
 constexpr const char* option = "accuracy";
 
 CaseFile with(CaseFile file, const std::string& setting) {
@@ -74,6 +76,18 @@ CaseFile with_sector(const CaseFile& file, const ReadSetup& read) {
   return file;
 }
 
+/// With as many levels as leave enough particles across the bed; without any where particles of several sizes cannot
+/// be.
+CaseFile with_levels(const CaseFile& file, const ReadSetup& read) {
+  for (int levels = max_levels; levels > 0; --levels) try {
+      CaseFile changed = with(file, fmt::format("levels.count={}", levels));
+      const auto& count = read(changed)->lattice.count;
+      if (std::min(count[0], count[1]) >= across_vessel << levels) return changed;
+    } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): a case without an outlet, or with air
+    }
+  return file;
+}
+
 }  // namespace
 
 std::vector<std::string> sector_settings() {
@@ -103,6 +117,7 @@ CaseFile with_accuracy(const CaseFile& file, const ReadSetup& read) {
   }
   if (*accuracy != Accuracy::reference && !file.contains("box.sector") && file.tables("vessel") > 0)
     changed = with_sector(changed, read);
+  if (*accuracy != Accuracy::reference && !file.contains("levels.count")) changed = with_levels(changed, read);
   return changed;
 }
 

@@ -22,7 +22,8 @@ std::string millimetres(double length);
 using ReadSetup = std::function<std::shared_ptr<const continuum::Setup>(const CaseFile& file)>;
 
 /// The case with what its key `accuracy` sets of the keys that it leaves out: bed.spacing by the outlet, single
-/// precision, the narrowest sector that warns of nothing that the whole does not warn of. The moduli of the law
+/// precision, the narrowest sector that warns of nothing that the whole does not warn of, coarser particles away from
+/// the outlet. The moduli of the law
 /// critical-state follow from the bed (bulk_modulus_for). Without the key, and of what it does not set, the case
 /// itself. \throws InputError with every problem
 CaseFile with_accuracy(const CaseFile& file, const ReadSetup& read);

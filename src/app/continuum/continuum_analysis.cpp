@@ -92,6 +92,7 @@ void write_residence(const std::filesystem::path& path, const HopperRun& run,
   for (std::size_t n = 0; n < time.size(); ++n) {
     if (n + 1 < time.size() && time[n + 1] <= 0) continue;
     const PointSet points = read_points(snapshots[n]);
+    if (points.view().has("mass_ratio")) return;  // particles that split and merge do not stay who they are
     if (residence)
       residence->take(points.view(), time[n]);
     else

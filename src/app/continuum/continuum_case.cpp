@@ -45,8 +45,9 @@ constexpr std::size_t max_parts_of_vessel = 64, max_inlets = 16, max_beds = 64;
 std::vector<NamedValue> groups(const Setup& setup) {
   const Parameters& p = setup.given;
   const double density = setup.density, sound = setup.sound_speed, count = continuum::bed_count(setup);
+  const double particles = std::round(continuum::share_of_particles(setup) * count);
   const double fall = std::sqrt(2 * p.gravity.acceleration * p.box.height);
-  std::vector<NamedValue> groups = {{"particles", "1", count},
+  std::vector<NamedValue> groups = {{"particles", "1", particles},
                                     {"mass", "kg", setup.lattice.mass * count * setup.copies},
                                     {"bed_height", "m", setup.has_no_bed() ? 0 : setup.depth},
                                     {"sound_speed", "m/s", sound},
@@ -115,18 +116,22 @@ double measure_particle(const std::shared_ptr<const Setup>& setup, ThreadTeam& t
 }
 
 /// Of a step of all particles. A bed of a few thousand particles is measured itself, a larger one by a sample, and the
-/// walls of its vessel by larger particles in it.
-double measure_step(const std::shared_ptr<const Setup>& setup, double end, ThreadTeam& team) {
+/// walls of its vessel by larger particles in it. With levels, as many particles of one size.
+double measure_step(const std::shared_ptr<const Setup>& given, double end, ThreadTeam& team) {
+  Parameters of_one_size = given->given;
+  of_one_size.levels = {};
+  const auto setup = given->given.levels.count > 0 ? std::make_shared<const Setup>(given->with(of_one_size)) : given;
   constexpr double most = 8000;
   const auto in_sample = [&] { return measure_particle(std::make_shared<Setup>(sample(*setup, most)), team); };
   if (setup->has_no_bed()) return 0.5 * continuum::forecast(*setup, end).particles * in_sample();  // half comes in
   const double count = continuum::bed_count(*setup);
-  if (count <= most) return count * measure_particle(setup, team);
+  const double share = continuum::share_of_particles(*given);
+  if (count <= most) return share * count * measure_particle(setup, team);
   const double inside = in_sample();
-  if (setup->given.vessel.empty()) return count * inside;
+  if (setup->given.vessel.empty()) return share * count * inside;
   const auto coarse = std::make_shared<Setup>(continuum::coarser(*setup, most));
   const double by_walls = std::max(0.0, measure_particle(coarse, team) - inside);
-  return count * (inside + by_walls * setup->given.bed.spacing / coarse->given.bed.spacing);
+  return share * count * (inside + by_walls * setup->given.bed.spacing / coarse->given.bed.spacing);
 }
 
 Problem too_large(const Setup& setup, double available) {

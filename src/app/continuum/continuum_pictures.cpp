@@ -81,12 +81,24 @@ std::vector<Segment> outline(const HopperSetting& setting, double top) {
 
 /// Of a vessel in space, the particles in the section through its middle; else all. Thicker than a spacing, so that two
 /// layers of a lattice that stand half a spacing from the middle are in it whole.
-std::vector<std::size_t> seen_particles(const HopperSetting& setting, std::span<const Vector3> positions) {
+std::vector<std::size_t> seen_particles(const HopperSetting& setting, const Snapshot& view) {
+  const auto positions = view.positions();
+  const MassRatios ratios = view.mass_ratios();
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (setting.section.empty() || std::abs(positions[i].y - setting.middle) <= 0.75 * setting.shape.spacing)
+    if (setting.section.empty() ||
+        std::abs(positions[i].y - setting.middle) <= 0.75 * std::cbrt(ratios[i]) * setting.shape.spacing)
       seen.push_back(i);
   return seen;
+}
+
+/// Of those particles, m.
+std::vector<double> radii_of(const HopperSetting& setting, const Snapshot& view,
+                             const std::vector<std::size_t>& which) {
+  const MassRatios ratios = view.mass_ratios();
+  std::vector<double> radii;
+  for (const std::size_t i : which) radii.push_back(0.5 * std::cbrt(ratios[i]) * setting.shape.spacing);
+  return radii;
 }
 
 template <class T>
@@ -100,10 +112,10 @@ void draw_packing(const std::filesystem::path& snapshot, double time, const Hopp
                   const std::string& title, const std::filesystem::path& path) {
   const PointSet points = read_points(snapshot);
   const Snapshot view = points.view();
-  const std::vector<std::size_t> seen = seen_particles(setting, view.positions());
+  const std::vector<std::size_t> seen = seen_particles(setting, view);
   const std::vector<Vector3> positions = picked(view.positions(), seen);
   const std::vector<double> packing = picked(view.scalars("packing"), seen);
-  const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
+  const std::vector<double> radii = radii_of(setting, view, seen);
   ParticlePicture picture =
       particle_picture(setting, positions, radii, {.values = packing, .label = "packing", .low = 0.4, .high = 0.7});
   picture.title = title_of(time);
@@ -115,17 +127,21 @@ void draw_grains(const Frames& frames, const HopperSetting& setting, const std::
                  const std::filesystem::path& path) {
   const std::vector<std::size_t> chosen = chosen_snapshots(frames.time, pictures_of_a_run);
   std::vector<std::vector<Vector3>> dots;
+  std::vector<std::vector<double>> radii;
   double top = 0;
   for (const std::size_t n : chosen) {
     const PointSet points = read_points(frames.paths[n]);
     const Snapshot view = points.view();
     if (!setting.section.empty()) {
-      dots.push_back(picked(view.positions(), seen_particles(setting, view.positions())));
+      const std::vector<std::size_t> seen = seen_particles(setting, view);
+      dots.push_back(picked(view.positions(), seen));
+      radii.push_back(radii_of(setting, view, seen));
       top = std::max(top, setting.shape.height);
       continue;
     }
-    const Particles particles = particles_of_density(view.positions(), view.scalars("density"), setting.particle_mass,
-                                                     setting.grain_density, setting.smoothing_length);
+    const Particles particles =
+        particles_of_density(view.positions(), view.scalars("density"), setting.particle_mass, setting.grain_density,
+                             setting.smoothing_length, view.mass_ratios());
     Domain domain = setting.domain;
     if (frames.time[n] >= 0) domain.open_gates(frames.time[n]);
     dots.push_back(particle_dots(view.positions(), particles.smoothing_length, view.integers("identity"), domain,
@@ -133,9 +149,8 @@ void draw_grains(const Frames& frames, const HopperSetting& setting, const std::
     top = std::max(top, highest(view) + 4 * setting.shape.spacing);
   }
   Figure figure{.title = title};
-  std::vector<std::vector<double>> radii;
   const bool in_space = !setting.section.empty();
-  for (const auto& set : dots) radii.emplace_back(set.size(), 0.5 * (in_space ? setting.shape.spacing : dot_diameter));
+  for (std::size_t n = radii.size(); n < dots.size(); ++n) radii.emplace_back(dots[n].size(), 0.5 * dot_diameter);
   for (std::size_t n = 0; n < chosen.size(); ++n) {
     ParticlePicture picture{.title = title_of(frames.time[chosen[n]]),
                             .positions = dots[n],
@@ -164,11 +179,11 @@ bool draw_flow(const Frames& frames, const HopperRun& run, const std::string& ti
   const auto positions = now.view().positions();
   const double mean = hopper::mean_speed_above(setting.shape.outlet->height, positions, speed);
   if (!(mean > 0)) return false;
-  const std::vector<std::size_t> seen = seen_particles(setting, positions);
+  const std::vector<std::size_t> seen = seen_particles(setting, now.view());
   const std::vector<Vector3> places = picked(positions, seen);
   std::vector<double> over_mean = picked(std::span<const double>(speed), seen);
   for (double& v : over_mean) v /= mean;
-  const std::vector<double> radii(seen.size(), 0.5 * setting.shape.spacing);
+  const std::vector<double> radii = radii_of(setting, now.view(), seen);
   ParticlePicture picture = particle_picture(
       setting, places, radii,
       {.values = over_mean, .label = "speed / mean speed (below 0.1: stagnant)", .low = 0, .high = 0.2});

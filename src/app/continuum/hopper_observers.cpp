@@ -25,12 +25,13 @@ void add_rates(const Snapshot& some, const continuum::Layout& layout, std::vecto
   const double mass = layout.lattice.mass, spacing = layout.given.bed.spacing;
   const auto position = some.positions();
   const auto velocity = some.vectors("velocity");
+  const MassRatios ratios = some.mass_ratios();
   for (std::size_t n = 0; n < rates.size(); ++n) {
     const continuum::VesselOutlet& outlet = layout.vessel_outlets[n];
     for (std::size_t i = 0; i < position.size(); ++i) {
       const double above = position[i].z - outlet.middle.z;
       if (std::abs(above) < sph::support * spacing && outlet.is_beside(position[i], spacing))
-        rates[n].value -= mass * velocity[i].z * spread_along_z(above, spacing);
+        rates[n].value -= ratios[i] * mass * velocity[i].z * spread_along_z(above, spacing);
     }
   }
 }
@@ -38,7 +39,7 @@ void add_rates(const Snapshot& some, const continuum::Layout& layout, std::vecto
 /// Particles near slit and probe.
 struct Near {
   std::vector<Vector3> position, velocity;
-  std::vector<double> density, stress, strain;
+  std::vector<double> density, stress, strain, mass_ratio;
 };
 
 }  // namespace
@@ -67,13 +68,14 @@ std::vector<NamedValue> observe_hopper(const Pieces& pieces, const continuum::La
   pieces([&](const Snapshot& some) {
     const auto position = some.positions(), velocity = some.vectors("velocity");
     const auto density = some.scalars("density");
+    const MassRatios ratios = some.mass_ratios();
     for (std::size_t i = 0; i < position.size(); ++i) {
       const double z = position[i].z, above = z - plate;
-      if (above < 0) passed += mass;
+      if (above < 0) passed += ratios[i] * mass;
       if (std::abs(above) < sph::support * p.bed.spacing)
-        rate -= mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
+        rate -= ratios[i] * mass * velocity[i].z * spread_along_z(above, p.bed.spacing);
       lowest = std::min(lowest, z);
-      if (z < p.bed.spacing) near_floor += mass;
+      if (z < p.bed.spacing) near_floor += ratios[i] * mass;
     }
     add_rates(some, layout, by_outlet);
     domain = some.domain;
@@ -81,10 +83,11 @@ std::vector<NamedValue> observe_hopper(const Pieces& pieces, const continuum::La
     // Particles near both places are enough: others do not contribute there. No image is nearer than its source.
     const auto stress = some.scalars("stress_zz"), strain = some.scalars("strain");
     for (const std::size_t i : particles_around(position, slit, 3 * sph::support * p.bed.spacing + probe_above_slit)) {
-      const double reach = sph::support * sph::smoothing_length(mass, density[i]);
+      const double reach = sph::support * sph::smoothing_length(ratios[i] * mass, density[i]);
       if (std::abs(position[i].x - slit.x) > reach || std::abs(position[i].z - slit.z) > reach + probe_above_slit)
         continue;
       near.position.push_back(position[i]), near.velocity.push_back(velocity[i]);
+      if (!ratios.of.empty()) near.mass_ratio.push_back(ratios[i]);
       near.density.push_back(density[i]), near.stress.push_back(stress[i]), near.strain.push_back(strain[i]);
     }
   });
@@ -93,7 +96,8 @@ std::vector<NamedValue> observe_hopper(const Pieces& pieces, const continuum::La
   double slit_velocity = std::nan(""), probe_density = slit_velocity, probe_velocity = slit_velocity,
          probe_stress = slit_velocity, probe_strain = slit_velocity;
   if (outlet) {
-    const ParticleField field(particles_of_density(near.position, near.density, mass, p.grains.density), *domain);
+    const ParticleField field(
+        particles_of_density(near.position, near.density, mass, p.grains.density, {}, {near.mass_ratio}), *domain);
     slit_velocity = field.value(slit, near.velocity).z;
     probe_velocity = field.value(probe, near.velocity).z;
     probe_density = field.value(probe, near.density);

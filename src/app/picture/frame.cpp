@@ -84,6 +84,8 @@ void show_particles(const Snapshot& snapshot, double radius, const std::string& 
     const auto radii = snapshot.scalars("radius");
     frame.radii.assign(radii.begin(), radii.end());
   }
+  const MassRatios ratios = snapshot.mass_ratios();
+  for (std::size_t i = 0; i < ratios.of.size(); ++i) frame.radii[i] *= std::cbrt(ratios[i]);
   if (name.empty()) return;
   std::vector<std::string> names;
   bool found = false;

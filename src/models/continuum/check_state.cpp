@@ -17,7 +17,7 @@ namespace {
 /// step was thrown by stresses that cannot be.
 struct Limits {
   const Box& box;
-  double min_density;  // kg/m^3
+  double min_density;  // of a particle of State::mass, kg/m^3
   double max_speed;    // m/s
 
   Limits(const Parameters& p, const Domain& domain, const State& s, double dt)
@@ -29,7 +29,10 @@ struct Limits {
                                             -3)),
         max_speed(p.bed.spacing / dt) {}
 
-  bool allow_density(double value) const { return value > min_density && std::isfinite(value); }
+  bool allow_density(const State& s, std::size_t i) const {
+    const double value = s.density[i];
+    return value > (s.mass_ratio.empty() ? 1 : s.mass_ratio[i]) * min_density && std::isfinite(value);
+  }
   /// What has left the box falls on, and meets nobody.
   bool allow_velocity(const Vector3& v, const Vector3& x) const {
     const double speed = norm(v);
@@ -39,7 +42,7 @@ struct Limits {
 
 NumericalError::Report report_of(const Parameters& p, const State& s, const Limits& limits, std::size_t i) {
   const Vector3& x = s.position[i];
-  const bool density = !limits.allow_density(s.density[i]);
+  const bool density = !limits.allow_density(s, i);
   const double speed = norm(s.velocity[i]);
   const bool left = !limits.box.contains(x);
   const bool can_be_removed = left && !p.removal.outside && !p.air.enabled;
@@ -65,7 +68,7 @@ std::optional<std::size_t> find_fault(ThreadTeam& team, const Parameters& p, con
   const std::size_t first = reduce(
       team, s.position.size(), none,
       [&](std::size_t i) {
-        const bool allowed = limits.allow_velocity(s.velocity[i], s.position[i]) && limits.allow_density(s.density[i]);
+        const bool allowed = limits.allow_velocity(s.velocity[i], s.position[i]) && limits.allow_density(s, i);
         return allowed || !share.owns(i) ? none : i;
       },
       [](std::size_t a, std::size_t b) { return std::min(a, b); });

@@ -114,12 +114,13 @@ Continuum::Totals Continuum::find_totals() const {
     if (!share.owns(i)) continue;
     const Vector3 &x = s.position[i], &v = s.velocity[i];
     square = std::max(square, dot(v, v));
-    momentum.add(point, s.mass * v);
+    momentum.add(point, s.mass_of(i) * v);
     min_density = std::min(min_density, s.density[i]);
     max_density = std::max(max_density, s.density[i]);
     max_packing = std::max(max_packing, s.packing[i]);
-    outside += (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
+    const bool is_outside = (x.x < box.low.x) | (x.x > box.high.x) | (x.y < box.low.y) | (x.y > box.high.y) | (x.z < box.low.z) |
                (x.z > box.high.z);
+    if (is_outside) outside += s.mass_ratio.empty() ? 1 : static_cast<std::uint64_t>(s.mass_ratio[i]);
   }
   Votes votes{.least = {min_density}, .largest = {square, max_density, max_packing}, .sum = {outside}};
   join(ranks_, votes, std::span(&momentum, 1));
@@ -207,6 +208,7 @@ std::vector<NamedValue> Continuum::totals() const {
     if (setup_->boundary->bears_load(n)) add("impulse_" + setup_->boundary->patches()[n].name, s.patch_impulse[n]);
   for (NamedValue& value : totals_of(workspace_->load_bands, workspace_->load_fields, s.wall_loads))
     values.push_back(std::move(value));
+  if (s.has.mass_ratio) values.push_back({"merged_energy", "J", copies * s.merged_energy});
   if (s.population.is_active) {
     values.push_back({"fed_mass", "kg", copies * s.mass * static_cast<double>(s.population.fed)});
     values.push_back({"removed_mass", "kg", copies * s.mass * static_cast<double>(s.population.removed)});

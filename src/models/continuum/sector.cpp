@@ -107,7 +107,10 @@ void return_to_sector(const Domain& domain, const Material& material, State& s) 
 }
 
 SectorCopies copies_of(const State& s, const Sector& sector) {
-  return {sector.axis(), sector.copies(), static_cast<std::int64_t>(s.population.next_identity)};
+  // Where particles split, one number in all snapshots, above all identities.
+  constexpr std::int64_t far_above = std::int64_t{1} << 32;
+  return {sector.axis(), sector.copies(),
+          s.has.mass_ratio ? far_above : static_cast<std::int64_t>(s.population.next_identity)};
 }
 
 PointSet part_of(const State& s, const Sector& sector) {

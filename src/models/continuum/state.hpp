@@ -48,7 +48,7 @@ struct Population {
   bool is_active = false;           ///< from the case, not a field: whether any can
   std::uint64_t next_identity = 0;  ///< of a particle to come
   std::uint64_t fed = 0;            ///< particles that came in
-  std::uint64_t removed = 0;        ///< that were taken away
+  std::uint64_t removed = 0;        ///< that were taken away, with levels in those of the finest
   Vector3 fed_momentum;             ///< what they brought, N s
   Vector3 removed_momentum;         ///< what they took along, N s
   std::vector<double> next_layer;   ///< of each inlet: when it is due, by its clock, s
@@ -62,16 +62,18 @@ struct State {
   std::vector<Vector3> velocity;       ///< m/s; with the leapfrog of half a step before
   std::vector<double> density;         ///< bulk density, kg/m^3
   std::vector<std::int64_t> identity;  ///< number of the particle at the start: columns are re-sorted now and then
+  std::vector<double> mass_ratio;      ///< to `mass`, a whole number; only with levels
   std::vector<std::int64_t> tag;       ///< of the bed that it belongs to, -1 of an inlet's; only with several beds
   MaterialColumns material;
   std::vector<granular::HistorySlot> slots;  ///< of material.history; from the law, not a field
   /// Which of the columns below there are. From the case, not fields: without particles every column is empty.
   struct Columns {
-    bool tag = false, collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
+    bool mass_ratio = false, tag = false, collisional = false, reset_position = false, sector_turns = false, lasting_rate = false,
          deformation_rate = false;
   } has;
-  double mass = 0;  ///< of a particle, kg
-  /// Mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from the
+  double mass = 0;          ///< of a particle, with levels of the finest, kg
+  double merged_energy = 0;  ///< kinetic, that merging particles lost since the start, J; with levels
+  /// Largest mass times speed of sound, N s: more than a particle gives a wall in a step. Of sums in fixed point; from the
   /// case, not a field.
   double impulse_unit = 0;
   /// X_i, m: where each particle was when its strain was last reset; empty unless the strain comes from displacements.
@@ -96,6 +98,8 @@ struct State {
 
   Population population;
   AirAround air;
+
+  double mass_of(std::size_t i) const { return mass_ratio.empty() ? mass : mass_ratio[i] * mass; }
 
   // Phases.
   double gate_time = -1;   ///< when the gate opened, s; -1: it has not
@@ -204,6 +208,10 @@ void for_each_field(Visit&& visit, S& s) {
   visit(FieldInfo{"velocity", "m/s"}, s.velocity);
   visit(FieldInfo{"density", "kg/m3"}, s.density);
   visit(FieldInfo{"identity", "1"}, s.identity);
+  if (s.has.mass_ratio) {
+    visit(FieldInfo{"mass_ratio", "1"}, s.mass_ratio);
+    visit(FieldInfo{"merged_energy", "J"}, s.merged_energy);
+  }
   if (s.has.tag) visit(FieldInfo{"tag", "1"}, s.tag);
   for (std::size_t c = 0; c < 6; ++c) visit(FieldInfo{detail::stress_names[c], "Pa"}, s.material.stress[c]);
   for (std::size_t c = 0; c < 6 && s.has.collisional; ++c)

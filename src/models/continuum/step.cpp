@@ -57,7 +57,7 @@ void advance_leapfrog(const Step& step) {
   step.kick();
   step.contact(0.5 * (s.last_step + step.dt), s.position);
   step.midpoint_positions();
-  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate},
+  step.gradients({w.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate, s.mass_ratio},
                  PairTerms::gradients);
   step.drift(s.velocity);
   step.density();
@@ -75,7 +75,8 @@ void advance_midpoint(const Step& step) {
   State& s = step.s;
   Workspace& w = step.w;
   step.half();
-  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate},
+  step.gradients({w.position, w.velocity, w.density, w.midpoint_smoothing_length, w.columns, s.deformation_rate,
+                  s.mass_ratio},
                  PairTerms::all);
   step.drift(w.velocity);
   step.momentum();
@@ -116,7 +117,7 @@ struct Gravity {
 
   /// Adds the impulse of all particles within a duration to that of the state.
   void add_impulse(ThreadTeam& team, double duration, State& s, Share& share) const {
-    if (!by_height) {
+    if (!by_height && s.mass_ratio.empty()) {
       s.gravity_impulse += (duration * s.mass * static_cast<double>(share.of_all(s.velocity.size()))) * everywhere;
       return;
     }
@@ -124,7 +125,7 @@ struct Gravity {
     const FixedVector given = accumulate(
         team, s.position.size(), FixedVector{},
         [&](std::size_t i, FixedVector& sum) {
-          if (share.owns(i)) sum.add(point, (duration * s.mass) * at(s.position[i]));
+          if (share.owns(i)) sum.add(point, (duration * s.mass_of(i)) * at(s.position[i]));
         },
         [](FixedVector a, const FixedVector& b) { return a += b; });
     share.add_later({given},
@@ -155,9 +156,9 @@ void Step::half() const {
     w.position[i] = s.position[i] + (0.5 * dt) * s.velocity[i];
     w.velocity[i] = s.velocity[i] + (0.5 * dt) * (w.rates.acceleration[i] + start.at(s.position[i]) + by_air(s, i));
     w.density[i] = sph::density_after(s.density[i], (0.5 * dt) * w.rates.density_rate[i]);
-    w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i]);
+    w.midpoint_smoothing_length[i] = w.pairs.smoothing_length(w.density[i], s.mass_ratio.empty() ? 1 : s.mass_ratio[i]);
   });
-  prevent_approach(team, walls(), w.rates, s.position, dt, w.pairs, w.velocity);
+  prevent_approach(team, walls(), w.rates, s, dt, w.pairs, w.velocity);
   measure_strain_at(team, s, w, w.position);
   w.material.update(team, s.material, w.rates.velocity_gradient, w.measured_strain, w.density, 0.5 * dt, w.columns,
                     false);
@@ -282,7 +283,7 @@ void Step::damping() const {
         if (!w.share.owns(i)) return;
         const Vector3 before = s.velocity[i];
         s.velocity[i] = left * before;
-        sum.add(point, s.mass * (before - s.velocity[i]));
+        sum.add(point, s.mass_of(i) * (before - s.velocity[i]));
       },
       [](FixedVector a, const FixedVector& b) { return a += b; });
   w.share.add_later({taken},

@@ -6,6 +6,7 @@
 
 #include "models/continuum/population.hpp"
 #include "models/continuum/sector.hpp"
+#include "models/continuum/splitting.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
 
@@ -23,6 +24,7 @@ Workspace::Workspace(const Setup& setup, const State& state, const Ranks& ranks)
     : share(ranks),
       boundary(*setup.boundary),
       material(setup.material),
+      levels(setup),
       contact_distance(sph::contact_distance * sph::smoothing_length(state.mass, setup.density)),
       lasting_time(passages_that_last * setup.given.bed.spacing / setup.sound_speed),
       load_fields(continuum::load_fields(setup)),
@@ -42,7 +44,7 @@ Workspace::Workspace(const Setup& setup, const State& state, const Ranks& ranks)
 }
 
 void update_smoothing_lengths(ThreadTeam& team, const State& s, Workspace& w) {
-  w.pairs.find_smoothing_lengths(team, s.density, w.smoothing_length);
+  w.pairs.find_smoothing_lengths(team, s.density, s.mass_ratio, w.smoothing_length);
 }
 
 void set_list_reference(const Parameters& p, State& s, const Workspace& w) {
@@ -67,13 +69,19 @@ void build_lists(ThreadTeam& team, const Parameters& p, State& s, Workspace& w,
     w.share.distribute(s, w.boundary.domain(), carried);
     fit(p, s, w);
   }
-  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, w.share.part(),
+  w.pairs.find_neighbours(team, s.list_position, s.list_smoothing_length, s.list_margin, s.mass_ratio, w.share.part(),
                           w.share.is_all() ? nullptr : &w.share.halo_messages());
 }
 
 void find_neighbours(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
   drop_halo(p, s, w);
   return_to_sector(w.boundary.domain(), w.material, s);
+  if (s.has.mass_ratio) {
+    split_and_merge(w.levels, w.boundary, p, s);
+    return_to_sector(w.boundary.domain(), w.material, s);
+    fit(p, s, w);
+    update_smoothing_lengths(team, s, w);
+  }
   if (s.list_builds % builds_between_sorts == 0) {
     sort_for_locality(s, w.share, sph::support * p.bed.spacing);
     update_smoothing_lengths(team, s, w);
@@ -99,7 +107,8 @@ void refresh_halo(Workspace& w, const SummedColumns& c) {
 }
 
 void evaluate(ThreadTeam& team, const Parameters& p, State& s, Workspace& w) {
-  const SummedColumns columns{s.position, s.velocity, s.density, w.smoothing_length, s.material, s.deformation_rate};
+  const SummedColumns columns{s.position, s.velocity,         s.density,   w.smoothing_length,
+                              s.material, s.deformation_rate, s.mass_ratio};
   refresh_halo(w, columns);
   // The forces at the moment of the opening are still those of the settled bed, in a resumed run too.
   const bool flows = s.gate_time >= 0 && s.time > s.gate_time;

@@ -31,6 +31,7 @@ struct Workspace {
   Share share;
   Boundary boundary;
   const Material& material;
+  Levels levels;
   double contact_distance;  ///< at which walls hold a particle (physics/sph/wall_contact.hpp), m
   double lasting_time;      ///< a shear that turns back sooner draws no density, s
   std::vector<InletLayer> inlets;
@@ -83,8 +84,11 @@ struct SummedColumns {
   std::vector<double>&density, &smoothing_length;
   MaterialColumns& material;
   std::array<std::vector<double>, 6>& deformation_rate;
+  std::vector<double>& mass_ratio;
 
-  ParticleView view() const { return {position, velocity, density, smoothing_length, material, deformation_rate}; }
+  ParticleView view() const {
+    return {position, velocity, density, smoothing_length, material, deformation_rate, mass_ratio};
+  }
 };
 
 /// Gives these columns the halo's values, in one message.

@@ -11,8 +11,8 @@ namespace talus::sph {
 /// Eq. 16, d rho/dt = -div(rho u) + u . grad rho, in the form whose sum is the rate of the kernel density:
 /// the term of j is m_j (u_i - u_j) . grad W_ij.
 /// \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d x_j - x_i, m; \param du u_j - u_i, m/s; \returns kg/(m^3 s)
-template <class Number, class Vector>
-constexpr Number density_rate(double mass, const Number& slope, const Vector& d, const Vector& du) {
+template <class Mass, class Number, class Vector>
+constexpr Number density_rate(const Mass& mass, const Number& slope, const Vector& d, const Vector& du) {
   return mass * slope * multiply_add(du.x, d.x, multiply_add(du.y, d.y, du.z * d.z));
 }
 
@@ -35,8 +35,8 @@ constexpr double density_towards(double sum, double density, double strain) {
 /// W_ij, equal and opposite to that of i on j for equal masses. \param mass m_j, kg; \param slope F_ij, 1/m^5; \param d
 /// x_j - x_i, m \param s tau_i/rho_i^2 + tau_j/rho_j^2, compression positive; \param viscosity Pi_ij, both m^5/(kg s^2)
 /// \returns m/s^2
-template <class Number, class Vector>
-constexpr Vector acceleration(double mass, const Number& slope, const Vector& d, const SymmetricTensor3<Number>& s,
+template <class Mass, class Number, class Vector>
+constexpr Vector acceleration(const Mass& mass, const Number& slope, const Vector& d, const SymmetricTensor3<Number>& s,
                               const Number& viscosity) {
   const Number factor = mass * slope;
   const auto row = [&](const Number& x, const Number& y, const Number& z) {

@@ -61,7 +61,8 @@ struct Evaluation {
   }
   void evaluate(PairTerms terms = PairTerms::all) {
     std::vector<double> h;
-    for (const double rho : state.density) h.push_back(pairs.smoothing_length(rho));
+    for (std::size_t i = 0; i < state.density.size(); ++i)
+      h.push_back(pairs.smoothing_length(state.density[i], state.mass_ratio.empty() ? 1 : state.mass_ratio[i]));
     pairs.find_neighbours(team, state.position, h);
     if (!state.deformation_rate[0].empty()) {
       sum(h, PairTerms::gradients);
@@ -71,8 +72,9 @@ struct Evaluation {
     sum(h, terms);
   }
   void sum(const std::vector<double>& h, PairTerms terms) {
-    pairs(team, {state.position, state.velocity, state.density, h, state.material, state.deformation_rate}, terms,
-          rates);
+    pairs(team,
+          {state.position, state.velocity, state.density, h, state.material, state.deformation_rate, state.mass_ratio},
+          terms, rates);
   }
 
   /// Summed over the particles: of all forces, of the walls' alone, and of the sizes of all.

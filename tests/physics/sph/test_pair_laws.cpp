@@ -11,8 +11,8 @@
 namespace talus::sph {
 namespace {
 
-constexpr auto push = acceleration<double, Vector3>;
-constexpr auto rate = density_rate<double, Vector3>;
+constexpr auto push = acceleration<double, double, Vector3>;
+constexpr auto rate = density_rate<double, double, Vector3>;
 double viscosity_of(const ArtificialViscosity& law, double approach, double square, double h, double c, double rho) {
   return viscosity(law, approach, square, h, c, rho);
 }
@@ -79,7 +79,7 @@ double force_along_z(double strength, double shift) {
         const double q = norm(d);
         if (q == 0 || q >= support) continue;
         const double tension = artificial_stress(strength, 2.0, cubic_spline_shape_of(q));
-        sum += acceleration<double, Vector3>(1, cubic_spline_slope(q, 1.0), d, {0, 0, -2, 0, 0, 0}, tension).z;
+        sum += acceleration<double, double, Vector3>(1, cubic_spline_slope(q, 1.0), d, {0, 0, -2, 0, 0, 0}, tension).z;
       }
   return sum;
 }

@@ -66,6 +66,8 @@ class Panel {
       for (let n = 0; n < count; ++n) radii[n] = decode(radius, all[n]) * this.scale || radii[n];
     }
     this.radii = radii;
+    this.ratio = (frames.fields ?? []).find((field) => field.name === "mass_ratio");
+    if (this.ratio) this.ratios = await unpackFrames(this.ratio.block, count);
     if (frames.identity !== undefined) this.identities = await numbers(frames.identity);
     if (frames.air)
       this.air = await Promise.all(
@@ -102,7 +104,8 @@ class Panel {
       const geometry = new three.BufferGeometry();
       this.code = new three.BufferAttribute(this.codes, 4).setUsage(three.DynamicDrawUsage);
       geometry.setAttribute("code", this.code);
-      geometry.setAttribute("radius", new three.BufferAttribute(this.radii, 1));
+      this.radius = new three.BufferAttribute(this.radii, 1).setUsage(three.DynamicDrawUsage);
+      geometry.setAttribute("radius", this.radius);
       geometry.setDrawRange(0, this.count);
       const step = axes.map((axis) => ((axis.high - axis.low) / (axis.levels - 1)) * this.scale);
       this.material = new three.ShaderMaterial({
@@ -232,6 +235,11 @@ class Panel {
         codes[4 * n + 3] = field ? field.codes[from + n] : 0;
       }
       this.code.needsUpdate = true;
+      if (this.ratio) {
+        const finest = this.run.scene.radius * this.scale;
+        for (let n = 0; n < count; ++n) this.radii[n] = finest * (Math.cbrt(decode(this.ratio, this.ratios[from + n])) || 1);
+        this.radius.needsUpdate = true;
+      }
       const uniforms = this.material.uniforms;
       uniforms.none.value = field ? field.packed.levels : 0;
       if (field) {

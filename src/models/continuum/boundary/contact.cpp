@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/elementary.hpp"
 #include "base/exact_sum.hpp"
 #include "numerics/sph/cubic_spline.hpp"
 #include "physics/sph/wall_contact.hpp"
@@ -18,6 +19,11 @@ constexpr int max_contacts = 8;  // with the vessel, one after the other: two in
 
 bool has_friction(const Parameters& p, const State& state) {
   return p.walls.friction != Friction::none && (p.walls.friction_from == FrictionFrom::start || state.gate_time >= 0);
+}
+
+/// At which walls hold a particle, m.
+double contact_distance(const ContactSetting& setting, const State& state, std::size_t particle) {
+  return state.mass_ratio.empty() ? setting.distance : cube_root(state.mass_ratio[particle]) * setting.distance;
 }
 
 /// What patches receive in a step, and what fields of the vessel note, by chunk of particles. Sums in fixed point do
@@ -106,22 +112,22 @@ struct Walls {
 /// Planes near a particle that act by images.
 class Planes {
  public:
-  explicit Planes(const ContactSetting& setting) : domain_(setting.boundary.domain()), distance_(setting.distance) {
+  explicit Planes(const ContactSetting& setting) : domain_(setting.boundary.domain()) {
     for (int wall = 0; wall < domain_.wall_count(); ++wall) normal_.push_back(domain_.normal(wall));
   }
   const Vector3& normal(int wall) const { return normal_[static_cast<std::size_t>(wall)]; }
   /// The side of a plane on which x is, 1 or -1.
   double side(int wall, const Vector3& x) const { return domain_.side(wall, x); }
   /// What the plane adds to a velocity along its normal, which points to that side; 0 where there is no wall, m/s.
-  double push(int wall, double side, const Vector3& x, const Vector3& velocity, double step) const {
-    const double gap = side * domain_.above(wall, x) - distance_;
+  /// \param distance at which it holds the particle, m
+  double push(int wall, double side, const Vector3& x, const Vector3& velocity, double step, double distance) const {
+    const double gap = side * domain_.above(wall, x) - distance;
     const double push = sph::contact_push(dot(velocity, side * normal(wall)), gap, step);
     return push > 0 && domain_.is_beside(wall, x) ? push : 0;
   }
 
  private:
   const Domain& domain_;
-  double distance_;
   std::vector<Vector3> normal_;
 };
 
@@ -149,7 +155,7 @@ std::int32_t slot_of(const VesselWalls& walls, std::size_t particle) {
 Vector3 velocity_after_printed_friction(const Parameters& p, const Domain& domain, int wall, const State& state,
                                         std::size_t i, const Vector3& position, double duration) {
   const Vector3 n = domain.normal(wall), velocity = state.velocity[i];
-  if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass, state.density[i]) ||
+  if (std::abs(domain.above(wall, position)) > sph::smoothing_length(state.mass_of(i), state.density[i]) ||
       !domain.is_beside(wall, position))
     return velocity;
   const Vector3 through = dot(velocity, n) * n;
@@ -182,8 +188,9 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
   loads.collect(team, [&](std::size_t i, Loads::Impulses& received) {
     const Vector3& x = state.position[i];
     Vector3& velocity = state.velocity[i];
+    const double mass = state.mass_of(i), distance = contact_distance(setting, state, i);
     const auto become = [&](std::size_t patch, const Vector3& after) {
-      const Vector3 impulse = state.mass * (velocity - after);
+      const Vector3 impulse = mass * (velocity - after);
       loads.receive(received, patch, impulse);
       velocity = after;
       return impulse;
@@ -194,13 +201,13 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
       const double side = planes.side(wall, position[i]);
       double per_stress = 0;
       if (walls.pulled) {
-        const double h = pairs.smoothing_length(state.density[i]);
+        const double h = pairs.smoothing_length(state.density[i], mass / state.mass);
         per_stress =
             2 * duration / state.density[i] * sph::cubic_spline_plane(side * domain.above(wall, position[i]), h);
       }
       const sph::WallContact contact =
           walls.contact(patch, x, side * planes.normal(wall), side * acceleration * duration, per_stress);
-      const double push = planes.push(wall, side, x, velocity, step.step);
+      const double push = planes.push(wall, side, x, velocity, step.step, distance);
       if (push > 0 || contact.stress_push * contact.coefficient > 0 || contact.adhesion > 0 || contact.parting > 0)
         become(patch, sph::after_contact(velocity, contact, push));
       return push > 0;
@@ -209,7 +216,7 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
     int count = 0;
     rates.by_walls.of(i, [&](int wall, double acceleration) {
       loads.receive(received, static_cast<std::size_t>(wall),
-                    (-state.mass * step.duration * acceleration) * planes.normal(wall));
+                    (-mass * step.duration * acceleration) * planes.normal(wall));
       held = touch(wall, acceleration, step.duration) || held;
       ++count;
     });
@@ -228,45 +235,46 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
     if (slot < 0) return;
     for (const WallForce& wall : rates.vessel[static_cast<std::size_t>(slot)].all()) {
       const std::size_t patch = setting.boundary.patch_of_part(wall.patch);
-      const double pushed = state.mass * step.duration * dot(wall.acceleration, wall.normal);
-      loads.receive(received, patch, (-state.mass * step.duration) * wall.acceleration);
+      const double pushed = mass * step.duration * dot(wall.acceleration, wall.normal);
+      loads.receive(received, patch, (-mass * step.duration) * wall.acceleration);
       LoadOfFields load{wall.fields, pushed, -pushed * wall.normal};
       const sph::WallContact contact = walls.contact(
           patch, x, wall.normal, step.duration * dot(wall.acceleration, wall.normal), step.duration * wall.per_stress);
       if (walls.rough || contact.parting > 0) load.received += become(patch, sph::after_contact(velocity, contact, 0));
-      load.push += state.mass * contact.parting;  // what the wall does not hold does not pull at it
+      load.push += mass * contact.parting;  // what the wall does not hold does not pull at it
       loads.note(i, load);
     }
     for_each_contact(
-        vessel, slot, x, velocity, step.step, setting.distance, [&](const VesselWalls::Touch& touched, double push) {
+        vessel, slot, x, velocity, step.step, distance, [&](const VesselWalls::Touch& touched, double push) {
           const Surface& surface = vessel.surface();
           const std::size_t patch = setting.boundary.patch_of_part(surface.triangles()[touched.triangle].patch);
           const FieldShare fields = setting.fields.under(surface.part(touched.triangle), touched.place);
           const sph::WallContact contact = walls.contact(patch, touched.place, touched.normal, 0);
-          loads.note(i, {fields, state.mass * push, become(patch, sph::after_contact(velocity, contact, push))});
+          loads.note(i, {fields, mass * push, become(patch, sph::after_contact(velocity, contact, push))});
         });
   });
 }
 
-void prevent_approach(ThreadTeam& team, const ContactSetting& setting, const Rates& rates,
-                      std::span<const Vector3> position, double step, PairSums& pairs, std::span<Vector3> velocity) {
+void prevent_approach(ThreadTeam& team, const ContactSetting& setting, const Rates& rates, const State& state,
+                      double step, PairSums& pairs, std::span<Vector3> velocity) {
   const Domain& domain = setting.boundary.domain();
   const Planes planes(setting);
   VesselWalls& vessel = pairs.vessel_walls();
-  for_each(team, position.size(), [&](std::size_t i) {
-    const Vector3& x = position[i];
+  for_each(team, state.position.size(), [&](std::size_t i) {
+    const Vector3& x = state.position[i];
+    const double distance = contact_distance(setting, state, i);
     bool held = true;
     for (int pass = 0; held && pass < max_passes; ++pass) {
       held = false;
       rates.by_walls.of(i, [&](int wall, double) {
         if (!domain.is_solid(wall)) return;
-        const double side = planes.side(wall, x), push = planes.push(wall, side, x, velocity[i], step);
+        const double side = planes.side(wall, x), push = planes.push(wall, side, x, velocity[i], step, distance);
         velocity[i] += push * (side * planes.normal(wall));
         held = held || push > 0;
       });
     }
     if (const std::int32_t slot = slot_of(vessel, i); slot >= 0)
-      for_each_contact(vessel, slot, x, velocity[i], step, setting.distance,
+      for_each_contact(vessel, slot, x, velocity[i], step, distance,
                        [&](const VesselWalls::Touch& touched, double push) { velocity[i] += push * touched.normal; });
   });
 }
@@ -279,8 +287,9 @@ void reflect(ThreadTeam& team, const ContactSetting& setting, const Material& ma
   const Walls walls(setting, state);
   Loads loads(setting, state);
   const auto at_planes = [&](std::size_t i, Loads::Impulses& received) {
+    const double mass = state.mass_of(i);
     const auto become = [&](int wall, const Vector3& position, const Vector3& velocity) {
-      loads.receive(received, static_cast<std::size_t>(wall), state.mass * (state.velocity[i] - velocity));
+      loads.receive(received, static_cast<std::size_t>(wall), mass * (state.velocity[i] - velocity));
       state.velocity[i] = velocity;
       state.position[i] = position;
     };
@@ -311,6 +320,7 @@ void reflect(ThreadTeam& team, const ContactSetting& setting, const Material& ma
   };
   const auto at_vessel = [&](std::size_t i, Loads::Impulses& received) {
     Vector3 &x = state.position[i], &velocity = state.velocity[i];
+    const double mass = state.mass_of(i);
     const Vector3 moved_to = x;
     for (int bounces = 0;; ++bounces) {
       const auto met = vessel.first_crossing(before[i], x);
@@ -322,9 +332,9 @@ void reflect(ThreadTeam& team, const ContactSetting& setting, const Material& ma
       if (const double push = sph::contact_push(dot(velocity, n), 0, 1); push > 0) {
         const std::size_t patch = setting.boundary.patch_of_part(triangle.patch);
         const Vector3 after = sph::after_contact(velocity, walls.contact(patch, place, n, 0), push);
-        const Vector3 impulse = state.mass * (velocity - after);
+        const Vector3 impulse = mass * (velocity - after);
         loads.receive(received, patch, impulse);
-        loads.note(i, {setting.fields.under(vessel.part(met->triangle), place), state.mass * push, impulse});
+        loads.note(i, {setting.fields.under(vessel.part(met->triangle), place), mass * push, impulse});
         velocity = after;
       }
       x -= (2 * beyond) * normal;

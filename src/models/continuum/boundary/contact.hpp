@@ -23,7 +23,7 @@ struct ContactSetting {
   const Parameters& parameters;
   const Boundary& boundary;
   const SurfaceFields& fields;  ///< of the vessel, which note its loads
-  double distance;              ///< Workspace::contact_distance, m
+  double distance;              ///< Workspace::contact_distance, of particles of mass ratio 1, m
   Share& share;                 ///< walls receive what its particles give, and those of other processes
 };
 
@@ -39,9 +39,9 @@ void apply_contact(ThreadTeam& team, const ContactSetting& setting, const Rates&
                    std::span<const Vector3> position, const ContactStep& step, PairSums& pairs, State& state);
 
 /// Takes from the velocities with which particles will drift what would bring them nearer to a wall than their contact
-/// distance; no wall receives it. \param velocity of each, m/s
-void prevent_approach(ThreadTeam& team, const ContactSetting& setting, const Rates& rates,
-                      std::span<const Vector3> position, double step, PairSums& pairs, std::span<Vector3> velocity);
+/// distance; no wall receives it. \param state its positions and masses \param velocity of each, m/s
+void prevent_approach(ThreadTeam& team, const ContactSetting& setting, const Rates& rates, const State& state,
+                      double step, PairSums& pairs, std::span<Vector3> velocity);
 
 /// Brings back the particles that have crossed a boundary, as far before it as they were behind it. At a wall they lose
 /// their velocity towards it, with friction; at a face of symmetry, and a free face as printed, velocity and history of

@@ -6,6 +6,7 @@
 
 #include "base/instruction_set.hpp"
 #include "models/continuum/boundary/vessel_walls.hpp"
+#include "models/continuum/setup/levels.hpp"
 #include "numerics/near_points/kernel.hpp"
 
 namespace talus::continuum {
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double widest_group = 4;  // of particles that look for points together, in spacings
 
-/// The coarsest set that a particle may take while the lists hold. \param distance, margin in spacings
+/// The coarsest set that a particle may take while the lists hold, of those of its level. \param distance, margin in
+/// spacings of that level
 std::size_t set_for(double distance, double margin) {
   std::size_t set = 0;
   while (set + 1 < sets_of_points && distance - margin > points_of_walls[set + 1].from) ++set;
@@ -157,15 +159,18 @@ bool VesselWalls::add_stands(const Vector3& position, std::span<std::uint32_t> n
 /// Particles whose numbers follow each other are mostly near each other too: they look among the same points.
 void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<const Vector3> position,
                               std::span<const double> smoothing_length, std::span<const double> margin,
-                              std::size_t chunk, Found& found) const {
-  thread_local std::array<PointsAround, sets_of_points> of_thread;
-  std::array<PointsAround, sets_of_points>& around = of_thread;  // its address is looked up once
+                              std::span<const double> mass_ratio, std::size_t chunk, Found& found) const {
+  thread_local std::array<PointsAround, max_sets_of_points> of_thread;
+  std::array<PointsAround, max_sets_of_points>& around = of_thread;  // its address is looked up once
   const auto reach = [&](std::size_t i) { return 2 * (smoothing_length[i] + margin[i]); };
   const auto set_of = [&](std::size_t i) {
-    return set_for(neighbourhood.distance_from_vessel(i) / spacing_, margin[i] / spacing_);
+    const int level = mass_ratio.empty() ? 0 : std::min(level_of(mass_ratio[i]), static_cast<int>(sets_ - 3) / 2);
+    const double spacing = spacing_ * (1 << level);
+    return 2 * static_cast<std::size_t>(level) +
+           set_for(neighbourhood.distance_from_vessel(i) / spacing, margin[i] / spacing);
   };
-  const auto look = [&](std::span<const std::uint32_t> group, const std::array<Box, sets_of_points>& boxes) {
-    for (std::size_t set = 0; set < sets_of_points; ++set)
+  const auto look = [&](std::span<const std::uint32_t> group, const std::array<Box, max_sets_of_points>& boxes) {
+    for (std::size_t set = 0; set < sets_; ++set)
       if (!boxes[set].is_empty()) around[set].gather(*this, set, boxes[set].low, boxes[set].high);
     for (const std::uint32_t i : group)
       if (const auto near = around[set_of(i)].near(position[i], reach(i)); !near.empty()) {
@@ -173,7 +178,7 @@ void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<cons
       }
   };
   thread_local std::vector<std::uint32_t> group;
-  std::array<Box, sets_of_points> boxes;
+  std::array<Box, max_sets_of_points> boxes;
   group.clear();
   for (std::size_t i = chunk * chunk_size; i < std::min(position.size(), (chunk + 1) * chunk_size); ++i) {
     if (!(neighbourhood.distance_from_vessel(i) <= reach(i))) continue;
@@ -192,12 +197,13 @@ void VesselWalls::find_stands(const Neighbourhood& neighbourhood, std::span<cons
 }
 
 void VesselWalls::find(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
-                       std::span<const double> smoothing_length, std::span<const double> margin) {
+                       std::span<const double> smoothing_length, std::span<const double> margin,
+                       std::span<const double> mass_ratio) {
   is_met_ = false;
   if (is_empty()) return;
   std::vector<Found> found((position.size() + chunk_size - 1) / chunk_size);
   team.run(found.size(), [&](std::size_t chunk) {
-    find_stands(neighbourhood, position, smoothing_length, margin, chunk, found[chunk]);
+    find_stands(neighbourhood, position, smoothing_length, margin, mass_ratio, chunk, found[chunk]);
   });
   near_.clear();
   slot_.assign(position.size(), -1);

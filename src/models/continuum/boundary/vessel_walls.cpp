@@ -23,14 +23,20 @@ std::array<float, 3> single(const Vector3& x) {
 }  // namespace
 
 VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields,
-                         const std::optional<Sector>& sector)
-    : surface_(surface), fields_(fields), kernels_(TALUS_COMPILED_FOR(set, wall_kernels)()), spacing_(spacing) {
+                         const std::optional<Sector>& sector, int levels)
+    : surface_(surface),
+      fields_(fields),
+      kernels_(TALUS_COMPILED_FOR(set, wall_kernels)()),
+      spacing_(spacing),
+      sets_(sets_for(levels)) {
   if (surface.is_empty()) return;
   patches_.resize(surface.parts());
   quantum_ = quantum_of_walls(spacing);
-  for (std::size_t n = 0; n < sets_of_points; ++n) {
+  // Those of the finest level last.
+  for (std::size_t k = 0; k < sets_; ++k) {
+    const std::size_t n = (k + sets_of_points) % sets_;
     first_record_[n] = static_cast<std::uint32_t>(records_.size());
-    const double apart = points_of_walls[n].apart * spacing;
+    const double apart = apart_in(n) * spacing;
     const std::vector<SurfacePoint> points =
         sector ? spread_points(surface, apart, *sector) : spread_points(surface, apart);
     // Numbered cell by cell: points that are near each other stand together.
@@ -49,7 +55,7 @@ VesselWalls::VesselWalls(const Surface& surface, double spacing, InstructionSet 
     }
     grids_[n].emplace(std::span(places_).subspan(first_record_[n]), edge_of_cell * spacing);
   }
-  constexpr double reach = 2.6;  // of a particle of the bed, with its margin, in spacings
+  const double reach = 2.6 * (1 << levels);  // of a particle of the bed, with its margin, in spacings
   std::vector<Vector3> normals;
   for (std::uint32_t n = 0; n < records_.size(); ++n) normals.push_back(normal_of(n));
   visibility_ = WallVisibility(surface, places_, normals, parts_, records_.size() - first_record_[sets_of_points - 1],

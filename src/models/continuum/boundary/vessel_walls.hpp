@@ -60,22 +60,33 @@ struct PointsOfWalls {
 /// border between two sets would spoil that.
 inline constexpr std::size_t sets_of_points = 3;
 inline constexpr std::array<PointsOfWalls, sets_of_points> points_of_walls{{{0.4, 0}, {0.57, 0.75}, {0.8, 1.0}}};
+/// Particles of the next level take those from the third on, which is the first for twice the spacing, and two more.
+inline constexpr std::size_t max_sets_of_points = sets_of_points + 2 * 3;
+/// How many sets there are with so many coarser levels, and how far apart the points of one are, in spacings.
+constexpr std::size_t sets_for(int levels) {
+  return sets_of_points + 2 * static_cast<std::size_t>(levels);
+}
+constexpr double apart_in(std::size_t set) {
+  return set < sets_of_points ? points_of_walls[set].apart : 2 * apart_in(set - 2);
+}
 
 class VesselWalls {
  public:
   /// \param surface, fields outlive it; \param spacing of the particles, m; \param set of the sums, of this processor
   /// \param fields of the surface that note loads, null: none \param sector of which the surface has copies
+  /// \param levels of particles of twice the spacing, four times, and so on
   VesselWalls(const Surface& surface, double spacing, InstructionSet set, const SurfaceFields* fields = nullptr,
-              const std::optional<Sector>& sector = {});
+              const std::optional<Sector>& sector = {}, int levels = 0);
 
   bool is_empty() const { return surface_.is_empty(); }
   const Surface& surface() const { return surface_; }
 
   /// Finds, for each particle, the points of the walls within reach, and the neighbours at the same parts of walls
   /// (vessel_stands.cpp). \param neighbourhood of the particles, with lists built just now \param margin by which a
-  /// particle may move and grow while they hold, m
+  /// particle may move and grow while they hold, m \param mass_ratio of the particles, empty: 1
   void find(ThreadTeam& team, const Neighbourhood& neighbourhood, std::span<const Vector3> position,
-            std::span<const double> smoothing_length, std::span<const double> margin);
+            std::span<const double> smoothing_length, std::span<const double> margin,
+            std::span<const double> mass_ratio = {});
 
   /// Takes the sums over those points, of the particles as they are now; open gates left out.
   void meet(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length);
@@ -103,7 +114,8 @@ class VesselWalls {
   std::optional<Touch> touched(std::size_t place, const Vector3& x, const Vector3& y, double within);
 
   /// The acceleration of a particle along a part of a wall by its neighbours' images there (pairs/wall_sums.hpp),
-  /// m/s^2. \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg
+  /// m/s^2. \param seen the neighbours that count, sorted; null: all of its list \param mass of a particle, kg, 0: of
+  /// each that of its record
   Vector3 force_of_images(const NearWall& wall, const Records& records, std::size_t particle,
                           const std::span<const std::uint32_t>* seen, double mass) const;
 
@@ -118,8 +130,8 @@ class VesselWalls {
   struct Found;
   class PointsAround;
   void find_stands(const Neighbourhood& neighbourhood, std::span<const Vector3> position,
-                   std::span<const double> smoothing_length, std::span<const double> margin, std::size_t chunk,
-                   Found& found) const;
+                   std::span<const double> smoothing_length, std::span<const double> margin,
+                   std::span<const double> mass_ratio, std::size_t chunk, Found& found) const;
   PointsOfPart points_of_part(const Vector3& position, std::span<std::uint32_t> points) const;
   bool add_stands(const Vector3& position, std::span<std::uint32_t> near, Found& found) const;
   Vector3 normal_of(std::uint32_t record) const {
@@ -141,8 +153,9 @@ class VesselWalls {
   std::vector<std::uint32_t> parts_;    // of the records
   std::vector<std::uint32_t> patches_;  // of the parts
   WallVisibility visibility_;           // of the records
-  std::array<std::optional<CellGrid>, sets_of_points> grids_;
-  std::array<std::uint32_t, sets_of_points> first_record_{};
+  std::size_t sets_;  // of points
+  std::array<std::optional<CellGrid>, max_sets_of_points> grids_;
+  std::array<std::uint32_t, max_sets_of_points> first_record_{};
   std::vector<std::uint32_t> near_;         // records near the particles, by stand, padded to whole registers
   std::vector<std::int32_t> slot_;          // of every particle, -1: no wall within reach
   std::vector<std::uint32_t> particles_;    // by slot

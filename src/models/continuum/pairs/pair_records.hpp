@@ -28,7 +28,7 @@ namespace talus::continuum {
 class PairRecords {
  public:
   struct Options {
-    double mass;           ///< of a particle, kg
+    double mass;           ///< of a particle of mass ratio 1, kg
     double grain_density;  ///< kg/m^3
     sph::StressForm stress_form;
     PairPrecision precision;

@@ -22,6 +22,7 @@ void Rates::resize(std::size_t count) {
 
 PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vessel, const SurfaceFields* fields)
     : mass_(setup.lattice.mass),
+      masses_(setup.given.levels.count > 0 ? Masses::unequal : Masses::equal),
       smoothing_ratio_(setup.given.sph.smoothing_ratio),
       fixed_smoothing_length_(setup.given.sph.smoothing == Smoothing::fixed ? setup.smoothing_length : 0.0),
       grain_density_(setup.given.grains.density),
@@ -30,7 +31,7 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
       corrected_continuity_(setup.given.sph.continuity == Continuity::corrected),
       asks_stress_around_(stress_regularisation(setup.given) > 0),
       precision_(setup.given.integration.pair_precision),
-      constants_{.mass = mass_,
+      constants_{.mass = masses_ == Masses::equal ? mass_ : 0,
                  .sound_speed = setup.sound_speed,
                  .viscosity_alpha = setup.given.sph.viscosity_alpha,
                  .viscosity_beta = setup.given.sph.viscosity_beta,
@@ -43,7 +44,7 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
       local_sound_speed_(setup.given.sph.viscosity_speed == ViscositySpeed::local),
       lists_(domain, vessel),
       vessel_(vessel, setup.given.bed.spacing, resolve(setup.given.integration.instruction_set), fields,
-              setup.sector()),
+              setup.sector(), static_cast<int>(setup.given.levels.count)),
       walls_(vessel_, lists_, constants_, local_sound_speed_),
       records_(
           {mass_, grain_density_, stress_form_, precision_, constants_.artificial_stress > 0, !vessel.is_empty()}) {
@@ -51,7 +52,7 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
   const auto choose = [&](PairTerms terms, StressGradient stress_gradient) {
     return TALUS_COMPILED_FOR(set, sum_neighbours)(
         terms, are_stabilised(terms) ? Stabilisers::acting : Stabilisers::none, precision_,
-        asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient);
+        asks_stress_around_ ? StressAround::asked : StressAround::unasked, stress_gradient, masses_);
   };
   for (const PairTerms terms : {PairTerms::all, PairTerms::gradients, PairTerms::forces}) {
     const auto n = static_cast<std::size_t>(terms);
@@ -61,22 +62,27 @@ PairSums::PairSums(const Setup& setup, const Domain& domain, const Surface& vess
   velocity_gradients_ = TALUS_COMPILED_FOR(set, velocity_gradients);
   if (diffuses_)
     density_gradients_ = TALUS_COMPILED_FOR(set, sum_neighbours)(
-        PairTerms::gradients, Stabilisers::prepared, precision_, StressAround::unasked, StressGradient::unasked);
+        PairTerms::gradients, Stabilisers::prepared, precision_, StressAround::unasked, StressGradient::unasked, masses_);
 }
 
 bool PairSums::are_stabilised(PairTerms terms) const {
   return (terms != PairTerms::forces && diffuses_) || (terms != PairTerms::gradients && damps_);
 }
 
-double PairSums::smoothing_length(double density) const {
+double PairSums::smoothing_length(double density, double mass_ratio) const {
   return fixed_smoothing_length_ > 0 ? fixed_smoothing_length_
-                                     : smoothing_ratio_ * sph::smoothing_length(mass_, density);
+                                     : smoothing_ratio_ * sph::smoothing_length(mass_ratio * mass_, density);
 }
 
 void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> density,
-                                      std::span<double> length) const {
+                                      std::span<const double> mass_ratio, std::span<double> length) const {
   if (fixed_smoothing_length_ > 0) {
     std::ranges::fill(length, fixed_smoothing_length_);
+    return;
+  }
+  if (!mass_ratio.empty()) {
+    for_each(team, density.size(),
+             [&](std::size_t i) { length[i] = smoothing_length(density[i], mass_ratio[i]); });
     return;
   }
   for_each_chunk(team, density.size(), [&](std::size_t first, std::size_t end) {
@@ -86,10 +92,10 @@ void PairSums::find_smoothing_lengths(ThreadTeam& team, std::span<const double> 
 
 void PairSums::find_neighbours(ThreadTeam& team, std::span<const Vector3> position,
                                std::span<const double> smoothing_length, std::span<const double> margin,
-                               const PartOfPoints& part, Halo* halo) {
+                               std::span<const double> mass_ratio, const PartOfPoints& part, Halo* halo) {
   halo_ = halo;
   lists_.build(team, position, smoothing_length, margin, part);
-  vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin);
+  vessel_.find(team, lists_.neighbourhood(), position, smoothing_length, margin, mass_ratio);
 }
 
 /// Packing above which the density diffuses: grains that touch, and no free surface between them.
@@ -116,7 +122,8 @@ void PairSums::find_density_gradients(ThreadTeam& team, const ParticleView& part
 
 /// Records of particles and images, of stabilisers where they act, and the walls of the vessel as they are met.
 void PairSums::pack(ThreadTeam& team, const ParticleView& particles, PairTerms terms) {
-  records_.pack(team, lists_, particles, terms != PairTerms::gradients || diffuses_);
+  const bool stresses = terms != PairTerms::gradients || diffuses_ || masses_ == Masses::unequal;
+  records_.pack(team, lists_, particles, stresses);
   // In half a step particles hardly move: the gradients take the walls as the forces met them.
   if (!vessel_.is_empty() && (terms != PairTerms::gradients || !vessel_.is_met()))
     vessel_.meet(team, particles.position, particles.smoothing_length);
@@ -187,7 +194,7 @@ void PairSums::operator()(ThreadTeam& team, const ParticleView& particles, PairT
       const std::size_t i = first + n;
       rates.acceleration[i] = {sums[n].acceleration[0], sums[n].acceleration[1], sums[n].acceleration[2]};
       if (asks_stress_around_) set_tensor(rates.stress_around, i, stress_around(particles, i, sums[n]));
-      rates.kernel_density[i] = sums[n].kernel_density + mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
+      rates.kernel_density[i] = sums[n].kernel_density + particles.mass_ratio_of(i) * mass_ * sph::cubic_spline(0.0, particles.smoothing_length[i]);
       std::copy_n(sums[n].wall_acceleration, lists_.first_wall()[i + 1] - lists_.first_wall()[i],
                   rates.by_walls.value.data() + lists_.first_wall()[i]);
     }

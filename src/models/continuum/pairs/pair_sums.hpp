@@ -29,14 +29,16 @@ class PairSums {
            const SurfaceFields* fields = nullptr);
 
   /// Smoothing length of a particle, m.
-  double smoothing_length(double density) const;
-  /// Those of many. \param length of as many, m
-  void find_smoothing_lengths(ThreadTeam& team, std::span<const double> density, std::span<double> length) const;
+  double smoothing_length(double density, double mass_ratio = 1) const;
+  /// Those of many. \param mass_ratio of as many, empty: 1 \param length of as many, m
+  void find_smoothing_lengths(ThreadTeam& team, std::span<const double> density, std::span<const double> mass_ratio,
+                              std::span<double> length) const;
 
   /// Builds the neighbour lists. \param margin by which a particle may move and grow while they hold, m, at most half
-  /// of the skin \param part, halo of the particles that other processes own; the halo outlives the lists
+  /// of the skin \param mass_ratio of the particles, empty: 1 \param part, halo of the particles that other processes own; the halo outlives the lists
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length,
-                       std::span<const double> margin, const PartOfPoints& part = {}, Halo* halo = nullptr);
+                       std::span<const double> margin, std::span<const double> mass_ratio = {},
+                       const PartOfPoints& part = {}, Halo* halo = nullptr);
   /// The same with half of the skin for all.
   void find_neighbours(ThreadTeam& team, std::span<const Vector3> position, std::span<const double> smoothing_length) {
     find_neighbours(team, position, smoothing_length, std::vector<double>(position.size(), 0.5 * skin_));
@@ -61,7 +63,8 @@ class PairSums {
   bool are_stabilised(PairTerms terms) const;
   SymmetricTensor3<> stress_around(const ParticleView& particles, std::size_t i, const ParticleSums& sums) const;
 
-  double mass_;
+  double mass_;  // of mass ratio 1
+  Masses masses_;
   double smoothing_ratio_;
   double fixed_smoothing_length_;  // 0: local
   double grain_density_;

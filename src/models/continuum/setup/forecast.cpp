@@ -60,9 +60,10 @@ Triangles triangles_of_vessel(const Parameters& p) {
 }
 
 /// Of all sets of points, on a square of a spacing.
-double points_on_square() {
+double points_on_square(const LevelParameters& levels) {
   double points = 0;
-  for (const PointsOfWalls& set : points_of_walls) points += 1 / (set.apart * set.apart);
+  for (std::size_t set = 0; set < sets_for(static_cast<int>(levels.count)); ++set)
+    points += 1 / (apart_in(set) * apart_in(set));
   return points;
 }
 
@@ -76,14 +77,15 @@ double time_step_of(const Setup& setup) {
 Forecast forecast(const Setup& setup, double end) {
   const Parameters& p = setup.given;
   const Triangles triangles = triangles_of_vessel(p);
-  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing), bed = bed_count(setup);
+  const double squares = triangles.area / (p.bed.spacing * p.bed.spacing),
+               bed = share_of_particles(setup) * bed_count(setup);
   const double step = time_step_of(setup);
   const SettlingTime settling = settling_time(setup);
   const double particles = bed + mass_to_come(p, end, settling.max) / setup.lattice.mass;
   return {.particles = particles,
           .written = setup.copies * particles,
           .cells = p.air.enabled ? static_cast<double>(air_grid(p).cells()) : 0,
-          .wall_points = points_on_square() * squares,
+          .wall_points = points_on_square(p.levels) * squares,
           .triangles = triangles.count,
           .settling_steps = std::ceil(settling.min / step),
           .max_settling_steps = std::ceil(settling.max / step),
@@ -157,7 +159,7 @@ Parameters sample(const Layout& layout, double particles) {
   const double side = std::max(4.0, std::round(std::sqrt(std::min(particles, bed_count(layout)) / layers)));
   Parameters q = p;
   q.plate = {}, q.wedge = {}, q.plates.clear(), q.vessel.clear(), q.box.sector = std::nullopt;
-  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.bed.mass = std::nullopt;
+  q.inlets.clear(), q.removal = {}, q.beds.clear(), q.levels = {}, q.bed.mass = std::nullopt;
   q.bed.bottom = q.bed.left = q.bed.right = q.bed.front = q.bed.rear = std::nullopt;
   q.bed.inside = std::nullopt, q.bed.given = nullptr, q.bed.file.clear();
   q.box.width = side * lattice.spacing.x, q.box.depth = layers * lattice.spacing.y;

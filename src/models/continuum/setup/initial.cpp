@@ -2,11 +2,13 @@
 #include "models/continuum/setup/initial.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "base/random.hpp"
 #include "models/continuum/gas/atmosphere.hpp"
 #include "models/continuum/population.hpp"
+#include "models/continuum/splitting.hpp"
 #include "models/continuum/setup/wall_fitting.hpp"
 #include "models/continuum/step.hpp"
 
@@ -52,8 +54,10 @@ State initial_state(const Setup& setup, int part, int parts) {
   const Material& material = setup.material;
   State state;
   state.mass = setup.lattice.mass;
-  state.impulse_unit = state.mass * setup.sound_speed;
-  state.has = {.tag = !parameters.beds.empty(),
+  // A merged particle may have half as much again as its level.
+  state.impulse_unit = state.mass * setup.sound_speed * (parameters.levels.count > 0 ? std::exp2(3 * parameters.levels.count + 1) : 1);
+  state.has = {.mass_ratio = parameters.levels.count > 0,
+               .tag = !parameters.beds.empty(),
                .collisional = parameters.collisions.form != granular::Collisions::none,
                .reset_position = material.by_displacements(),
                .sector_turns = setup.sector().has_value(),
@@ -63,6 +67,7 @@ State initial_state(const Setup& setup, int part, int parts) {
   const std::size_t given = parameters.bed.given ? parameters.bed.given->position.size() : 0;
   fit_to_walls(*setup.boundary, parameters.bed.spacing, given, state.position);
   displace(parameters, state.position);
+  if (state.has.mass_ratio) lay_levels(setup, state);
   state.population = initial_population(setup, state.position.size());
   const auto border = [all = state.position.size(), parts](int n) {
     return static_cast<std::ptrdiff_t>(all * static_cast<std::size_t>(n) / static_cast<std::size_t>(parts));

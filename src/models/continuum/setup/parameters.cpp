@@ -394,6 +394,7 @@ std::vector<Problem> check(const Parameters& given) {
     return of_bed;
   });
   if (problems.empty() && !p.beds.empty()) check_beds_together(*layout, problems);
+  if (problems.empty()) problems = check_levels(*layout);
   return problems;
 }
 

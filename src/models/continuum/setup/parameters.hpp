@@ -19,6 +19,7 @@
 #include "models/continuum/inlets.hpp"
 #include "models/continuum/setup/bed.hpp"
 #include "models/continuum/setup/choices.hpp"
+#include "models/continuum/setup/levels.hpp"
 #include "models/continuum/setup/vessel.hpp"
 #include "numerics/geometry/domain.hpp"
 #include "physics/granular/collisional_stress.hpp"
@@ -54,6 +55,7 @@ struct Parameters {
   } grains;
   BedParameters bed;
   std::vector<TaggedBed> beds;  ///< besides
+  LevelParameters levels;
   std::int64_t seed = 1;
   granular::LawParameters law;
   granular::CollisionParameters collisions;
@@ -167,6 +169,7 @@ void for_each_parameter(Visit&& visit, P& p) {
 
   for_each_parameter_of_bed(visit, p.bed, p.seed, !p.inlets.empty() || !p.beds.empty());
   for_each_parameter_of_beds(visit, p.beds);
+  for_each_parameter_of_levels(visit, p.levels);
 
   granular::for_each_parameter(visit, p.law);
   granular::for_each_parameter(visit, p.collisions);

@@ -97,7 +97,8 @@ inline void sum_images(const Records& records, std::uint32_t self, const WallSea
     const WallVector turn = product(apart, n);
     const WallVector f{push.x - farther * turn.x, push.y - farther * turn.y, push.z - farther * turn.z};
     const Number through = inner(f, n);
-    const Number factor = select(acts, (0.5 * mass) * (Number(own.share) + seat[4]) * slope, zero);
+    const Number half_mass = mass > 0 ? Number(0.5 * mass) : motion[7] * stress[6];
+    const Number factor = select(acts, half_mass * (Number(own.share) + seat[4]) * slope, zero);
     sum = {multiply_add(factor, f.x - through * n.x, sum.x), multiply_add(factor, f.y - through * n.y, sum.y),
            multiply_add(factor, f.z - through * n.z, sum.z)};
   }

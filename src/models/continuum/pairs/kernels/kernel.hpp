@@ -74,7 +74,7 @@ struct WallLoad {
 
 /// What all pairs have in common.
 struct PairConstants {
-  double mass;                             ///< of a particle, kg
+  double mass;                             ///< of a particle, where all have the same, kg
   double sound_speed;                      ///< largest, of the viscosity, m/s
   double viscosity_alpha, viscosity_beta;  ///< Monaghan's
   double density_diffusion = 0;            ///< 2 delta c, m/s
@@ -151,6 +151,9 @@ enum class PairPrecision { in_double, in_single };
 /// Whether stabilisers act; before densities can diffuse, their gradients are measured.
 enum class Stabilisers { none, prepared, acting };
 
+/// Whether all particles have the mass of PairConstants, or each that of its volume and density.
+enum class Masses { equal, unequal };
+
 /// Whether sums of forces sum the stress around a particle too.
 enum class StressAround { unasked, asked };
 
@@ -168,9 +171,10 @@ using SumNeighbours = void (*)(const Records& records, std::uint32_t self, const
 using VelocityGradients = void(const ParticleSums* sums, double (*gradient)[ParticleSums::together]);
 VelocityGradients velocity_gradients_portable, velocity_gradients_avx2, velocity_gradients_avx512;
 
-/// \param stabilisers prepared: of `gradients` only
+/// \param stabilisers prepared: of `gradients` only \param masses unequal: all sums read stresses, and none is asked for
+/// the stress around
 using ChooseSumNeighbours = SumNeighbours(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                          StressAround stress_around, StressGradient stress_gradient);
+                                          StressAround stress_around, StressGradient stress_gradient, Masses masses);
 ChooseSumNeighbours sum_neighbours_portable, sum_neighbours_avx2, sum_neighbours_avx512;
 
 }  // namespace talus::continuum

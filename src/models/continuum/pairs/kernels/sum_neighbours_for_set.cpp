@@ -150,8 +150,18 @@ struct StressGradientSums<true> {
   }
 };
 
+/// m_j, kg.
+template <Masses masses, class Number>
+TALUS_INLINE auto mass_of(const PairConstants& constants, const Number& volume, const Number* stress) {
+  if constexpr (masses == Masses::equal)
+    return constants.mass;
+  else
+    return 2.0 * volume * stress[6];
+}
+
 template <class Real, bool gradients, bool forces, Stabilisers stabilisers,
-          StressAround stress_around = StressAround::unasked, StressGradient stress_gradient = StressGradient::unasked>
+          StressAround stress_around = StressAround::unasked, StressGradient stress_gradient = StressGradient::unasked,
+          Masses masses = Masses::equal>
 void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighbours& neighbours,
                     const PairConstants& constants, ParticleSums& sums) {
   using Number = SimdVector<Real>;
@@ -180,11 +190,12 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
     const auto& loaded = *stresses;
     const auto& [d, du, volume, h, square, q, inverse_h, slope] = pair;
     Number stress[8];
-    if constexpr (forces || slopes || stabilisers != Stabilisers::none)
+    if constexpr (forces || slopes || stabilisers != Stabilisers::none || masses == Masses::unequal)
       load_columns([&](int lane) { return reinterpret_cast<const Real*>(records.stress + record[lane]); }, stress);
+    const auto mass = mass_of<masses>(constants, volume, stress);
     if constexpr (gradients) {
       gradient.add(volume, slope, d, du);
-      density_rate = density_rate + sph::density_rate(constants.mass, slope, d, du);
+      density_rate = density_rate + sph::density_rate(mass, slope, d, du);
     }
     if constexpr (stabilisers == Stabilisers::prepared) {
       const Number weight = -2.0 * volume * slope * (stress[6] - Number(loaded.half_density));
@@ -203,7 +214,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
     if constexpr (forces) {
       const Number approach = multiply_add(du.x, d.x, multiply_add(du.y, d.y, du.z * d.z));
       const Number kernel = sph::cubic_spline_of(q, inverse_h);
-      kernel_density = multiply_add(Number(constants.mass), kernel, kernel_density);
+      kernel_density = multiply_add(Number(mass), kernel, kernel_density);
       if constexpr (stress_around == StressAround::asked)
         TALUS_UNROLL for (int c = 0; c < 6; ++c) around[c] = multiply_add(kernel, stress[c], around[c]);
       const Number mean_density = Number(loaded.half_density) + stress[6];
@@ -229,7 +240,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
       const Real* s = loaded.specific_stress;
       const SymmetricTensor3<Number> both{stress[0] + Number(s[0]), stress[1] + Number(s[1]), stress[2] + Number(s[2]),
                                           stress[3] + Number(s[3]), stress[4] + Number(s[4]), stress[5] + Number(s[5])};
-      const SimdVector3<Real> a = sph::acceleration(constants.mass, slope, d, both, viscosity);
+      const SimdVector3<Real> a = sph::acceleration(mass, slope, d, both, viscosity);
       pairs.store(first, a);
       acceleration = {acceleration.x + a.x, acceleration.y + a.y, acceleration.z + a.z};
     }
@@ -255,7 +266,7 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   if constexpr (slopes)
     store_sums(stress_slopes.value, sums.stress_gradient.moment);
   else if constexpr (stress_gradient == StressGradient::asked)
-    sum_neighbours<double, false, false, Stabilisers::none, StressAround::unasked, StressGradient::asked>(
+    sum_neighbours<double, false, false, Stabilisers::none, StressAround::unasked, StressGradient::asked, masses>(
         all_records, self, neighbours, constants, sums);
   if constexpr (gradients) {
     const SymmetricTensor3<Number>& m = gradient.moment;
@@ -272,42 +283,50 @@ void sum_neighbours(const Records& all_records, std::uint32_t self, const Neighb
   }
 }
 
-template <class Real, Stabilisers stabilisers, StressAround stress_around, StressGradient stress_gradient>
+template <class Real, Masses masses, Stabilisers stabilisers, StressAround stress_around, StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(PairTerms terms) {
-  return terms == PairTerms::all ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient>
+  constexpr StressAround unasked = StressAround::unasked;
+  return terms == PairTerms::all
+             ? sum_neighbours<Real, true, true, stabilisers, stress_around, stress_gradient, masses>
          : terms == PairTerms::gradients
-             ? sum_neighbours<Real, true, false, stabilisers>
-             : sum_neighbours<Real, false, true, stabilisers, stress_around, stress_gradient>;
+             ? sum_neighbours<Real, true, false, stabilisers, unasked, StressGradient::unasked, masses>
+             : sum_neighbours<Real, false, true, stabilisers, stress_around, stress_gradient, masses>;
 }
 
-template <class Real, StressAround stress_around, StressGradient stress_gradient>
+template <class Real, Masses masses, StressAround stress_around, StressGradient stress_gradient>
 TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers) {
-  return stabilisers == Stabilisers::none     ? choose<Real, Stabilisers::none, stress_around, stress_gradient>(terms)
-         : stabilisers == Stabilisers::acting ? choose<Real, Stabilisers::acting, stress_around, stress_gradient>(terms)
-                                              : sum_neighbours<Real, true, false, Stabilisers::prepared>;
+  return stabilisers == Stabilisers::none
+             ? choose<Real, masses, Stabilisers::none, stress_around, stress_gradient>(terms)
+         : stabilisers == Stabilisers::acting
+             ? choose<Real, masses, Stabilisers::acting, stress_around, stress_gradient>(terms)
+             : sum_neighbours<Real, true, false, Stabilisers::prepared, StressAround::unasked, StressGradient::unasked,
+                              masses>;
 }
 
 template <class Real, StressGradient stress_gradient>
-TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around) {
-  return stress_around == StressAround::asked
-             ? choose<Real, StressAround::asked, stress_gradient>(terms, stabilisers)
-             : choose<Real, StressAround::unasked, stress_gradient>(terms, stabilisers);
+TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around, Masses masses) {
+  return masses == Masses::unequal
+             ? choose<Real, Masses::unequal, StressAround::unasked, stress_gradient>(terms, stabilisers)
+         : stress_around == StressAround::asked
+             ? choose<Real, Masses::equal, StressAround::asked, stress_gradient>(terms, stabilisers)
+             : choose<Real, Masses::equal, StressAround::unasked, stress_gradient>(terms, stabilisers);
 }
 
 template <class Real>
 TALUS_INLINE SumNeighbours choose(PairTerms terms, Stabilisers stabilisers, StressAround stress_around,
-                                  StressGradient stress_gradient) {
+                                  StressGradient stress_gradient, Masses masses) {
   return stress_gradient == StressGradient::asked
-             ? choose<Real, StressGradient::asked>(terms, stabilisers, stress_around)
-             : choose<Real, StressGradient::unasked>(terms, stabilisers, stress_around);
+             ? choose<Real, StressGradient::asked>(terms, stabilisers, stress_around, masses)
+             : choose<Real, StressGradient::unasked>(terms, stabilisers, stress_around, masses);
 }
 
 }  // namespace TALUS_INSTRUCTION_SET
 
 SumNeighbours TALUS_FOR_SET(sum_neighbours)(PairTerms terms, Stabilisers stabilisers, PairPrecision precision,
-                                            StressAround stress_around, StressGradient stress_gradient) {
-  return precision == PairPrecision::in_single ? choose<float>(terms, stabilisers, stress_around, stress_gradient)
-                                               : choose<double>(terms, stabilisers, stress_around, stress_gradient);
+                                            StressAround stress_around, StressGradient stress_gradient, Masses masses) {
+  return precision == PairPrecision::in_single
+             ? choose<float>(terms, stabilisers, stress_around, stress_gradient, masses)
+             : choose<double>(terms, stabilisers, stress_around, stress_gradient, masses);
 }
 
 void TALUS_FOR_SET(velocity_gradients)(const ParticleSums* sums, double (*gradient)[ParticleSums::together]) {

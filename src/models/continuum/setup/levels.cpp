@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/setup/levels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "models/continuum/setup/layout.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+/// Around an outlet.
+void add_outlet(const Vector3& middle, double width, double depth, std::vector<std::array<Vector3, 2>>& boxes) {
+  const Vector3 half{0.5 * width, 0.5 * depth, 0};
+  boxes.push_back({middle - half, middle + half});
+}
+
+std::vector<std::array<Vector3, 2>> fine_boxes(const Layout& layout) {
+  const Parameters& p = layout.given;
+  std::vector<std::array<Vector3, 2>> boxes;
+  for (const VesselOutlet& outlet : layout.vessel_outlets)
+    add_outlet(outlet.middle, outlet.endless_along_x ? p.box.width : outlet.width,
+               outlet.endless_along_y ? p.box.depth : outlet.depth, boxes);
+  if (const auto& slit = layout.outlet; slit && boxes.empty())
+    add_outlet({0.5 * (slit->left + slit->right), 0.5 * p.box.depth, slit->height}, slit->right - slit->left,
+               p.box.depth, boxes);
+  if (p.levels.low && p.levels.high) {
+    const auto &low = *p.levels.low, &high = *p.levels.high;
+    boxes.push_back({Vector3{low[0], low[1], low[2]}, Vector3{high[0], high[1], high[2]}});
+  }
+  return boxes;
+}
+
+}  // namespace
+
+Levels::Levels(const Layout& layout) : count_(static_cast<int>(layout.given.levels.count)) {
+  if (count_ == 0) return;
+  distance_ = layout.given.levels.distance.value_or(layout.outlet_width.value_or(0));
+  for (const auto& [low, high] : fine_boxes(layout)) regions_.push_back({low, high});
+  const Lattice& lattice = layout.lattice;
+  sector_ = layout.sector(), corner_ = lattice.corner, spacing_ = lattice.spacing;
+  if (sector_) {
+    const Parameters& p = layout.given;
+    spacing_.x = std::sqrt(lattice.mass / (p.bed.packing * p.grains.density * lattice.spacing.z));
+  }
+}
+
+int Levels::wanted(const Vector3& x, double slack) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Region& region : regions_) {
+    double square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double apart = std::max({region.low[axis] - x[axis], x[axis] - region.high[axis], 0.0});
+      square += apart * apart;
+    }
+    least = std::min(least, square);
+  }
+  int level = 0;
+  for (double begins = slack * distance_; level < count_ && least > begins * begins; begins *= 2) ++level;
+  return level;
+}
+
+std::array<std::int64_t, 3> Levels::cell_of(const Vector3& x, int level) const {
+  const auto whole = [](double value) { return static_cast<std::int64_t>(std::floor(value)); };
+  const double size = 2.0 * (1 << level);  // in spacings
+  const Vector3 from = x - corner_;
+  const std::int64_t up = whole(from.z / (size * spacing_.z));
+  if (!sector_) return {whole(from.x / (size * spacing_.x)), whole(from.y / (size * spacing_.y)), up};
+  const double angle = 2 * std::numbers::pi / sector_->copies();
+  const Vector3 about = x - sector_->axis();
+  const std::int64_t ring = whole(sector_->radius(x) / (size * spacing_.x));
+  const double places = std::max(1.0, std::round((static_cast<double>(ring) + 0.5) * angle));
+  return {ring, whole(std::clamp(std::atan2(about.y, about.x) / angle, 0.0, 1 - 1e-12) * places), up};
+}
+
+double share_of_particles(const Layout& layout) {
+  const Levels levels(layout);
+  if (levels.count() == 0 || layout.has_no_bed()) return 1;
+  constexpr double max_tried = 1e6;
+  if (const double count = bed_count(layout); count > max_tried) {
+    Parameters coarser = layout.given;
+    if (!coarser.levels.distance) coarser.levels.distance = layout.outlet_width;
+    coarser.bed.spacing *= std::cbrt(2 * count / max_tried);
+    return share_of_particles(Layout(coarser));
+  }
+  double sum = 0;
+  const std::vector<Vector3> positions = bed_positions(layout);
+  for (const Vector3& x : positions) sum += std::exp2(-3 * levels.wanted(x, Levels::slack_of_merging));
+  return positions.empty() ? 1 : sum / static_cast<double>(positions.size());
+}
+
+std::vector<Problem> check_levels(const Layout& layout) {
+  const Parameters& p = layout.given;
+  std::vector<Problem> problems;
+  if (p.levels.count == 0) return problems;
+  const auto refuse = [&](bool given, const char* key, std::string what, std::string allowed) {
+    if (given) problems.push_back({.key = key, .what = std::move(what), .allowed = std::move(allowed)});
+  };
+  refuse(p.levels.low.has_value() != p.levels.high.has_value(), p.levels.low ? "levels.high" : "levels.low",
+         "one corner of the box without the other", "both corners, or none");
+  if (p.levels.low && p.levels.high)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      refuse(!((*p.levels.low)[axis] <= (*p.levels.high)[axis]), "levels.high", "is below levels.low along an axis",
+             "at least levels.low along each axis");
+  const bool has_box = p.levels.low && p.levels.high;
+  refuse(!layout.outlet && !has_box, "levels.count", "there is no outlet near which particles could be fine",
+         "0, or a box of levels.low and levels.high");
+  refuse(layout.outlet && !layout.outlet_width && !p.levels.distance, "levels.distance",
+         "left out, and the outlet has no width", "a distance");
+  refuse(!layout.outlet && has_box && !p.levels.distance, "levels.distance", "left out, and there is no outlet",
+         "a distance from the box");
+  refuse(p.air.enabled, "levels.count", "the air takes up particles of one size only", "0 with air");
+  refuse(p.sph.smoothing == Smoothing::fixed, "sph.smoothing", "fixed, and particles have several sizes",
+         "local with levels");
+  refuse(stress_regularisation(p) > 0, "sph.stress_regularisation", "not summed over particles of several sizes yet",
+         "0 with levels");
+  refuse(!p.law.is<granular::CriticalState>(), "law.name",
+         "particles that split and merge have no place from which strain could be measured",
+         "critical-state with levels");
+  const double coarsest = std::exp2(p.levels.count) * p.bed.spacing, reach = 2.2 * sph::support * coarsest,
+               room = layout.boundary->domain().max_reach();
+  refuse(!(reach < room), "levels.count",
+         fmt::format("particles of {:.3g} mm reach {:.3g} mm, walls are {:.3g} mm apart", 1e3 * coarsest, 1e3 * reach,
+                     1e3 * room),
+         "fewer levels, or walls farther apart");
+  return problems;
+}
+
+}  // namespace talus::continuum

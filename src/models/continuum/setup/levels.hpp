@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Particles of several sizes: those of bed.spacing where the flow is to be resolved, at outlets and in a box, and
+/// coarser ones farther away, of twice the spacing at each level. A level begins at twice the distance of the one
+/// before, so that an angle of the flow towards an outlet holds about as many particles at any distance.
+///
+/// The mass of a particle is a whole number of that of a particle of bed.spacing: splitting and merging (levels.hpp of
+/// the model) move whole parts, and lose none.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parameter.hpp"
+#include "base/vector.hpp"
+#include "numerics/geometry/sector.hpp"
+
+namespace talus::continuum {
+
+struct Layout;
+struct Parameters;
+
+struct LevelParameters {
+  std::int64_t count = 0;          ///< of levels coarser than bed.spacing
+  std::optional<double> distance;  ///< of the first of them, m; left out: the width of the outlet
+  std::optional<std::array<double, 3>> low, high;
+};
+
+template <class Visit, class L>
+void for_each_parameter_of_levels(Visit&& visit, L& levels) {
+  visit(Parameter{"levels.count", dimension::none, between(0, 3),
+                  "how many sizes of particles there are besides that of bed.spacing, each of twice the spacing and "
+                  "eight times the mass of the one before: particles split on their way to the outlets and merge where "
+                  "they leave them"},
+        levels.count);
+  auto coarser = only_if({"levels.count", "is 0", "above 0", levels.count > 0}, visit);
+  coarser(Parameter{"levels.distance", dimension::length, above(0),
+                    "distance from the outlets and from the box of levels.low and levels.high within which particles "
+                    "have bed.spacing; those of the next size lie up to twice this distance, and so on; left out: the "
+                    "width of the outlet"},
+          levels.distance);
+  coarser(Parameter{"levels.low",
+                    dimension::length,
+                    {},
+                    "lower corner of a box in which particles have bed.spacing, x, y and z; left out: none"},
+          levels.low);
+  coarser(Parameter{"levels.high", dimension::length, {}, "its upper corner"}, levels.high);
+}
+
+/// The level of a particle by its mass, to the nearest. \param mass_ratio to that of a particle of bed.spacing, at
+/// least 1
+inline int level_of(double mass_ratio) {
+  int level = 0;
+  for (double bound = std::sqrt(8.0); mass_ratio > bound; bound *= 8) ++level;
+  return level;
+}
+
+/// Which level is wanted where.
+class Levels {
+ public:
+  explicit Levels(const Layout& layout);
+
+  int count() const { return count_; }  ///< of levels coarser than bed.spacing
+  /// The level that a particle at x is to have. \param slack factor of the distances at which levels begin
+  int wanted(const Vector3& x, double slack = 1) const;
+  /// Factor of those distances beyond which particles merge: what has split just now does not merge at once.
+  static constexpr double slack_of_merging = 1.15;
+  /// The number of the cell in which particles of a level merge: of twice its spacing, on the lattice of the bed, about
+  /// the axis of a sector one of a ring.
+  std::array<std::int64_t, 3> cell_of(const Vector3& x, int level) const;
+
+ private:
+  struct Region {
+    Vector3 low, high;  ///< m
+  };
+  int count_;
+  double distance_ = 0;  // m
+  std::vector<Region> regions_;
+  std::optional<Sector> sector_;
+  Vector3 corner_, spacing_;  // of the lattice, of a sector along the radius, any and z, m
+};
+
+/// How many particles there are at the start for each of those of bed.spacing, 0 to 1: the mean over the bed of one
+/// over the mass ratio that is wanted.
+double share_of_particles(const Layout& layout);
+
+/// What levels of a case cannot be. \param layout of a sound case
+std::vector<Problem> check_levels(const Layout& layout);
+
+}  // namespace talus::continuum

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "models/continuum/splitting.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "base/elementary.hpp"
+#include "base/parallel.hpp"
+#include "models/continuum/columns.hpp"
+#include "numerics/neighbourhood.hpp"
+#include "numerics/sph/cubic_spline.hpp"
+
+namespace talus::continuum {
+
+namespace {
+
+constexpr std::size_t min_merged = 4, max_merged = 12;
+
+/// Corners of a cube; the first few of them lie about its middle as evenly as so many can.
+constexpr std::array<std::array<double, 3>, 8> corners{
+    {{-1, -1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}};
+
+/// Three directions at right angles.
+using Frame = std::array<Vector3, 3>;
+
+Frame frame_along(const Vector3& normal) {
+  const Vector3 other = std::abs(normal.x) < 0.8 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
+  const Vector3 across = cross(normal, other), first = (1 / norm(across)) * across;
+  return {first, cross(normal, first), normal};
+}
+
+/// Along the nearest wall within a distance, m; else along the axes.
+Frame frame_at(const Boundary& boundary, const Vector3& x, double within) {
+  if (const Surface& vessel = boundary.vessel(); !vessel.is_empty())
+    if (const auto foot = vessel.nearest(x, within); foot && foot->distance > 0) {
+      const Vector3 from = x - foot->place;
+      return frame_along((1 / norm(from)) * from);
+    }
+  const Domain& domain = boundary.domain();
+  for (int wall = 6; wall < domain.wall_count(); ++wall)
+    if (domain.is_beside(wall, x) && std::abs(domain.above(wall, x)) < within) return frame_along(domain.normal(wall));
+  return {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}};
+}
+
+bool is_between(const Boundary& boundary, const Vector3& a, const Vector3& b) {
+  return boundary.domain().blocks(a, b) || (!boundary.vessel().is_empty() && boundary.vessel().blocks(a, b));
+}
+
+/// How the columns come from those before: each particle a copy of one, with a mass and a place of its own.
+struct Copies {
+  std::vector<std::uint32_t> source;
+  std::vector<double> mass_ratio;
+  std::vector<Vector3> moved;  ///< m
+  std::vector<char> is_new, is_part;
+
+  void keep(std::size_t i, double ratio) {
+    source.push_back(static_cast<std::uint32_t>(i));
+    mass_ratio.push_back(ratio), moved.emplace_back(), is_new.push_back(0), is_part.push_back(0);
+  }
+  void add_part(std::size_t of, double ratio, const Vector3& by, bool fresh) {
+    source.push_back(static_cast<std::uint32_t>(of));
+    mass_ratio.push_back(ratio), moved.push_back(by), is_new.push_back(fresh), is_part.push_back(1);
+  }
+};
+
+/// A particle in eight, or as many as its mass has parts.
+void add_parts(const Boundary& boundary, double spacing, const State& s, std::size_t i, Copies& copies) {
+  const double ratio = s.mass_ratio[i], count = std::min(8.0, ratio), part = std::floor(ratio / count);
+  const double size = cube_root(s.mass_of(i) / s.density[i]);
+  const Frame frame = frame_at(boundary, s.position[i], std::max(size, spacing));
+  std::array<Vector3, 8> place;
+  std::array<double, 8> mass;
+  Vector3 middle;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    mass[n] = part + (static_cast<double>(n) < ratio - part * count ? 1 : 0);
+    for (std::size_t axis = 0; axis < 3; ++axis) place[n] += (0.25 * size * corners[n][axis]) * frame[axis];
+    middle += (mass[n] / ratio) * place[n];
+  }
+  for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+    Vector3 by = place[n] - middle;
+    if (is_between(boundary, s.position[i], s.position[i] + by)) by = {};
+    copies.add_part(i, mass[n], by, n > 0);
+  }
+}
+
+void apply(const Copies& copies, State& s) {
+  select(s, copies.source);
+  for (std::size_t n = 0; n < copies.source.size(); ++n) {
+    s.mass_ratio[n] = copies.mass_ratio[n];
+    s.position[n] += copies.moved[n];
+    if (copies.is_new[n]) s.identity[n] = static_cast<std::int64_t>(s.population.next_identity++);
+  }
+}
+
+/// Those that are too coarse, one level at a time. \returns of each particle whether it is a part of one that has
+/// split; nothing if none has
+std::vector<char> split(const Levels& levels, const Boundary& boundary, double spacing, State& s) {
+  Copies copies;
+  bool any = false;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    if (level_of(s.mass_ratio[i]) > levels.wanted(s.position[i])) {
+      add_parts(boundary, spacing, s, i, copies);
+      any = true;
+    } else {
+      copies.keep(i, s.mass_ratio[i]);
+    }
+  }
+  if (!any) return {};
+  apply(copies, s);
+  return copies.is_part;
+}
+
+/// Where particles of a level and a bed merge.
+struct Cell {
+  int level;
+  std::int64_t tag;
+  std::array<std::int64_t, 3> number;
+  auto operator<=>(const Cell&) const = default;
+};
+
+/// Adds up particles that become one, the first of `all`: means by mass of places and velocities, by volume of what is
+/// known of the grains.
+void merge_into_first(const std::vector<std::uint32_t>& all, State& s) {
+  double mass = 0, volume = 0, energy = 0, ratio = 0;
+  for (const std::uint32_t i : all) {
+    mass += s.mass_of(i), ratio += s.mass_ratio[i];
+    volume += s.mass_of(i) / s.density[i];
+    energy += 0.5 * s.mass_of(i) * dot(s.velocity[i], s.velocity[i]);
+  }
+  const auto mean = [&](auto& column, auto&& weight, double total) {
+    auto sum = (weight(all.front()) / total) * column[all.front()];
+    for (std::size_t n = 1; n < all.size(); ++n) sum += (weight(all[n]) / total) * column[all[n]];
+    return sum;
+  };
+  const auto by_mass = [&](std::uint32_t i) { return s.mass_of(i); };
+  const auto by_volume = [&](std::uint32_t i) { return s.mass_of(i) / s.density[i]; };
+  // Weights need masses and densities as they were: these are written last.
+  const auto take = [&]<class Member>(const FieldInfo& field, Member& column) {
+    if constexpr (!std::is_arithmetic_v<Member>) {
+      if (!field.of_particles || column.empty()) return;
+      using Value = typename Member::value_type;
+      if constexpr (std::is_same_v<Value, Vector3>)
+        column[all.front()] = mean(column, by_mass, mass);
+      else if constexpr (std::is_same_v<Value, double>)
+        if (&column != &s.density && &column != &s.mass_ratio) column[all.front()] = mean(column, by_volume, volume);
+    }
+  };
+  for_each_field(take, s);
+  s.mass_ratio[all.front()] = ratio;
+  s.density[all.front()] = mass / volume;
+  const Vector3& v = s.velocity[all.front()];
+  s.merged_energy += energy - 0.5 * mass * dot(v, v);
+}
+
+/// Those that are too fine, one level up. \returns whether there were any
+bool merge(const Levels& levels, const Boundary& boundary, State& s) {
+  std::map<Cell, std::vector<std::uint32_t>> cells;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    const int level = level_of(s.mass_ratio[i]);
+    if (level >= levels.count() || level >= levels.wanted(s.position[i], Levels::slack_of_merging)) continue;
+    cells[{level, s.tag.empty() ? 0 : s.tag[i], levels.cell_of(s.position[i], level)}].push_back(
+        static_cast<std::uint32_t>(i));
+  }
+  std::vector<char> gone(s.position.size(), 0);
+  bool any = false;
+  for (const auto& [cell, all] : cells) {
+    if (all.size() < min_merged || all.size() > max_merged) continue;
+    const auto hidden = [&, first = s.position[all.front()]](std::uint32_t i) {
+      return is_between(boundary, first, s.position[i]);
+    };
+    if (std::any_of(all.begin() + 1, all.end(), hidden)) continue;
+    merge_into_first(all, s);
+    for (std::size_t n = 1; n < all.size(); ++n) gone[all[n]] = 1;
+    any = true;
+  }
+  if (!any) return false;
+  std::vector<std::uint32_t> left;
+  for (std::size_t i = 0; i < gone.size(); ++i)
+    if (!gone[i]) left.push_back(static_cast<std::uint32_t>(i));
+  select(s, left);
+  return true;
+}
+
+/// Who moves when places are relaxed.
+enum class Relaxed { between_levels, given };
+
+/// A wall as a particle beside it meets it.
+struct Mirror {
+  Vector3 place, normal;  ///< of the wall, m; unit, towards the particle
+};
+std::optional<Mirror> mirror_near(const Surface& vessel, const Vector3& x, double length) {
+  if (vessel.is_empty()) return std::nullopt;
+  const auto foot = vessel.nearest(x, sph::support * length);
+  if (!foot || !(foot->distance > 0)) return std::nullopt;
+  return Mirror{foot->place, (1 / foot->distance) * (x - foot->place)};
+}
+
+/// Moves particles below free surfaces so that the sum of V grad W over their neighbours, by which a uniform pressure
+/// would push them, all but vanishes: on two lattices that meet it is a twelfth of one over the coarser spacing, and
+/// parts of a particle overlap its neighbours. The nearest wall of a vessel counts as a mirror, towards which nobody
+/// moves. \param ratio sph.smoothing_ratio \param is_given who moves
+void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, const std::vector<char>& is_given,
+           State& s) {
+  constexpr double share = 0.2, filled = 0.9;  // of h^2 times the sum; of the kernel
+  constexpr double most = 0.2;                 // of h, that one may move
+  ThreadTeam team(1);
+  const std::size_t count = s.position.size();
+  std::vector<double> length, volume, margin;
+  for (std::size_t i = 0; i < count; ++i) {
+    volume.push_back(s.mass_of(i) / s.density[i]);
+    length.push_back(ratio * cube_root(volume.back()));
+    margin.push_back(most * length.back());
+  }
+  Neighbourhood around(boundary.domain());
+  around.build(team, s.position, length, margin);
+  const auto place = [&](std::uint32_t n) {
+    if (n < count) return s.position[n];
+    const Ghost& ghost = around.ghosts()[n - count];
+    return around.image(ghost).position(s.position[ghost.source]);
+  };
+  const auto source = [&](std::uint32_t n) { return n < count ? n : around.ghosts()[n - count].source; };
+  std::vector<std::uint32_t> moving;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto differs = [&](std::uint32_t n) {
+      return level_of(s.mass_ratio[source(n)]) != level_of(s.mass_ratio[i]);
+    };
+    if (who == Relaxed::given ? is_given[i] != 0 : std::ranges::any_of(around.of(i), differs)) moving.push_back(i);
+  }
+  std::vector<std::optional<Mirror>> walls;
+  for (const std::uint32_t i : moving) walls.push_back(mirror_near(boundary.vessel(), s.position[i], length[i]));
+  const std::vector<Vector3> begun = s.position;
+  std::vector<Vector3> by(moving.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t m = 0; m < moving.size(); ++m) {
+      const std::uint32_t i = moving[m];
+      const Vector3& x = s.position[i];
+      const std::optional<Mirror>& wall = walls[m];
+      double sum = 0;
+      Vector3 gradient;
+      const auto add = [&](std::uint32_t j, const Vector3& other) {
+        const Vector3 d = x - other;
+        const double distance = norm(d), h = 0.5 * (length[i] + length[j]);
+        if (distance >= sph::support * h) return;
+        sum += volume[j] * sph::cubic_spline(distance, h);
+        gradient += (volume[j] * sph::cubic_spline_slope(distance, h)) * d;
+      };
+      const auto add_both = [&](std::uint32_t j, const Vector3& other) {
+        const double above = wall ? dot(other - wall->place, wall->normal) : 0;
+        if (above < 0) return;  // behind the wall
+        add(j, other);
+        if (wall) add(j, other - (2 * above) * wall->normal);
+      };
+      add_both(i, x);
+      for (const std::uint32_t n : around.of(i)) add_both(source(n), place(n));
+      by[m] = sum > filled ? (-share * length[i] * length[i]) * gradient : Vector3{};
+      if (wall) by[m] -= std::min(dot(by[m], wall->normal), 0.0) * wall->normal;
+    }
+    for (std::size_t m = 0; m < moving.size(); ++m) {
+      const std::uint32_t i = moving[m];
+      const Vector3 moved = s.position[i] + by[m] - begun[i];
+      if (norm(moved) < margin[i]) s.position[i] += by[m];
+    }
+  }
+}
+
+}  // namespace
+
+void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, State& s) {
+  for (int level = 0; level < levels.count(); ++level) {
+    const std::vector<char> is_part = split(levels, boundary, p.bed.spacing, s);
+    if (is_part.empty()) break;
+    relax(boundary, p.sph.smoothing_ratio, 20, Relaxed::given, is_part, s);
+  }
+  merge(levels, boundary, s);
+}
+
+void lay_levels(const Setup& setup, State& s) {
+  const Levels levels(setup);
+  s.mass_ratio.assign(s.position.size(), 1);
+  for (int level = 0; level < levels.count() && merge(levels, *setup.boundary, s); ++level) {
+  }
+  s.merged_energy = 0;
+  relax(*setup.boundary, setup.given.sph.smoothing_ratio, 40, Relaxed::between_levels, {}, s);
+}
+
+}  // namespace talus::continuum

@@ -1,0 +1,129 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a bed at rest, a column and a silo with particles of two sizes and of one, and compares them.
+
+    validation/plant/levels.py [--out results/plant-levels] [--threads N] [--markdown FILE] [--picture FILE]
+
+A run that is there is not made again. Exit status 1 if a row of reference.toml is not met. Needs python3-numpy and
+python3-matplotlib."""
+import sys
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import study  # noqa: E402
+import talus  # noqa: E402
+
+REFERENCE = {name: row for name, row in tomllib.loads((HERE / "reference.toml").read_text(encoding="utf-8")).items()
+             if name.startswith("levels-")}
+CASES = {"bed": ("levels-bed.toml", {}), "column": ("levels-column.toml", {}),
+         "silo": ("silo.toml", {"accuracy": "draft", "integration.pair_precision": "double"})}
+LEVELS = {"bed": {"levels.count": 1, "levels.distance": "24 mm", "levels.low": ["80 mm", "0 mm", "60 mm"],
+                  "levels.high": ["112 mm", "64 mm", "100 mm"]},
+          "column": {"levels.count": 1, "levels.distance": "20 mm", "levels.low": ["180 mm", "0 mm", "0 mm"],
+                     "levels.high": ["240 mm", "40 mm", "40 mm"]},
+          "silo": {"levels.count": 1}}
+BEHIND, SPLIT, NEAR, AXIS, OUTLET = 20.0, 0.5, 0.1, 0.96665, 1.0  # s; m from the outlet's rim; m; m; m
+
+
+def folder_of(out, case, count):
+    return out / f"{case}-{count}"
+
+
+def cases(options):
+    for case, (file, settings) in CASES.items():
+        for levels in ({"levels.count": 0}, LEVELS[case]):
+            yield HERE / file, folder_of(options.out, case, levels["levels.count"]), settings | levels
+
+
+def ratios(snapshot):
+    return snapshot["mass_ratio"] if "mass_ratio" in snapshot else np.ones(len(snapshot.positions))
+
+
+def percentile(values, weights, share):
+    order = np.argsort(values)
+    return values[order][np.searchsorted(np.cumsum(weights[order]), share * weights.sum())]
+
+
+def layers(run):
+    """Vertical stress of the layers of the bed, Pa."""
+    last = run.snapshots[-1]
+    z, volume = last.positions[:, 2], ratios(last) / last["density"]
+    means = []
+    for low in np.arange(0, 0.128, 0.016):
+        inside = (z >= low) & (z < low + 0.016)
+        means.append(np.average(last["stress_zz"][inside], weights=volume[inside]))
+    return np.array(means)
+
+
+def heap(run):
+    """Front and height of the column at the end, m."""
+    last = run.snapshots[-1]
+    x, mass = last.positions, ratios(last)
+    beside = x[:, 0] < 0.02
+    return percentile(x[:, 0], mass, 0.995), percentile(x[beside, 2], mass[beside], 0.995)
+
+
+def left(run):
+    """What has left the silo so long after the opening, kg."""
+    time = np.asarray(run.series["time"]) - run.gate_time
+    return float(np.interp(BEHIND, time, np.asarray(run.series["removed_mass"])))
+
+
+def density_over_sum(run):
+    """Mean over the snapshots in the middle of the run, of particles that split last."""
+    means = []
+    for snapshot in run.snapshots:
+        if not 5 <= snapshot.time - run.gate_time <= 15:
+            continue
+        x = snapshot.positions - (AXIS, AXIS, OUTLET)
+        distance = np.hypot(np.maximum(np.hypot(x[:, 0], x[:, 1]) - 0.25, 0), x[:, 2])
+        near = (x[:, 2] > 0) & (distance > SPLIT - NEAR) & (distance < SPLIT) & (ratios(snapshot) < 3)
+        means.append((snapshot["density"][near] / snapshot["packing"][near]).mean())
+    return float(np.mean(means))
+
+
+def measure(options):
+    """The rows by name, and the runs by case and levels."""
+    runs = {(case, count): talus.Run(folder_of(options.out, case, count))
+            for case in CASES for count in (0, 1)}
+
+    def over_one_size(case, number):
+        return number(runs[case, 1]) / number(runs[case, 0]) - 1
+    return {"levels-rest": np.abs(over_one_size("bed", layers)).max(),
+            "levels-front": over_one_size("column", lambda run: heap(run)[0]),
+            "levels-height": over_one_size("column", lambda run: heap(run)[1]),
+            "levels-rate": over_one_size("silo", lambda run: run.summary["discharge_steady"]),
+            "levels-left": over_one_size("silo", left),
+            "levels-density": over_one_size("silo", density_over_sum)}, runs
+
+
+def tell(numbers, runs):
+    lines = ["| case | levels | particles at the start | steps | processor time, s |", "|---|---|---|---|---|"]
+    for (case, count), run in runs.items():
+        first = run.snapshots[0]
+        lines.append(f"| {case} | {count} | {len(first.positions)} | {run.summary['steps']:.0f} | "
+                     f"{run.summary['cpu_seconds']:.0f} |")
+    return "\n".join(lines) + "\n\n" + study.table_of_numbers(REFERENCE, numbers)
+
+
+def draw(runs):
+    """The column at the end, particles by their size."""
+    from matplotlib import pyplot as plt
+    figure, axes = plt.subplots(2, 1, figsize=(7, 3.6), sharex=True, sharey=True, layout="constrained")
+    for axis, count in zip(axes, (1, 0)):
+        last = runs["column", count].snapshots[-1]
+        x, size = last.positions, 4e-3 * np.cbrt(ratios(last))
+        shown = np.abs(x[:, 1] - 0.02) < 0.75 * size
+        axis.scatter(1e3 * x[shown, 0], 1e3 * x[shown, 2], s=2.2 * (1e3 * size[shown]) ** 2 / 4,
+                     c=np.where(size[shown] > 5e-3, "C1", "C0"), linewidths=0)
+        axis.set(aspect="equal", ylabel="height, mm", title="two sizes" if count else "one size")
+    axes[-1].set(xlabel="distance, mm", xlim=(0, 420), ylim=(0, 125))
+    return figure
+
+
+if __name__ == "__main__":
+    sys.exit(study.compare(__file__, __doc__, "results/plant-levels", REFERENCE, cases, measure, tell, draw))
