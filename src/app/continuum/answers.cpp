@@ -206,13 +206,17 @@ struct Kind {
   enum class When { at_rest, in_flow, at_peak } when;
   std::string title;
   const char *pressure, *by_hand, *of_code, *load_case;
+
+  bool is_of_flow() const { return when != When::at_rest; }
 };
 
-/// "1.04 kPa (Janssen), EN 1991-4: 1.5 kPa filling".
+/// "1.04 kPa (Walker), 0.9 kPa (Enstad), EN 1991-4: 1.5 kPa discharge".
 std::string estimates_of(const LoadsOfWall& loads, const Kind& kind, std::size_t row, std::string_view formula) {
   std::string text;
   if (const double hand = loads.at(kind.by_hand, row); std::isfinite(hand))
     text = fmt::format("{} ({})", pressure_text(hand), formula);
+  if (const double arcs = loads.at("pressure_in_flow_enstad", row); kind.is_of_flow() && std::isfinite(arcs))
+    text += fmt::format(", {} (Enstad)", pressure_text(arcs));
   if (const double code = loads.at(kind.of_code, row); std::isfinite(code))
     text += fmt::format("{}EN 1991-4: {} {}", text.empty() ? "" : ", ", pressure_text(code), kind.load_case);
   return text;
