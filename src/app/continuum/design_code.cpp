@@ -337,7 +337,7 @@ std::vector<Answer> answers_of_code(const SiloShape& shape, const std::filesyste
                                   ? std::string(choice_name(*shape.layout.given.grains.material)) + ", Table E.1"
                                   : "not in Table E.1, φ_i of the law in a shear tester";
     answers.push_back({fmt::format("EN 1991-4 takes, {}", s.name),
-                       fmt::format("{}: h_c/d_c {:.3g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
+                       fmt::format("{}: h_c/d_c {:.4g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
                                    s.silo.slenderness(), 1e-3 * s.weight),
                        fmt::format("{}; wall pressure by {}; floor and cone's top by {}", solid,
                                    values_text(s, Load::wall_pressure), values_text(s, Load::bottom))});
