@@ -42,8 +42,11 @@ def element_loads(run):
     begin, end = window(run)
     for name in ("pressure_in_flow", "shear_in_flow"):
         values, unit = columns[name]
-        flows = begin is not None and end > begin
-        columns[name] = (received(run, end, name) - received(run, begin, name)) / (end - begin) if flows else np.full_like(values, np.nan), unit
+        if begin is not None and end > begin:
+            values = (received(run, end, name) - received(run, begin, name)) / (end - begin)
+        else:
+            values = np.full_like(values, np.nan)
+        columns[name] = values, unit
     return columns | _of_code(run, walls)
 
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t builds_between_sorts = 16;
 constexpr double passages_that_last = 20;  // of the fastest wave over a spacing: jitter is quicker, flow far slower
-constexpr double edge_of_drawn_field = 1;  // in spacings, half a field: triangles then bear what the fields do
+constexpr double edge_of_drawn_field = 3;  // in spacings
 
 }  // namespace
 
