@@ -96,6 +96,7 @@ def wall_loads(ax, loads):
                                 ("pressure_in_flow", "in flow", {"color": "C1", "marker": "o"}),
                                 ("pressure_in_flow_by_hand", "analytical estimate, in flow",
                                  {"color": "C1", "linestyle": "--"}),
+                                ("pressure_in_flow_enstad", "Enstad, in flow", {"color": "C1", "linestyle": ":"}),
                                 ("en_pressure_filling", "EN 1991-4, filling", {"color": "C0", "linestyle": "-."}),
                                 ("en_pressure_discharge", "EN 1991-4, discharge", {"color": "C1", "linestyle": "-."}),
                                 ("pressure_largest", "peak", {"color": draw.MUTED, "linestyle": ":"})):

@@ -86,6 +86,11 @@ class Run:
         """Of a vessel, with the loads on them."""
         return Snapshots(self.folder / "snapshots", "walls", WallSnapshot)
 
+    def write_element_loads(self, path):
+        """Loads on the walls of a vessel by triangle, as .csv or .vtk (talus.element_loads)."""
+        from talus.element_loads import write_element_loads
+        write_element_loads(self, path)
+
     @cached_property
     def gate_time(self):
         """When the gate opened, in the run's time; the end of the series if it has not. None without a gate."""

@@ -264,19 +264,6 @@ class WallSnapshot(_Unstructured):
     def areas(self):
         return Column(np.linalg.norm(self._spanned, axis=1), "m2")
 
-    def write_csv(self, path):
-        """A row a triangle: middle, normal, area and all columns; for programs of structural analysis."""
-        columns = {f"{axis} [m]": self.middles[:, n] for n, axis in enumerate("xyz")}
-        columns |= {f"normal_{axis} [1]": self.normals[:, n] for n, axis in enumerate("xyz")}
-        columns["area [m2]"] = self.areas
-        for name, values in self.items():
-            if values.ndim == 1:
-                columns[f"{name} [{values.units}]"] = values
-            else:
-                columns |= {f"{name}_{axis} [{values.units}]": values[:, n] for n, axis in enumerate("xyz")}
-        np.savetxt(path, np.column_stack([np.asarray(values, dtype=float) for values in columns.values()]), fmt="%.9g",
-                   delimiter=",", header=",".join(columns), comments="")
-
 
 class Snapshots:
     """The snapshots of one kind of a run: `snapshots[12]` is that of number 12 (of its file), `snapshots[-1]` the last,

@@ -206,15 +206,20 @@ struct Kind {
   enum class When { at_rest, in_flow, at_peak } when;
   std::string title;
   const char *pressure, *by_hand, *of_code, *load_case;
+
+  bool is_of_flow() const { return when != When::at_rest; }
 };
 
-/// "1.04 kPa (Janssen), EN 1991-4: 1.5 kPa filling".
+/// "1.04 kPa (Walker, ...), 0.9 kPa (Enstad, the same), EN 1991-4: 1.5 kPa discharge, upper value".
 std::string estimates_of(const LoadsOfWall& loads, const Kind& kind, std::size_t row, std::string_view formula) {
   std::string text;
   if (const double hand = loads.at(kind.by_hand, row); std::isfinite(hand))
     text = fmt::format("{} ({})", pressure_text(hand), formula);
+  if (const double arcs = loads.at("pressure_in_flow_enstad", row); kind.is_of_flow() && std::isfinite(arcs))
+    text += fmt::format(", {} (Enstad, the same)", pressure_text(arcs));
   if (const double code = loads.at(kind.of_code, row); std::isfinite(code))
-    text += fmt::format("{}EN 1991-4: {} {}", text.empty() ? "" : ", ", pressure_text(code), kind.load_case);
+    text +=
+        fmt::format("{}EN 1991-4: {} {}, upper value", text.empty() ? "" : ", ", pressure_text(code), kind.load_case);
   return text;
 }
 
@@ -223,7 +228,7 @@ struct LoadTable {
   const char *file, *column;
   std::size_t walls;
   std::function<std::string(std::size_t)> name;
-  std::function<std::string(std::size_t, double)> formula;  ///< at a height, m
+  std::function<std::string(std::size_t, double, bool)> formula;  ///< at a height, m, at rest or in flow
   /// Of a band; empty: walls have none.
   std::function<std::string(std::size_t)> extent;
 };
@@ -268,7 +273,7 @@ std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series
       if (is_mean && bears && !row) answers.push_back({question, "not known: the run does not cover its window", {}});
       if (!row) continue;
       Answer answer{question, loads.text(kind.pressure, *row),
-                    estimates_of(loads, kind, *row, of.formula(w, loads.middle(*row)))};
+                    estimates_of(loads, kind, *row, of.formula(w, loads.middle(*row), kind.is_of_flow()))};
       if (kind.when == Kind::When::at_peak)
         answer.answer +=
             fmt::format(", after {}, {}", time_text(loads.at("time_of_largest", *row)), area_text(of, loads, w, *row));
@@ -276,6 +281,25 @@ std::vector<Answer> answers_of_walls(const continuum::Setup& setup, const Series
     }
   }
   return answers;
+}
+
+/// The formula for a place on a vessel's wall, and what it takes of the bed and the wall: values of the case, no
+/// limits.
+std::string formula_at(const SiloShape& shape, const std::vector<NamedValue>& quantities, std::size_t part,
+                       double height, bool flows) {
+  const SiloPiece* const piece = shape.of_part(part, height);
+  if (piece && piece->is_hopper()) {
+    std::string text = fmt::format("Walker, μ {:.3g}", piece->friction);
+    if (flows)
+      text += fmt::format(", φ {:.3g}° in plane strain",
+                          internal_friction_by_hand(shape.layout.given) * 180 / std::numbers::pi);
+    return text;
+  }
+  const SiloPiece* const wall = piece ? piece : shape.upright_at(height);
+  const double measured = value_of(quantities, "wall_pressure_ratio");
+  const bool is_measured = std::isfinite(measured);
+  return fmt::format("Janssen, K {:.3g} {}, μ {:.3g}", is_measured ? measured : pressure_ratio_at_rest(shape.layout),
+                     is_measured ? "as measured" : "of the moduli", wall ? wall->friction : HopperRun::none);
 }
 
 }  // namespace
@@ -296,16 +320,13 @@ std::vector<Answer> answers_of(const continuum::Setup& setup, const std::vector<
       "patch",
       p.vessel.size(),
       [&](std::size_t w) { return continuum::name_of(p, w); },
-      [&](std::size_t w, double height) {
-        const SiloPiece* const piece = shape.of_part(w, height);
-        return piece && piece->is_hopper() ? "Walker" : "Janssen";
-      },
+      [&](std::size_t w, double height, bool in_flow) { return formula_at(shape, quantities, w, height, in_flow); },
       [&](std::size_t w) { return p.vessel[w].shape == VesselShape::plate ? "whole width" : "whole circumference"; }};
   const LoadTable of_box{"box_walls.csv",
                          "wall",
                          setup.boundary->patches().size(),
                          [&](std::size_t w) { return setup.boundary->patches()[w].name; },
-                         [](std::size_t, double) { return "Janssen"; },
+                         [](std::size_t, double, bool) { return "Janssen"; },
                          nullptr};
   for (const LoadTable* of : {&of_vessel, &of_box}) {
     const std::filesystem::path path = run_folder / "analysis" / of->file;

@@ -139,6 +139,11 @@ CodeLoads loads_on_floor(CodeSilo s, double height) {
   return loads;
 }
 
+/// Whether a hopper is steep does not depend on the load: by the lower K, as an upper one of 1 leaves none steep.
+double ratio_of_hopper(const code::Solid& solid) {
+  return solid.ratio / solid.ratio_factor;
+}
+
 CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, double top, double height) {
   const auto above = silo_of_code(shape, top, hopper.top);
   if (top > hopper.top && !above) return {};
@@ -147,8 +152,7 @@ CodeLoads loads_on_hopper(const SiloShape& shape, const SiloPiece& hopper, doubl
                end = std::min(top, hopper.top) - apex;
   const double weight = bulk_density(p) * p.gravity.acceleration;
   const code::Solid solid = solid_of(p);
-  // Whether the hopper is steep does not depend on the load: by the lower K, as an upper one of 1 leaves none steep.
-  const double ratio = solid.ratio / solid.ratio_factor;
+  const double ratio = ratio_of_hopper(solid);
   const auto stresses = [&](Load load, Limit limit) {
     Values values = code::values_for(solid, mean, load, limit);
     values.ratio = ratio;
@@ -286,13 +290,35 @@ const char* name_of_class(const code::Silo& silo) {
   return "";
 }
 
+const char* side_of(double value, double mean) {
+  return value > mean ? "upper" : "lower";
+}
+
 /// "K 0.6 (upper), mu 0.33 (lower), phi_i 26.8° (lower)".
 std::string values_text(const CodeSilo& s, Load load) {
   const Values taken = s.values(load, Limit::upper), mean = s.values(load, Limit::mean);
-  const auto side = [](double value, double of_mean) { return value > of_mean ? "upper" : "lower"; };
-  return fmt::format("K {:.3g} ({}), μ {:.3g} ({}), φ_i {:.3g}° ({})", taken.ratio, side(taken.ratio, mean.ratio),
-                     taken.friction, side(taken.friction, mean.friction), taken.internal / degree,
-                     side(taken.internal, mean.internal));
+  return fmt::format("K {:.3g} ({}), μ {:.3g} ({}), φ_i {:.3g}° ({})", taken.ratio, side_of(taken.ratio, mean.ratio),
+                     taken.friction, side_of(taken.friction, mean.friction), taken.internal / degree,
+                     side_of(taken.internal, mean.internal));
+}
+
+/// Of a hopper: whether it is steep, and the limits of its loads.
+Answer answer_of_hopper(const SiloShape& shape, const SiloPiece& hopper) {
+  const code::Solid solid = solid_of(shape.layout.given);
+  const double angle = std::atan(hopper.tangent), ratio = ratio_of_hopper(solid);
+  const auto friction = [&](Load load) {
+    return code::values_for(solid, hopper.friction, load, Limit::upper).friction;
+  };
+  const double filled = friction(Load::hopper_filling), flows = friction(Load::hopper_discharge),
+               internal = code::values_for(solid, 0, Load::hopper_discharge, Limit::upper).internal;
+  const bool steep = code::is_steep(angle, flows, ratio);
+  std::string text = fmt::format("filling by μ {:.3g} ({})", filled, side_of(filled, hopper.friction));
+  text += steep ? fmt::format("; discharge by μ {:.3g} ({}), φ_i {:.3g}° ({})", flows, side_of(flows, hopper.friction),
+                              internal / degree, side_of(internal, solid.internal))
+                : "; discharge as filling";
+  return {fmt::format("EN 1991-4 takes, {}", shape.name_of(hopper)),
+          fmt::format("{}: half angle {:.3g}°, K {:.3g} (lower)", steep ? "steep" : "shallow", angle / degree, ratio),
+          text};
 }
 
 }  // namespace
@@ -303,21 +329,24 @@ std::vector<Answer> answers_of_code(const SiloShape& shape, const std::filesyste
   const Series table = read_series(path);
   std::vector<Answer> answers;
   if (table.rows() == 0) return answers;
-  for (const CodeSilo& s : silos_of(shape, table.column("top").front())) {
+  const double top = table.column("top").front();
+  for (const SiloPiece& piece : shape.pieces)
+    if (piece.is_hopper() && piece.bottom < top) answers.push_back(answer_of_hopper(shape, piece));
+  for (const CodeSilo& s : silos_of(shape, top)) {
     const std::string solid = s.is_listed
                                   ? std::string(choice_name(*shape.layout.given.grains.material)) + ", Table E.1"
                                   : "not in Table E.1, φ_i of the law in a shear tester";
     answers.push_back({fmt::format("EN 1991-4 takes, {}", s.name),
-                       fmt::format("{}: h_c/d_c {:.3g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
+                       fmt::format("{}: h_c/d_c {:.4g}, {:.3g} kN/m³ of the bed", name_of_class(s.silo),
                                    s.silo.slenderness(), 1e-3 * s.weight),
                        fmt::format("{}; wall pressure by {}; floor and cone's top by {}", solid,
                                    values_text(s, Load::wall_pressure), values_text(s, Load::bottom))});
     const CodePatch patch = patch_of_code(s);
     if (patch.filling > 0 || patch.discharge > 0)
-      answers.push_back(
-          {fmt::format("Patch load, {}", s.name), "a local load that EN 1991-4 adds",
-           fmt::format("EN 1991-4: {} filling, {} discharge, at z = {} over {} of height", pressure_text(patch.filling),
-                       pressure_text(patch.discharge), length_text(patch.height), length_text(patch.extent))});
+      answers.push_back({fmt::format("Patch load, {}", s.name), "a local load that EN 1991-4 adds",
+                         fmt::format("EN 1991-4: {} filling, {} discharge, upper values, at z = {} over {} of height",
+                                     pressure_text(patch.filling), pressure_text(patch.discharge),
+                                     length_text(patch.height), length_text(patch.extent))});
     if (!s.has_channel()) continue;
     const CodeLoads lowest = loads_on_upright(s, s.bottom);
     answers.push_back(

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "physics/granular/enstad.hpp"
 #include "physics/granular/silo.hpp"
 
 namespace talus::app {
@@ -36,8 +37,11 @@ PressureByHand pressure_of_hopper(const SiloShape& shape, const SiloPiece& hoppe
     bearing.exponent *= 0.5 * hopper.shape();
     return bearing.ratio * granular::cone_stress(bearing, weight, height - apex, end, above);
   };
+  const double internal = internal_friction_by_hand(p);
+  const auto arcs = granular::arc_bearing(hopper.shape(), angle, hopper.friction, internal);
   return {pressure(granular::cone_at_rest(angle, hopper.friction)),
-          pressure(granular::cone_in_flow(angle, hopper.friction, internal_friction_by_hand(p)))};
+          pressure(granular::cone_in_flow(angle, hopper.friction, internal)),
+          arcs ? granular::arc_pressure(*arcs, weight, height - apex, end, above) : HopperRun::none};
 }
 
 /// The cone that ends at an outlet.
@@ -141,8 +145,8 @@ PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, 
   const SiloPiece* const piece = shape.of_part(band.patch, height);
   if (piece && piece->is_hopper()) return pressure_of_hopper(shape, *piece, ratio, top, height);
   const double vertical = janssen_at(shape, ratio, top, height);
-  if (piece) return {ratio * vertical, ratio * vertical};
-  return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none} : PressureByHand{};
+  if (piece) return {ratio * vertical, ratio * vertical, HopperRun::none};
+  return band.sine > 1 - 1e-3 ? PressureByHand{vertical, HopperRun::none, HopperRun::none} : PressureByHand{};
 }
 
 }  // namespace talus::app

@@ -19,8 +19,8 @@ double discharge_by_hand(const continuum::Layout& layout);
 double discharge_by_hand(const continuum::Layout& layout, const continuum::VesselOutlet& outlet);
 
 /// The angle of internal friction of the law, rad (physics/granular/friction_angle.hpp); 30 degrees where it has none.
-/// \param test Walker's and Jenike's formulas take Mohr's circle in plane strain, in which a friction counts up to 1;
-/// EN 1991-4 takes a shear tester's angle
+/// \param test Walker's, Enstad's and Jenike's formulas take Mohr's circle in plane strain, in which a friction counts
+/// up to 1; EN 1991-4 takes a shear tester's angle
 double internal_friction_by_hand(const continuum::Parameters& parameters,
                                  granular::FrictionTest test = granular::FrictionTest::plane_strain);
 
@@ -42,11 +42,12 @@ double half_angle_of_cone(const continuum::Layout& layout);
 /// The analytical estimate of the pressure on a band, Pa; nan where there is no formula for it.
 struct PressureByHand {
   double at_rest = HopperRun::none, in_flow = HopperRun::none;
+  double in_flow_enstad = HopperRun::none;  ///< of a hopper, beside Walker's
 };
 
-/// On upright walls K times Janssen's stress; on a level band that stress; on a hopper Walker's pressure,
-/// the bed above it a surcharge by Janssen. \param ratio K, as measured in the bed at rest \param top of the bed, m
-/// \param height of the place, m
+/// On upright walls K times Janssen's stress; on a level band that stress; on a hopper Walker's pressure and Enstad's
+/// (physics/granular/enstad.hpp), the bed above it a surcharge by Janssen. \param ratio K, as measured in the bed at
+/// rest \param top of the bed, m \param height of the place, m
 PressureByHand pressure_by_hand(const SiloShape& shape, const BandOfWall& band, double ratio, double top,
                                 double height);
 

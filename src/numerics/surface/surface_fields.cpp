@@ -17,11 +17,16 @@ constexpr double level = 0.03;  // sine of the angle with the horizontal
 
 constexpr double max_piece = 0.25;  // in sizes: longest edge of the pieces whose areas are given to fields
 
+constexpr double area_of_edge = 1.0 / 18;  // of triangles of a mesh, over the square of their longest edge
+
 constexpr double max_cells = 2e6;
 
-/// Calls visit(number of the triangle, piece) for pieces of the surface without an edge longer than a length, m.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Calls visit(number of the triangle, piece) for pieces of the surface without an edge longer than a length, m, nor an
+/// area above one, m^2.
 template <class Visit>
-void for_each_piece(const Surface& surface, double edge, Visit&& visit) {
+void for_each_piece(const Surface& surface, double edge, double area, Visit&& visit) {
   std::vector<Triangle> left;
   for (std::uint32_t t = 0; t < surface.triangles().size(); ++t) {
     left.assign(1, surface.triangles()[t]);
@@ -32,7 +37,7 @@ void for_each_piece(const Surface& surface, double edge, Visit&& visit) {
       double length = 0;
       for (std::size_t c = 0; c < 3; ++c)
         if (const double l = norm(whole.corner[(c + 1) % 3] - whole.corner[c]); l > length) length = l, longest = c;
-      if (length <= edge) {
+      if (length <= edge && norm(whole.area()) <= area) {
         visit(t, whole);
         continue;
       }
@@ -74,7 +79,7 @@ SurfaceFields::SurfaceFields(const Surface& surface, double size, const std::opt
 void SurfaceFields::find_areas(const Surface& surface, const Vector3& low, const Vector3& high) {
   const std::size_t copies = sector_ ? static_cast<std::size_t>(sector_->copies()) : 1, own = fields_.size() / copies;
   std::vector<double> area(own, 0.0);
-  for_each_piece(surface, max_piece * size_, [&](std::uint32_t t, const Triangle& piece) {
+  for_each_piece(surface, max_piece * size_, infinity, [&](std::uint32_t t, const Triangle& piece) {
     const Vector3 x = piece.middle();
     for (int axis = 0; axis < 3; ++axis)
       if (x[axis] < low[axis] || x[axis] > high[axis]) return;
@@ -137,7 +142,7 @@ FieldShare SurfaceFields::under(std::uint32_t part, const Vector3& place) const 
 FieldMesh mesh_of(const Surface& surface, const SurfaceFields& fields, double edge) {
   FieldMesh mesh;
   std::vector<Triangle> triangles;
-  for_each_piece(surface, edge, [&](std::uint32_t t, const Triangle& piece) {
+  for_each_piece(surface, edge, edge * edge * area_of_edge, [&](std::uint32_t t, const Triangle& piece) {
     mesh.field.push_back(fields.at(surface.part(t), piece.middle()));
     triangles.push_back(piece);
   });

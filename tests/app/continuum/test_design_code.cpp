@@ -154,5 +154,22 @@ TEST(DesignCode, SaysWhatItTakes) {
   EXPECT_EQ(answers[2].answer, "outlet off the axis by 0.31 d_c, above 0.25");
 }
 
+TEST(DesignCode, SaysWhatItTakesForAHopper) {
+  const ScratchFolder scratch;
+  std::filesystem::create_directories(scratch / "analysis");
+  continuum::Parameters p = small_silo();
+  const auto first = [&] {
+    const continuum::Layout layout(p);
+    write_design_code(scratch.path(), layout, 0.15);
+    return answers_of_code(layout, scratch.path()).front();
+  };
+  EXPECT_EQ(first().question, "EN 1991-4 takes, cone");
+  EXPECT_EQ(first().answer, "steep: half angle 30°, K 0.367 (lower)");
+  EXPECT_EQ(first().by_hand, "filling by μ 0.214 (lower); discharge by μ 0.214 (lower), φ_i 39° (upper)");
+  p.walls.coefficient = 0.9;
+  EXPECT_EQ(first().answer, "shallow: half angle 30°, K 0.367 (lower)");
+  EXPECT_EQ(first().by_hand, "filling by μ 0.643 (lower); discharge as filling");
+}
+
 }  // namespace
 }  // namespace talus::app

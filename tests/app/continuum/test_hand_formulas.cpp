@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "app/continuum/wall_loads.hpp"
+#include "physics/granular/enstad.hpp"
 #include "physics/granular/silo.hpp"
 #include "small_silo.hpp"
 
@@ -147,6 +148,23 @@ TEST(PressureByHand, IsJanssensAndWalkers) {
               1e-6);
   EXPECT_TRUE(std::isnan(pressure_by_hand(continuum::Layout(p), bands.back(), ratio, top, 0.06).at_rest))
       << "no formula of the lid of a cone";
+}
+
+TEST(PressureByHand, OfAConeIsEnstadsToo) {
+  continuum::Parameters p = small_silo();
+  p.walls.coefficient = 0.15;
+  const std::vector<BandOfWall> bands = bands_of(continuum::Layout(p));
+  const double angle = continuum::half_turn / 6, apex = 0.09 - 0.03 / std::tan(angle);
+  const auto arcs = granular::arc_bearing(2, angle, 0.15, angle);
+  ASSERT_TRUE(arcs);
+  const double above = granular::janssen_stress(weight, 0.06 / (4 * 0.15 * ratio), top - 0.09);
+  const auto in_flow = [&](std::size_t band, double height) {
+    return pressure_by_hand(continuum::Layout(p), bands[band], ratio, top, height).in_flow_enstad;
+  };
+  EXPECT_NEAR(in_flow(10, 0.08), granular::arc_pressure(*arcs, weight, 0.08 - apex, 0.09 - apex, above), 1e-6);
+  EXPECT_TRUE(std::isnan(in_flow(2, 0.11))) << "upright walls";
+  p.walls.coefficient = 1;
+  EXPECT_TRUE(std::isnan(in_flow(10, 0.08))) << "arcs of half a circle";
 }
 
 TEST(PressureByHand, IsNotThatOfUprightWallsWhereTheyLie) {

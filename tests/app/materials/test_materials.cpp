@@ -108,6 +108,7 @@ TEST(Materials, TheCodesValuesAreThoseOfItsTable) {
   EXPECT_EQ(wheat->patch, 0.5);
   EXPECT_EQ(solid_of_code(GrainMaterial::maize)->patch, 0.9);
   EXPECT_EQ(solid_of_code(GrainMaterial::sand)->ratio, 0.45);
+  EXPECT_EQ(solid_of_code(GrainMaterial::cement)->ratio_factor, 1.20);
   EXPECT_FALSE(solid_of_code(GrainMaterial::glass_beads)) << "the code does not list them";
 }
 
@@ -154,7 +155,8 @@ TEST(Materials, TheStiffnessFollowsFromTheBedsWeight) {
 }
 
 TEST(Materials, ABedAtRestHasTheLateralPressureRatioOfItsAngle) {
-  for (const GrainMaterial material : {GrainMaterial::wheat, GrainMaterial::maize, GrainMaterial::sand}) {
+  for (const GrainMaterial material :
+       {GrainMaterial::wheat, GrainMaterial::maize, GrainMaterial::sand, GrainMaterial::cement}) {
     granular::CriticalState::Parameters law;
     law.bulk_modulus = 1e7, law.shear_modulus = shear_over_bulk(material) * law.bulk_modulus;
     law.static_friction = 0.57;

@@ -120,5 +120,19 @@ TEST(SurfaceFields, TheMeshIsTheSurfaceCutFine) {
   EXPECT_EQ(distinct.size(), mesh.points.size()) << "each corner once";
 }
 
+TEST(SurfaceFields, TrianglesOfAFlatWallHaveTheAreasOfItsFields) {
+  const Surface plate({{{Vector3{0, 0, 0}, {3, 0, 0}, {3, 2, 0}}, 0}, {{Vector3{0, 0, 0}, {3, 2, 0}, {0, 2, 0}}, 0}},
+                      1);
+  const SurfaceFields fields(plate, 0.4);
+  const FieldMesh mesh = mesh_of(plate, fields, 0.6);
+  std::vector<double> area(fields.count(), 0.0);
+  for (std::size_t t = 0; t < mesh.corners.size(); ++t) {
+    const auto corner = [&](std::size_t c) { return mesh.points[static_cast<std::size_t>(mesh.corners[t][c])]; };
+    area[mesh.field[t]] += norm(Triangle{{corner(0), corner(1), corner(2)}, 0}.area());
+  }
+  for (std::size_t n = 0; n < area.size(); ++n)
+    EXPECT_NEAR(area[n] / fields.all()[n].area, 1, 0.2) << "cut by their edges alone: 0.4";
+}
+
 }  // namespace
 }  // namespace talus

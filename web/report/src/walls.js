@@ -11,6 +11,7 @@ const lines = [
   ["en_pressure_filling", "EN 1991-4, filling", 0, "8 3 1 3", false],
   ["pressure_in_flow", "in flow, mean", 1, "", true],
   ["pressure_in_flow_by_hand", "in flow, Janssen and Walker", 1, "6 4", false],
+  ["pressure_in_flow_enstad", "in flow, Enstad", 1, "2 4", false],
   ["en_pressure_discharge", "EN 1991-4, discharge", 1, "8 3 1 3", false],
   ["pressure_largest", "peak", null, "2 3", false],
 ];

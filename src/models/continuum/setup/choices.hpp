@@ -31,7 +31,7 @@ constexpr double default_courant(Method method) {
 }
 
 /// One for each file of materials/.
-enum class GrainMaterial { glass_beads, sand, wheat, maize, pharma_powder };
+enum class GrainMaterial { glass_beads, sand, wheat, maize, pharma_powder, cement };
 /// What a wall is made of. A file says how its grains rub on it.
 enum class WallMaterial { steel, acrylic, glass, concrete };
 
@@ -111,7 +111,7 @@ inline constexpr auto choices<continuum::Method> = std::to_array<std::string_vie
 
 template <>
 inline constexpr auto choices<continuum::GrainMaterial> =
-    std::to_array<std::string_view>({"glass-beads", "sand", "wheat", "maize", "pharma-powder"});
+    std::to_array<std::string_view>({"glass-beads", "sand", "wheat", "maize", "pharma-powder", "cement"});
 template <>
 inline constexpr auto choices<continuum::WallMaterial> = std::to_array<std::string_view>({"steel", "acrylic", "glass",
                                                                                           "concrete"});
