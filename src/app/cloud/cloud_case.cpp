@@ -250,10 +250,16 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.groups = groups(p);
   prepared.regime = cloud::regime_of_case(p);
   auto grains = [p, given] { return given ? *given : cloud::pack(p); };
+  const auto n = static_cast<double>(p.particles.count);
   prepared.open = [study = CloudStudy{read.run.title, frame_of(p)}](const std::filesystem::path& folder) {
     return std::make_unique<CloudRun>(folder, study);
   };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
+  prepared.make_part = [p, grains](const Ranks& ranks) { return run::any_model(Cloud(p, grains(), ranks)); };
+  prepared.shared = {.count = n,
+                     .name = "grains",
+                     .key = given ? "particles.file" : "particles.count",
+                     .allowed = "some 1000 grains on each pay"};
   const double layer = 2 * p.particles.radius;
   prepared.observers = {{.columns = {"position"}, .observe = [layer](const Pieces& pieces) {
                            std::vector<NamedValue> values;
