@@ -19,7 +19,7 @@ namespace {
 using hydrodynamics::Mobility;
 
 // Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the sums, bitwise.
-constexpr std::size_t max_tasks = 64;
+constexpr std::size_t most_tasks = 64;
 constexpr std::size_t gather_block = 32 * padding;
 
 SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t dimensions) {
@@ -55,10 +55,14 @@ PairSum::PairSum(const Options& options, std::span<const double> radius, std::sp
   reorder(order);
 }
 
+std::size_t PairSum::max_tasks(std::size_t spheres) {
+  return std::min(((spheres + task_rows - 1) / task_rows + 1) / 2, most_tasks);
+}
+
 // Tasks of about the same number of pairs: the first rows have the most columns.
 void PairSum::divide_into_tasks(const Ranks& ranks) {
   const std::size_t steps = (size() + task_rows - 1) / task_rows;
-  const std::size_t tasks = std::min((steps + 1) / 2, max_tasks);
+  const std::size_t tasks = max_tasks(size());
   std::size_t begin = 0;
   for (std::size_t t = 1; t <= tasks; ++t) {
     const double rest = std::sqrt(static_cast<double>(tasks - t) / static_cast<double>(tasks));

@@ -67,6 +67,8 @@ class PairSum {
 
   std::size_t size() const { return radius_.size(); }
   InstructionSet instruction_set() const { return instruction_set_; }  ///< the one in use, never `automatic`
+  /// Tasks of the sum that processors share, at most; with a few spheres some of them are one.
+  static std::size_t max_tasks(std::size_t spheres);
   double seconds_of_messages() const { return shared_ ? shared_->seconds() : 0; }  ///< since the start
 
  private:
