@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The tasks of a direct sum, dealt out among processes. What they have computed of a row goes to the process that adds
-/// it up, in the order of the tasks as one process does, and the velocities of its rows go to all: the same bits.
+/// it up, in the order of the tasks as one process does, and the velocities of its rows go to all: bitwise identical.
 #pragma once
 
 #include <cstddef>
