@@ -26,6 +26,19 @@ int processors();
 /// Processor time that the calling thread has taken, s.
 double processor_seconds_of_thread();
 
+/// Adds the processor time that its thread takes while it lives to a sum, s.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += processor_seconds_of_thread() - began_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  double began_ = processor_seconds_of_thread();
+};
+
 /// The programs of this name (ffmpeg, sbatch, python3) in the folders of PATH that may be executed, in the order of the
 /// folders. An empty entry of PATH is passed over: what lies in the current folder is not run. Without a PATH, those of
 /// the system's own.

@@ -45,6 +45,7 @@ class AnyModel {
     take(snapshot());
   }
   // Several processes: see Continuum.
+  virtual bool has_parts() const { return false; }  ///< each has a part of the particles, and not all
   virtual void gather() {}
   virtual void lead(const std::function<void(const ColumnPiece&)>& /*announce*/) {}
   virtual void send(const ColumnPiece& /*piece*/) {}
@@ -120,6 +121,7 @@ class ModelAdapter final : public AnyModel {
   void send(const ColumnPiece& piece) override {
     if constexpr (requires { model_.send(piece); }) model_.send(piece);
   }
+  bool has_parts() const override { return has_columns<M>; }
   void gather() override {
     if constexpr (requires { model_.gather(); }) model_.gather();
   }

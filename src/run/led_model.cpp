@@ -13,14 +13,13 @@ Followers::~Followers() {
 
 namespace {
 
-/// Reads the share of this process in the particles of a checkpoint.
+/// Reads the share of this process in the particles of a checkpoint: all of them in a model without parts.
 void read_part(AnyModel& model, const std::filesystem::path& path, const Ranks& ranks) {
   CheckpointReader checkpoint(path);
-  const std::size_t count = checkpoint.entries("state/position");
   const auto border = [&](int n) {
-    return count * static_cast<std::size_t>(n) / static_cast<std::size_t>(ranks.size());
+    return checkpoint.entries("state/position") * static_cast<std::size_t>(n) / static_cast<std::size_t>(ranks.size());
   };
-  checkpoint.take_part({border(ranks.rank()), border(ranks.rank() + 1) - border(ranks.rank())});
+  if (model.has_parts()) checkpoint.take_part({border(ranks.rank()), border(ranks.rank() + 1) - border(ranks.rank())});
   model.read(checkpoint);
 }
 

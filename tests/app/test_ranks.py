@@ -36,24 +36,38 @@ class Ranks(program.ProgramTest):
     def test_vessel(self):
         self.check_same("silo of round walls", [(2, 1), (3, 1), (8, 1)])
 
+    def test_cloud(self):
+        self.check_same("cloud in a plane", [(2, 2), (3, 1), (8, 1)])
+
+    def test_cloud_in_space(self):
+        self.check_same("cloud in space, single precision", [(2, 1), (5, 1)])
+
+    def test_cloud_of_the_spectral_sum(self):
+        self.check_same("cloud, spectral sum", [(3, 1)])
+
     def test_inlet_and_removal(self):
         self.check_same("chute with inlet and removal", [(2, 1), (3, 1), (8, 1)])
 
-    def run_hopper(self, ranks, program_name, out, *options):
-        case, settings = hash_ranks.CASES["hopper, vacuum"]
+    def run_hopper(self, ranks, program_name, out, *options, name="hopper, vacuum"):
+        case, settings = hash_ranks.CASES[name]
         words = hash_ranks.words_of_run(BUILD / program_name, self.folder / out, case, settings, 1)
         return hash_ranks.start(ranks, words + list(options))
 
-    def test_resumed_on_another_number_of_processes(self):
-        case, settings = hash_ranks.CASES["hopper, vacuum"]
+    def check_resumed(self, name, ends):
+        case, settings = hash_ranks.CASES[name]
         expected = hash_ranks.hash_of_run(None, BUILD, self.folder / "alone", case, settings)
-        begun = self.run_hopper(2, "talus-mpi", "parts", "--set", "run.end=3 ms")
-        self.assertEqual(begun.returncode, 0, begun.stderr)
-        for ranks, program_name, end in (3, "talus-mpi", "5 ms"), (None, "talus", "8 ms"):
-            done = self.run_hopper(ranks, program_name, "parts", "--resume", "--set", f"run.end={end}")
+        for (ranks, program_name), end in zip([(2, "talus-mpi"), (3, "talus-mpi"), (None, "talus")], ends):
+            resume = ["--resume"] if (self.folder / "parts").exists() else []
+            done = self.run_hopper(ranks, program_name, "parts", *resume, "--set", f"run.end={end}", name=name)
             self.assertEqual(done.returncode, 0, done.stderr)
         found = hash_ranks.hash_of_checkpoint(hash_ranks.newest_checkpoint(self.folder / "parts"))
         self.assertEqual(found, expected.split()[0])
+
+    def test_resumed_on_another_number_of_processes(self):
+        self.check_resumed("hopper, vacuum", ["3 ms", "5 ms", "8 ms"])
+
+    def test_cloud_resumed_on_another_number_of_processes(self):
+        self.check_resumed("cloud in a plane", ["0.1 ms", "0.2 ms", "0.4 ms"])
 
     def start_run(self, ranks, folder, settings):
         """A run that goes on until it is stopped, past its first checkpoint."""
@@ -103,8 +117,19 @@ class Ranks(program.ProgramTest):
             expected = float(re.search(r"copies of .* \((\d+) %\)", said)[1])
             self.assertLess(abs(expected - found), 0.35 * found, f"{ranks} processes")
 
+    def test_the_forecast_knows_what_a_cloud_shares(self):
+        case = hash_ranks.hash_cases.CASES / "niiya2020-circle.toml"
+        said = self.talus("check", case, "--ranks", 4).stdout
+        self.assertIn("On 4 processes (modelled", said)
+        self.assertIn("all 2000 on each; 16 tasks of the sum", said)
+        self.assertRegex(said, r"efficiency 0\.\d\d")
+        said = self.talus("check", case, "--ranks", 4, "--set", "fluid.sum=spectral").stdout
+        self.assertIn("the first process computes the spectral sum", said)
+        self.assertIn("efficiency 0.25", said)
+
     def test_processes_that_a_case_cannot_have_are_refused_beforehand(self):
-        for case, ranks, words in (("niiya2020-circle", 2, "on one process only"), ("drum", 100000, "for 100000 processes")):
+        for case, ranks, words in (("cavity", 2, "on one process only"), ("drum", 100000, "for 100000 processes"),
+                                   ("niiya2020-circle", 3000, "grains for 3000 processes")):
             said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--ranks", ranks, status=2).stderr
             self.assertIn(words, said)
 
@@ -118,7 +143,7 @@ class Ranks(program.ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)  # Python, which it starts, asks the program
 
     def test_refuses_what_runs_on_one_process(self):
-        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", "niiya2020-circle", {}, 1)
+        words = hash_ranks.words_of_run(BUILD / "talus-mpi", self.folder / "refused", "cavity", {}, 1)
         done = hash_ranks.start(2, words)
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("model: ", done.stderr)

@@ -11,13 +11,16 @@ from pathlib import Path
 from attack import WAIT, require, require_list, require_same
 from disk import PAGE, RUN, HopperOnFullDisk, mount
 from kills import HopperKills
-from small_cases import HOPPER
+from small_cases import CLOUD, HOPPER
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from hash_ranks import ENVIRONMENT, MPIRUN  # noqa: E402
 
 LONGEST_CHAIN, MOST = 6, 5  # kills, processes
 LONG_HOPPER = HOPPER.replace('end = "4 ms"', 'end = "60 ms"').replace('snapshots = "0.5 ms"', 'snapshots = "5 ms"')
+
+# Some tasks to share.
+LONG_CLOUD = CLOUD.replace("count = 60", "count = 400").replace('"60 mm"', '"150 mm"').replace('"0.6 ms"', '"0.4 ms"')
 
 
 def another(random, ranks):
@@ -80,6 +83,11 @@ class OneOfSeveralKilled(OnRanks, HopperKills):
         require_same(folder / "r", self.expected)
         require_list(folder / "r")
         return kills
+
+
+class OneOfACloudsKilled(OneOfSeveralKilled):
+    name, full = "kills: one process of a cloud's", 50
+    text = LONG_CLOUD
 
 
 class SeveralOnFullDisk(OnRanks, HopperOnFullDisk):

@@ -62,7 +62,12 @@ struct PreparedCase {
   std::function<std::unique_ptr<run::AnyModel>()> make_model;
   /// The part of the model that a process among several has. Null: it runs on one process only.
   std::function<std::unique_ptr<run::AnyModel>(const Ranks& ranks)> make_part;
-  double particles = 0;  ///< that several processes can share: so many processes are the most
+  /// What several processes share: as many processes are the most.
+  struct {
+    double count = 0;
+    std::string name, key;  ///< "particles"; the key that says how many
+    std::string allowed;    ///< how many make several processes pay
+  } shared;
   /// What the run takes on several processes, modelled: lines of a name and a text. \param step seconds on one
   std::function<Lines(ThreadTeam& team, double step, int ranks)> on_ranks;
   std::vector<run::Observer> observers;

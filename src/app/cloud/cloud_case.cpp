@@ -13,6 +13,7 @@
 #include "analysis/fronts.hpp"
 #include "app/case/model_case.hpp"
 #include "app/cloud/cloud_analysis.hpp"
+#include "app/cloud/cloud_ranks_forecast.hpp"
 #include "io/parameter_writer.hpp"
 #include "io/points_csv.hpp"
 #include "models/cloud/mobility_sum.hpp"
@@ -160,6 +161,12 @@ double measure_evaluation(const Parameters& p, ThreadTeam& team) {
   return seconds * std::pow(count / measured, power);
 }
 
+Lines on_ranks(const Parameters& p, double evaluations, ThreadTeam& team, double evaluation, int ranks) {
+  Parameters without = p;
+  without.fluid.mobility = hydrodynamics::Mobility::none;
+  return forecast_on_ranks(p, evaluations, {evaluation, measure_evaluation(without, team)}, ranks);
+}
+
 Problem too_large(const Parameters& p, double available) {
   const double each = cloud::memory_of(1) - cloud::memory_of(0);
   const double most = std::max(1.0, (available - cloud::memory_of(0)) / each);
@@ -250,10 +257,16 @@ PreparedCase prepare_cloud(const CaseFile& file) {
   prepared.groups = groups(p);
   prepared.regime = cloud::regime_of_case(p);
   auto grains = [p, given] { return given ? *given : cloud::pack(p); };
+  const auto n = static_cast<double>(p.particles.count);
   prepared.open = [study = CloudStudy{read.run.title, frame_of(p)}](const std::filesystem::path& folder) {
     return std::make_unique<CloudRun>(folder, study);
   };
   prepared.make_model = [p, grains] { return run::any_model(Cloud(p, grains())); };
+  prepared.make_part = [p, grains](const Ranks& ranks) { return run::any_model(Cloud(p, grains(), ranks)); };
+  prepared.shared = {.count = n,
+                     .name = "grains",
+                     .key = given ? "particles.file" : "particles.count",
+                     .allowed = "some 1000 grains on each pay"};
   const double layer = 2 * p.particles.radius;
   prepared.observers = {{.columns = {"position"}, .observe = [layer](const Pieces& pieces) {
                            std::vector<NamedValue> values;
@@ -262,6 +275,9 @@ PreparedCase prepare_cloud(const CaseFile& file) {
                          }}};
   prepared.forecast = forecast(p, read.run);
   prepared.measure_evaluation = [p](ThreadTeam& team) { return measure_evaluation(p, team); };
+  prepared.on_ranks = [p, f = prepared.forecast](ThreadTeam& team, double evaluation, int ranks) {
+    return on_ranks(p, f.phases.front().evaluations, team, evaluation, ranks);
+  };
   prepared.too_large = [p](double available) { return too_large(p, available); };
   prepared.headline = {.column = "front_x", .name = p.slope.enabled ? "front" : "foremost grain", .is_rate = true};
   return prepared;

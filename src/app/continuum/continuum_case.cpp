@@ -366,7 +366,10 @@ PreparedCase prepare_continuum(const CaseFile& file) {
   };
   prepared.make_model = [setup] { return run::any_model(Continuum(setup)); };
   prepared.make_part = [setup](const Ranks& ranks) { return run::any_model(Continuum(setup, ranks)); };
-  prepared.particles = continuum::forecast(*setup, end).particles;
+  prepared.shared = {.count = continuum::forecast(*setup, end).particles,
+                     .name = "particles",
+                     .key = "bed.spacing",
+                     .allowed = "some 10 000 particles on each pay"};
   prepared.on_ranks = [setup, end](ThreadTeam& team, double step, int ranks) {
     return forecast_on_ranks(*setup, end, air_of_step(*setup, team), step, ranks);
   };

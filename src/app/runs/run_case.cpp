@@ -271,11 +271,11 @@ void check_ranks(const PreparedCase& prepared, const CaseFile& file, int ranks) 
   if (!prepared.make_part)
     reader.check({{.key = "model",
                    .what = fmt::format("\"{}\" runs on one process only", prepared.model),
-                   .allowed = "\"continuum\", or one process: talus run without mpirun or srun"}});
-  else if (ranks > prepared.particles)
-    reader.check({{.key = "bed.spacing",
-                   .what = fmt::format("makes {:.0f} particles for {} processes", prepared.particles, ranks),
-                   .allowed = "at most as many processes as particles; some 10 000 particles on each pay"}});
+                   .allowed = "\"continuum\" or \"cloud\", or one process: talus run without mpirun or srun"}});
+  else if (const auto& shared = prepared.shared; ranks > shared.count)
+    reader.check({{.key = shared.key,
+                   .what = fmt::format("makes {:.0f} {} for {} processes", shared.count, shared.name, ranks),
+                   .allowed = fmt::format("at most as many processes as {}; {}", shared.name, shared.allowed)}});
   reader.throw_problems();
 }
 

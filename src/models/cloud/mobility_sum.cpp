@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "base/system.hpp"
+
 namespace talus::cloud {
 
 namespace {
@@ -21,8 +23,9 @@ const SpectralAccuracy* spectral_accuracy_of(const Parameters& p, double grains)
   return spectral_accuracy(p.fluid.sum_error);
 }
 
-MobilitySum::MobilitySum(const Parameters& p, std::span<const double> radius)
-    : options_({.mobility = p.fluid.mobility,
+MobilitySum::MobilitySum(const Parameters& p, std::span<const double> radius, const Ranks& ranks)
+    : ranks_(ranks),
+      options_({.mobility = p.fluid.mobility,
                 .motion = p.motion,
                 .precision = p.fluid.precision,
                 .instruction_set = p.integration.instruction_set,
@@ -37,7 +40,7 @@ MobilitySum::MobilitySum(const Parameters& p, std::span<const double> radius)
 }
 
 PairSum& MobilitySum::direct() {
-  if (!direct_) direct_.emplace(options_, radius_, order_);
+  if (!direct_) direct_.emplace(options_, radius_, order_, ranks_);
   return *direct_;
 }
 
@@ -57,9 +60,19 @@ void MobilitySum::arrange(std::vector<std::uint32_t> order, double cutoff) {
   if (cutoff_ > 0) spectral_->set_cutoff(cutoff_);
 }
 
+/// The first process has the whole sum, and tells it. \returns as SpectralSum::velocities
+bool MobilitySum::sum_spectral(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
+                               std::span<Vector3> velocity) {
+  const bool here = ranks_.is_first() && spectral_->velocities(team, position, force, velocity);
+  const Stopwatch watch(seconds_);
+  const bool done = ranks_.value_from_first(here);
+  if (done) ranks_.from_first(std::as_writable_bytes(velocity));
+  return done;
+}
+
 void MobilitySum::velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                              std::span<Vector3> velocity) {
-  if (spectral_ && cutoff_ > 0 && spectral_->velocities(team, position, force, velocity)) return;
+  if (spectral_ && cutoff_ > 0 && sum_spectral(team, position, force, velocity)) return;
   direct().velocities(team, position, force, velocity);
 }
 

@@ -12,6 +12,7 @@
 #include "models/cloud/pair_sum.hpp"
 #include "models/cloud/parameters.hpp"
 #include "models/cloud/spectral_sum.hpp"
+#include "ranks/ranks.hpp"
 
 namespace talus::cloud {
 
@@ -20,8 +21,8 @@ const SpectralAccuracy* spectral_accuracy_of(const Parameters& parameters, doubl
 
 class MobilitySum {
  public:
-  /// \param radius m, one per grain; copied
-  MobilitySum(const Parameters& parameters, std::span<const double> radius);
+  /// Together. \param radius m, one per grain; copied \param ranks outlive it
+  MobilitySum(const Parameters& parameters, std::span<const double> radius, const Ranks& ranks = one_process());
 
   /// The cheapest way for grains at these positions. \returns the cut-off of the spectral sum, m; 0: direct
   double choose(std::span<const Vector3> position) const;
@@ -29,16 +30,22 @@ class MobilitySum {
   /// Takes a way that `choose` returned, for this run or an interrupted one. \param order as PairSum::reorder
   void arrange(std::vector<std::uint32_t> order, double cutoff);
 
-  /// As PairSum::velocities. Where grains have moved so far apart that a grid has no room, the sum is direct.
+  /// As PairSum::velocities, together. Where grains have moved so far apart that a grid has no room, the sum is direct.
   void velocities(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
                   std::span<Vector3> velocity);
 
   /// Of the spectral sum, if it may be used.
   const SpectralAccuracy* accuracy() const { return accuracy_; }
 
+  /// Processor time of messages until now, s.
+  double seconds_of_messages() const { return seconds_ + (direct_ ? direct_->seconds_of_messages() : 0); }
+
  private:
   PairSum& direct();
+  bool sum_spectral(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force,
+                    std::span<Vector3> velocity);
 
+  const Ranks& ranks_;
   PairSum::Options options_;
   const SpectralAccuracy* accuracy_;
   bool always_spectral_;
@@ -47,6 +54,7 @@ class MobilitySum {
   double cutoff_ = 0;
   std::optional<PairSum> direct_;  // made when it is needed first: it takes 1 kB a grain
   std::optional<SpectralSum> spectral_;
+  double seconds_ = 0;
 };
 
 }  // namespace talus::cloud

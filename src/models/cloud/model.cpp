@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "base/system.hpp"
 #include "models/cloud/mobility_sum.hpp"
 
 namespace talus::cloud {
@@ -40,23 +42,34 @@ std::optional<RegimeLine> sum_line(const Parameters& p, const State& state) {
 
 }  // namespace
 
-Cloud::Cloud(const Parameters& parameters, Grains grains) : parameters_(parameters) {
+Cloud::Cloud(const Parameters& parameters, Grains grains, const Ranks& ranks) : ranks_(ranks), parameters_(parameters) {
   state_.position = std::move(grains.position);
   state_.radius = std::move(grains.radius);
 }
 
 void Cloud::begin(ThreadTeam& team) {
-  workspace_.emplace(parameters_, state_);
+  workspace_.emplace(parameters_, state_, ranks_);
+  const Stopwatch watch(seconds_);
   cloud::begin(team, parameters_, state_, *workspace_);
 }
 
 void Cloud::resume(ThreadTeam& team) {
-  workspace_.emplace(parameters_, state_);
+  workspace_.emplace(parameters_, state_, ranks_);
+  const Stopwatch watch(seconds_);
   derive(team, state_, *workspace_);
 }
 
 void Cloud::advance(ThreadTeam& team) {
+  const Stopwatch watch(seconds_);
   cloud::advance(team, parameters_, state_, *workspace_);
+}
+
+void Cloud::gather() {
+  const double messages = workspace_->velocities.sum().seconds_of_messages() / std::max(1e-9, seconds_);
+  Votes votes{.least = {}, .largest = {}, .sum = {static_cast<std::uint64_t>(std::lround(1e6 * messages))}};
+  ranks_.join(votes);
+  account_ = fmt::format("{} processes: each has all grains; of a step messages take {:.1f} %", ranks_.size(),
+                         1e-4 * static_cast<double>(votes.sum[0]) / ranks_.size());
 }
 
 NumericalError::Report Cloud::step_limit() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/error.hpp"
@@ -12,6 +13,7 @@
 #include "models/cloud/state.hpp"
 #include "models/cloud/step.hpp"
 #include "models/model.hpp"
+#include "ranks/ranks.hpp"
 
 namespace talus::cloud {
 
@@ -36,7 +38,9 @@ class Cloud {
   using State = cloud::State;
 
   /// \param grains positions and radii at the start; a resumed run replaces them
-  Cloud(const Parameters& parameters, Grains grains);
+  /// \param ranks processes that share the sum over pairs. Each has all grains and takes the same steps; on several
+  /// processes `begin`, `resume`, `advance` and `gather` are calls together. Outlive it
+  Cloud(const Parameters& parameters, Grains grains, const Ranks& ranks = one_process());
 
   const State& state() const { return state_; }
   State& mutable_state() { return state_; }
@@ -46,6 +50,9 @@ class Cloud {
   void begin(ThreadTeam& team);
   void resume(ThreadTeam& team);
   void advance(ThreadTeam& team);
+  void gather();
+  /// Of several processes what sharing takes, as gathered, in words; empty of one.
+  const std::string& sharing() const { return account_; }
 
   /// Of the last step: step_size, stages, evaluations, spectral_radius, overlap_max (m), speed_max, centre_x.
   std::vector<NamedValue> totals() const;
@@ -55,9 +62,12 @@ class Cloud {
   std::vector<RegimeLine> regime(const RunRecord& record) const;
 
  private:
+  const Ranks& ranks_;
   Parameters parameters_;
   State state_;
   std::optional<Workspace> workspace_;  // made by begin or resume, when the number of grains is known
+  double seconds_ = 0;                  // of processor time of the main thread, of the steps
+  std::string account_;
 };
 
 static_assert(Model<Cloud>);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/instruction_set.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
@@ -18,7 +19,7 @@ namespace {
 using hydrodynamics::Mobility;
 
 // Accumulators are as many as tasks, and tasks follow from the number of spheres alone: so do the sums, bitwise.
-constexpr std::size_t max_tasks = 64;
+constexpr std::size_t most_tasks = 64;
 constexpr std::size_t gather_block = 32 * padding;
 
 SumRows choose(InstructionSet set, const PairSum::Options& options, std::size_t dimensions) {
@@ -37,7 +38,8 @@ void require(bool condition, const char* what) {
 
 }  // namespace
 
-PairSum::PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order)
+PairSum::PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order,
+                 const Ranks& ranks)
     : options_(options),
       instruction_set_(resolve(options.instruction_set)),
       dimensions_(options.motion == Motion::xyz ? 3 : 2),
@@ -48,23 +50,37 @@ PairSum::PairSum(const Options& options, std::span<const double> radius, std::sp
     sum_rows_ = choose(instruction_set_, options, dimensions_);
     length_ = std::exp2(std::floor(std::log2(*std::max_element(radius_.begin(), radius_.end()))));
     packed_.assign(padded_ * (2 * dimensions_ + 2), 0.0);
-    divide_into_tasks();
+    divide_into_tasks(ranks);
   }
   reorder(order);
 }
 
+std::size_t PairSum::max_tasks(std::size_t spheres) {
+  return std::min(((spheres + task_rows - 1) / task_rows + 1) / 2, most_tasks);
+}
+
 // Tasks of about the same number of pairs: the first rows have the most columns.
-void PairSum::divide_into_tasks() {
+void PairSum::divide_into_tasks(const Ranks& ranks) {
   const std::size_t steps = (size() + task_rows - 1) / task_rows;
-  const std::size_t tasks = std::min((steps + 1) / 2, max_tasks);
-  std::size_t begin = 0, offset = 0;
+  const std::size_t tasks = max_tasks(size());
+  std::size_t begin = 0;
   for (std::size_t t = 1; t <= tasks; ++t) {
     const double rest = std::sqrt(static_cast<double>(tasks - t) / static_cast<double>(tasks));
     const std::size_t end = steps - static_cast<std::size_t>(std::lround(rest * static_cast<double>(steps)));
     if (end * task_rows <= begin) continue;
-    tasks_.push_back({begin, end * task_rows, offset});
-    offset += (padded_ - begin) * dimensions_;
+    tasks_.push_back({begin, end * task_rows, 0, true});
     begin = end * task_rows;
+  }
+  if (!ranks.is_alone()) {
+    std::vector<std::size_t> first;
+    for (const Task& task : tasks_) first.push_back(task.begin);
+    shared_ = std::make_unique<SharedTasks>(ranks, std::move(first), padded_, dimensions_);
+    for (std::size_t t = 0; t < tasks_.size(); ++t) tasks_[t].is_here = shared_->has(t);
+  }
+  std::size_t offset = 0;
+  for (Task& task : tasks_) {
+    task.offset = offset;
+    if (task.is_here) offset += (padded_ - task.begin) * dimensions_;
   }
   sums_.resize(offset);
 }
@@ -108,24 +124,35 @@ void PairSum::pack(ThreadTeam& team, std::span<const Vector3> position, std::spa
   }
 }
 
-void PairSum::gather(ThreadTeam& team, std::span<Vector3> velocity) const {
-  // Sums of component k over the tasks, in their order, for the `padding` spheres from `begin`.
-  auto add_tasks = [&](std::size_t k, std::size_t begin, double* result) {
+/// What the tasks of this process have computed.
+std::vector<TaskSums> PairSum::computed() const {
+  std::vector<TaskSums> here;
+  for (const Task& task : tasks_)
+    if (task.is_here) here.push_back({sums_.data() + task.offset, task.begin, padded_ - task.begin, padding});
+  return here;
+}
+
+/// Sums over the tasks, in their order, for rows that are spheres. \param take (row, sum of each component)
+template <class Take>
+void PairSum::add_tasks(ThreadTeam& team, std::span<const TaskSums> tasks, std::size_t first, std::size_t end,
+                        Take&& take) const {
+  // Of component k for the `padding` rows from `begin`.
+  auto add = [&](std::size_t k, std::size_t begin, double* result) {
     double sum[padding] = {};
-    for (const Task& task : tasks_) {
+    for (const TaskSums& task : tasks) {
       if (task.begin > begin) break;
-      const double* const part = sums_.data() + task.offset + k * (padded_ - task.begin) + (begin - task.begin);
+      const double* const part = task.sums + k * task.of_component + (begin - task.begin) / padding * task.of_rows;
       for (std::size_t n = 0; n < padding; ++n) sum[n] += part[n];
     }
     std::copy(sum, sum + padding, result);
   };
-  team.run((padded_ + gather_block - 1) / gather_block, [&](std::size_t block) {
-    const std::size_t end = std::min((block + 1) * gather_block, padded_);
-    for (std::size_t begin = block * gather_block; begin < end; begin += padding) {
+  team.run((end - first + gather_block - 1) / gather_block, [&](std::size_t block) {
+    const std::size_t last = std::min(first + (block + 1) * gather_block, end);
+    for (std::size_t begin = first + block * gather_block; begin < last; begin += padding) {
       double sum[3][padding] = {};
-      for (std::size_t k = 0; k < dimensions_; ++k) add_tasks(k, begin, sum[k]);
+      for (std::size_t k = 0; k < dimensions_; ++k) add(k, begin, sum[k]);
       for (std::size_t n = 0; n < padding && begin + n < size(); ++n)
-        for (std::size_t k = 0; k < 3; ++k) velocity[order_[begin + n]].*axis_[k] = sum[k][n];
+        take(begin + n, Vector3{sum[0][n], sum[1][n], sum[2][n]});
     }
   });
 }
@@ -145,11 +172,21 @@ void PairSum::velocities(ThreadTeam& team, std::span<const Vector3> position, st
     spheres.position[k] = column(k), spheres.force[k] = column(dimensions_ + k);
   team.run(tasks_.size(), [&](std::size_t t) {
     const Task& task = tasks_[t];
+    if (!task.is_here) return;
     double* sums[3] = {};
     for (std::size_t k = 0; k < dimensions_; ++k) sums[k] = sums_.data() + task.offset + k * (padded_ - task.begin);
     sum_rows_(spheres, task.begin, task.end, sums);
   });
-  gather(team, velocity);
+  const auto put = [&](std::size_t row, const Vector3& sum) {
+    for (std::size_t k = 0; k < 3; ++k) velocity[order_[row]].*axis_[k] = sum[static_cast<int>(k)];
+  };
+  if (!shared_) return add_tasks(team, computed(), 0, padded_, put);
+  const std::size_t first = shared_->first_row(), end = shared_->end_row();
+  std::vector<Vector3> own(std::min(end, size()) - std::min(first, size()));
+  add_tasks(team, shared_->collect(team, computed()), first, end,
+            [&](std::size_t row, const Vector3& sum) { own[row - first] = sum; });
+  const std::vector<Vector3> all = shared_->share(own);
+  for_each(team, size(), [&](std::size_t row) { put(row, all[row]); });
 }
 
 }  // namespace talus::cloud

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "base/parallel.hpp"
 #include "base/vector.hpp"
 #include "models/cloud/pair_sum/kernel.hpp"
+#include "models/cloud/pair_sum/shared_tasks.hpp"
 #include "physics/hydrodynamics/mobility.hpp"
+#include "ranks/ranks.hpp"
 
 namespace talus::cloud {
 
@@ -27,9 +30,10 @@ enum class Precision { double_precision, single_precision };
 
 /// Velocities of spheres due to the forces on the others. The cost is N^2/2 pairs, the memory about 1 kB per sphere.
 ///
-/// Bitwise identical for any number of threads. Instruction sets agree within 1e-14 of the largest sum over pairs of
-/// |M_ij F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from an estimate of
-/// the processor, which depends on its make.
+/// Bitwise identical for any number of threads, and of processes that share the pairs; each then has all spheres, and
+/// its constructor and `velocities` are calls together. Instruction sets agree within 1e-14 of the largest sum over
+/// pairs of |M_ij F_j| in double precision and 1e-6 in single precision; the reciprocal square root starts from an
+/// estimate of the processor, which depends on its make.
 class PairSum {
  public:
   struct Options {
@@ -42,8 +46,10 @@ class PairSum {
 
   /// \param radius one per sphere, m, > 0
   /// \param order as `reorder`
+  /// \param ranks outlive it
   /// \throws InputError if the processor does not have the instruction set
-  PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order = {});
+  PairSum(const Options& options, std::span<const double> radius, std::span<const std::uint32_t> order = {},
+          const Ranks& ranks = one_process());
 
   /// Sets the order in which the spheres are stored: a permutation, preferably one that keeps neighbours in space near
   /// in memory; empty: unchanged. It changes the last bits, and in single precision it matters for the accuracy: pairs
@@ -61,16 +67,23 @@ class PairSum {
 
   std::size_t size() const { return radius_.size(); }
   InstructionSet instruction_set() const { return instruction_set_; }  ///< the one in use, never `automatic`
+  /// Tasks of the sum that processors share, at most; with a few spheres some of them are one.
+  static std::size_t max_tasks(std::size_t spheres);
+  double seconds_of_messages() const { return shared_ ? shared_->seconds() : 0; }  ///< since the start
 
  private:
   struct Task {
     std::size_t begin, end;  // rows
     std::size_t offset;      // of its velocities in sums_: a column for each dimension, from row `begin` on
+    bool is_here;            // this process computes it
   };
 
-  void divide_into_tasks();
+  void divide_into_tasks(const Ranks& ranks);
   void pack(ThreadTeam& team, std::span<const Vector3> position, std::span<const Vector3> force);
-  void gather(ThreadTeam& team, std::span<Vector3> velocity) const;
+  std::vector<TaskSums> computed() const;
+  template <class Take>
+  void add_tasks(ThreadTeam& team, std::span<const TaskSums> tasks, std::size_t first, std::size_t end,
+                 Take&& take) const;
   double* column(std::size_t k) { return packed_.data() + k * padded_; }
 
   Options options_;
@@ -85,6 +98,7 @@ class PairSum {
   std::vector<double> packed_;        // columns of padded_ numbers: positions, forces, radius, size
   std::vector<Task> tasks_;
   std::vector<double> sums_;
+  std::unique_ptr<SharedTasks> shared_;  // none for one process
 };
 
 }  // namespace talus::cloud

@@ -191,8 +191,8 @@ NumericalError::Report step_limit(const Parameters& p, const State& state) {
   return report;
 }
 
-Workspace::Workspace(const Parameters& parameters, const State& state)
-    : velocities(parameters, state.radius),
+Workspace::Workspace(const Parameters& parameters, const State& state, const Ranks& ranks)
+    : velocities(parameters, state.radius, ranks),
       scales(cloud::scales(parameters)),
       latest(state.position.size()),
       before(state.position.size()),

@@ -9,6 +9,7 @@
 #include "models/cloud/parameters.hpp"
 #include "models/cloud/state.hpp"
 #include "models/cloud/velocities.hpp"
+#include "ranks/ranks.hpp"
 
 namespace talus::cloud {
 
@@ -19,7 +20,8 @@ struct Workspace {
   std::vector<Vector3> latest, before, trial_velocity;
   std::vector<std::vector<Vector3>> rates;  ///< of the stages after the first, Dormand and Prince's alone
 
-  Workspace(const Parameters& parameters, const State& state);
+  /// \param ranks as Velocities has them; what is called with a workspace is called together
+  Workspace(const Parameters& parameters, const State& state, const Ranks& ranks = one_process());
 };
 
 /// Completes a state that has position and radius: velocities, contacts, first step, stiffest motion.

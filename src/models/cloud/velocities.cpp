@@ -28,11 +28,11 @@ Vector3 in_plane(const Vector3& v, Motion motion) {
   return v;
 }
 
-Velocities::Velocities(const Parameters& p, std::span<const double> radius)
+Velocities::Velocities(const Parameters& p, std::span<const double> radius, const Ranks& ranks)
     : parameters_(p),
       touches_slope_(p.slope.enabled && p.contact.enabled && p.motion != Motion::xy),
       radius_(radius.begin(), radius.end()),
-      sum_(p, radius_),
+      sum_(p, radius_, ranks),
       force_(radius.size()),
       contact_force_(radius.size()),
       overlap_(radius.size(), 0.0) {

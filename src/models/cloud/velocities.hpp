@@ -12,13 +12,16 @@
 #include "models/cloud/mobility_sum.hpp"
 #include "models/cloud/parameters.hpp"
 #include "numerics/neighbour_list.hpp"
+#include "ranks/ranks.hpp"
 
 namespace talus::cloud {
 
 class Velocities {
  public:
   /// \param radius m, one per grain; copied
-  Velocities(const Parameters& parameters, std::span<const double> radius);
+  /// \param ranks processes that share the sum over pairs, each with all grains: this and the evaluation are calls
+  /// together; outlive it
+  Velocities(const Parameters& parameters, std::span<const double> radius, const Ranks& ranks = one_process());
 
   /// Chooses how the sum over pairs is computed from here on. \returns the cut-off of the spectral sum, m; 0: direct
   double choose_sum(std::span<const Vector3> position) const { return sum_.choose(position); }

@@ -27,19 +27,6 @@
 
 namespace talus::continuum {
 
-/// Adds the processor time that its thread takes while it lives to a sum, s.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum) {}
-  ~Stopwatch() { sum_ += processor_seconds_of_thread() - began_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& sum_;
-  double began_ = processor_seconds_of_thread();
-};
-
 /// Where the time of the steps goes on this process: processor time of its main thread, s. A process that waits for a
 /// message takes it as if it computed, unless the processor has other programs to run.
 struct TimeOfSteps {
