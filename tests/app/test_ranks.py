@@ -132,6 +132,8 @@ class Ranks(program.ProgramTest):
                                    ("niiya2020-circle", 3000, "grains for 3000 processes")):
             said = self.talus("check", hash_ranks.hash_cases.CASES / f"{case}.toml", "--ranks", ranks, status=2).stderr
             self.assertIn(words, said)
+        said = self.talus("check", hash_ranks.hash_cases.CASES / "mill-silo.toml", "--ranks", 4, status=2).stderr
+        self.assertIn("levels.count: particles of several sizes", said)
 
     def test_hands_over(self):
         done = self.run_hopper(2, "talus", "handed")

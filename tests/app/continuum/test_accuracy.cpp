@@ -103,6 +103,14 @@ TEST(Accuracy, AndEveryOtherCaseHasAViscosityThatFollowsTheOutletOnceItFlows) {
   EXPECT_EQ(of(with(file, {"settle.viscosity_alpha=0.3"}), "settle.viscosity_alpha"), Found("0.3", "option"));
 }
 
+TEST(Accuracy, TakesCoarserParticlesWhereTheBedIsWideEnough) {
+  EXPECT_EQ(of(silo(), "levels.count"), Found("0", "default"));
+  EXPECT_EQ(of(with(silo(), {"bed.spacing=2 mm"}), "levels.count"), Found("1", "accuracy"));
+  EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm"}), "levels.count"), Found("2", "accuracy"));
+  EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "levels.count=0"}), "levels.count"), Found("0", "option"));
+  EXPECT_EQ(of(with(silo(), {"bed.spacing=1 mm", "accuracy=reference"}), "levels.count"), Found("0", "default"));
+}
+
 TEST(Accuracy, LeavesTheKeysOfTheCase) {
   const CaseFile file = with(silo(), {"bed.spacing=3 mm", "integration.pair_precision=double", "box.sector=60 deg",
                                       "law.critical-state.bulk_modulus=1 MPa"});
