@@ -51,6 +51,11 @@ bool is_between(const Boundary& boundary, const Vector3& a, const Vector3& b) {
   return boundary.domain().blocks(a, b) || (!boundary.vessel().is_empty() && boundary.vessel().blocks(a, b));
 }
 
+/// Whether a part would be beyond a wall or a face. Never two in one place, where nothing would part them.
+bool leaves(const Boundary& boundary, const Vector3& a, const Vector3& b) {
+  return is_between(boundary, a, b) || boundary.domain().bounce(a, b);
+}
+
 /// How the columns come from those before: each particle a copy of one, with a mass and a place of its own.
 struct Copies {
   std::vector<std::uint32_t> source;
@@ -69,10 +74,10 @@ struct Copies {
 };
 
 /// A particle in eight, or as many as its mass has parts.
-void add_parts(const Boundary& boundary, double spacing, const State& s, std::size_t i, Copies& copies) {
+void add_parts(const Boundary& boundary, const State& s, std::size_t i, Copies& copies) {
   const double ratio = s.mass_ratio[i], count = std::min(8.0, ratio), part = std::floor(ratio / count);
   const double size = cube_root(s.mass_of(i) / s.density[i]);
-  const Frame frame = frame_at(boundary, s.position[i], std::max(size, spacing));
+  const Frame frame = frame_at(boundary, s.position[i], size);
   std::array<Vector3, 8> place;
   std::array<double, 8> mass;
   Vector3 middle;
@@ -83,7 +88,7 @@ void add_parts(const Boundary& boundary, double spacing, const State& s, std::si
   }
   for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
     Vector3 by = place[n] - middle;
-    if (is_between(boundary, s.position[i], s.position[i] + by)) by = {};
+    for (int halved = 0; halved < 6 && leaves(boundary, s.position[i], s.position[i] + by); ++halved) by = 0.5 * by;
     copies.add_part(i, mass[n], by, n > 0);
   }
 }
@@ -99,12 +104,12 @@ void apply(const Copies& copies, State& s) {
 
 /// Those that are too coarse, one level at a time. \returns of each particle whether it is a part of one that has
 /// split; nothing if none has
-std::vector<char> split(const Levels& levels, const Boundary& boundary, double spacing, State& s) {
+std::vector<char> split(const Levels& levels, const Boundary& boundary, State& s) {
   Copies copies;
   bool any = false;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     if (level_of(s.mass_ratio[i]) > levels.wanted(s.position[i])) {
-      add_parts(boundary, spacing, s, i, copies);
+      add_parts(boundary, s, i, copies);
       any = true;
     } else {
       copies.keep(i, s.mass_ratio[i]);
@@ -272,7 +277,7 @@ void relax(const Boundary& boundary, double ratio, int passes, Relaxed who, cons
 
 void split_and_merge(const Levels& levels, const Boundary& boundary, const Parameters& p, State& s) {
   for (int level = 0; level < levels.count(); ++level) {
-    const std::vector<char> is_part = split(levels, boundary, p.bed.spacing, s);
+    const std::vector<char> is_part = split(levels, boundary, s);
     if (is_part.empty()) break;
     relax(boundary, p.sph.smoothing_ratio, 20, Relaxed::given, is_part, s);
   }
