@@ -13,6 +13,7 @@ RATE = 2e-4  # shear rate times (rho_p d^3/k)^(1/2), as in shear.in
 SOFT = 1e-3
 STRAIN = 0.01  # of one row of a dense packing
 STEADY = 0.7   # strain from which on it flows steadily
+DENSE_INERTIAL = 0.007  # of dense packings that flow steadily, as in dilate.in
 #: Mean velocity over (g d)^(1/2) below which a layer has stopped, above which it has started, and from which on the
 #: friction that stops it is taken.
 STILL, MOVES, SLOW = 0.005, 0.05, 0.3

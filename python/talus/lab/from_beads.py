@@ -86,7 +86,8 @@ def dense_runs(jobs):
 
 
 def run_all(plan, beads, folder, at_once):
-    """What was computed: runs of dense packings, rows of (packing, state), slopes that start, frictions by wall."""
+    """What was computed: runs of dense packings, rows of (packing, state), slopes at which layers start, or the largest tried,
+    and frictions by wall."""
     first, others = jobs_of(plan, beads, folder)
     ask("claim", folders=[folder], files=[])
     interruption, rest = Interruption(), others(0.58, 0.4)
@@ -97,6 +98,7 @@ def run_all(plan, beads, folder, at_once):
     dense, states, layers, blocks = others(*found[2:])
     lammps.run([*layers, *(job for group in blocks.values() for job in group), *dense, *states], at_once, interruption)
     starts = [fits.angles(*tables)[-1] for tables in zip(columns_of(layers, "stop.txt"), columns_of(layers, "start.txt"))]
+    starts = [job.variables["up"] if math.isnan(slope) else slope for job, slope in zip(layers, starts)]
     walls = {wall: [fits.friction_between(table, *fits.SLIDES, BLOCK["time"]) for table in columns_of(group, "stop.txt")]
              for wall, group in blocks.items()}
     rows = np.array([(job.variables["packing"], *fits.state(table)) for job, table in zip(states, columns_of(states, "shear.txt"))])
@@ -109,20 +111,21 @@ def estimates_of(runs, rows, starts):
     hard = pressure < fits.SOFT
     if hard.sum() < 3 or len(rows) < 4:
         raise RunError("the beads jam at every packing that was tried: no line of packing against inertial number")
-    found = dict(zip(("static_friction", "dynamic_friction", "inertial_number"), fits.friction_estimates(inertial, friction)))
+    dense = np.array([fits.fit_dilatancy(*run) for run in runs]).T
+    of_friction = fits.friction_estimates(np.append(inertial, np.full(len(runs), fits.DENSE_INERTIAL)), np.append(friction, dense[3]))
+    found = dict(zip(("static_friction", "dynamic_friction", "inertial_number"), of_friction))
     critical, fall, critical_error, fall_error = fits.fit_packing(inertial[hard], packing[hard])
     t = fits.student(hard.sum() - 2)
-    dense = np.array([fits.fit_dilatancy(*run) for run in runs]).T
     steady = fits.mean_estimate(dense[2], 0.005)
     middle = 0.5 * (critical + steady.value)
-    found["critical_packing"] = Estimate(middle, min(critical - t * critical_error, steady.low), max(critical + t * critical_error, steady.high))
+    found["critical_packing"] = Estimate(middle, min(critical - t * critical_error, steady.low),
+                                         max(critical + t * critical_error, steady.high))
     found["packing_slope"] = Estimate(max(fall, 0.0), max(fall - t * fall_error, 0.0), max(fall + t * fall_error, 0.0))
     found["random_loose_packing"] = middle - MAX_INERTIAL * found["packing_slope"].value
     found["dilatancy"] = fits.mean_estimate(dense[0], 0.1 * dense[0].mean())
     k, _, loose, slow = dense.mean(axis=1)
     found["dilatant_friction"] = fits.mean_estimate([fits.fit_peak(k, slow, loose, *run[1:]) for run in runs], PEAK_SCATTER)
-    started = np.tan(np.radians([slope for slope in starts if np.isfinite(slope)]))
-    found["ageing_strength"] = fits.mean_estimate(started - found["static_friction"].value, START_SCATTER) if len(started) else None
+    found["ageing_strength"] = fits.mean_estimate(np.tan(np.radians(starts)) - found["static_friction"].value, START_SCATTER)
     return found, fits.bulk_stiffness(packing, pressure)
 
 
@@ -130,44 +133,41 @@ def material_of(name, beads, plan, computed):
     runs, rows, starts, walls = computed
     found, bulk = estimates_of(runs, rows, starts)
     of = (f"beads of friction {beads.friction:g}, rolling friction {beads.rolling_friction:g}, restitution {beads.restitution:g}, "
-          f"diameters within {beads.spread:g} of the mean, by LAMMPS")
+          f"diameters within {beads.spread:g} of the mean")
     steady, dense = f"{len(rows)} states of steady shear at constant volume", f"{len(runs)} dense packings sheared at constant pressure"
-    sources = {"static_friction": steady, "dynamic_friction": steady, "inertial_number": steady, "packing_slope": steady,
-               "critical_packing": f"mean of {steady} and of {dense}, of both the ends",
+    both = f"{steady} and the ends of {dense}"
+    sources = {"static_friction": both, "dynamic_friction": both, "inertial_number": both, "packing_slope": steady,
+               "critical_packing": f"mean of {steady} and of the ends of {dense}",
                "random_loose_packing": f"the critical packing at an inertial number of {MAX_INERTIAL:g}", "dilatancy": dense,
                "dilatant_friction": f"peaks of {dense}",
-               "ageing_strength": f"{len(starts)} layers on a slope, beyond the static friction"}
-    material = Material(f"{name}: {of}")
+               "ageing_strength": f"{len(starts)} layers on a slope: {', '.join(f'{slope:.3g}' for slope in starts)} degrees as they start, "
+                                  "or at most; beyond the static friction"}
+    material = Material(f"{name}: {of}, by LAMMPS")
     material.add("grains.density", beads.density, "as given", "kg/m3")
     material.add("grains.diameter", beads.diameter, "as given", "m")
     material.add("bed.packing", found["critical_packing"].value, "a choice: that of slow flow, which neither dilates nor compacts")
     material.add("law.name", '"critical-state"', "Talus")
     for key, estimate in found.items():
         more = {"test": SHEAR_PLANE} if key in ("static_friction", "dynamic_friction") else {}
-        if estimate is None:
-            estimate, source = 0.0, f"no layer started up to {layer_settings(found['static_friction'].value)['up']:g} degrees: none assumed"
-        else:
-            source = f"{sources[key]}; {of}"
-        value, low, high = (estimate.value, estimate.low, estimate.high) if isinstance(estimate, Estimate) else (estimate, None, None)
-        interval = (max(low, 0.0), high) if low is not None else None
-        if key == "ageing_strength":
-            value = max(value, 0.0)
-        material.add(f"law.critical-state.{key}", value, source, interval=interval, **more)
+        value, interval = estimate, None
+        if isinstance(estimate, Estimate):
+            value, interval = max(estimate.value, 0.0), (max(estimate.low, 0.0), max(estimate.high, 0.0))
+        material.add(f"law.critical-state.{key}", value, f"{sources[key]}; LAMMPS", interval=interval, **more)
         say(f"{key} = {value:.4g}" + (f" ({interval[0]:.4g} to {interval[1]:.4g})" if interval else ""))
     material.add("law.critical-state.ageing_adds", "false", "beads that have rested have the peak of their packing, no more "
                  "(validation/bead-shear)")
     unit = beads.stiffness / beads.diameter
+    stiff = "" if math.isnan(bulk) else f"; beads have a bulk modulus of {bulk * unit:.3g} Pa, cases that of their bed"
     material.lines += ["", "[pressure]", f'range = ["0 Pa", "{fits.SOFT * unit:.4g} Pa"]',
-                       f'source = "{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count; beads have a bulk modulus of '
-                       f'{bulk * unit:.3g} Pa, cases that of their bed"']
+                       f'source = "{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count{stiff}"']
     for wall, frictions in walls.items():
         known = [one for one in frictions if np.isfinite(one)]
         if not known:
             say(f"walls.{wall}: left out, for no layer slid along it and stopped")
             continue
         estimate = fits.mean_estimate(known, WALL_SCATTER * np.mean(known))
-        material.add(f"walls.{wall}", estimate.value, f"{len(known)} layers that slide on a flat wall of friction {beads.walls[wall]:g}; {of}",
-                     interval=(max(estimate.low, 0.0), estimate.high))
+        material.add(f"walls.{wall}", estimate.value, f"seeds of layers that slide on a flat wall of friction {beads.walls[wall]:g}: "
+                     f"{len(known)}; LAMMPS", interval=(max(estimate.low, 0.0), estimate.high))
         say(f"walls.{wall} = {estimate.value:.4g} ({estimate.low:.4g} to {estimate.high:.4g})")
     return material
 
