@@ -16,6 +16,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "python"))
 from talus.beads import SOFT, dilation, fit_dilatancy, fit_friction, fit_packing, fit_peak, state  # noqa: E402
 from talus.lab import lammps as engine  # noqa: E402
+from talus.trouble import RunError  # noqa: E402
 
 STATES = HERE / "data" / "states.csv"
 DILATION = HERE / "data" / "dilation.csv"
@@ -102,7 +103,10 @@ def dilatancy(rolling):
 def main(text, fit, **runs):
     """The command line of these scripts: `NAME FOLDER` runs one of `runs` there, `fit` evaluates what was run."""
     if len(sys.argv) == 3 and sys.argv[1] in runs:
-        runs[sys.argv[1]](Path(sys.argv[2]))
+        try:
+            runs[sys.argv[1]](Path(sys.argv[2]))
+        except RunError as error:
+            sys.exit(str(error))
     elif sys.argv[1:] == ["fit"]:
         fit()
     else:
