@@ -10,7 +10,6 @@ AGEING = 0.08   # friction that grains at rest have beyond that in flow: the law
 SCATTER = 1.0   # degrees, of heaps that are poured again, by others, and of particles of another size
 NEAR = 0.5      # degrees, how near the last heap must be
 MOST_RUNS = 6
-FOOT = 0.062    # m, what the foot of a heap is to reach at least
 # A heap of 31.1 degrees has atan M = 28.0 degrees, one of 37.2 has 34.2: where the first heap begins.
 KNOWN, OF, RISE = 31.1, 28.0, 0.98
 
@@ -33,10 +32,8 @@ def slope_of(positions, spacing):
 
 def settings_of(material, friction, density):
     """Of validation/materials/heap.toml for a material's file: a floor at least as rough as the grains, poured at the same volume a
-    second whatever the bulk density, kg/m^3; a spout the higher, the steeper the heap, for it ends where the apex reaches it."""
-    spout = round(1e3 * max(0.036, FOOT * math.tan(math.atan(friction) + math.radians(KNOWN - OF))), 1)
-    return {"box.height": f"{spout + 9:g} mm", "inlet.1.centre": ["140 mm", "140 mm", f"{spout:g} mm"],
-            "grains.material": str(material), "walls.coefficient": max(0.5, round(friction, 6)),
+    second whatever the bulk density, kg/m^3."""
+    return {"grains.material": str(material), "walls.coefficient": max(0.5, round(friction, 6)),
             "inlet.1.rate": f"{40e-3 * density / 900:.6g} kg/s", "inlet.1.to": "6 s", "run.end": "6.5 s"}
 
 
