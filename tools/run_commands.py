@@ -60,7 +60,8 @@ NOT_RUN = (
     (r"validation/dem-hopper/run.py .*", "takes ten minutes, and needs LAMMPS"),
     (r"validation/dem-hopper/as_run.py .*", "needs what LAMMPS makes: tests/python/test_dem_hopper.py runs it"),
     (r"talus run .* --launch slurm .*", "submits a job: tests/app/test_slurm.py does with an sbatch of its own"),
-    (r"talus calibrate --repose .*", "pours heaps, some minutes each: tests/app/test_calibrate.py tests its secants"),
+    (r"talus calibrate --repose .*", "pours heaps, a minute each: tests/app/test_calibrate_grains.py has short ones"),
+    (r"talus calibrate --grains .*", "takes LAMMPS and minutes: tests/app/test_calibrate_grains.py has a stand-in"),
     (r"paraview .*", "opens a window"),
     (r"talus", "shows its help"),
 )

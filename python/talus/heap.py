@@ -69,4 +69,4 @@ def friction_of(angle, heap_of, tell):
         if abs(at - angle) <= NEAR or len(found) == MOST_RUNS:
             best = near + slope * (angle - at)
             return best, best - slope * SCATTER, best + slope * SCATTER
-        friction = near + slope * (angle - at)
+        friction = min(max(near + slope * (angle - at), 0.1), 1.5)

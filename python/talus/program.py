@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Drives the program: runs, sweeps and new cases from Python. What it leaves is read as any other run."""
+import ctypes
 import json
+import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -21,6 +24,18 @@ class ProgramError(RunError):
     def __init__(self, arguments, status, said):
         super().__init__(f"talus {' '.join(arguments)}: {STATUSES.get(status, f'exit status {status}')}\n{said.strip()}")
         self.status, self.said = status, said
+
+
+def ends_with_this_process():
+    """What subprocess takes as preexec_fn, so that a process gets SIGTERM as soon as this one is no more."""
+    parent, libc = os.getpid(), ctypes.CDLL(None)
+
+    def before():
+        libc.prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG
+        if os.getppid() != parent:
+            os._exit(126)
+
+    return before
 
 
 def simulate(case, out, settings=None, *, threads=None, existing="refuse", program=None):
@@ -149,7 +164,7 @@ def _settings(option, settings):
 
 def _call(arguments, program):
     done = subprocess.run([find_program(program), *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True, check=False)
+                          stderr=subprocess.PIPE, text=True, check=False, preexec_fn=ends_with_this_process())
     if done.returncode != 0:
         said = done.stderr if done.returncode != 3 or done.stderr.strip() else done.stdout
         raise ProgramError(arguments, done.returncode, said)

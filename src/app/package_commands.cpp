@@ -340,16 +340,21 @@ void add_compare_command(CLI::App& app, Action& action) {
 void add_calibrate_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = add_command(
-      app, action, options, "calibrate", "make a material file of shear tests, or of the angle of a heap",
+      app, action, options, "calibrate", "make a material file of shear tests, the angle of a heap, or beads",
       "Of each number the value, the interval of 95 % and where it is from; a case takes the file by grains.material.\n"
       "Yield loci: CSV with the columns consolidation, normal_stress, shear_stress, or friction_angle, cohesion (or\n"
       "unconfined_strength), consolidation (or major_stress); bulk_density; units in the header: normal_stress [kPa].\n"
-      "A heap is poured with the law itself, some times; killed, the same command goes on.");
+      "A heap is poured with the law itself, some times. Beads are discrete elements, by LAMMPS (Debian: lammps):\n"
+      "[beads] diameter, density, stiffness, spread, friction, rolling_friction, restitution; [walls.steel] friction.\n"
+      "Killed, the same command goes on.");
   command->add_option("--shear-cell", options->text, "yield loci of a shear tester");
   command->add_option("--wall", options->texts, "a wall yield locus: normal_stress, shear_stress")
       ->type_name("steel=FILE")
       ->allow_extra_args(false);
   command->add_option("--repose", options->text, "angle of a poured heap, 18 to 42 deg");
+  command->add_option("--grains", options->text, "beads: half an hour of processor time")->type_name("BEADS.toml");
+  command->add_flag("--quick", options->flag, "smaller cells of beads, in ten minutes: wider intervals");
+  add_jobs_option(*command, *options);
   command->add_option("--bulk-density", options->text, "of the bed; with --shear-cell that of its file if not given");
   command->add_option("--grain-density", options->text, "of a grain; if not given as of a packing of 0.6");
   command->add_option("--diameter", options->text, "of a grain");

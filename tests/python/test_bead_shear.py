@@ -15,20 +15,40 @@ import incline  # noqa: E402
 import numpy as np  # noqa: E402
 import settle  # noqa: E402
 import shear  # noqa: E402
+from talus import beads  # noqa: E402
 
 
 class Fits(unittest.TestCase):
     def test_the_friction_of_states_on_a_curve_is_that_curve(self):
         inertial = np.geomspace(1e-3, 0.5, 9)
-        slow, fast, scale, left = shear.fit_friction(inertial, 0.4 + 0.3 / (1 + 0.2 / inertial))
+        slow, fast, scale, left = beads.fit_friction(inertial, 0.4 + 0.3 / (1 + 0.2 / inertial))
         self.assertAlmostEqual(slow, 0.4, delta=0.002)
         self.assertAlmostEqual(fast, 0.7, delta=0.01)
         self.assertAlmostEqual(scale, 0.2, delta=0.01)
         self.assertLess(left, 1e-3)
 
+    def test_intervals_hold_the_curve_19_times_of_20(self):
+        noise, inertial = np.random.default_rng(51), np.geomspace(1e-3, 0.5, 9)
+        law, trials = (0.4, 0.7, 0.2), 100
+        held = np.zeros(3)
+        for _ in range(trials):
+            found = beads.friction_estimates(inertial, 0.4 + 0.3 / (1 + 0.2 / inertial) + 0.01 * noise.standard_normal(9))
+            held += [one.low <= value <= one.high for one, value in zip(found, law)]
+        self.assertGreater((held / trials).min(), 0.9)
+
+    def test_means_of_few_seeds_take_the_scatter_that_is_known(self):
+        two, three = beads.mean_estimate([1, 1], 0.1), beads.mean_estimate([1, 2, 3], 0.1)
+        self.assertAlmostEqual(two.high - two.value, 0.2 / 2**0.5)
+        self.assertAlmostEqual(three.high - three.value, 4.303 / 3**0.5)
+
+    def test_the_bulk_stiffness_is_that_of_the_states_that_bear_pressure(self):
+        packing = np.array([0.5, 0.55, 0.56, 0.58])
+        self.assertAlmostEqual(beads.bulk_stiffness(packing, np.maximum(0.24 * np.log(packing / 0.548), 1e-6)), 0.24, places=6)
+        self.assertTrue(np.isnan(beads.bulk_stiffness(packing[:2], np.array([1e-6, 1e-3]))))
+
     def test_the_packing_of_states_on_a_line_is_that_line(self):
         inertial = np.array([0.01, 0.1, 0.2, 0.4])
-        critical, fall, *errors = shear.fit_packing(inertial, 0.56 - 0.1 * inertial)
+        critical, fall, *errors = beads.fit_packing(inertial, 0.56 - 0.1 * inertial)
         self.assertAlmostEqual(critical, 0.56)
         self.assertAlmostEqual(fall, 0.1)
         self.assertLess(max(errors), 1e-6)
@@ -36,16 +56,16 @@ class Fits(unittest.TestCase):
     def test_the_friction_of_a_state_is_that_of_mohrs_circle(self):
         table = np.tile([0, 2.0, 1.2, 0.8, 0.7, -0.3], (5, 1))
         table[0, 1:] = 0.5, 9, 9, 9, 9  # before the steady part
-        row = dict(zip(shear.COLUMNS, shear.state(0.2, 0.55, table)))
+        row = dict(zip(shear.COLUMNS[2:], beads.state(table)))
         self.assertAlmostEqual(row["friction"], np.hypot(0.2, 0.3))
-        self.assertAlmostEqual(row["inertial_number"], shear.RATE / np.sqrt(0.9))
+        self.assertAlmostEqual(row["inertial_number"], beads.RATE / np.sqrt(0.9))
         self.assertAlmostEqual(row["xy_over_yy"], 0.375)
 
     def test_the_dilatancy_of_a_logistic_curve_is_its_rate(self):
         strain = np.arange(0.005, 1, 0.01)
         packing = 0.56 / (1 + (0.56 / 0.62 - 1) * np.exp(-9 * 0.56 * strain))
         rise = np.minimum(strain / 0.05, 1)  # elastic before the peak
-        k, b, critical, slow = shear.fit_dilatancy(strain, packing, rise * (0.48 + 0.5 * 9 * (packing - 0.56)))
+        k, b, critical, slow = beads.fit_dilatancy(strain, packing, rise * (0.48 + 0.5 * 9 * (packing - 0.56)))
         self.assertAlmostEqual(k, 9, delta=0.45)  # a part of the excess is still there when it is called steady
         self.assertAlmostEqual(b, 0.5, delta=0.025)
         self.assertAlmostEqual(critical, 0.56, delta=0.001)
@@ -64,10 +84,10 @@ class States(unittest.TestCase):
             self.assertAlmostEqual(slow, np.interp(0.007, s["inertial_number"][::-1], s["friction"][::-1]), delta=0.025)
 
     def test_the_peak_of_dense_beads_is_that_of_the_law_with_a_smaller_part_of_the_dilatancy(self):
-        self.assertAlmostEqual(shear.fit_peak(8, 0.48, 0.55, np.array([0.6, 0.59]), np.array([0.5, 0.6, 0.6, 0.6, 0.5])), 0.3)
+        self.assertAlmostEqual(beads.fit_peak(8, 0.48, 0.55, np.array([0.6, 0.59]), np.array([0.5, 0.6, 0.6, 0.6, 0.5])), 0.3)
         for rolling in shear.PACKINGS:
             k, b, packing, friction = shear.dilatancy(rolling).mean(axis=1)
-            peaks = [shear.fit_peak(k, friction, packing, *run[1:]) for run in shear.dense_runs(rolling)]
+            peaks = [beads.fit_peak(k, friction, packing, *run[1:]) for run in shear.dense_runs(rolling)]
             self.assertAlmostEqual(np.mean(peaks), 0.37, delta=0.01)
             self.assertLess(np.mean(peaks), b - 0.1)
 
@@ -75,9 +95,9 @@ class States(unittest.TestCase):
         fits = {}
         for rolling in shear.PACKINGS:
             s = shear.states(rolling)
-            hard = s["pressure_over_stiffness"] < shear.SOFT
-            fits[rolling] = (shear.fit_friction(s["inertial_number"], s["friction"]),
-                             shear.fit_packing(s["inertial_number"][hard], s["packing"][hard]))
+            hard = s["pressure_over_stiffness"] < beads.SOFT
+            fits[rolling] = (beads.fit_friction(s["inertial_number"], s["friction"]),
+                             beads.fit_packing(s["inertial_number"][hard], s["packing"][hard]))
         self.assertAlmostEqual(fits[0.2][0][0], 0.48, delta=0.02)
         self.assertAlmostEqual(fits[0.2][1][0], 0.55, delta=0.005)
         self.assertGreater(fits[0.2][0][0], fits[0.0][0][0] + 0.1)
@@ -145,16 +165,16 @@ class Slopes(unittest.TestCase):
 
     def stopping(self, friction):
         """A layer that slows down by that friction from where it has SLOW to rest."""
-        time = incline.SECONDS * self.STEPS / self.STEPS[-1]
+        time = beads.SECONDS * self.STEPS / self.STEPS[-1]
         slope = np.radians(self.FALL)
-        rate = incline.GRAVITY * (np.sin(slope) - friction * np.cos(slope)) / np.sqrt(incline.GRAVITY * incline.DIAMETER)
+        rate = beads.GRAVITY * (np.sin(slope) - friction * np.cos(slope)) / np.sqrt(beads.GRAVITY * beads.DIAMETER)
         moving = (np.tan(slope) < friction) & (time > 0)
         velocity = 0.5 + np.cumsum(np.where(moving, rate, 0)) * time[1]
         return np.maximum(velocity, 0)
 
     def test_the_friction_that_stops_a_layer_is_found_though_the_slope_falls_on(self):
         friction = np.tan(np.radians(27))
-        thickness, stops, balanced, starts = incline.angles(self.layer(self.FALL, self.stopping(friction)),
+        thickness, stops, balanced, starts = beads.angles(self.layer(self.FALL, self.stopping(friction)),
                                                             self.layer(self.FALL[::-1], np.where(self.STEPS > 700, 1, 0)))
         self.assertAlmostEqual(thickness, 8)
         self.assertLess(stops, 26.5)
@@ -163,8 +183,8 @@ class Slopes(unittest.TestCase):
 
     def test_the_friction_between_two_velocities_is_found(self):
         stop = self.layer(self.FALL, self.stopping(0.5))
-        self.assertAlmostEqual(incline.friction_between(stop, 0.45, 0.1), 0.5, delta=2e-3)
-        self.assertTrue(np.isnan(incline.friction_between(self.layer(self.FALL, np.ones(1001)), 0.45, 0.1)))
+        self.assertAlmostEqual(beads.friction_between(stop, 0.45, 0.1), 0.5, delta=2e-3)
+        self.assertTrue(np.isnan(beads.friction_between(self.layer(self.FALL, np.ones(1001)), 0.45, 0.1)))
 
     def test_round_beads_roll_along_a_flat_wall_and_others_slide(self):
         table = np.genfromtxt(incline.WALLS, delimiter=",", names=True)
@@ -173,7 +193,7 @@ class Slopes(unittest.TestCase):
 
     def test_what_does_not_stop_or_start_has_no_slope(self):
         moving, resting = (self.layer(self.FALL, np.full(1001, v)) for v in (1.0, 0.0))
-        self.assertTrue(np.isnan(incline.angles(moving, resting)[1:]).all())
+        self.assertTrue(np.isnan(beads.angles(moving, resting)[1:]).all())
 
     @unittest.skipUnless(incline.TABLE.exists(), "no table")
     def test_thin_layers_stop_before_thick_ones(self):

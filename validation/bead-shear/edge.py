@@ -12,8 +12,6 @@ import sys
 import numpy as np
 from shear import HERE, lammps, main, write_rows
 
-sys.path.insert(0, str(HERE.parent.parent / "python"))
-
 TABLE = HERE / "data" / "edge.csv"
 #: Length of the plate in diameters, and seed.
 BEDS = ((24, 1), (24, 2), (48, 1))

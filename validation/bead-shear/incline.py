@@ -12,6 +12,7 @@ import csv
 
 import numpy as np
 from shear import HERE, lammps, main, write_rows
+from talus.beads import SLIDES, angles, friction_between
 
 TABLE, WALLS = HERE / "data" / "incline.csv", HERE / "data" / "walls.csv"
 #: Rolling friction, thickness in diameters, seed, and slopes at first, in between and at last, in degrees.
@@ -22,41 +23,7 @@ LAYERS = ((0.2, 4, 1, 34, 24, 40), (0.2, 8, 1, 30, 24, 36),
 BLOCKS = ((0.2, 6, 1, 24, 8, 24), (0, 6, 1, 18, 2, 18), (0, 6, 2, 18, 2, 18), (0, 6, 3, 18, 2, 18))
 THICKEST = 16
 SLOW_SHEAR = {0.2: 0.48, 0: 0.344}  # friction that slow plane shear has, by rolling friction (shear.py)
-PLANE = 1.5  # thickness of the beads that are the plane, in diameters
 COLUMNS = ("rolling", "layers", "seed", "thickness", "stops_at_deg", "balanced_at_deg", "starts_at_deg")
-#: Mean velocity over (g d)^(1/2) below which a layer has stopped, above which it has started, and from which on the
-#: friction that stops it is taken.
-STILL, MOVES, SLOW = 0.005, 0.05, 0.3
-SLIDES = 1.0, 0.2  # between these mean velocities the friction of a flat wall is taken
-SECONDS = 2.0  # in which the slope falls
-GRAVITY, DIAMETER = 9.8, 1e-3  # as in incline.in
-
-
-def friction_between(stop, fast, slow):
-    """The friction that slows a layer down from the last time at which it is faster than `fast` to the first at which it is
-    slower than `slow`; nan where it never is. \\param stop columns of stop.txt; \\param fast, slow mean velocities over
-    (g d)^(1/2)"""
-    still = np.nonzero(stop[:, 2] < slow)[0]
-    if not len(still):
-        return np.nan
-    faster = np.nonzero(stop[:still[0], 2] > fast)[0]
-    first = faster[-1] if len(faster) else 0
-    time = SECONDS * (stop[still[0], 0] - stop[first, 0]) / (stop[-1, 0] - stop[0, 0])
-    lost = (stop[first, 2] - stop[still[0], 2]) * np.sqrt(GRAVITY * DIAMETER) / time
-    slope = np.radians(stop[first:still[0] + 1, 1].mean())
-    return np.tan(slope) + lost / (GRAVITY * np.cos(slope))
-
-
-def angles(stop, start):
-    """Thickness in diameters, and slopes in degrees: at which a layer stops, while the slope falls; that would have balanced
-    the friction as it slowed down from SLOW; at which it starts. nan where it does not. \\param stop, start columns of
-    stop.txt and start.txt: step, slope, mean velocity, top and centre above the floor"""
-    thickness = 2 * (stop[-1, 4] - PLANE)
-    moves = np.nonzero(start[:, 2] > MOVES)[0]
-    starts = start[moves[0], 1] if len(moves) else np.nan
-    still = np.nonzero(stop[:, 2] < STILL)[0]
-    stops = stop[still[0], 1] if len(still) else np.nan
-    return thickness, stops, np.degrees(np.arctan(friction_between(stop, SLOW, STILL))), starts
 
 
 def strengths(rows, rolling):

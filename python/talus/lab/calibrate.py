@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""talus calibrate: a material file from a shear tester's loci, or from the angle of a poured heap."""
+"""talus calibrate: a material file from a shear tester's loci, from the angle of a poured heap, or from beads."""
 import math
 from pathlib import Path
 
@@ -7,68 +7,13 @@ import numpy as np
 
 from talus import heap, powder
 from talus.ask import ask, find_project, write
+from talus.lab.bead_file import read_beads
 from talus.lab.command import DONE, arguments, run_command, say
-from talus.lab.reference import toml_text
+from talus.lab.from_beads import from_beads
+from talus.lab.material_file import WALLS, Material, quantity
 from talus.trouble import InputError, problem
 
-GAMMA_C, LOOSE, FASTER = 0.1, 0.94, 0.256
-SHEAR_PLANE = "shear plane"
-
-
-def quantity(text, option, unit, problems, low=0.0, high=math.inf):
-    """SI; None if it is not given, or will not do, which is a problem then."""
-    if text is None:
-        return None
-    [said] = ask("quantities", texts=[text])
-    if said.get("unit") == unit and low < said["si"] < high:
-        return said["si"]
-    if unit == "deg":
-        low, high = math.degrees(low), math.degrees(high)
-    ends = f" between {low:g} and {high:g} {unit}" if high < math.inf else f" above {low:g} {unit}"
-    problems.append(problem(f"{option} {text}", said.get("why") or "will not do", allowed=f"a quantity{ends}"))
-    return None
-
-
-class Material:
-    """Lines of a material file."""
-
-    def __init__(self, title):
-        self.lines = ["# Written by talus calibrate. Values, the intervals of 95 % in which they lie, and where they are from.",
-                      f"title = {toml_text(title)}"]
-
-    def add(self, key, value, source, unit="", interval=None, **more):
-        def text(number):
-            return toml_text(f"{number:.6g} {unit}") if unit else f"{float(f'{number:.6g}')!r}"
-        self.lines += ["", f"[{key}]", f"value = {value if isinstance(value, str) else text(value)}"]
-        if interval:
-            self.lines.append(f"range = [{text(interval[0])}, {text(interval[1])}]")
-        self.lines.append(f"source = {toml_text(source)}")
-        self.lines += [f"{name} = {toml_text(word)}" for name, word in more.items()]
-
-    def add_friction(self, estimate, source):
-        self.add("law.name", '"critical-state"', "Talus")
-        key = "law.critical-state"
-        self.add(f"{key}.static_friction", estimate.value, source, interval=(estimate.low, estimate.high), test=SHEAR_PLANE,
-                 angle=f"{math.degrees(math.atan(float(f'{estimate.value:.6g}'))):.6g} deg")
-        self.add(f"{key}.dynamic_friction", estimate.value + FASTER,
-                 "not measured: as much above the friction of slow flow as in glass beads", test=SHEAR_PLANE)
-
-    def add_packing(self, density, spread, grain_density, diameter, source):
-        """\\param spread of the bulk density, or None"""
-        packing = density / grain_density if grain_density else 0.6
-        self.add("grains.density", grain_density or density / 0.6,
-                 "as given" if grain_density else f"{source}, over a packing of 0.6: a choice; drag of air and speed of fast "
-                 "flow depend on it", "kg/m3")
-        if diameter:
-            self.add("grains.diameter", diameter, "as given", "m")
-        of_bed = tuple(end * packing / density for end in spread) if spread else None
-        self.add("bed.packing", packing, f"{source}: {density:.4g} kg/m3", interval=of_bed)
-        for key, share, why in (("critical_packing", 1.0, "that of the bed, which neither dilates nor compacts in flow"),
-                                ("random_loose_packing", LOOSE, "0.94 of that, as of glass beads: not measured")):
-            self.add(f"law.critical-state.{key}", share * packing, why)
-
-    def text(self):
-        return "\n".join(self.lines) + "\n"
+GAMMA_C = 0.1
 
 
 def read_walls(words, problems):
@@ -76,9 +21,8 @@ def read_walls(words, problems):
     walls = {}
     for word in words:
         wall, equals, path = word.partition("=")
-        if not equals or wall not in ("steel", "acrylic", "glass", "concrete"):
-            problems.append(problem(f"--wall {word}", "names no wall", allowed="steel, acrylic, glass or concrete: "
-                                    "steel=wall.csv"))
+        if not equals or wall not in WALLS:
+            problems.append(problem(f"--wall {word}", "names no wall", allowed=f"{', '.join(WALLS)}: steel=wall.csv"))
             continue
         try:
             walls[wall] = (path, np.array(ask("wall-locus", file=path)).T)
@@ -179,21 +123,38 @@ def from_heap(options, grain_density, diameter, problems):
     return material_of(powder.Estimate(*heap.friction_of(degrees, heap_of, say)))
 
 
+ENTRANCES = {"shear_cell": ("wall", "bulk_density", "grain_density", "diameter"), "repose": ("bulk_density", "grain_density", "diameter"),
+             "grains": ("jobs", "quick")}
+
+
 def main():
-    options = arguments(texts=("shear-cell", "repose", "bulk-density", "grain-density", "diameter", "out"), lists=("wall",))
-    problems = []
-    if (options.shear_cell is None) == (options.repose is None):
-        problems.append(problem("talus calibrate", "takes one of --shear-cell and --repose", allowed="--shear-cell data.csv, or --repose "
-                                "34deg"))
+    options = arguments(texts=("shear-cell", "repose", "grains", "bulk-density", "grain-density", "diameter", "out"), lists=("wall",),
+                        numbers=("jobs",), flags=("quick",))
+    problems, given = [], [name for name in ENTRANCES if getattr(options, name) is not None]
+    if len(given) != 1:
+        problems.append(problem("talus calibrate", "takes one of --shear-cell, --repose and --grains", allowed="--shear-cell data.csv, "
+                                "--repose 34deg or --grains beads.toml"))
         raise InputError(problems)
-    if options.repose and options.wall:
-        problems.append(problem("--wall", "takes --shear-cell", allowed="none with --repose"))
+    for name in dict.fromkeys(name for names in ENTRANCES.values() for name in names):
+        if getattr(options, name) and name not in ENTRANCES[given[0]]:
+            takers = [f"--{taker.replace('_', '-')}" for taker, names in ENTRANCES.items() if name in names]
+            problems.append(problem(f"--{name.replace('_', '-')}", f"takes {' or '.join(takers)}",
+                                    allowed=f"none with --{given[0].replace('_', '-')}"))
     if not options.out.endswith(".toml"):
         problems.append(problem(f"--out {options.out}", "has another ending", allowed="a file that ends in .toml"))
     grain_density = quantity(options.grain_density, "--grain-density", "kg/m3", problems)
     diameter = quantity(options.diameter, "--diameter", "m", problems)
-    make = from_shear_cell if options.shear_cell else from_heap
-    material = make(options, grain_density, diameter, problems)
+    if options.grains:
+        try:
+            beads = read_beads(options.grains)
+        except InputError as error:
+            problems += error.problems
+        if problems:
+            raise InputError(problems)
+        material = from_beads(options, beads)
+    else:
+        make = from_shear_cell if options.shear_cell else from_heap
+        material = make(options, grain_density, diameter, problems)
     write({options.out: material.text()})
     say(f"Material: {options.out}; in a case grains.material = \"{options.out}\"")
     return DONE

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the members of ensembles as processes, each an ordinary run, and looks at what is done. The results are in the folders
-of the members, so that what was killed continues where it was."""
-import ctypes
+"""Runs the members of ensembles as processes, each an ordinary run (or a job of lammps.py), and looks at what is done. The
+results are in the folders of the members, so that what was killed continues where it was."""
 import os
 import signal
 import subprocess
@@ -12,12 +11,15 @@ from typing import NamedTuple
 
 from talus.ask import ask, find_program
 from talus.lab.command import INTERRUPTED
+from talus.program import ends_with_this_process
 from talus.run import Run
 from talus.trouble import InputError, problem
 
+FAULTS = ("talus: ", "ERROR")  # how the program's and LAMMPS' errors begin
+
 
 class Member(NamedTuple):
-    """A run that is to be done; `settings` as --set, `end` its run.end, s."""
+    """A run that is to be done; `settings` as --set, `end` its run.end, s. All members cost the same."""
 
     case: str
     seed: int
@@ -30,6 +32,15 @@ class Member(NamedTuple):
     def output(self):
         """What the run says, until it has ended well."""
         return self.folder.with_name(self.folder.name + ".out")
+
+    cost, working_folder = 1, None
+
+    def begin_command(self):
+        """A run that is there goes on."""
+        return self.command() + (["--resume"] if self.folder.exists() else [])
+
+    def finish(self):
+        self.output.unlink(missing_ok=True)
 
     def command(self):
         """Without --resume."""
@@ -85,7 +96,7 @@ def _last_line(path):
     last = ""
     if path.is_file():
         for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
-            if line and (line.startswith("talus: ") or not last.startswith("talus: ")):
+            if line and (line.startswith(FAULTS) or not last.startswith(FAULTS)):
                 last = line
     return last
 
@@ -96,13 +107,14 @@ def gather(members):
     return Result(done, [Failed(one.folder, None, _last_line(one.output) or "has not ended") for one in others])
 
 
-def run(members, jobs, interruption):
-    """Runs what is not done yet, `jobs` at a time; a run that was interrupted is resumed. A signal is passed on."""
+def run(members, jobs, interruption, later=0):
+    """Runs what is not done yet, `jobs` at a time; a run that was interrupted begins again as its begin_command() says. A signal is
+    passed on. \\param later cost of what follows these members, which counts for the ETA"""
     done, others = _split(members)
-    found, failed, running = len(done), [], {}
+    failed, running, ended = [], {}, 0
     if others:
         ask("claim", folders=[*{one.folder.parent: 0 for one in others}], files=[one.output for one in others])
-    progress = Progress(len(others))
+    progress = Progress(sum(one.cost for one in others) + later)
     waiting = list(reversed(others))
     while (waiting and not interruption) or running:
         while waiting and len(running) < jobs and not interruption:
@@ -110,16 +122,16 @@ def run(members, jobs, interruption):
             running[_start(member)] = member
         for process in [process for process in running if process.poll() is not None]:
             member, status = running.pop(process), process.returncode
+            ended += member.cost
             if status == 0:
                 done.append(member)
-                member.output.unlink(missing_ok=True)
+                member.finish()
             elif status != INTERRUPTED:
                 failed.append(Failed(member.folder, status if status > 0 else 128 - status, _last_line(member.output)))
         if interruption and not progress.stopped:
             for process in running:
                 process.send_signal(signal.SIGTERM)
             progress.stopped = True
-        ended = len(done) - found + len(failed)
         progress.update(ended, f"{len(done)} of {len(members)} runs done" + (f", {len(failed)} failed" if failed else ""))
         if running:
             time.sleep(0.02)
@@ -128,19 +140,12 @@ def run(members, jobs, interruption):
 
 
 def _start(member):
-    command = member.command() + (["--resume"] if member.folder.exists() else [])
-    parent, libc = os.getpid(), ctypes.CDLL(None)
-
-    def before():
-        libc.prctl(1, signal.SIGTERM)  # PR_SET_PDEATHSIG: it goes when this process does
-        if os.getppid() != parent:
-            os._exit(126)
-
+    command = member.begin_command()
     # A process group of its own keeps Ctrl-C for this process, which passes it on.
     flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW
     with open(os.open(member.output, flags, 0o666), "wb") as output:
         return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=output, process_group=0,
-                                preexec_fn=before)
+                                cwd=member.working_folder, preexec_fn=ends_with_this_process())
 
 
 class Progress:

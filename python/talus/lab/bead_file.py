@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The file of beads that talus calibrate --grains reads."""
+from dataclasses import dataclass, field
+
+from talus.ask import ask
+from talus.lab.material_file import WALLS
+from talus.lab.toml_reader import TomlReader
+from talus.trouble import InputError, nearest
+
+#: With units, in which they are given; plain numbers with the ends of what is allowed.
+QUANTITIES = {"diameter": ("m", "1.25 mm"), "density": ("kg/m3", "2500 kg/m3"), "stiffness": ("N/m", "1000 N/m")}
+NUMBERS = {"spread": (0.05, 0.2), "friction": (0.0, 2.0), "rolling_friction": (0.0, 1.0), "restitution": (0.1, 0.99)}
+COHESIVE = ("cohesion", "bond_number", "surface_energy", "adhesion")
+
+
+@dataclass
+class Beads:
+    """Spheres, SI. Diameters are uniform within `spread` of the mean; `stiffness` of the linear springs between them."""
+
+    diameter: float
+    density: float
+    stiffness: float
+    spread: float
+    friction: float
+    rolling_friction: float
+    restitution: float
+    walls: dict = field(default_factory=dict)  #: coefficient of friction on each, by its name
+
+
+def read_beads(path):
+    """Raises InputError with every problem of the file."""
+    reader = TomlReader(path)
+    beads, line = reader.file.get("beads"), reader.line_of("[beads]")
+    for name in reader.file:
+        if name not in ("beads", "walls", "title"):
+            reader.fault(reader.line_of(f"[{name}]"), name, "is no table of a file of beads", allowed="beads, walls",
+                         near=nearest(name, ("beads", "walls")))
+    if not isinstance(beads, dict):
+        reader.fault(0, "beads", "missing", allowed="a table [beads]")
+        raise InputError(reader.problems)
+    _check_names(reader, beads, line)
+    values = {name: _number(reader, beads, line, name, *ends) for name, ends in NUMBERS.items()}
+    values |= {name: _quantity(reader, beads, line, name, *unit) for name, unit in QUANTITIES.items()}
+    walls = {}
+    for wall, table in reader.file.get("walls", {}).items():
+        at = reader.line_of(f"[walls.{wall}]") or reader.line_of("[walls]")
+        if wall not in WALLS:
+            reader.fault(at, f"walls.{wall}", "is no wall of a material", allowed=", ".join(WALLS), near=nearest(wall, WALLS))
+        elif not isinstance(table, dict):
+            reader.fault(at, wall, "is of another type", allowed=f"a table [walls.{wall}] with friction")
+        else:
+            for name in table.keys() - {"friction"}:
+                reader.fault(at, name, "is no key of a wall", allowed="friction", near=nearest(name, ["friction"]))
+            walls[wall] = _number(reader, table, at, "friction", 0.0, 2.0)
+    if reader.problems:
+        raise InputError(reader.problems)
+    return Beads(**values, walls=walls)
+
+
+def _check_names(reader, beads, line):
+    known = [*QUANTITIES, *NUMBERS]
+    for name in beads:
+        if name in COHESIVE:
+            reader.fault(line, name, "beads that stick together are not computed", allowed="beads without it; of cohesive grains "
+                         "loci of a shear tester (--shear-cell)")
+        elif name not in known:
+            reader.fault(line, name, "is no key of beads", allowed=", ".join(known), near=nearest(name, known))
+
+
+def _number(reader, table, line, key, low, high):
+    allowed, before = f"a number from {low:g} to {high:g}", len(reader.problems)
+    value = reader.get(table, line, key, (int, float), allowed)
+    if len(reader.problems) == before and not low <= value <= high:
+        reader.fault(line, key, f"{value:g} will not do", allowed=allowed)
+    return float(value)
+
+
+def _quantity(reader, table, line, key, unit, example):
+    allowed, before = f'a quantity above 0 {unit}: "{example}"', len(reader.problems)
+    text = reader.get(table, line, key, str, allowed)
+    if len(reader.problems) > before:
+        return None
+    [said] = ask("quantities", texts=[text])
+    if said.get("unit") == unit and said["si"] > 0:
+        return said["si"]
+    reader.fault(line, key, said.get("why") or f'"{text}" will not do', allowed=allowed)
+    return None

@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: Apache-2.0
+"""talus calibrate --grains: a material file from discrete elements of beads, periodic cells by LAMMPS (validation/bead-shear).
+
+Cells are of one size and stiffness, for hard beads know no other lengths than their diameter. Dense packings come first: their
+critical packing and friction say which states and slopes are to be computed."""
+import math
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from talus import beads as fits
+from talus.ask import ask
+from talus.lab import lammps
+from talus.lab.command import Interruption, processors, say
+from talus.lab.material_file import SHEAR_PLANE, Material
+from talus.powder import Estimate
+from talus.trouble import RunError
+
+# Standard deviations of seeds in validation/bead-shear: of b, of the friction that a layer needs to start, of a wall's over its value.
+PEAK_SCATTER, START_SCATTER, WALL_SCATTER = 0.03, 0.03, 0.03
+MAX_INERTIAL = 0.3  # up to which the law's packing falls
+
+
+class Plan(NamedTuple):
+    """What is computed. Packings of constant volume are less the critical one of the dense packings; lengths in diameters."""
+
+    first: tuple       #: seeds of dense packings of 0.62
+    denser: tuple      #: packing less the critical one, and seed
+    states: tuple
+    side: int          #: of the dense packings' boxes
+    strain: float      #: at constant volume
+    layer: dict        #: of incline.in
+    layers: tuple      #: seeds
+    blocks: tuple      #: seeds of layers on walls
+
+
+FULL = Plan((1, 2), ((0.03, 1), (0.045, 1), (0.045, 2)),
+            (-0.055, -0.045, -0.035, -0.025, -0.018, -0.012, -0.008, -0.003, 0.002, 0.02), 12, 2.5,
+            {"thickness": 16, "length": 10, "width": 6, "time": 2}, (1, 2, 3), (1, 2, 3))
+QUICK = Plan((1, 2), ((0.04, 3),), (-0.05, -0.035, -0.025, -0.015, -0.008, 0.02), 10, 2.0,
+             {"thickness": 12, "length": 7, "width": 5, "time": 1}, (1, 2), (1,))
+BLOCK = {"smooth": 1, "thickness": 6, "up": 0, "time": 2}
+
+
+def layer_settings(slow):
+    """Slopes of layers that shear slowly with that friction, degrees: in flow, at rest, beyond what starts them."""
+    slope = math.degrees(math.atan(slow))
+    return {"from": round(slope + 2.5, 1), "to": round(max(slope - 2.5, 0.5), 1), "up": round(slope + 13, 1)}
+
+
+def block_settings(slow, wall):
+    """The same of a layer on a wall: it starts to slide, and stops."""
+    first = max(math.degrees(math.atan(slow)) - 1.3, math.degrees(math.atan(wall)) + 4)
+    return {"from": round(first, 1), "to": round(first - 24, 1), "muwall": wall}
+
+
+def jobs_of(plan, beads, folder):
+    """The first jobs, and a function of the critical packing and friction that they have, which returns the others: (dense, states,
+    layers, blocks by the wall's name)."""
+    contact = {"mu": beads.friction, "rolling": beads.rolling_friction, "restitution": beads.restitution, "spread": beads.spread}
+
+    def dense(packing, seed):
+        return lammps.job(folder, "dilate.in", plan.side**3 / 1000, packing=packing, seed=seed, side=plan.side, **contact)
+
+    def others(critical, slow):
+        beads_of_layer = plan.layer["thickness"] * plan.layer["length"] * plan.layer["width"] / 840
+        return ([dense(round(min(critical + more, 0.638), 3), seed) for more, seed in plan.denser],
+                [lammps.job(folder, "shear.in", plan.strain / 4, packing=round(critical + more, 4), strain=plan.strain, **contact)
+                 for more in plan.states],
+                [lammps.job(folder, "incline.in", 2 * beads_of_layer * plan.layer["time"], seed=seed, **plan.layer,
+                            **layer_settings(slow), **contact) for seed in plan.layers],
+                {wall: [lammps.job(folder, "incline.in", 1, seed=seed, **BLOCK, **block_settings(slow, friction), **contact)
+                        for seed in plan.blocks] for wall, friction in beads.walls.items()})
+
+    return [dense(0.62, seed) for seed in plan.first], others
+
+
+def columns_of(jobs, table):
+    return [np.loadtxt(one.folder / table) for one in jobs]
+
+
+def dense_runs(jobs):
+    """Strain, packing and friction of each."""
+    return [np.array(fits.dilation(table)).T for table in columns_of(jobs, "dilate.txt")]
+
+
+def run_all(plan, beads, folder, at_once):
+    """What was computed: runs of dense packings, rows of (packing, state), slopes at which layers start, or the largest tried,
+    and frictions by wall."""
+    first, others = jobs_of(plan, beads, folder)
+    ask("claim", folders=[folder], files=[])
+    interruption, rest = Interruption(), others(0.58, 0.4)
+    members = [job for group in (*rest[:3], *rest[3].values()) for job in group]
+    say(f"{len(first) + len(members)} runs by LAMMPS in {folder}, {at_once} at a time")
+    lammps.run(first, at_once, interruption, sum(one.cost for one in members))
+    found = np.mean([fits.fit_dilatancy(*run) for run in dense_runs(first)], axis=0)
+    dense, states, layers, blocks = others(*found[2:])
+    lammps.run([*layers, *(job for group in blocks.values() for job in group), *dense, *states], at_once, interruption)
+    starts = [fits.angles(*tables)[-1] for tables in zip(columns_of(layers, "stop.txt"), columns_of(layers, "start.txt"))]
+    starts = [job.variables["up"] if math.isnan(slope) else slope for job, slope in zip(layers, starts)]
+    walls = {wall: [fits.friction_between(table, *fits.SLIDES, BLOCK["time"]) for table in columns_of(group, "stop.txt")]
+             for wall, group in blocks.items()}
+    rows = np.array([(job.variables["packing"], *fits.state(table)) for job, table in zip(states, columns_of(states, "shear.txt"))])
+    return dense_runs(first + dense), rows, starts, walls
+
+
+def estimates_of(runs, rows, starts):
+    """By key of the law, each an Estimate; the bulk stiffness over k/d as well, a number."""
+    packing, inertial, friction, pressure = rows[:, :4].T
+    hard = pressure < fits.SOFT
+    if hard.sum() < 3 or len(rows) < 4:
+        raise RunError("the beads jam at every packing that was tried: no line of packing against inertial number")
+    dense = np.array([fits.fit_dilatancy(*run) for run in runs]).T
+    of_friction = fits.friction_estimates(np.append(inertial, np.full(len(runs), fits.DENSE_INERTIAL)), np.append(friction, dense[3]))
+    found = dict(zip(("static_friction", "dynamic_friction", "inertial_number"), of_friction))
+    critical, fall, critical_error, fall_error = fits.fit_packing(inertial[hard], packing[hard])
+    t = fits.student(hard.sum() - 2)
+    steady = fits.mean_estimate(dense[2], 0.005)
+    middle = 0.5 * (critical + steady.value)
+    found["critical_packing"] = Estimate(middle, min(critical - t * critical_error, steady.low),
+                                         max(critical + t * critical_error, steady.high))
+    found["packing_slope"] = Estimate(max(fall, 0.0), max(fall - t * fall_error, 0.0), max(fall + t * fall_error, 0.0))
+    found["random_loose_packing"] = middle - MAX_INERTIAL * found["packing_slope"].value
+    found["dilatancy"] = fits.mean_estimate(dense[0], 0.1 * dense[0].mean())
+    k, _, loose, slow = dense.mean(axis=1)
+    found["dilatant_friction"] = fits.mean_estimate([fits.fit_peak(k, slow, loose, *run[1:]) for run in runs], PEAK_SCATTER)
+    found["ageing_strength"] = fits.mean_estimate(np.tan(np.radians(starts)) - found["static_friction"].value, START_SCATTER)
+    return found, fits.bulk_stiffness(packing, pressure)
+
+
+def material_of(name, beads, plan, computed):
+    runs, rows, starts, walls = computed
+    found, bulk = estimates_of(runs, rows, starts)
+    of = (f"beads of friction {beads.friction:g}, rolling friction {beads.rolling_friction:g}, restitution {beads.restitution:g}, "
+          f"diameters within {beads.spread:g} of the mean")
+    steady, dense = f"{len(rows)} states of steady shear at constant volume", f"{len(runs)} dense packings sheared at constant pressure"
+    both = f"{steady} and the ends of {dense}"
+    sources = {"static_friction": both, "dynamic_friction": both, "inertial_number": both, "packing_slope": steady,
+               "critical_packing": f"mean of {steady} and of the ends of {dense}",
+               "random_loose_packing": f"the critical packing at an inertial number of {MAX_INERTIAL:g}", "dilatancy": dense,
+               "dilatant_friction": f"peaks of {dense}",
+               "ageing_strength": f"{len(starts)} layers on a slope: {', '.join(f'{slope:.3g}' for slope in starts)} degrees as they start, "
+                                  "or at most; beyond the static friction"}
+    material = Material(f"{name}: {of}, by LAMMPS")
+    material.add("grains.density", beads.density, "as given", "kg/m3")
+    material.add("grains.diameter", beads.diameter, "as given", "m")
+    material.add("bed.packing", found["critical_packing"].value, "a choice: that of slow flow, which neither dilates nor compacts")
+    material.add("law.name", '"critical-state"', "Talus")
+    for key, estimate in found.items():
+        more = {"test": SHEAR_PLANE} if key in ("static_friction", "dynamic_friction") else {}
+        value, interval = estimate, None
+        if isinstance(estimate, Estimate):
+            value, interval = max(estimate.value, 0.0), (max(estimate.low, 0.0), max(estimate.high, 0.0))
+        material.add(f"law.critical-state.{key}", value, f"{sources[key]}; LAMMPS", interval=interval, **more)
+        say(f"{key} = {value:.4g}" + (f" ({interval[0]:.4g} to {interval[1]:.4g})" if interval else ""))
+    material.add("law.critical-state.ageing_adds", "false", "beads that have rested have the peak of their packing, no more "
+                 "(validation/bead-shear)")
+    unit = beads.stiffness / beads.diameter
+    stiff = "" if math.isnan(bulk) else f"; beads have a bulk modulus of {bulk * unit:.3g} Pa, cases that of their bed"
+    material.lines += ["", "[pressure]", f'range = ["0 Pa", "{fits.SOFT * unit:.4g} Pa"]',
+                       f'source = "{fits.SOFT:g} of the stiffness over the diameter: beyond, overlaps count{stiff}"']
+    for wall, frictions in walls.items():
+        known = [one for one in frictions if np.isfinite(one)]
+        if not known:
+            say(f"walls.{wall}: left out, for no layer slid along it and stopped")
+            continue
+        estimate = fits.mean_estimate(known, WALL_SCATTER * np.mean(known))
+        material.add(f"walls.{wall}", estimate.value, f"seeds of layers that slide on a flat wall of friction {beads.walls[wall]:g}: "
+                     f"{len(known)}; LAMMPS", interval=(max(estimate.low, 0.0), estimate.high))
+        say(f"walls.{wall} = {estimate.value:.4g} ({estimate.low:.4g} to {estimate.high:.4g})")
+    return material
+
+
+def from_beads(options, beads):
+    """The Material of a bead_file.Beads."""
+    plan, out = QUICK if options.quick else FULL, Path(options.out)
+    return material_of(out.stem, beads, plan, run_all(plan, beads, out.with_suffix(""), options.jobs or processors()))

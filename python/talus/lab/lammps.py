@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Discrete elements: jobs of LAMMPS, each in a folder of its own, which is done or made again."""
+import hashlib
+import shutil
+from pathlib import Path
+from typing import NamedTuple
+
+from talus.ask import ProgramFault, find_project
+from talus.lab import jobs
+from talus.lab.command import INTERRUPTED, NOT_MET, NUMERICAL
+from talus.trouble import RunError
+
+
+class Job(NamedTuple):
+    """A script with the variables that it takes; `cost` processor time, in any unit. Restarted from nothing, for LAMMPS on one
+    process gives the same each time."""
+
+    script: Path
+    variables: dict
+    folder: Path
+    cost: float = 1
+
+    @property
+    def output(self):
+        return self.folder.with_name(self.folder.name + ".out")
+
+    @property
+    def working_folder(self):
+        return self.folder
+
+    def is_done(self):
+        return (self.folder / "done").exists()
+
+    def begin_command(self):
+        self.folder.mkdir(parents=True, exist_ok=True)
+        words = [word for name, value in self.variables.items() for word in ("-var", name, f"{value:g}")]
+        return ["lmp", "-in", str(self.script), "-log", "none", *words]
+
+    def finish(self):
+        (self.folder / "done").touch()
+        self.output.unlink(missing_ok=True)
+
+
+def script(name):
+    """The path of validation/bead-shear/NAME. Raises RunError if it is not there."""
+    path = find_project(f"validation/bead-shear/{name}")
+    if path is None:
+        raise RunError(f"validation/bead-shear/{name}: is not there: run the command in the project's folder")
+    return path.resolve()
+
+
+def job(folder, name, cost, **variables):
+    """In a folder whose name changes with what the job depends on."""
+    path = script(name)
+    text = path.read_text(encoding="utf-8") + repr(sorted((key, f"{value:g}") for key, value in variables.items()))
+    return Job(path, variables, Path(folder) / f"{path.stem}-{hashlib.sha256(text.encode()).hexdigest()[:12]}", cost)
+
+
+def run(members, at_once, interruption=False, later=0):
+    """Runs what is not done. \\param later cost of the jobs that are to follow. Raises ProgramFault if LAMMPS is not there, fails,
+    or is interrupted."""
+    if not shutil.which("lmp") and not all(one.is_done() for one in members):
+        raise ProgramFault(NOT_MET, "discrete elements take LAMMPS, the program lmp (Debian: lammps)")
+    result = jobs.run(members, at_once, interruption, later)
+    if interruption:
+        raise ProgramFault(INTERRUPTED, "interrupted; the same command goes on")
+    if result.failed:
+        raise ProgramFault(NUMERICAL, "\n".join(f"{one.folder}: LAMMPS failed: {one.reason}" for one in result.failed))
